@@ -1,0 +1,165 @@
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use crate::Vector;
+
+/// A direction in the plane, kept in (−π, π] radians: 0 is east (or ahead), counter-clockwise.
+///
+/// Arithmetic wraps: `a - b` is the signed smallest turn that takes `b` to `a`.
+///
+/// A heading built from NaN or an infinity is NaN; [`Heading::is_finite`] tells.
+///
+/// ```
+/// use tolman_geom::Heading;
+///
+/// let a = Heading::from_degrees(170.0);
+/// let b = Heading::from_degrees(-170.0);
+/// assert!((a.turn_to(b).to_degrees() - 20.0).abs() < 1e-9);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "f64", into = "f64"))]
+pub struct Heading(f64);
+
+impl Heading {
+    /// 0 rad: along the x axis.
+    pub const EAST: Self = Self(0.0);
+    /// π/2 rad: along the y axis.
+    pub const NORTH: Self = Self(FRAC_PI_2);
+    /// π rad.
+    pub const WEST: Self = Self(PI);
+    /// −π/2 rad.
+    pub const SOUTH: Self = Self(-FRAC_PI_2);
+
+    /// Wraps any angle in radians into (−π, π].
+    #[must_use]
+    pub fn from_radians(radians: f64) -> Self {
+        if radians > -PI && radians <= PI {
+            return Self(radians);
+        }
+        // fmod is exact, so wrapping loses nothing beyond the addition that follows it.
+        let turned = libm::fmod(radians, TAU);
+        let wrapped = if turned > PI {
+            turned - TAU
+        } else if turned <= -PI {
+            turned + TAU
+        } else {
+            turned
+        };
+        // Adding τ to a value a rounding error above −2π gives −π's neighbour; keep the interval half-open.
+        Self(if wrapped <= -PI { PI } else { wrapped })
+    }
+
+    /// Wraps any angle in degrees.
+    #[must_use]
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self::from_radians(degrees.to_radians())
+    }
+
+    /// The direction of a vector; east for the zero vector.
+    #[must_use]
+    pub fn of(vector: Vector) -> Self {
+        Self::from_radians(libm::atan2(vector.y, vector.x))
+    }
+
+    /// The angle in (−π, π].
+    #[must_use]
+    pub const fn radians(self) -> f64 {
+        self.0
+    }
+
+    /// The angle in (−180, 180].
+    #[must_use]
+    pub fn degrees(self) -> f64 {
+        self.0.to_degrees()
+    }
+
+    /// The unit vector in this direction.
+    #[must_use]
+    pub fn unit(self) -> Vector {
+        let (sin, cos) = libm::sincos(self.0);
+        Vector::new(cos, sin)
+    }
+
+    /// The signed smallest turn, in (−π, π] radians, that takes this heading to `target`.
+    #[must_use]
+    pub fn turn_to(self, target: Self) -> f64 {
+        Self::from_radians(target.0 - self.0).0
+    }
+
+    /// This heading turned counter-clockwise by `radians`.
+    #[must_use]
+    pub fn turned(self, radians: f64) -> Self {
+        Self::from_radians(self.0 + radians)
+    }
+
+    /// The opposite direction.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        self.turned(PI)
+    }
+
+    /// Whether the heading is a number at all.
+    #[must_use]
+    pub const fn is_finite(self) -> bool {
+        self.0.is_finite()
+    }
+}
+
+impl From<f64> for Heading {
+    /// From radians, wrapped.
+    fn from(radians: f64) -> Self {
+        Self::from_radians(radians)
+    }
+}
+
+impl From<Heading> for f64 {
+    /// To radians.
+    fn from(heading: Heading) -> Self {
+        heading.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn any_angle_wraps_into_the_half_open_circle(radians in -1e6_f64..1e6) {
+            let heading = Heading::from_radians(radians).radians();
+            prop_assert!(heading > -PI && heading <= PI);
+            let turns = (radians - heading) / TAU;
+            prop_assert!((turns - libm::round(turns)).abs() < 1e-6);
+        }
+
+        #[test]
+        fn turning_by_the_turn_to_a_target_arrives_there(from in -4.0_f64..4.0, to in -4.0_f64..4.0) {
+            let (from, to) = (Heading::from_radians(from), Heading::from_radians(to));
+            prop_assert!(from.turned(from.turn_to(to)).turn_to(to).abs() < 1e-12);
+            prop_assert!(from.turn_to(to).abs() <= PI);
+        }
+
+        #[test]
+        fn a_heading_is_the_direction_of_its_unit_vector(radians in -PI..PI) {
+            let heading = Heading::from_radians(radians);
+            prop_assert!(Heading::of(heading.unit()).turn_to(heading).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_seam_belongs_to_plus_pi() {
+        for radians in [PI, -PI, 3.0 * PI, -3.0 * PI] {
+            assert!((Heading::from_radians(radians).radians() - PI).abs() < 1e-9, "{radians}");
+            assert!(Heading::from_radians(radians).radians() > 0.0);
+        }
+        assert!((Heading::EAST.reversed().radians() - PI).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nan_stays_visible() {
+        assert!(!Heading::from_radians(f64::NAN).is_finite());
+        assert!(!Heading::from_radians(f64::INFINITY).is_finite());
+    }
+}

@@ -1,0 +1,181 @@
+use nalgebra::{Isometry2, UnitComplex};
+
+use crate::{Heading, Point, Twist, Vector};
+
+/// A position and a heading, and so the rigid transform from the frame it carries to the frame it is
+/// given in: `world_from_robot.transform(point_in_robot)` is the point in the world.
+///
+/// ```
+/// use tolman_geom::{Heading, Point, Pose};
+///
+/// let world_from_robot = Pose::new(Point::new(3.0, 1.0), Heading::NORTH);
+/// let robot_from_laser = Pose::new(Point::new(0.1, 0.0), Heading::EAST);
+/// let world_from_laser = world_from_robot.compose(robot_from_laser);
+/// assert!((world_from_laser.position - Point::new(3.0, 1.1)).norm() < 1e-12);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Pose {
+    /// Where, in metres.
+    pub position: Point,
+    /// Which way it looks.
+    pub heading: Heading,
+}
+
+impl Pose {
+    /// The origin, looking east.
+    pub const IDENTITY: Self = Self { position: Point::new(0.0, 0.0), heading: Heading::EAST };
+
+    /// A pose from its parts.
+    #[must_use]
+    pub const fn new(position: Point, heading: Heading) -> Self {
+        Self { position, heading }
+    }
+
+    /// `a_from_b.compose(b_from_c)` is `a_from_c`.
+    #[must_use]
+    pub fn compose(self, inner: Self) -> Self {
+        Self {
+            position: self.transform(inner.position),
+            heading: self.heading.turned(inner.heading.radians()),
+        }
+    }
+
+    /// `a_from_b.inverse()` is `b_from_a`.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        let heading = Heading::from_radians(-self.heading.radians());
+        Self { position: Point::from(-rotated(heading, self.position.coords)), heading }
+    }
+
+    /// The pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is `a_from_b`.
+    #[must_use]
+    pub fn between(self, other: Self) -> Self {
+        self.inverse().compose(other)
+    }
+
+    /// A point of this pose's own frame, in the frame the pose is given in.
+    #[must_use]
+    pub fn transform(self, point: Point) -> Point {
+        self.position + rotated(self.heading, point.coords)
+    }
+
+    /// Where a body that starts here and keeps `twist` for `seconds` arrives: the exact arc.
+    #[must_use]
+    pub fn moved(self, twist: Twist, seconds: f64) -> Self {
+        self.displaced(twist.linear * seconds, twist.angular * seconds)
+    }
+
+    /// Where a body arrives that covers `distance` metres of path while it turns by `turn` radians:
+    /// a circular arc, straight when `turn` is 0.
+    #[must_use]
+    pub fn displaced(self, distance: f64, turn: f64) -> Self {
+        // The chord of the arc leaves at half the turn; its length is sinc(turn / 2) of the path.
+        let chord = distance * sinc(0.5 * turn);
+        Self {
+            position: self.position + self.heading.turned(0.5 * turn).unit() * chord,
+            heading: self.heading.turned(turn),
+        }
+    }
+
+    /// Whether every number of the pose is one.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.position.x.is_finite() && self.position.y.is_finite() && self.heading.is_finite()
+    }
+}
+
+impl Default for Pose {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl From<Pose> for Isometry2<f64> {
+    fn from(pose: Pose) -> Self {
+        let unit = pose.heading.unit();
+        Self::from_parts(
+            pose.position.coords.into(),
+            UnitComplex::from_cos_sin_unchecked(unit.x, unit.y),
+        )
+    }
+}
+
+impl From<Isometry2<f64>> for Pose {
+    fn from(isometry: Isometry2<f64>) -> Self {
+        Self {
+            position: isometry.translation.vector.into(),
+            heading: Heading::of(Vector::new(isometry.rotation.re, isometry.rotation.im)),
+        }
+    }
+}
+
+fn rotated(heading: Heading, vector: Vector) -> Vector {
+    let unit = heading.unit();
+    Vector::new(unit.x * vector.x - unit.y * vector.y, unit.y * vector.x + unit.x * vector.y)
+}
+
+/// sin(x)/x, by its series where the quotient would lose digits.
+fn sinc(x: f64) -> f64 {
+    if x.abs() < 1e-4 {
+        let square = x * x;
+        1.0 - square / 6.0 + square * square / 120.0
+    } else {
+        libm::sin(x) / x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn pose() -> impl Strategy<Value = Pose> {
+        (-50.0..50.0, -50.0..50.0, -4.0..4.0)
+            .prop_map(|(x, y, h)| Pose::new(Point::new(x, y), Heading::from_radians(h)))
+    }
+
+    fn same(a: Pose, b: Pose) -> bool {
+        (a.position - b.position).norm() < 1e-9 && a.heading.turn_to(b.heading).abs() < 1e-9
+    }
+
+    proptest! {
+        #[test]
+        fn a_pose_and_its_inverse_cancel(a in pose()) {
+            prop_assert!(same(a.compose(a.inverse()), Pose::IDENTITY));
+            prop_assert!(same(a.inverse().compose(a), Pose::IDENTITY));
+        }
+
+        #[test]
+        fn composition_is_associative(a in pose(), b in pose(), c in pose()) {
+            prop_assert!(same(a.compose(b).compose(c), a.compose(b.compose(c))));
+        }
+
+        #[test]
+        fn between_undoes_compose(a in pose(), b in pose()) {
+            prop_assert!(same(a.between(a.compose(b)), b));
+        }
+
+        #[test]
+        fn composition_agrees_with_nalgebra(a in pose(), b in pose()) {
+            let theirs: Isometry2<f64> = Isometry2::from(a) * Isometry2::from(b);
+            prop_assert!(same(a.compose(b), theirs.into()));
+        }
+
+        #[test]
+        fn an_arc_is_the_limit_of_many_short_arcs(a in pose(), distance in -2.0_f64..2.0, turn in -3.0_f64..3.0) {
+            let mut walked = a;
+            for _ in 0..64 {
+                walked = walked.displaced(distance / 64.0, turn / 64.0);
+            }
+            prop_assert!(same(walked, a.displaced(distance, turn)));
+        }
+
+        #[test]
+        fn moving_back_returns(a in pose(), linear in -2.0_f64..2.0, angular in -2.0_f64..2.0) {
+            let twist = Twist::new(linear, angular);
+            prop_assert!(same(a.moved(twist, 0.7).moved(twist, -0.7), a));
+        }
+    }
+}

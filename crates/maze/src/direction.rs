@@ -1,0 +1,65 @@
+use core::fmt;
+
+/// A compass direction of the grid, clockwise from north.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Direction {
+    /// Towards growing y.
+    North,
+    /// Towards growing x.
+    East,
+    /// Towards falling y.
+    South,
+    /// Towards falling x.
+    West,
+}
+
+impl Direction {
+    /// All four, clockwise from north.
+    pub const ALL: [Self; 4] = [Self::North, Self::East, Self::South, Self::West];
+
+    /// 0 for north, then clockwise.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// A quarter turn clockwise.
+    #[must_use]
+    pub const fn right(self) -> Self {
+        Self::ALL[(self.index() + 1) % 4]
+    }
+
+    /// A half turn.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        Self::ALL[(self.index() + 2) % 4]
+    }
+
+    /// A quarter turn counter-clockwise.
+    #[must_use]
+    pub const fn left(self) -> Self {
+        Self::ALL[(self.index() + 3) % 4]
+    }
+
+    /// The unit step of this direction: (east, north).
+    #[must_use]
+    pub const fn step(self) -> (i8, i8) {
+        match self {
+            Self::North => (0, 1),
+            Self::East => (1, 0),
+            Self::South => (0, -1),
+            Self::West => (-1, 0),
+        }
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::North => "north",
+            Self::East => "east",
+            Self::South => "south",
+            Self::West => "west",
+        })
+    }
+}

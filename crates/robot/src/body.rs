@@ -1,0 +1,33 @@
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+
+/// The outline of a robot, in its own frame.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Body {
+    /// A disc round the robot's origin.
+    Circle {
+        /// Its radius, m.
+        radius: f64,
+    },
+    /// A convex outline.
+    Polygon {
+        /// Its corners in counter-clockwise order, m.
+        corners: Vec<Point>,
+    },
+}
+
+impl Body {
+    /// The radius of the smallest disc round the robot's origin that holds the body, m: the room it
+    /// needs to turn in place.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        match self {
+            Self::Circle { radius } => *radius,
+            Self::Polygon { corners } => {
+                corners.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max)
+            }
+        }
+    }
+}

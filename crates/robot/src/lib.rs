@@ -1,0 +1,24 @@
+//! What a robot senses and is told, simulated or real.
+//!
+//! A [`Robot`] carries a command for one time step and answers with what it senses. The crates above
+//! are written against this trait and these value types only, so a brain or a layer that was tried
+//! on the simulator runs on a driver without a change.
+//!
+//! Metres, radians, seconds; the robot's frame has x ahead and y to the left.
+#![no_std]
+
+extern crate alloc;
+
+mod body;
+mod laser_robot;
+mod odometry;
+mod robot;
+mod scan;
+mod turn_translate;
+
+pub use body::Body;
+pub use laser_robot::LaserSensing;
+pub use odometry::Odometry;
+pub use robot::Robot;
+pub use scan::{Ring, Scan};
+pub use turn_translate::TurnTranslate;

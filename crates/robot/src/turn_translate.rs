@@ -1,0 +1,15 @@
+/// The command of a drive that turns and translates at a fraction of its full rates: Pyrobot's
+/// `move(translate, rotate)`, which MSLST is written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TurnTranslate {
+    /// Fraction of the full turn rate, −1 … 1; positive is counter-clockwise.
+    pub turn: f64,
+    /// Fraction of the full speed, −1 … 1; positive is ahead.
+    pub translate: f64,
+}
+
+impl TurnTranslate {
+    /// Neither turns nor moves.
+    pub const STOP: Self = Self { turn: 0.0, translate: 0.0 };
+}
