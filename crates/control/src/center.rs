@@ -1,0 +1,53 @@
+use rand::Rng;
+
+use crate::{Layer, Proposal, Situation};
+
+/// Steers to the middle of a corridor while the robot moves (MSLST, "Center").
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Center {
+    /// Ratio of the distances to the two walls above which it steers. Paper: 1.25.
+    pub ratio: f64,
+    /// Turn command added towards the middle. Paper: 0.05.
+    pub turn: f64,
+}
+
+impl Center {
+    /// The paper's gains.
+    #[must_use]
+    pub const fn paper() -> Self {
+        Self {
+            ratio: 1.25,
+            turn: 0.05,
+        }
+    }
+}
+
+impl Layer for Center {
+    fn correct(
+        &mut self,
+        mut proposal: Proposal,
+        situation: &Situation<'_>,
+        _rng: &mut dyn Rng,
+    ) -> Proposal {
+        let translate = proposal.command.translate;
+        if situation.corridor.is_none() || translate == 0.0 {
+            return proposal;
+        }
+        let ranges = &situation.view.scan.ranges;
+        let (left, right) = (ranges[ranges.len() / 4], ranges[3 * ranges.len() / 4]);
+        let towards_middle = if left > self.ratio * right {
+            self.turn
+        } else if right > self.ratio * left {
+            -self.turn
+        } else {
+            0.0
+        };
+        // Backing up, the nose has to point away from the middle for the tail to go there.
+        proposal.command.turn += if translate > 0.0 {
+            towards_middle
+        } else {
+            -towards_middle
+        };
+        proposal
+    }
+}

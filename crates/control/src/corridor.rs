@@ -1,0 +1,124 @@
+use core::f64::consts::TAU;
+
+use thiserror::Error;
+use tolman_robot::{Ring, Scan};
+
+/// Why a ring of beams cannot be used to look for opposite walls.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RingError {
+    /// Opposite beams need an even number of them.
+    #[error("a ring of {beams} beams has no opposite pairs: use an even number, 8 or more")]
+    Uneven {
+        /// How many beams the ring has.
+        beams: u32,
+    },
+    /// The beams leave a gap in the circle, or do not start ahead.
+    #[error(
+        "the beams must cover the whole circle evenly, beam 0 ahead, but beam 0 looks to {first_bearing} rad and the spacing is {spacing} rad: use Ring::full"
+    )]
+    NotAFullCircle {
+        /// Bearing of beam 0, rad.
+        first_bearing: f64,
+        /// Bearing from beam to beam, rad.
+        spacing: f64,
+    },
+    /// The corridor's width is no length.
+    #[error("a corridor {width} m wide is none: give a finite width above 0 m")]
+    Width {
+        /// The width given, m.
+        width: f64,
+    },
+}
+
+/// A corridor as its walls look from the robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corridor {
+    /// How far the robot would have to turn to face along the corridor, in beams; positive is
+    /// counter-clockwise. Between −beams/4 and beams/4: a corridor has no front.
+    pub misaligned_beams: i32,
+    /// The least sum of two opposite beams, m: the distance from wall to wall.
+    pub narrowest: f64,
+}
+
+/// Tells a corridor from a junction by the sums of opposite beams (MSLST, "Robot operation").
+///
+/// In a corridor the walls are close at most angles and far only along it; in a junction they are
+/// far in several directions. With 72 beams there are 36 sums; at least 14 in a row, counted round
+/// the circle, must be below 1.625 corridor widths. Other rings ask for the same share of the half
+/// circle. O(beams).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorridorDetector {
+    /// Opposite pairs in the ring.
+    pairs: usize,
+    /// A sum below this counts as two near walls, m.
+    near: f64,
+    /// How many near sums in a row make a corridor.
+    run: usize,
+}
+
+impl CorridorDetector {
+    /// The paper's 1.625 corridor widths.
+    const NEAR_WIDTHS: f64 = 1.625;
+    /// The paper's 14 consecutive sums of 36.
+    const RUN_SHARE: f64 = 14.0 / 36.0;
+
+    /// A detector for `ring` in corridors `width` metres wide.
+    ///
+    /// # Errors
+    /// When the ring has no opposite beams or the width is no length.
+    pub fn new(ring: Ring, width: f64) -> Result<Self, RingError> {
+        if ring.beams < 8 || !ring.beams.is_multiple_of(4) {
+            return Err(RingError::Uneven { beams: ring.beams });
+        }
+        let circle = ring.spacing * f64::from(ring.beams);
+        let full = (circle - TAU).abs() < 1e-9 && ring.first_bearing.abs() < 1e-9;
+        if !full {
+            return Err(RingError::NotAFullCircle {
+                first_bearing: ring.first_bearing,
+                spacing: ring.spacing,
+            });
+        }
+        if !(width.is_finite() && width > 0.0) {
+            return Err(RingError::Width { width });
+        }
+        let pairs = ring.beams as usize / 2;
+        Ok(Self {
+            pairs,
+            near: Self::NEAR_WIDTHS * width,
+            run: libm::ceil(Self::RUN_SHARE * pairs as f64) as usize,
+        })
+    }
+
+    /// How many beams a scan must have.
+    #[must_use]
+    pub const fn beams(&self) -> usize {
+        2 * self.pairs
+    }
+
+    /// The corridor the scan was taken in, or none where it looks like a junction or an open place
+    /// (or where the scan is of another ring).
+    #[must_use]
+    pub fn detect(&self, scan: &Scan) -> Option<Corridor> {
+        let (front, back) = scan.ranges.split_at_checked(self.pairs)?;
+        if back.len() != self.pairs {
+            return None;
+        }
+        let sum = |pair: usize| front[pair % self.pairs] + back[pair % self.pairs];
+        let mut narrowest = 0;
+        let (mut run, mut longest) = (0, 0);
+        // Twice round, so that a run may cross the seam between the last pair and the first.
+        for pair in 0..2 * self.pairs {
+            run = if sum(pair) < self.near { run + 1 } else { 0 };
+            longest = longest.max(run);
+            if pair < self.pairs && sum(pair) < sum(narrowest) {
+                narrowest = pair;
+            }
+        }
+        (longest >= self.run).then(|| Corridor {
+            // Aligned, the narrowest pair is the one that looks left and right.
+            misaligned_beams: narrowest as i32 - (self.pairs / 2) as i32,
+            narrowest: sum(narrowest),
+        })
+    }
+}

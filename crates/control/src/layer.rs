@@ -1,0 +1,52 @@
+use rand::Rng;
+use tolman_geom::Heading;
+use tolman_maze::Direction;
+use tolman_robot::{Scan, TurnTranslate};
+
+use crate::{Corridor, Outcome};
+
+/// What the robot perceives in this time step.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// Ranges in the robot's frame, m.
+    pub scan: &'a Scan,
+    /// The compass heading; 0 is east.
+    pub heading: Heading,
+}
+
+/// A view, and what the stack has made of it once for all layers.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a> {
+    /// What is perceived.
+    pub view: View<'a>,
+    /// The corridor the robot is in, if it looks like one.
+    pub corridor: Option<Corridor>,
+}
+
+/// What the layers so far would do in this time step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Proposal {
+    /// The motor command.
+    pub command: TurnTranslate,
+    /// How the action ends with this step; none while it goes on.
+    pub ends: Option<Outcome>,
+}
+
+/// One layer of the stack.
+///
+/// A layer changes the proposal of the layer above and hands it on. It may keep state between the
+/// steps of one action; [`Layer::begin`] says when a new one starts.
+pub trait Layer: core::fmt::Debug {
+    /// A new high-level action starts.
+    fn begin(&mut self, action: Direction) {
+        let _ = action;
+    }
+
+    /// Corrects what the layer above proposes for this time step.
+    fn correct(
+        &mut self,
+        proposal: Proposal,
+        situation: &Situation<'_>,
+        rng: &mut dyn Rng,
+    ) -> Proposal;
+}

@@ -1,0 +1,110 @@
+use rand::Rng;
+use tolman_geom::Heading;
+use tolman_maze::Direction;
+use tolman_robot::TurnTranslate;
+
+use crate::{Layer, Outcome, Proposal, Situation};
+
+/// The heading of a compass direction.
+#[must_use]
+pub const fn heading_of(direction: Direction) -> Heading {
+    match direction {
+        Direction::North => Heading::NORTH,
+        Direction::East => Heading::EAST,
+        Direction::South => Heading::SOUTH,
+        Direction::West => Heading::WEST,
+    }
+}
+
+/// The top layer: expands a direction into a turn and a translation (MSLST, "Move").
+///
+/// It turns in proportion to the heading error, again and again until the error is within the
+/// tolerance, then translates for a fixed number of steps without checking the distance covered or
+/// the heading any more. Forward and backward are the same to it: it takes whichever turns less.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// Turn command per degree of heading error. Paper: 0.0105.
+    pub turn_per_degree: f64,
+    /// Heading error at which turning ends, degrees. Paper: 4.
+    pub tolerance_deg: f64,
+    /// Translation command. Paper: 0.25.
+    pub translate: f64,
+    /// Steps of translation that make an action. Paper: 2.
+    pub translate_steps: u32,
+    target: Heading,
+    phase: Phase,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    Turning,
+    Translating { ahead: bool, steps_left: u32 },
+}
+
+impl Move {
+    /// The paper's gains.
+    #[must_use]
+    pub const fn paper() -> Self {
+        Self {
+            turn_per_degree: 0.0105,
+            tolerance_deg: 4.0,
+            translate: 0.25,
+            translate_steps: 2,
+            target: Heading::NORTH,
+            phase: Phase::Turning,
+        }
+    }
+
+    fn translated(&mut self, ahead: bool, steps_left: u32) -> Proposal {
+        let steps_left = steps_left - 1;
+        self.phase = Phase::Translating { ahead, steps_left };
+        Proposal {
+            command: TurnTranslate {
+                turn: 0.0,
+                translate: if ahead {
+                    self.translate
+                } else {
+                    -self.translate
+                },
+            },
+            ends: (steps_left == 0).then_some(Outcome::Completed),
+        }
+    }
+}
+
+impl Layer for Move {
+    fn begin(&mut self, action: Direction) {
+        self.target = heading_of(action);
+        self.phase = Phase::Turning;
+    }
+
+    fn correct(
+        &mut self,
+        _proposal: Proposal,
+        situation: &Situation<'_>,
+        _rng: &mut dyn Rng,
+    ) -> Proposal {
+        if let Phase::Translating {
+            ahead,
+            steps_left: steps_left @ 1..,
+        } = self.phase
+        {
+            return self.translated(ahead, steps_left);
+        }
+        let heading = situation.view.heading;
+        let forward = heading.turn_to(self.target).to_degrees();
+        let backward = heading.turn_to(self.target.reversed()).to_degrees();
+        let ahead = forward.abs() <= backward.abs();
+        let error_deg = if ahead { forward } else { backward };
+        if error_deg.abs() <= self.tolerance_deg {
+            return self.translated(ahead, self.translate_steps.max(1));
+        }
+        Proposal {
+            command: TurnTranslate {
+                turn: self.turn_per_degree * error_deg,
+                translate: 0.0,
+            },
+            ends: None,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use rand::Rng;
+use tolman_maze::Direction;
+use tolman_robot::Ring;
+
+use crate::{
+    Avoid, Center, CorridorDetector, Layer, Move, Orient, Outcome, Proposal, RingError, Situation,
+    View,
+};
+
+/// The layers in their order, the highest first.
+#[derive(Debug)]
+pub struct Stack {
+    detector: CorridorDetector,
+    layers: Vec<Box<dyn Layer + Send>>,
+}
+
+impl Stack {
+    /// Any layers, the highest first, round one detector.
+    #[must_use]
+    pub fn new(detector: CorridorDetector, layers: Vec<Box<dyn Layer + Send>>) -> Self {
+        Self { detector, layers }
+    }
+
+    /// The paper's four layers with the paper's gains, for a robot `robot_unit` metres in diameter
+    /// that sees through `ring`, in corridors `width` metres wide.
+    ///
+    /// # Errors
+    /// When the ring has no opposite beams or the width is no length.
+    pub fn paper(ring: Ring, robot_unit: f64, width: f64) -> Result<Self, RingError> {
+        Ok(Self::new(
+            CorridorDetector::new(ring, width)?,
+            vec![
+                Box::new(Move::paper()),
+                Box::new(Orient::paper(ring.beams, width)),
+                Box::new(Center::paper()),
+                Box::new(Avoid::paper(ring.beams, robot_unit)),
+            ],
+        ))
+    }
+
+    /// Starts a high-level action.
+    pub fn begin(&mut self, action: Direction) {
+        for layer in &mut self.layers {
+            layer.begin(action);
+        }
+    }
+
+    /// What to do in this time step, and whether the action ends with it. A scan of another ring than
+    /// the stack was made for fails the action with the robot at rest. O(beams).
+    pub fn correct(&mut self, view: View<'_>, rng: &mut dyn Rng) -> Proposal {
+        if view.scan.ranges.len() != self.detector.beams() {
+            return Proposal {
+                ends: Some(Outcome::Failed),
+                ..Proposal::default()
+            };
+        }
+        let situation = Situation {
+            view,
+            corridor: self.detector.detect(view.scan),
+        };
+        self.layers
+            .iter_mut()
+            .fold(Proposal::default(), |proposal, layer| {
+                layer.correct(proposal, &situation, rng)
+            })
+    }
+}

@@ -1,0 +1,63 @@
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::Graph;
+
+/// A graph stored as a list of arcs, grouped by the node they leave (compressed sparse rows).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Arcs {
+    /// Where each node's arcs begin in `arcs`; one more entry than nodes.
+    first: Vec<u32>,
+    /// (head, cost) of every arc, by tail, then in the order given.
+    arcs: Vec<(u32, u32)>,
+}
+
+impl Arcs {
+    /// The graph of `node_count` nodes with the arcs (tail, head, cost). O(nodes + arcs).
+    ///
+    /// Arcs that leave or reach a node the graph does not have are left out.
+    #[must_use]
+    pub fn new(node_count: usize, list: &[(u32, u32, u32)]) -> Self {
+        let held = |&&(tail, head, _): &&(u32, u32, u32)| {
+            (tail as usize) < node_count && (head as usize) < node_count
+        };
+        let mut first = vec![0_u32; node_count + 1];
+        for &(tail, ..) in list.iter().filter(held) {
+            first[tail as usize + 1] += 1;
+        }
+        for node in 0..node_count {
+            first[node + 1] += first[node];
+        }
+        let mut next = first.clone();
+        let mut arcs = vec![(0, 0); first[node_count] as usize];
+        for &(tail, head, cost) in list.iter().filter(held) {
+            let slot = &mut next[tail as usize];
+            arcs[*slot as usize] = (head, cost);
+            *slot += 1;
+        }
+        Self { first, arcs }
+    }
+
+    /// The same graph with every arc turned round. O(nodes + arcs).
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let mut list = Vec::with_capacity(self.arcs.len());
+        for tail in 0..self.node_count() as u32 {
+            self.for_each_arc(tail, |head, cost| list.push((head, tail, cost)));
+        }
+        Self::new(self.node_count(), &list)
+    }
+}
+
+impl Graph for Arcs {
+    fn node_count(&self) -> usize {
+        self.first.len() - 1
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let node = node as usize;
+        for &(head, cost) in &self.arcs[self.first[node] as usize..self.first[node + 1] as usize] {
+            visit(head, cost);
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Search on graphs, over anything that can list a node's neighbours.
+//!
+//! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know nothing of
+//! maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`] sums their costs
+//! (Dijkstra). To ask how far every node is *from a goal's point of view*, search the graph turned round:
+//! [`Arcs::reversed`].
+//!
+//! ```
+//! use tolman_planners::{Arcs, costs_from, steps_from};
+//!
+//! // 0 → 1 → 2 is two cheap arcs, 0 → 2 one dear arc.
+//! let arcs = Arcs::new(3, &[(0, 1, 2), (1, 2, 2), (0, 2, 9)]);
+//! assert_eq!(steps_from(&arcs, [0]), [Some(0), Some(1), Some(1)]);
+//! assert_eq!(costs_from(&arcs, [0]), [Some(0), Some(2), Some(4)]);
+//! // What does it cost to reach node 2 from each?
+//! assert_eq!(costs_from(&arcs.reversed(), [2]), [Some(4), Some(2), Some(0)]);
+//! ```
+#![no_std]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+#[cfg(feature = "alloc")]
+mod arcs;
+#[cfg(feature = "alloc")]
+mod breadth_first;
+#[cfg(feature = "alloc")]
+mod dijkstra;
+mod graph;
+
+#[cfg(feature = "alloc")]
+pub use arcs::Arcs;
+#[cfg(feature = "alloc")]
+pub use breadth_first::steps_from;
+#[cfg(feature = "alloc")]
+pub use dijkstra::costs_from;
+pub use graph::Graph;
