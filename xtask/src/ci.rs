@@ -1,0 +1,116 @@
+//! `cargo xtask ci`: what a change must pass, each step timed, a table at the end.
+
+mod bare_metal;
+mod msrv;
+
+use core::time::Duration;
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+
+use crate::workspace::{cargo, installed, succeed};
+use crate::{docs, layers, mazes};
+
+/// How a step went when it did not fail.
+pub(crate) enum Outcome {
+    Passed,
+    /// Not run, and why.
+    Skipped(String),
+}
+
+type Step = (&'static str, fn() -> Result<Outcome>);
+
+/// Cheap and telling steps first.
+const STEPS: &[Step] = &[
+    ("format", || passes("fmt --all --check")),
+    ("layers", || passed(layers::run())),
+    ("links", || passed(docs::pages())),
+    ("lints", || {
+        passes("clippy --workspace --all-targets --quiet -- --deny warnings")
+    }),
+    ("build", || passes("build --workspace --quiet")),
+    ("mazes", || passed(mazes::run())),
+    ("tests", tests),
+    ("doc tests", || passes("test --workspace --doc --quiet")),
+    ("api docs", || passed(docs::api())),
+    ("bare metal", bare_metal::check),
+    ("msrv", msrv::check),
+    ("licences", || {
+        if_installed("cargo-deny", || passes("deny --all-features check"))
+    }),
+    ("spelling", || {
+        if_installed("typos", || passed(succeed(&mut typos())))
+    }),
+];
+
+/// Runs all steps; the first failure ends it unless `keep_going`.
+///
+/// # Errors
+/// If a step failed.
+pub(crate) fn run(keep_going: bool) -> Result<()> {
+    let start = Instant::now();
+    let mut table = Vec::new();
+    let mut failures = 0;
+    for (name, step) in STEPS {
+        eprintln!("\n== {name}");
+        let begun = Instant::now();
+        let verdict = match step() {
+            Ok(Outcome::Passed) => "ok".to_owned(),
+            Ok(Outcome::Skipped(why)) => format!("skipped: {why}"),
+            Err(error) => {
+                eprintln!("error: {error:#}");
+                failures += 1;
+                "FAILED".to_owned()
+            }
+        };
+        table.push((*name, begun.elapsed(), verdict));
+        if failures > 0 && !keep_going {
+            break;
+        }
+    }
+    print_table(&table, start.elapsed());
+    let not_run = STEPS.len() - table.len();
+    match (failures, not_run) {
+        (0, _) => Ok(()),
+        (_, 0) => bail!("{failures} of {} steps failed", STEPS.len()),
+        _ => bail!("a step failed, {not_run} more were not run (--keep-going runs them)"),
+    }
+}
+
+fn print_table(table: &[(&str, Duration, String)], total: Duration) {
+    eprintln!();
+    for (name, time, verdict) in table {
+        eprintln!("{name:<11} {:>7.1} s  {verdict}", time.as_secs_f64());
+    }
+    eprintln!("{:<11} {:>7.1} s", "total", total.as_secs_f64());
+}
+
+fn tests() -> Result<Outcome> {
+    if installed("cargo-nextest") {
+        return passes("nextest run --workspace");
+    }
+    passes("test --workspace --lib --bins --tests --quiet")
+}
+
+fn typos() -> std::process::Command {
+    let mut command = std::process::Command::new("typos");
+    command.current_dir(crate::workspace::root());
+    command
+}
+
+fn if_installed(program: &str, step: fn() -> Result<Outcome>) -> Result<Outcome> {
+    if installed(program) {
+        step()
+    } else {
+        Ok(Outcome::Skipped(format!("{program} is not installed")))
+    }
+}
+
+/// A step that is one cargo command.
+fn passes(arguments: &str) -> Result<Outcome> {
+    passed(succeed(&mut cargo(arguments)))
+}
+
+fn passed(done: Result<()>) -> Result<Outcome> {
+    done.map(|()| Outcome::Passed)
+}

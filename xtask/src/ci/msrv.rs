@@ -1,0 +1,60 @@
+//! The `rust-version` of the manifest is true.
+
+use std::process::Command;
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+use super::Outcome;
+use crate::workspace::{cargo, output, root, succeed};
+
+/// Passes if this run's rustc is the stated one; else builds with the stated one if rustup has it.
+pub(super) fn check() -> Result<Outcome> {
+    let stated = stated()?;
+    let here = output(Command::new("rustc").arg("--version"))?;
+    let here = here
+        .split_whitespace()
+        .nth(1)
+        .context("`rustc --version` names no version")?;
+    if is_of(here, &stated) {
+        eprintln!("rust-version = \"{stated}\" and this is rustc {here}");
+        return Ok(Outcome::Passed);
+    }
+    let toolchains = output(Command::new("rustup").args(["toolchain", "list"])).unwrap_or_default();
+    let Some(toolchain) = toolchains.split_whitespace().find(|name| {
+        name.split('-')
+            .next()
+            .is_some_and(|version| is_of(version, &stated))
+    }) else {
+        return Ok(Outcome::Skipped(format!(
+            "rust-version = \"{stated}\", this is rustc {here}: rustup toolchain add {stated}"
+        )));
+    };
+    let mut check = Command::new("rustup");
+    check.current_dir(root()).args([
+        "run",
+        toolchain,
+        "cargo",
+        "check",
+        "--workspace",
+        "--target-dir",
+        "target/msrv",
+    ]);
+    succeed(&mut check)?;
+    Ok(Outcome::Passed)
+}
+
+/// The `rust-version` all members inherit.
+fn stated() -> Result<String> {
+    let text = output(&mut cargo("metadata --format-version 1 --no-deps"))?;
+    let metadata: Value = serde_json::from_str(&text)?;
+    let version = metadata["packages"][0]["rust_version"].as_str();
+    Ok(version.context("no rust-version is stated")?.to_owned())
+}
+
+/// Whether `version` is a release of `series`: 1.95.1 is one of 1.95.
+fn is_of(version: &str, series: &str) -> bool {
+    version
+        .strip_prefix(series)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}

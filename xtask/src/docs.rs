@@ -1,0 +1,76 @@
+//! `cargo xtask docs`: the API documentation builds without a warning, and the links between the
+//! written pages lead somewhere.
+
+mod links;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+
+use crate::workspace::{cargo, root, succeed};
+
+/// Both halves.
+///
+/// # Errors
+/// If rustdoc warns or a link leads nowhere.
+pub(crate) fn run() -> Result<()> {
+    api()?;
+    pages()
+}
+
+/// `cargo doc` of the workspace, warnings denied.
+///
+/// # Errors
+/// If rustdoc warns.
+pub(crate) fn api() -> Result<()> {
+    succeed(cargo("doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))
+}
+
+/// Every relative link of every Markdown page names a file that exists, and a heading of it.
+///
+/// # Errors
+/// One line for each link that leads nowhere.
+pub(crate) fn pages() -> Result<()> {
+    let mut pages = Vec::new();
+    collect(root(), &mut pages)?;
+    pages.sort();
+    let mut broken = Vec::new();
+    for page in &pages {
+        let text =
+            fs::read_to_string(page).with_context(|| format!("cannot read {}", page.display()))?;
+        for link in links::of(&text) {
+            if let Some(fault) = links::fault(page, &text, link.target) {
+                let page = page.strip_prefix(root()).unwrap_or(page);
+                broken.push(format!("{}:{}: {fault}", page.display(), link.line));
+            }
+        }
+    }
+    if broken.is_empty() {
+        eprintln!("{} pages, every link leads somewhere", pages.len());
+        return Ok(());
+    }
+    bail!(
+        "{} links lead nowhere:\n{}",
+        broken.len(),
+        broken.join("\n")
+    )
+}
+
+/// The Markdown files below `folder`, build products and hidden folders left out.
+fn collect(folder: &Path, pages: &mut Vec<PathBuf>) -> Result<()> {
+    for entry in
+        fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?
+    {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.is_dir() {
+            if !name.starts_with('.') && name != "target" && name != "results" {
+                collect(&path, pages)?;
+            }
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            pages.push(path);
+        }
+    }
+    Ok(())
+}

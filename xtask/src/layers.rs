@@ -1,0 +1,89 @@
+//! `cargo xtask layers`: the dependencies between the crates are those of docs/architecture.md.
+//!
+//! The page's tables are the rule, `cargo metadata` is the fact; [`rules::faults`] compares them.
+
+mod page;
+mod rules;
+
+use std::fs;
+
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+
+use crate::workspace;
+pub(crate) use page::{Library, Page};
+use rules::{Kind, Package};
+
+/// Compares the workspace with the page.
+///
+/// # Errors
+/// One line for each edge or crate that breaks a rule.
+pub(crate) fn run() -> Result<()> {
+    let page = read_page()?;
+    let packages = packages()?;
+    let faults = rules::faults(&page, &packages);
+    if faults.is_empty() {
+        let edges: usize = packages
+            .iter()
+            .map(|package| package.dependencies.len())
+            .sum();
+        eprintln!(
+            "{} crates and {edges} dependencies keep to {PAGE}",
+            packages.len()
+        );
+        return Ok(());
+    }
+    bail!(
+        "{} breaches of {PAGE}:\n- {}",
+        faults.len(),
+        faults.join("\n- ")
+    )
+}
+
+/// The tables of the architecture page.
+///
+/// # Errors
+/// If the page cannot be read or a row of a table is not understood.
+pub(crate) fn read_page() -> Result<Page> {
+    let path = workspace::root().join(PAGE);
+    let text =
+        fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    Page::parse(&text).with_context(|| PAGE.to_owned())
+}
+
+const PAGE: &str = "docs/architecture.md";
+
+/// The workspace's packages as cargo sees them.
+fn packages() -> Result<Vec<Package>> {
+    let text = workspace::output(&mut workspace::cargo(
+        "metadata --format-version 1 --no-deps",
+    ))?;
+    let metadata: Value = serde_json::from_str(&text).context("`cargo metadata` is not JSON")?;
+    packages_of(&metadata).context("`cargo metadata` has another form than expected")
+}
+
+fn packages_of(metadata: &Value) -> Option<Vec<Package>> {
+    let package = |package: &Value| {
+        let dependency = |dependency: &Value| {
+            let name = dependency["name"].as_str()?.to_owned();
+            let kind = match dependency["kind"].as_str() {
+                Some("dev") => Kind::Development,
+                _ => Kind::Normal,
+            };
+            Some((name, kind))
+        };
+        Some(Package {
+            name: package["name"].as_str()?.to_owned(),
+            dependencies: package["dependencies"]
+                .as_array()?
+                .iter()
+                .map(dependency)
+                .collect::<Option<_>>()?,
+        })
+    };
+    metadata["packages"]
+        .as_array()?
+        .iter()
+        .map(package)
+        .collect()
+}

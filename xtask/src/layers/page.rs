@@ -1,0 +1,193 @@
+//! The two tables of the architecture page that are read by machine.
+
+use anyhow::{Context, Result, bail, ensure};
+
+/// What the page says.
+#[derive(Debug)]
+pub(crate) struct Page {
+    /// The table `crate | layer | library | may use | what`, one row a crate.
+    pub(crate) crates: Vec<CrateRow>,
+    /// The table `outside crate | seen by | why`.
+    pub(super) outside: Vec<OutsideRow>,
+}
+
+/// One crate of the workspace.
+#[derive(Debug)]
+pub(crate) struct CrateRow {
+    pub(crate) name: String,
+    /// None for a member outside the layers, which no crate may depend on.
+    pub(super) layer: Option<u8>,
+    pub(crate) library: Library,
+    pub(super) may_use: Vec<String>,
+}
+
+/// How much of the standard library a crate needs with its default features off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Library {
+    /// It builds for bare metal, with or without an allocator.
+    NoStd,
+    Std,
+}
+
+/// A crate of others that not everyone may see.
+#[derive(Debug)]
+pub(super) struct OutsideRow {
+    /// A package name; a `*` at its end stands for anything.
+    pub(super) pattern: String,
+    pub(super) seen_by: Vec<String>,
+}
+
+impl OutsideRow {
+    pub(super) fn matches(&self, name: &str) -> bool {
+        self.pattern
+            .strip_suffix('*')
+            .map_or(name == self.pattern, |beginning| {
+                name.starts_with(beginning)
+            })
+    }
+}
+
+impl Page {
+    /// Reads both tables.
+    ///
+    /// # Errors
+    /// If a table is missing or empty, or a row is not understood.
+    pub(super) fn parse(text: &str) -> Result<Self> {
+        let crates = rows(text, ["crate", "layer", "library", "may use", "what"])?;
+        let outside = rows(text, ["outside crate", "seen by", "why"])?;
+        Ok(Self {
+            crates: crates
+                .into_iter()
+                .map(|(line, [name, layer, library, may_use, _])| {
+                    crate_row(name, layer, library, may_use).with_context(|| format!("line {line}"))
+                })
+                .collect::<Result<_>>()?,
+            outside: outside
+                .into_iter()
+                .map(|(line, [pattern, seen_by, _])| {
+                    let seen_by = names(seen_by).with_context(|| format!("line {line}"))?;
+                    Ok(OutsideRow {
+                        pattern: bare(pattern).to_owned(),
+                        seen_by,
+                    })
+                })
+                .collect::<Result<_>>()?,
+        })
+    }
+}
+
+fn crate_row(name: &str, layer: &str, library: &str, may_use: &str) -> Result<CrateRow> {
+    let layer = match layer {
+        "–" => None,
+        _ => Some(
+            layer
+                .strip_prefix('L')
+                .and_then(|number| number.parse().ok())
+                .with_context(|| format!("layer `{layer}`: write L0, L1, … or –"))?,
+        ),
+    };
+    let library = match library {
+        "no_std" | "no_std + alloc" => Library::NoStd,
+        "std" => Library::Std,
+        _ => bail!("library `{library}`: write no_std, no_std + alloc or std"),
+    };
+    Ok(CrateRow {
+        name: bare(name).to_owned(),
+        layer,
+        library,
+        may_use: names(may_use)?,
+    })
+}
+
+/// The rows below the header with these columns, each with its line counted from 1.
+fn rows<'a, const N: usize>(
+    text: &'a str,
+    columns: [&str; N],
+) -> Result<Vec<(usize, [&'a str; N])>> {
+    let mut lines = (1..).zip(text.lines());
+    lines
+        .find(|(_, line)| cells(line).is_ok_and(|cells| cells == columns))
+        .with_context(|| format!("there is no table | {} |", columns.join(" | ")))?;
+    let rows: Vec<_> = lines
+        .skip(1) // the rule below the header
+        .take_while(|(_, line)| line.starts_with('|'))
+        .map(|(line, row)| Ok((line, cells(row).with_context(|| format!("line {line}"))?)))
+        .collect::<Result<_>>()?;
+    ensure!(
+        !rows.is_empty(),
+        "the table | {} | has no rows",
+        columns.join(" | ")
+    );
+    Ok(rows)
+}
+
+fn cells<const N: usize>(row: &str) -> Result<[&str; N]> {
+    let row = row.trim();
+    let inner = row.strip_prefix('|').and_then(|row| row.strip_suffix('|'));
+    let cells: Vec<_> = inner
+        .context("a row begins and ends with |")?
+        .split('|')
+        .map(str::trim)
+        .collect();
+    let found = cells.len();
+    cells
+        .try_into()
+        .ok()
+        .with_context(|| format!("{found} cells where {N} are expected"))
+}
+
+/// A list like `` `a`, `b` ``; a dash for none.
+fn names(cell: &str) -> Result<Vec<String>> {
+    if cell == "–" {
+        return Ok(Vec::new());
+    }
+    cell.split(',')
+        .map(|name| {
+            let name = bare(name.trim());
+            ensure!(!name.is_empty(), "an empty name; write – for none");
+            Ok(name.to_owned())
+        })
+        .collect()
+}
+
+fn bare(code: &str) -> &str {
+    code.trim_matches('`')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(row: &str) -> Result<Page> {
+        Page::parse(&format!(
+            "words\n\n| crate | layer | library | may use | what |\n| --- | --- | --- | --- | --- |\n{row}\n\n\
+             | outside crate | seen by | why |\n| --- | --- | --- |\n| `parry2d*` | `sim` | walls |\n"
+        ))
+    }
+
+    #[test]
+    fn reads_both_tables() {
+        let page = parse("| `sim` | L2 | std | `geom`, `maze` | worlds |").unwrap();
+        assert_eq!(page.crates[0].name, "sim");
+        assert_eq!(page.crates[0].layer, Some(2));
+        assert_eq!(page.crates[0].library, Library::Std);
+        assert_eq!(page.crates[0].may_use, ["geom", "maze"]);
+        assert!(page.outside[0].matches("parry2d-f64"));
+        assert!(!page.outside[0].matches("parry3d"));
+    }
+
+    #[test]
+    fn a_row_it_does_not_understand_is_named_with_its_line() {
+        let check = |row, expected: &str| {
+            let error = format!("{:#}", parse(row).unwrap_err());
+            assert!(
+                error.contains("line 5") && error.contains(expected),
+                "{error}"
+            );
+        };
+        check("| `sim` | 2 | std | – | worlds |", "layer `2`");
+        check("| `sim` | L2 | core | – | worlds |", "library `core`");
+        check("| `sim` | L2 | std | `geom`, | worlds |", "empty name");
+        check("| `sim` | L2 | std | worlds |", "4 cells where 5");
+    }
+}

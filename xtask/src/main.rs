@@ -1,0 +1,72 @@
+//! The project's chores, one module a verb: `cargo xtask --help`.
+//!
+//! It depends on none of the crates it looks after, so it builds in seconds and still runs when
+//! they do not build.
+#![expect(clippy::print_stderr, reason = "a chore reports to whoever started it")]
+
+mod bench;
+mod ci;
+mod docs;
+mod experiment;
+mod layers;
+mod mazes;
+mod workspace;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The chores of the tolman workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Runs the experiments in release and writes their report; `experiment --help` tells more
+    #[command(disable_help_flag = true)]
+    Experiment {
+        /// Handed on to `tolman experiment` as they stand
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
+    /// Everything a change must pass: format, lints, tests, docs, layers, mazes, bare metal
+    Ci {
+        /// Run the remaining steps after one has failed
+        #[arg(long)]
+        keep_going: bool,
+    },
+    /// Holds the dependencies between the crates to the tables of docs/architecture.md
+    Layers,
+    /// Reads every maze in mazes/ and checks that it can be solved
+    Mazes,
+    /// Measures the speed: all criterion benches and the long ray fuzz, or one bench
+    Bench {
+        /// The bench to run; all of them when left out
+        name: Option<String>,
+    },
+    /// Builds the API documentation and checks the links of the written pages
+    Docs,
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().verb {
+        Verb::Experiment { arguments } => return experiment::run(&arguments),
+        Verb::Ci { keep_going } => ci::run(keep_going),
+        Verb::Layers => layers::run(),
+        Verb::Mazes => mazes::run(),
+        Verb::Bench { name } => bench::run(name.as_deref()),
+        Verb::Docs => docs::run(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
