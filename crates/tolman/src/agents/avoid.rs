@@ -1,0 +1,43 @@
+use rand::{Rng, RngExt};
+use tolman_maze::Direction;
+
+use super::{Brain, Perception};
+
+/// MSLST's Avoid brain: "wanders randomly (but does not backtrack unless it reaches a dead end, and does
+/// not repeat failed actions)".
+///
+/// Failed actions are forgotten as soon as one succeeds. Where all three others have failed the robot
+/// is in a dead end and turns back; where that fails too it forgets and tries again.
+#[derive(Clone, Debug, Default)]
+pub struct Avoid {
+    travelling: Option<Direction>,
+    failed: Vec<Direction>,
+}
+
+impl Brain for Avoid {
+    fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
+        match perception.last {
+            Some((action, outcome)) if outcome.moved() => {
+                self.travelling = Some(action);
+                self.failed.clear();
+            }
+            Some((action, _)) => self.failed.push(action),
+            None => {}
+        }
+        let back = self.travelling.map(Direction::opposite);
+        let untried: Vec<Direction> =
+            Direction::ALL.into_iter().filter(|action| !self.failed.contains(action)).collect();
+        let onward: Vec<Direction> =
+            untried.iter().copied().filter(|action| Some(*action) != back).collect();
+
+        let choices = if !onward.is_empty() {
+            onward
+        } else if !untried.is_empty() {
+            untried
+        } else {
+            self.failed.clear();
+            Direction::ALL.to_vec()
+        };
+        choices[rng.random_range(0..choices.len() as u32) as usize]
+    }
+}

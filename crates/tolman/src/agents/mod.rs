@@ -1,0 +1,60 @@
+//! The brains: one agent, one file, written to be read beside its paper.
+//!
+//! A [`Brain`] lives on what its robot perceives. A [`Yardstick`] is shown the truth instead; it is no
+//! competitor but the measure of one: the best that the same body and the same layers allow.
+
+mod avoid;
+mod oracle;
+mod random;
+mod wall_follow;
+
+use core::fmt::Debug;
+
+use rand::Rng;
+use tolman_control::Outcome;
+use tolman_geom::Heading;
+use tolman_maze::Direction;
+use tolman_robot::Scan;
+use tolman_sim::Truth;
+
+pub use avoid::Avoid;
+pub use oracle::{Oracle, OracleConfig, OracleError};
+pub use random::Random;
+pub use wall_follow::WallFollow;
+
+/// What a brain is told when its next action is due.
+#[derive(Clone, Copy, Debug)]
+pub struct Perception<'a> {
+    /// The action before this one and how it ended; none at the start.
+    pub last: Option<(Direction, Outcome)>,
+    /// The laser's ranges, in the robot's frame.
+    pub scan: &'a Scan,
+    /// The compass heading.
+    pub heading: Heading,
+}
+
+/// Chooses high-level actions from what the robot perceives.
+pub trait Brain: Debug {
+    /// The next action.
+    fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction;
+}
+
+/// Chooses high-level actions from the truth.
+pub trait Yardstick: Debug {
+    /// The next action of a robot whose true state is `truth`.
+    fn choose(
+        &mut self,
+        last: Option<(Direction, Outcome)>,
+        truth: &Truth,
+        rng: &mut dyn Rng,
+    ) -> Direction;
+}
+
+/// Whoever chooses the actions.
+#[derive(Debug)]
+pub enum Mind {
+    /// One that perceives.
+    Brain(Box<dyn Brain>),
+    /// One that is shown the truth.
+    Yardstick(Box<dyn Yardstick>),
+}

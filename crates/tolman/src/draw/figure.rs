@@ -1,0 +1,107 @@
+//! A drawing with its name, title and caption, alone or on a page.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::number::tenths;
+
+/// The style rules of all drawings, with the colours of the light and the dark scheme. A file that
+/// stands alone carries them itself; a page carries them once.
+pub const fn style() -> &'static str {
+    include_str!("style.css")
+}
+
+/// The content of a picture.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// Width in user units, which are pixels at natural size.
+    pub width: f64,
+    /// Height in user units.
+    pub height: f64,
+    /// What the picture shows, in words, for readers who cannot see it.
+    pub description: String,
+    /// The SVG elements.
+    pub body: Markup,
+}
+
+/// A picture of an experiment.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The name of its file without the extension, and the prefix of its ids: lower-case letters,
+    /// digits and hyphens.
+    pub name: String,
+    /// What it shows, in a few words.
+    pub title: String,
+    /// How to read it; empty if nothing need be said.
+    pub caption: String,
+    /// The table it belongs to; `None` puts it behind all tables.
+    pub table: Option<String>,
+    /// The picture.
+    pub drawing: Drawing,
+}
+
+impl Figure {
+    /// A figure without a caption that belongs to no table.
+    pub fn new(name: impl Into<String>, title: impl Into<String>, drawing: Drawing) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: String::new(),
+            table: None,
+            drawing,
+        }
+    }
+
+    /// Says how to read it.
+    #[must_use]
+    pub fn caption(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
+
+    /// Puts it with a table.
+    #[must_use]
+    pub fn table(mut self, table: impl Into<String>) -> Self {
+        self.table = Some(table.into());
+        self
+    }
+
+    /// The picture as an element of a page that carries [`style`].
+    pub fn inline(&self) -> Markup {
+        self.element(None, &html! {})
+    }
+
+    /// The picture as a file of its own.
+    pub fn standalone(&self) -> String {
+        let backdrop = html! {
+            style { (PreEscaped(style())) }
+            rect width="100%" height="100%" style="fill: var(--page)" {}
+        };
+        self.element(Some("http://www.w3.org/2000/svg"), &backdrop)
+            .into_string()
+    }
+
+    fn element(&self, namespace: Option<&str>, backdrop: &Markup) -> Markup {
+        let Drawing {
+            width,
+            height,
+            description,
+            body,
+        } = &self.drawing;
+        let (title_id, description_id) = (
+            format!("{}-title", self.name),
+            format!("{}-description", self.name),
+        );
+        html! {
+            svg xmlns=[namespace] class="drawing" id=(self.name)
+                viewBox={ "0 0 " (tenths(*width)) " " (tenths(*height)) }
+                width=(tenths(*width)) height=(tenths(*height))
+                role="img" aria-labelledby={ (title_id) " " (description_id) }
+            {
+                title id=(title_id) { (self.title) }
+                desc id=(description_id) { (description) }
+                (backdrop)
+                (body)
+            }
+        }
+    }
+}

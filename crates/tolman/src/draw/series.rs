@@ -1,0 +1,26 @@
+//! The colours of rows.
+
+/// The colour of one row, the same in every plot and plan of an experiment.
+///
+/// Seven colours that stay apart for colour-blind readers, after Okabe and Ito ("Color universal
+/// design", 2008), lightened on dark pages; from the eighth series on they begin again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Series(pub u32);
+
+impl Series {
+    /// How many colours there are before they repeat.
+    pub const COLOURS: u32 = 7;
+
+    /// The CSS class that gives an element its colour.
+    pub const fn class(self) -> &'static str {
+        match self.0 % Self::COLOURS {
+            0 => "series-0",
+            1 => "series-1",
+            2 => "series-2",
+            3 => "series-3",
+            4 => "series-4",
+            5 => "series-5",
+            _ => "series-6",
+        }
+    }
+}

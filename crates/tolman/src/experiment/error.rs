@@ -1,0 +1,141 @@
+//! What can go wrong while an experiment is run.
+
+use std::io;
+use std::path::PathBuf;
+
+use super::BoxError;
+
+/// Why an experiment could not be run to its end.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is no experiment of that name.
+    #[error("there is no experiment named {name:?}; choose one of: {known}")]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// What the experiment needs cannot be read.
+    #[error("experiment {name} cannot be made ready")]
+    Open {
+        /// The experiment.
+        name: String,
+        /// Why.
+        source: BoxError,
+    },
+    /// A number of runs or jobs is zero.
+    #[error("{option} is 0, so nothing would be run; give it 1 or more")]
+    Zero {
+        /// The option.
+        option: &'static str,
+    },
+    /// The master seed does not fit TOML's integers.
+    #[error("seed {seed} is too large for config.toml; give one below 2^63")]
+    Seed {
+        /// The seed.
+        seed: u64,
+    },
+    /// The experiment's tables contradict themselves.
+    #[error("the tables of experiment {name} are unsound: {what}")]
+    Tables {
+        /// The experiment.
+        name: String,
+        /// What is wrong.
+        what: String,
+    },
+    /// The folder of results is in use for something else.
+    #[error(
+        "{} holds files but no results of tolman ({what}); choose another folder with --out or \
+         empty this one",
+        folder.display()
+    )]
+    ForeignFolder {
+        /// The folder.
+        folder: PathBuf,
+        /// What was found there.
+        what: String,
+    },
+    /// A file or folder cannot be read or written.
+    #[error("cannot {action} {}; {repair}", path.display())]
+    File {
+        /// What was tried.
+        action: &'static str,
+        /// On what.
+        path: PathBuf,
+        /// What helps.
+        repair: &'static str,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The configuration cannot be written as TOML.
+    #[error("the configuration of experiment {name} cannot be written as TOML")]
+    Config {
+        /// The experiment.
+        name: String,
+        /// Why.
+        source: BoxError,
+    },
+    /// The threads cannot be started.
+    #[error("cannot start {jobs} threads; give fewer with --jobs")]
+    Threads {
+        /// How many were wanted.
+        jobs: u32,
+        /// Why.
+        source: BoxError,
+    },
+    /// A run could not be played.
+    #[error("table {table}, row {row}, run {run} (seed {seed}) could not be played")]
+    Run {
+        /// The table.
+        table: String,
+        /// The row.
+        row: String,
+        /// The index of the run.
+        run: u32,
+        /// Its seed.
+        seed: u64,
+        /// Why.
+        source: BoxError,
+    },
+    /// The pictures could not be made.
+    #[error("the figures of experiment {name} could not be drawn")]
+    Figures {
+        /// The experiment.
+        name: String,
+        /// Why.
+        source: BoxError,
+    },
+    /// The caller asked to stop.
+    #[error(
+        "stopped after {done} of {total} runs, which are kept in {}; the same command goes on \
+         from there: {command}",
+        folder.display()
+    )]
+    Interrupted {
+        /// Runs that are finished.
+        done: u64,
+        /// Runs of the whole experiment.
+        total: u64,
+        /// The folder of results.
+        folder: PathBuf,
+        /// The command that goes on.
+        command: String,
+    },
+}
+
+impl Error {
+    /// Whether the caller's input is at fault (exit code 2) rather than the machine or the
+    /// experiment (exit code 1).
+    pub const fn is_bad_input(&self) -> bool {
+        matches!(
+            self,
+            Self::Unknown { .. }
+                | Self::Open { .. }
+                | Self::Zero { .. }
+                | Self::Seed { .. }
+                | Self::ForeignFolder { .. }
+        )
+    }
+}

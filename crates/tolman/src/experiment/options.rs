@@ -1,0 +1,39 @@
+//! What the caller chooses.
+
+use std::path::PathBuf;
+
+use super::Experiment;
+
+/// How an experiment is run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The master seed, from which every run's seed is derived. Below 2^63, for TOML.
+    pub seed: u64,
+    /// Runs of each row; `None` takes the experiment's own number.
+    pub runs: Option<u32>,
+    /// Threads; `None` takes one for each core. Results do not depend on it.
+    pub jobs: Option<u32>,
+    /// Maze files that take the place of the experiment's own worlds.
+    pub mazes: Vec<PathBuf>,
+    /// The folder of results; `None` is `results/NAME` under the current folder.
+    pub out: Option<PathBuf>,
+    /// Few runs, for a first look.
+    pub quick: bool,
+}
+
+impl Options {
+    /// Runs of each row: the caller's number, else the experiment's, quick or full.
+    pub fn runs_of(&self, experiment: &dyn Experiment) -> u32 {
+        self.runs.unwrap_or_else(|| match self.quick {
+            true => experiment.quick_runs(),
+            false => experiment.default_runs(),
+        })
+    }
+
+    /// The folder the results of an experiment go to.
+    pub fn folder_of(&self, name: &str) -> PathBuf {
+        self.out
+            .clone()
+            .unwrap_or_else(|| PathBuf::from("results").join(name))
+    }
+}

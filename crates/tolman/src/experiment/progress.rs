@@ -1,0 +1,64 @@
+//! What the runner tells its caller while it works.
+
+use core::time::Duration;
+use std::path::Path;
+
+/// Something a caller may want to show.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Event<'a> {
+    /// The folder held results of another configuration, which now lie elsewhere.
+    SetAside {
+        /// The folder of results.
+        folder: &'a Path,
+        /// Where its former contents are now.
+        moved_to: &'a Path,
+        /// What differs.
+        reason: &'a str,
+    },
+    /// A line of a file of runs cannot be used and its run is played again.
+    BrokenLine {
+        /// The file.
+        file: &'a Path,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        what: &'a str,
+    },
+    /// The runs begin.
+    Started {
+        /// Runs of the whole experiment.
+        total: u64,
+        /// Runs that are there from before.
+        reused: u64,
+    },
+    /// One more run was played.
+    RunFinished,
+    /// All runs were played.
+    RunsFinished {
+        /// Runs that were played now.
+        played: u64,
+        /// How long that took.
+        elapsed: Duration,
+    },
+}
+
+/// Where the runner's messages go; the runner itself prints nothing.
+pub trait Progress: Sync {
+    /// Hears of an event. May be called from several threads at once.
+    fn event(&self, event: &Event<'_>);
+
+    /// Whether the caller wants to stop, as after Ctrl-C. Asked before every run; runs that are
+    /// being played are finished and kept.
+    fn stop_requested(&self) -> bool {
+        false
+    }
+}
+
+/// Shows nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn event(&self, _event: &Event<'_>) {}
+}

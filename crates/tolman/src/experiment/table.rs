@@ -1,0 +1,253 @@
+//! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
+
+/// One table of a paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// The name it has in `summary.json`, such as `2 (J)`.
+    pub name: String,
+    /// What it shows, in words.
+    pub title: String,
+    /// The rows, in the order they are shown.
+    pub rows: Vec<Row>,
+    /// What is measured of every row, in the order it is shown.
+    pub metrics: Vec<Metric>,
+    /// How many runs each of the paper's rows has, where it says so.
+    pub paper_runs: Option<u32>,
+    /// How the rows are compared with each other; `None` compares none.
+    pub comparison: Option<Comparison>,
+}
+
+impl Table {
+    /// An empty table.
+    pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            rows: Vec::new(),
+            metrics: Vec::new(),
+            paper_runs: None,
+            comparison: None,
+        }
+    }
+
+    /// Adds a row.
+    #[must_use]
+    pub fn row(mut self, row: Row) -> Self {
+        self.rows.push(row);
+        self
+    }
+
+    /// Adds a metric.
+    #[must_use]
+    pub fn metric(mut self, metric: Metric) -> Self {
+        self.metrics.push(metric);
+        self
+    }
+
+    /// Says how many runs each of the paper's rows has.
+    #[must_use]
+    pub fn paper_runs(mut self, runs: u32) -> Self {
+        self.paper_runs = Some(runs);
+        self
+    }
+
+    /// Compares every other row with the row named `reference` by Mann–Whitney's U.
+    #[must_use]
+    pub fn compared_with(mut self, reference: impl Into<String>, correction: Correction) -> Self {
+        self.comparison = Some(Comparison {
+            reference: reference.into(),
+            correction,
+        });
+        self
+    }
+}
+
+/// How the rows of a table are compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Comparison {
+    /// The row all others are compared with.
+    pub reference: String,
+    /// How p-values are corrected for the number of comparisons in one metric.
+    pub correction: Correction,
+}
+
+/// Correction of p-values for the number of comparisons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Correction {
+    /// Every p-value times the number of comparisons.
+    Bonferroni,
+    /// Holm's step-down procedure: never weaker than Bonferroni's.
+    Holm,
+}
+
+/// One row of a table: one brain, one quantizer, one setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The name it has in `summary.json`.
+    pub name: String,
+    /// The paper's values, at most one for each metric.
+    pub paper: Vec<PaperValue>,
+}
+
+impl Row {
+    /// A row of which the paper says nothing.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            paper: Vec::new(),
+        }
+    }
+
+    /// Adds a value of the paper that stands without a spread.
+    #[must_use]
+    pub fn paper(mut self, metric: impl Into<String>, value: f64) -> Self {
+        self.paper.push(PaperValue {
+            metric: metric.into(),
+            value,
+            sd: None,
+        });
+        self
+    }
+
+    /// Adds a value of the paper given as mean ± standard deviation.
+    #[must_use]
+    pub fn paper_mean(mut self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
+        self.paper.push(PaperValue {
+            metric: metric.into(),
+            value: mean,
+            sd: Some(sd),
+        });
+        self
+    }
+
+    /// The paper's value of a metric.
+    pub fn paper_value(&self, metric: &str) -> Option<&PaperValue> {
+        self.paper.iter().find(|value| value.metric == metric)
+    }
+}
+
+/// What the paper says of one metric in one row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperValue {
+    /// The name of the metric.
+    pub metric: String,
+    /// The value, in the metric's unit.
+    pub value: f64,
+    /// The standard deviation, where it is given.
+    pub sd: Option<f64>,
+}
+
+/// One measured quantity: how the runs of a row become one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Metric {
+    /// The name it has in `summary.json`, such as `success_percent`.
+    pub name: String,
+    /// The name it has on a page, such as `success`.
+    pub title: String,
+    /// The unit, shown behind the title; empty if there is none.
+    pub unit: String,
+    /// How the runs are summarized.
+    pub statistic: Statistic,
+    /// How far our value may lie from the paper's and still match.
+    pub tolerance: Option<Tolerance>,
+}
+
+impl Metric {
+    /// The mean of the numeric field that bears the metric's name.
+    pub fn mean(name: impl Into<String>) -> Self {
+        let name = name.into();
+        Self {
+            title: name.clone(),
+            unit: String::new(),
+            statistic: Statistic::Mean {
+                field: name.clone(),
+            },
+            tolerance: None,
+            name,
+        }
+    }
+
+    /// The percentage of runs in which the flag named `field` is set.
+    pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
+        let field = field.into();
+        Self {
+            name: name.into(),
+            title: field.clone(),
+            unit: "%".into(),
+            statistic: Statistic::Percent { field },
+            tolerance: None,
+        }
+    }
+
+    /// The sum of one numeric field over all runs divided by the sum of another.
+    pub fn ratio(
+        name: impl Into<String>,
+        over: impl Into<String>,
+        under: impl Into<String>,
+    ) -> Self {
+        let name = name.into();
+        Self {
+            title: name.clone(),
+            unit: String::new(),
+            statistic: Statistic::Ratio {
+                over: over.into(),
+                under: under.into(),
+            },
+            tolerance: None,
+            name,
+        }
+    }
+
+    /// Sets the name shown on a page.
+    #[must_use]
+    pub fn titled(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Sets the unit.
+    #[must_use]
+    pub fn unit(mut self, unit: impl Into<String>) -> Self {
+        self.unit = unit.into();
+        self
+    }
+
+    /// Sets how far our value may lie from the paper's.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: Tolerance) -> Self {
+        self.tolerance = Some(tolerance);
+        self
+    }
+}
+
+/// How the runs of a row become one value. A run without the field is left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Statistic {
+    /// 100 × the share of runs whose flag is set.
+    Percent {
+        /// A field of [`Field::Flag`](crate::experiment::Field::Flag).
+        field: String,
+    },
+    /// The mean of a field.
+    Mean {
+        /// A numeric field.
+        field: String,
+    },
+    /// The ratio of two sums.
+    Ratio {
+        /// The numeric field of the numerator.
+        over: String,
+        /// The numeric field of the denominator.
+        under: String,
+    },
+}
+
+/// How far our value may lie from the paper's and still match it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// By this much, in the metric's unit.
+    Absolute(f64),
+    /// By this share of the paper's value: 0.35 is ± 35 %.
+    Relative(f64),
+}

@@ -1,0 +1,79 @@
+//! Samples that cannot be measured.
+
+/// Why a statistic is not defined for a sample.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SampleError {
+    /// The sample is too small.
+    #[error("{count} values are too few; {needed} or more are needed")]
+    TooSmall {
+        /// How many there are.
+        count: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// A value is NaN or infinite.
+    #[error("value {index} is {value}; samples must be finite, so leave it out or mend its source")]
+    NotFinite {
+        /// Its place in the sample, from 0.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The values of a paired test do not pair up.
+    #[error("a sample of {first} values and one of {second} cannot be paired; give equal lengths")]
+    Unpaired {
+        /// The length of the first sample.
+        first: usize,
+        /// The length of the second.
+        second: usize,
+    },
+    /// All values are the same where some difference is needed.
+    #[error("all differences are zero, so there is nothing to rank")]
+    NoDifference,
+    /// The exact distribution is not known for samples with ties or zeros.
+    #[error(
+        "the exact test needs samples without ties or zero differences; take the asymptotic one"
+    )]
+    Ties,
+    /// More successes than trials.
+    #[error("{successes} successes in {trials} trials; successes cannot be more than trials")]
+    Successes {
+        /// Successes.
+        successes: u64,
+        /// Trials.
+        trials: u64,
+    },
+    /// A probability or confidence level out of range.
+    #[error("{value} is no probability between 0 and 1")]
+    Probability {
+        /// The value.
+        value: f64,
+    },
+}
+
+/// Refuses a sample that is smaller than `needed` or not finite.
+pub(super) fn check(sample: &[f64], needed: usize) -> Result<(), SampleError> {
+    if sample.len() < needed {
+        return Err(SampleError::TooSmall {
+            count: sample.len(),
+            needed,
+        });
+    }
+    match sample.iter().position(|value| !value.is_finite()) {
+        Some(index) => Err(SampleError::NotFinite {
+            index,
+            value: sample[index],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses what is not a probability; the ends are allowed.
+pub(super) fn check_probability(value: f64) -> Result<(), SampleError> {
+    if (0.0..=1.0).contains(&value) {
+        Ok(())
+    } else {
+        Err(SampleError::Probability { value })
+    }
+}
