@@ -1,0 +1,439 @@
+//! Each layer by itself, on scans worked out by hand.
+
+use proptest::prelude::*;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_control::{
+    Avoid, Center, Corridor, CorridorDetector, Layer, Move, Orient, Outcome, Proposal, RingError,
+    Situation, Stack, View, heading_of,
+};
+use tolman_geom::Heading;
+use tolman_maze::Direction;
+use tolman_robot::{Ring, Scan, TurnTranslate};
+
+const UNIT: f64 = 0.5;
+const WIDTH: f64 = 1.9 * UNIT;
+const RING: fn() -> Ring = || Ring::full(72, 2.5 * UNIT);
+
+/// What the ring sees in an endless corridor along `axis`, `left` metres from the wall that lies to the
+/// left of the axis, looking to `heading`.
+fn corridor_scan(axis: Heading, left: f64, heading: Heading) -> Scan {
+    let mut scan = Scan::clear(RING());
+    let ring = scan.ring;
+    for (beam, range) in scan.ranges.iter_mut().enumerate() {
+        let across = axis
+            .turn_to(heading.turned(ring.bearing(beam as u32)))
+            .sin();
+        let side = if across > 0.0 { left } else { WIDTH - left };
+        let wall = side / across.abs();
+        *range = wall.min(ring.max_range);
+    }
+    scan
+}
+
+fn rng() -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(7)
+}
+
+fn corrected(
+    layer: &mut dyn Layer,
+    command: TurnTranslate,
+    scan: &Scan,
+    heading: Heading,
+    corridor: Option<Corridor>,
+) -> Proposal {
+    let situation = Situation {
+        view: View { scan, heading },
+        corridor,
+    };
+    layer.correct(
+        Proposal {
+            command,
+            ends: None,
+        },
+        &situation,
+        &mut rng(),
+    )
+}
+
+fn detector() -> CorridorDetector {
+    CorridorDetector::new(RING(), WIDTH).unwrap()
+}
+
+mod detector {
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn sees_a_corridor_and_its_axis_from_any_place_and_heading(
+            left in 0.3..0.65_f64,
+            heading in -180.0..180.0_f64,
+        ) {
+            let heading = Heading::from_degrees(heading);
+            let seen = detector().detect(&corridor_scan(Heading::NORTH, left, heading)).unwrap();
+            // Turning by the misalignment faces along the corridor, to the nearest beam.
+            let turned = heading.turned(f64::from(seen.misaligned_beams) * RING().spacing);
+            let off = turned.turn_to(Heading::NORTH).abs();
+            prop_assert!(off.min(core::f64::consts::PI - off) <= 0.51 * RING().spacing);
+            prop_assert!(seen.narrowest >= WIDTH - 1e-9 && seen.narrowest < 1.01 * WIDTH);
+        }
+    }
+
+    #[test]
+    fn sees_none_in_the_open() {
+        assert_eq!(detector().detect(&Scan::clear(RING())), None);
+    }
+
+    #[test]
+    fn a_run_may_cross_the_seam_of_the_circle() {
+        // Near to the sums of pairs 30 … 35 and 0 … 7: fourteen in a row round the seam.
+        let mut scan = Scan::clear(RING());
+        for pair in (30..36).chain(0..8) {
+            scan.ranges[pair] = 0.4;
+            scan.ranges[pair + 36] = 0.4;
+        }
+        assert!(detector().detect(&scan).is_some());
+        scan.ranges[35] = 1.25;
+        scan.ranges[71] = 1.25;
+        assert_eq!(detector().detect(&scan), None, "thirteen are too few");
+    }
+
+    #[test]
+    fn other_rings_are_refused_with_a_reason() {
+        let odd = Ring::full(71, 1.25);
+        assert_eq!(
+            CorridorDetector::new(odd, WIDTH),
+            Err(RingError::Uneven { beams: 71 })
+        );
+        let fan = Ring::fan(72, 3.0, 1.25);
+        assert!(matches!(
+            CorridorDetector::new(fan, WIDTH),
+            Err(RingError::NotAFullCircle { .. })
+        ));
+        let width = f64::NAN;
+        assert!(matches!(
+            CorridorDetector::new(RING(), width),
+            Err(RingError::Width { .. })
+        ));
+    }
+}
+
+mod move_layer {
+    use super::*;
+
+    fn step(layer: &mut Move, heading: Heading) -> Proposal {
+        let scan = Scan::clear(RING());
+        corrected(layer, TurnTranslate::STOP, &scan, heading, None)
+    }
+
+    #[test]
+    fn turns_in_proportion_to_the_error_then_translates_twice() {
+        let mut layer = Move::paper();
+        layer.begin(Direction::North);
+        let turn = step(&mut layer, Heading::from_degrees(50.0));
+        assert!((turn.command.turn - 0.0105 * 40.0).abs() < 1e-12 && turn.ends.is_none());
+        let first = step(&mut layer, Heading::from_degrees(86.5));
+        assert_eq!(
+            first.command,
+            TurnTranslate {
+                turn: 0.0,
+                translate: 0.25
+            }
+        );
+        assert_eq!(first.ends, None);
+        // The heading is not looked at again.
+        let second = step(&mut layer, Heading::from_degrees(20.0));
+        assert_eq!(
+            second.command,
+            TurnTranslate {
+                turn: 0.0,
+                translate: 0.25
+            }
+        );
+        assert_eq!(second.ends, Some(Outcome::Completed));
+    }
+
+    #[test]
+    fn backs_up_when_that_turns_less() {
+        let mut layer = Move::paper();
+        layer.begin(Direction::South);
+        let step = step(&mut layer, Heading::from_degrees(88.0));
+        assert_eq!(
+            step.command,
+            TurnTranslate {
+                turn: 0.0,
+                translate: -0.25
+            }
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn never_asks_for_more_than_a_quarter_turn(heading in -180.0..180.0_f64) {
+            for action in Direction::ALL {
+                let mut layer = Move::paper();
+                layer.begin(action);
+                let step = step(&mut layer, Heading::from_degrees(heading));
+                prop_assert!(step.command.turn.abs() <= 0.0105 * 90.0 + 1e-9);
+            }
+        }
+    }
+}
+
+mod orient {
+    use super::*;
+
+    /// What becomes of `action` in a corridor along north, from `offset` degrees off the axis.
+    fn outcome(action: Direction, offset_deg: f64) -> Proposal {
+        let heading = Heading::from_degrees(90.0 + offset_deg);
+        let scan = corridor_scan(Heading::NORTH, 0.5 * WIDTH, heading);
+        let corridor = detector().detect(&scan);
+        let mut top = Move::paper();
+        top.begin(action);
+        let proposed = corrected(&mut top, TurnTranslate::STOP, &scan, heading, corridor);
+        corrected(
+            &mut Orient::paper(72, WIDTH),
+            proposed.command,
+            &scan,
+            heading,
+            corridor,
+        )
+    }
+
+    #[test]
+    fn an_action_along_the_corridor_never_contradicts() {
+        for offset in -90..=90 {
+            for action in [Direction::North, Direction::South] {
+                let ends = outcome(action, f64::from(offset)).ends;
+                assert_ne!(ends, Some(Outcome::Failed), "{action} from {offset}°");
+            }
+        }
+    }
+
+    #[test]
+    fn an_action_across_the_corridor_fails_at_once_unless_the_robot_already_faces_the_wall() {
+        for offset in -90..=90_i32 {
+            for action in [Direction::East, Direction::West] {
+                let proposal = outcome(action, f64::from(offset));
+                let failed = proposal.ends == Some(Outcome::Failed);
+                // Beyond 45° the way to the wall is no longer than the way to the axis, and from
+                // within two beams of the wall there is nothing left to turn: Avoid's business.
+                if offset.abs() <= 80 {
+                    assert!(failed, "{action} from {offset}°");
+                    assert_eq!(proposal.command.translate, 0.0);
+                    let towards_axis = -f64::from(offset.signum());
+                    assert!(
+                        proposal.command.turn * towards_axis >= 0.0,
+                        "the failing step turns to the axis, {offset}°"
+                    );
+                } else if offset.abs() >= 88 {
+                    assert!(!failed, "{action} from {offset}°");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn adds_its_turn_to_that_of_move() {
+        let proposal = outcome(Direction::North, 20.0);
+        let expected = -20.0 * 0.0105 - 4.0 * 0.04;
+        assert!(
+            (proposal.command.turn - expected).abs() < 1e-9,
+            "{proposal:?}"
+        );
+    }
+
+    #[test]
+    fn nudges_out_of_a_corner() {
+        let corridor = Some(Corridor {
+            misaligned_beams: 5,
+            narrowest: 0.5 * WIDTH,
+        });
+        let scan = Scan::clear(RING());
+        let mut layer = Orient::paper(72, WIDTH);
+        let still = corrected(
+            &mut layer,
+            TurnTranslate::STOP,
+            &scan,
+            Heading::NORTH,
+            corridor,
+        );
+        assert!(still.command.translate != 0.0 && still.command.translate.abs() <= 0.1);
+        assert_eq!(still.command.turn, 0.0);
+    }
+
+    #[test]
+    fn rests_outside_corridors() {
+        let scan = Scan::clear(RING());
+        let command = TurnTranslate {
+            turn: 0.4,
+            translate: 0.0,
+        };
+        let mut layer = Orient::paper(72, WIDTH);
+        assert_eq!(
+            corrected(&mut layer, command, &scan, Heading::NORTH, None).command,
+            command
+        );
+    }
+}
+
+mod center {
+    use super::*;
+
+    #[test]
+    fn steers_to_the_middle_forward_and_backward() {
+        let axis = Heading::NORTH;
+        // (metres to the left wall, translation, expected sign of the turn)
+        for (left, translate, sign) in [
+            (0.3, 0.25, -1.0),
+            (0.65, 0.25, 1.0),
+            (0.3, -0.25, 1.0),
+            (0.65, -0.25, -1.0),
+            (0.475, 0.25, 0.0),
+            (0.3, 0.0, 0.0),
+        ] {
+            let scan = corridor_scan(axis, left, axis);
+            let command = TurnTranslate {
+                turn: 0.0,
+                translate,
+            };
+            let corridor = detector().detect(&scan);
+            let got = corrected(&mut Center::paper(), command, &scan, axis, corridor);
+            assert!(
+                (got.command.turn - 0.05 * sign).abs() < 1e-12,
+                "{left} m, {translate}"
+            );
+        }
+    }
+}
+
+mod avoid {
+    use super::*;
+
+    fn ahead(ranges: &[(usize, f64)], translate: f64, layer: &mut Avoid) -> Proposal {
+        let mut scan = Scan::clear(RING());
+        for &(beam, range) in ranges {
+            scan.ranges[beam] = range;
+        }
+        let command = TurnTranslate {
+            turn: 0.0,
+            translate,
+        };
+        corrected(layer, command, &scan, Heading::NORTH, None)
+    }
+
+    #[test]
+    fn a_wall_in_front_fails_the_action_before_the_first_step_and_cuts_it_short_after() {
+        let mut layer = Avoid::paper(72, UNIT);
+        layer.begin(Direction::North);
+        let blocked = ahead(&[(71, 0.44)], 0.25, &mut layer);
+        assert_eq!(
+            (blocked.command.translate, blocked.ends),
+            (0.0, Some(Outcome::Failed))
+        );
+        layer.begin(Direction::North);
+        assert_eq!(ahead(&[], 0.25, &mut layer).ends, None);
+        assert_eq!(
+            ahead(&[(1, 0.44)], 0.25, &mut layer).ends,
+            Some(Outcome::CutShort)
+        );
+    }
+
+    #[test]
+    fn looks_the_way_it_travels() {
+        let wall_ahead = [(0, 0.3)];
+        let mut layer = Avoid::paper(72, UNIT);
+        assert_eq!(ahead(&wall_ahead, -0.25, &mut layer).ends, None);
+        assert_eq!(
+            ahead(&[(36, 0.3)], -0.25, &mut layer).ends,
+            Some(Outcome::CutShort)
+        );
+    }
+
+    #[test]
+    fn edges_away_from_a_wall_beside_and_fails_only_far_below_the_buffer() {
+        let mut layer = Avoid::paper(72, UNIT);
+        assert!(
+            ahead(&[(3, 0.4)], 0.25, &mut layer).command.turn < 0.0,
+            "wall on the left"
+        );
+        assert!(
+            ahead(&[(69, 0.4)], 0.25, &mut layer).command.turn > 0.0,
+            "wall on the right"
+        );
+        assert!(
+            ahead(&[(33, 0.4)], -0.25, &mut layer).command.turn > 0.0,
+            "right of the tail"
+        );
+        layer.begin(Direction::North);
+        assert_eq!(
+            ahead(&[(5, 0.2)], 0.25, &mut layer).ends,
+            Some(Outcome::Failed)
+        );
+        assert_eq!(
+            ahead(&[(6, 0.2)], 0.25, &mut layer).ends,
+            None,
+            "the sixth is not watched"
+        );
+    }
+
+    #[test]
+    fn rests_while_the_robot_turns() {
+        let mut layer = Avoid::paper(72, UNIT);
+        assert_eq!(ahead(&[(0, 0.1)], 0.0, &mut layer), Proposal::default());
+    }
+}
+
+mod stack {
+    use super::*;
+
+    #[test]
+    fn a_scan_of_another_ring_fails_the_action_at_rest() {
+        let mut stack = Stack::paper(RING(), UNIT, WIDTH).unwrap();
+        stack.begin(Direction::North);
+        let scan = Scan::clear(Ring::full(36, 1.25));
+        let view = View {
+            scan: &scan,
+            heading: Heading::NORTH,
+        };
+        let proposal = stack.correct(view, &mut rng());
+        assert_eq!(proposal.ends, Some(Outcome::Failed));
+        assert_eq!(proposal.command, TurnTranslate::STOP);
+    }
+
+    proptest! {
+        #[test]
+        fn an_action_ends_whatever_the_walls_look_like(
+            ranges in prop::collection::vec(0.0..1.25_f64, 72),
+            heading in -180.0..180.0_f64,
+            action in 0..4_usize,
+        ) {
+            // A robot that turns as told, among walls that turn with it: no action goes on for ever.
+            let mut stack = Stack::paper(RING(), UNIT, WIDTH).unwrap();
+            let mut heading = Heading::from_degrees(heading);
+            let scan = Scan { ring: RING(), ranges };
+            let mut chance = rng();
+            stack.begin(Direction::ALL[action]);
+            let ended = (0..500).any(|_| {
+                let proposal = stack.correct(View { scan: &scan, heading }, &mut chance);
+                heading = heading.turned(proposal.command.turn);
+                proposal.ends.is_some()
+            });
+            prop_assert!(ended || stuck_is_explained(&scan));
+        }
+    }
+
+    /// Walls that turn with the robot may hold it off its heading for ever: Orient's constant turn
+    /// against Move's. Only then.
+    fn stuck_is_explained(scan: &Scan) -> bool {
+        detector()
+            .detect(scan)
+            .is_some_and(|corridor| corridor.misaligned_beams != 0)
+    }
+
+    #[test]
+    fn directions_are_headings() {
+        assert_eq!(heading_of(Direction::East), Heading::EAST);
+        assert_eq!(heading_of(Direction::West), Heading::WEST);
+    }
+}
