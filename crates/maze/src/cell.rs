@@ -2,6 +2,7 @@ use core::fmt;
 
 /// A cell of a maze: column `x` counted from the west, row `y` counted from the south, both from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cell {
     /// Column from the west.
     pub x: u16,

@@ -1,12 +1,17 @@
+use core::ops::Range;
+
 use crate::{Cell, Direction};
 
 /// One edge of the grid: the border between two cells, or between a cell and the outside.
 ///
 /// Ids are dense: first the vertical edges row by row from the south-west, then the horizontal ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wall(pub u32);
 
 /// The size of a maze, and with it the numbering of its walls. Needs no memory of its own.
+///
+/// Up to [`Grid::MAX_SIDE`] a side every wall has its own number; readers and generators refuse more.
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid};
@@ -19,12 +24,17 @@ pub struct Wall(pub u32);
 /// assert_eq!(grid.wall_count(), 2 * 16 * 17);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Grid {
     width: u16,
     height: u16,
 }
 
 impl Grid {
+    /// The most columns or rows that readers and generators accept: far above any maze run by a
+    /// robot, and low enough that a hostile file cannot ask for much memory.
+    pub const MAX_SIDE: u16 = 1024;
+
     /// A grid of `width` columns and `height` rows.
     #[must_use]
     pub const fn new(width: u16, height: u16) -> Self {
@@ -72,7 +82,7 @@ impl Grid {
     }
 
     /// All cells in the order of [`Grid::index`].
-    pub fn cells(self) -> impl Iterator<Item = Cell> {
+    pub fn cells(self) -> impl Iterator<Item = Cell> + Clone {
         (0..self.height).flat_map(move |y| (0..self.width).map(move |x| Cell::new(x, y)))
     }
 
@@ -98,5 +108,106 @@ impl Grid {
         let y = cell.y.checked_add_signed(i16::from(north))?;
         let next = Cell::new(x, y);
         self.contains(next).then_some(next)
+    }
+
+    /// The middle of the grid, where classic competitions put the goal: two columns by two rows,
+    /// one where the width or height is odd.
+    ///
+    /// ```
+    /// use tolman_maze::{Cell, Grid};
+    ///
+    /// assert!(Grid::new(5, 5).middle().eq([Cell::new(2, 2)]));
+    /// assert!(Grid::new(4, 1).middle().eq([Cell::new(1, 0), Cell::new(2, 0)]));
+    /// ```
+    pub fn middle(self) -> impl Iterator<Item = Cell> {
+        let (columns, rows) = (middle(self.width), middle(self.height));
+        columns.flat_map(move |x| rows.clone().map(move |y| Cell::new(x, y)))
+    }
+
+    /// Every edge of the outer border once: the cell inside and the side it is on.
+    pub fn border(self) -> impl Iterator<Item = (Cell, Direction)> {
+        let (east, north) = (self.width.saturating_sub(1), self.height.saturating_sub(1));
+        let columns = if self.height == 0 {
+            0..0
+        } else {
+            0..self.width
+        };
+        let rows = if self.width == 0 {
+            0..0
+        } else {
+            0..self.height
+        };
+        let south_and_north = columns.flat_map(move |x| {
+            [
+                (Cell::new(x, 0), Direction::South),
+                (Cell::new(x, north), Direction::North),
+            ]
+        });
+        let west_and_east = rows.flat_map(move |y| {
+            [
+                (Cell::new(0, y), Direction::West),
+                (Cell::new(east, y), Direction::East),
+            ]
+        });
+        south_and_north.chain(west_and_east)
+    }
+}
+
+/// The one or two middle values of `0..count`.
+fn middle(count: u16) -> Range<u16> {
+    count.saturating_sub(1) / 2..count.min(count / 2 + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_edge_has_its_own_number_and_no_number_is_left_over() {
+        for (width, height) in [(1, 1), (1, 5), (4, 1), (5, 7), (16, 16)] {
+            let grid = Grid::new(width, height);
+            let mut seen = [false; 600];
+            for cell in grid.cells() {
+                for direction in Direction::ALL {
+                    let wall = grid.wall(cell, direction);
+                    seen[wall.0 as usize] = true;
+                    if let Some(beside) = grid.neighbour(cell, direction) {
+                        assert_eq!(wall, grid.wall(beside, direction.opposite()));
+                    }
+                }
+            }
+            assert!(seen[..grid.wall_count()].iter().all(|seen| *seen));
+            assert!(!seen[grid.wall_count()..].iter().any(|seen| *seen));
+        }
+    }
+
+    #[test]
+    fn the_border_is_the_edges_without_a_neighbour() {
+        for (width, height) in [(1, 1), (1, 5), (5, 3), (0, 3), (3, 0)] {
+            let grid = Grid::new(width, height);
+            let outer = grid
+                .cells()
+                .flat_map(|cell| Direction::ALL.map(|direction| (cell, direction)))
+                .filter(|(cell, direction)| grid.neighbour(*cell, *direction).is_none());
+            assert_eq!(grid.border().count(), outer.clone().count());
+            assert!(
+                outer
+                    .into_iter()
+                    .all(|edge| grid.border().any(|border| border == edge))
+            );
+        }
+    }
+
+    #[test]
+    fn the_index_counts_the_cells() {
+        let grid = Grid::new(7, 3);
+        assert!(
+            grid.cells()
+                .map(|cell| grid.index(cell))
+                .eq(0..grid.cell_count())
+        );
+        assert_eq!(Grid::new(0, 9).middle().count(), 0);
+        assert_eq!(Grid::new(1, 1).middle().count(), 1);
+        assert_eq!(Grid::new(16, 16).middle().count(), 4);
     }
 }

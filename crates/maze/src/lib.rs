@@ -1,21 +1,80 @@
-//! Grid mazes: cells, directions, one id per wall.
+//! Grid mazes: cells, directions, one id per wall; their text formats; generators.
 //!
-//! A maze is a rectangle of square cells. Cell (0, 0) lies in the south-west corner, x grows to the
-//! east and y to the north. Every edge between two cells, and every edge of the border, is one
+//! A maze is a rectangle of square cells. [`Cell`] (0, 0) lies in the south-west corner, x grows to
+//! the east and y to the north. Every edge between two cells, and every edge of the border, is one
 //! [`Wall`]: both sides of it are the same wall, so two cells can never disagree.
+//!
+//! A maze comes from a file: [`read`] takes the text of any [`Format`], finds out which one it is,
+//! and hands back a [`MazeFile`] whose maze can be solved, or a [`MazeError`] that names line,
+//! column, the offending value and the repair.
+//!
+#![cfg_attr(feature = "alloc", doc = "```")]
+#![cfg_attr(not(feature = "alloc"), doc = "```ignore")]
+//! let text = "\
+//! name = Hook
+//! corridor_width = 0.5
+//!
+//! +---+---+---+
+//! |           |
+//! +   +---+   +
+//! | S |     G |
+//! +---+---+---+
+//! ";
+//! let file = tolman_maze::read(text)?;
+//! let (start, heading) = file.maze.start().unwrap();
+//! assert_eq!(heading, tolman_maze::Direction::North);
+//! let steps = file.maze.steps_to_goal();
+//! assert_eq!(steps[file.maze.grid().index(start)], Some(4));
+//! # Ok::<(), tolman_maze::MazeError>(())
+//! ```
+//!
+//! Or it comes from a generator, with the caller's random numbers:
+//!
+#![cfg_attr(feature = "alloc", doc = "```")]
+#![cfg_attr(not(feature = "alloc"), doc = "```ignore")]
+//! use rand::SeedableRng;
+//! use tolman_maze::Perfect;
+//!
+//! let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+//! let maze = Perfect { width: 16, height: 16 }.generate(&mut rng)?;
+//! assert_eq!(maze.opening_count(), 16 * 16 - 1);
+//! # Ok::<(), tolman_maze::GenerateError>(())
+//! ```
+//!
+//! The [`Maze`] then answers what a world, a planner or a mouse asks: [`Maze::is_open`],
+//! [`Maze::neighbours`], [`Maze::steps_to_goal`]; it displays as a drawing; and [`write()`] turns it
+//! into the text of any format that can hold it.
+//!
+//! Without the feature `alloc` only cells, directions and the numbering of walls are left: what
+//! firmware builds its own map on.
 #![no_std]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
 mod cell;
+#[cfg(feature = "alloc")]
+mod check_error;
 mod direction;
+#[cfg(feature = "alloc")]
+mod formats;
+#[cfg(feature = "alloc")]
+mod generators;
 mod grid;
 #[cfg(feature = "alloc")]
 mod maze;
 
 pub use cell::Cell;
+#[cfg(feature = "alloc")]
+pub use check_error::CheckError;
 pub use direction::Direction;
+#[cfg(feature = "alloc")]
+pub use formats::{
+    Fault, Format, MazeError, MazeFile, UnknownFormat, WriteError, parse, parse_as, read, read_as,
+    write,
+};
+#[cfg(feature = "alloc")]
+pub use generators::{Braided, GenerateError, Perfect, Rooms};
 pub use grid::{Grid, Wall};
 #[cfg(feature = "alloc")]
 pub use maze::Maze;

@@ -1,9 +1,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt;
 
-use crate::{Cell, Direction, Grid, Wall};
+use crate::{Cell, CheckError, Direction, Grid, Wall, formats};
 
 /// A maze whose every wall is known: the ground truth of a world.
+///
+/// Cells handed to its methods must lie on its grid; beyond the grid every wall stands.
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid, Maze};
@@ -12,6 +15,26 @@ use crate::{Cell, Direction, Grid, Wall};
 /// maze.set_wall(Cell::new(0, 0), Direction::East, true);
 /// assert!(!maze.is_open(Cell::new(1, 0), Direction::West));
 /// assert!(!maze.is_open(Cell::new(0, 0), Direction::North), "the border is closed");
+/// ```
+///
+/// It displays as a drawing, north first, with `S` on the start and `G` on the goals:
+///
+/// ```
+/// use tolman_maze::{Cell, Direction, Grid, Maze};
+///
+/// let mut maze = Maze::open(Grid::new(2, 2));
+/// maze.set_wall(Cell::new(0, 0), Direction::East, true);
+/// maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+/// maze.set_goals(vec![Cell::new(1, 0)]);
+/// let drawing = "\
+/// o---o---o
+/// |       |
+/// o   o   o
+/// | S | G |
+/// o---o---o
+/// ";
+/// assert_eq!(maze.to_string(), drawing);
+/// assert_eq!(maze.check(), Ok(()));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Maze {
@@ -32,13 +55,8 @@ impl Maze {
             start: None,
             goals: Vec::new(),
         };
-        for x in 0..grid.width() {
-            maze.set_wall(Cell::new(x, 0), Direction::South, true);
-            maze.set_wall(Cell::new(x, grid.height() - 1), Direction::North, true);
-        }
-        for y in 0..grid.height() {
-            maze.set_wall(Cell::new(0, y), Direction::West, true);
-            maze.set_wall(Cell::new(grid.width() - 1, y), Direction::East, true);
+        for (cell, direction) in grid.border() {
+            maze.set_wall(cell, direction, true);
         }
         maze
     }
@@ -49,6 +67,7 @@ impl Maze {
         let mut maze = Self::open(grid);
         maze.standing.fill(u64::MAX);
         if let Some(last) = maze.standing.last_mut() {
+            // The bits past the last wall stay clear, so that equal mazes have equal bits.
             let used = grid.wall_count() % 64;
             if used != 0 {
                 *last = (1 << used) - 1;
@@ -66,7 +85,8 @@ impl Maze {
     /// Whether a wall stands on this edge.
     #[must_use]
     pub fn stands(&self, wall: Wall) -> bool {
-        self.standing[wall.0 as usize / 64] >> (wall.0 % 64) & 1 == 1
+        let word = self.standing.get(wall.0 as usize / 64);
+        word.is_none_or(|word| word >> (wall.0 % 64) & 1 == 1)
     }
 
     /// Whether one can go from `cell` to `direction`.
@@ -79,10 +99,12 @@ impl Maze {
     pub fn set_wall(&mut self, cell: Cell, direction: Direction, stands: bool) {
         let wall = self.grid.wall(cell, direction).0;
         let bit = 1 << (wall % 64);
-        if stands {
-            self.standing[wall as usize / 64] |= bit;
-        } else {
-            self.standing[wall as usize / 64] &= !bit;
+        if let Some(word) = self.standing.get_mut(wall as usize / 64) {
+            if stands {
+                *word |= bit;
+            } else {
+                *word &= !bit;
+            }
         }
     }
 
@@ -92,6 +114,34 @@ impl Maze {
             let next = self.grid.neighbour(cell, direction)?;
             self.is_open(cell, direction).then_some((direction, next))
         })
+    }
+
+    /// To how many sides `cell` is open: 0 enclosed, 1 a dead end, 2 a corridor or bend, 3 or 4 a
+    /// junction.
+    #[must_use]
+    pub fn degree(&self, cell: Cell) -> usize {
+        self.neighbours(cell).count()
+    }
+
+    /// The cells open to one side only, in the order of [`Grid::index`].
+    pub fn dead_ends(&self) -> impl Iterator<Item = Cell> + '_ {
+        self.grid.cells().filter(|cell| self.degree(*cell) == 1)
+    }
+
+    /// The cells open to three or four sides, in the order of [`Grid::index`].
+    pub fn junctions(&self) -> impl Iterator<Item = Cell> + '_ {
+        self.grid.cells().filter(|cell| self.degree(*cell) >= 3)
+    }
+
+    /// How many inner edges no wall stands on. A maze is perfect (every two cells are joined by
+    /// exactly one way) when all its cells hang together and this is one less than they are many.
+    #[must_use]
+    pub fn opening_count(&self) -> usize {
+        self.grid
+            .cells()
+            .map(|cell| self.degree(cell))
+            .sum::<usize>()
+            / 2
     }
 
     /// Where runs begin and which way the robot looks, if the maze says so.
@@ -122,10 +172,28 @@ impl Maze {
     /// way leads there. O(cells).
     #[must_use]
     pub fn steps_to_goal(&self) -> Vec<Option<u32>> {
+        self.steps_to(&self.goals)
+    }
+
+    /// For every cell, by [`Grid::index`], the number of steps to the nearest of `targets`, or none
+    /// where no way leads there. O(cells).
+    ///
+    /// ```
+    /// use tolman_maze::{Cell, Grid, Maze};
+    ///
+    /// let maze = Maze::open(Grid::new(3, 1));
+    /// assert_eq!(maze.steps_to(&[Cell::new(2, 0)]), [Some(2), Some(1), Some(0)]);
+    /// ```
+    #[must_use]
+    pub fn steps_to(&self, targets: &[Cell]) -> Vec<Option<u32>> {
         let mut steps = vec![None; self.grid.cell_count()];
-        let mut frontier: Vec<Cell> = self.goals.clone();
-        for goal in &frontier {
-            steps[self.grid.index(*goal)] = Some(0);
+        let on_grid = targets
+            .iter()
+            .copied()
+            .filter(|cell| self.grid.contains(*cell));
+        let mut frontier: Vec<Cell> = on_grid.collect();
+        for target in &frontier {
+            steps[self.grid.index(*target)] = Some(0);
         }
         let mut depth = 0;
         while !frontier.is_empty() {
@@ -143,5 +211,179 @@ impl Maze {
             frontier = next;
         }
         steps
+    }
+
+    /// Whether a robot can be put into this maze and sent to its destination: the border is closed,
+    /// there is a goal, start and goals lie on the grid, and a way leads from the start to at least
+    /// one goal (without a start: from some other cell). Other cells may be enclosed. O(cells).
+    ///
+    /// # Errors
+    /// The first of these that does not hold, with the cell it fails at.
+    pub fn check(&self) -> Result<(), CheckError> {
+        self.check_structure()?;
+        let Some(goal) = self.goals.first().copied() else {
+            return Err(CheckError::NoGoal);
+        };
+        match self.start {
+            Some((start, _)) if self.steps_to_goal()[self.grid.index(start)].is_none() => {
+                Err(CheckError::NoWay { start, goal })
+            }
+            None if self.goals.iter().all(|goal| self.degree(*goal) == 0) => {
+                Err(CheckError::Enclosed { goal })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The part of [`Maze::check`] that every file must hold: cells, closed border, marks on the grid.
+    pub(crate) fn check_structure(&self) -> Result<(), CheckError> {
+        if self.grid.cell_count() == 0 {
+            return Err(CheckError::NoCells);
+        }
+        if let Some((cell, direction)) = self
+            .grid
+            .border()
+            .find(|(cell, direction)| self.is_open(*cell, *direction))
+        {
+            return Err(CheckError::OpenBorder { cell, direction });
+        }
+        if let Some((start, _)) = self.start
+            && !self.grid.contains(start)
+        {
+            return Err(CheckError::StartOutside {
+                start,
+                grid: self.grid,
+            });
+        }
+        match self.goals.iter().find(|goal| !self.grid.contains(**goal)) {
+            Some(goal) => Err(CheckError::GoalOutside {
+                goal: *goal,
+                grid: self.grid,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Maze {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formats::draw(self, formatter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A 3 × 1 maze with the start in the west and the goal in the east.
+    fn corridor() -> Maze {
+        let mut maze = Maze::open(Grid::new(3, 1));
+        maze.set_start(Some((Cell::new(0, 0), Direction::East)));
+        maze.set_goals(vec![Cell::new(2, 0)]);
+        maze
+    }
+
+    #[test]
+    fn check_names_what_is_wrong() {
+        let (west, middle, east) = (Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0));
+        let outside = Cell::new(3, 0);
+        let grid = Grid::new(3, 1);
+        let check = |change: fn(&mut Maze), expect: Result<(), CheckError>| {
+            let mut maze = corridor();
+            change(&mut maze);
+            assert_eq!(maze.check(), expect, "\n{maze}");
+        };
+        check(|_| (), Ok(()));
+        check(|maze| maze.set_goals(vec![]), Err(CheckError::NoGoal));
+        check(
+            |maze| maze.set_goals(vec![Cell::new(3, 0)]),
+            Err(CheckError::GoalOutside {
+                goal: outside,
+                grid,
+            }),
+        );
+        check(
+            |maze| maze.set_start(Some((Cell::new(3, 0), Direction::North))),
+            Err(CheckError::StartOutside {
+                start: outside,
+                grid,
+            }),
+        );
+        check(
+            |maze| maze.set_wall(Cell::new(1, 0), Direction::West, true),
+            Err(CheckError::NoWay {
+                start: west,
+                goal: east,
+            }),
+        );
+        check(
+            |maze| maze.set_wall(Cell::new(1, 0), Direction::North, false),
+            Err(CheckError::OpenBorder {
+                cell: middle,
+                direction: Direction::North,
+            }),
+        );
+        check(
+            |maze| {
+                maze.set_start(None);
+                maze.set_wall(Cell::new(2, 0), Direction::West, true);
+            },
+            Err(CheckError::Enclosed { goal: east }),
+        );
+        assert_eq!(
+            Maze::open(Grid::new(0, 4)).check(),
+            Err(CheckError::NoCells)
+        );
+    }
+
+    #[test]
+    fn one_reachable_goal_of_several_is_enough() {
+        let mut maze = corridor();
+        maze.set_goals(vec![Cell::new(1, 0), Cell::new(2, 0)]);
+        maze.set_wall(Cell::new(2, 0), Direction::West, true);
+        assert_eq!(maze.check(), Ok(()));
+    }
+
+    #[test]
+    fn solid_and_open_differ_in_the_inner_walls_only() {
+        let grid = Grid::new(5, 7);
+        let (open, solid) = (Maze::open(grid), Maze::solid(grid));
+        for cell in grid.cells() {
+            for direction in Direction::ALL {
+                let inner = grid.neighbour(cell, direction).is_some();
+                assert_eq!(open.is_open(cell, direction), inner);
+                assert!(!solid.is_open(cell, direction));
+            }
+        }
+        let inner_walls = 4 * 7 + 5 * 6;
+        assert_eq!(
+            (open.opening_count(), solid.opening_count()),
+            (inner_walls, 0)
+        );
+
+        let mut emptied = solid;
+        for cell in grid.cells() {
+            for direction in Direction::ALL {
+                emptied.set_wall(cell, direction, grid.neighbour(cell, direction).is_none());
+            }
+        }
+        assert_eq!(emptied, open, "equal walls make equal mazes");
+    }
+
+    #[test]
+    fn degrees_tell_dead_ends_and_junctions_apart() {
+        let mut maze = Maze::open(Grid::new(3, 2));
+        maze.set_wall(Cell::new(0, 0), Direction::East, true);
+        maze.set_wall(Cell::new(2, 0), Direction::North, true);
+        let dead_ends = [Cell::new(0, 0), Cell::new(2, 0), Cell::new(2, 1)];
+        assert_eq!(maze.dead_ends().collect::<Vec<_>>(), dead_ends);
+        assert_eq!(maze.junctions().collect::<Vec<_>>(), [Cell::new(1, 1)]);
+    }
+
+    #[test]
+    fn beyond_the_grid_every_wall_stands() {
+        let maze = Maze::open(Grid::new(2, 2));
+        assert!(maze.stands(Wall(u32::MAX)));
+        assert_eq!(maze.steps_to(&[Cell::new(9, 9)]), [None; 4]);
     }
 }

@@ -1,0 +1,70 @@
+use crate::{Cell, Direction, Grid};
+
+/// Why a robot cannot be sent through a maze; see [`Maze::check`](crate::Maze::check).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckError {
+    /// The grid has no cell at all.
+    #[error("the maze has no cells: give it at least one column and one row")]
+    NoCells,
+    /// One could walk out of the maze.
+    #[error("the border of cell {cell} is open to the {direction}: close it with a wall")]
+    OpenBorder {
+        /// The cell at the border.
+        cell: Cell,
+        /// The side that must be closed.
+        direction: Direction,
+    },
+    /// There is nowhere to go.
+    #[error("the maze has no goal: mark at least one cell as the destination")]
+    NoGoal,
+    /// The start is not a cell of the maze.
+    #[error(
+        "the start {start} lies outside the maze: columns run from 0 to {}, rows from 0 to {}",
+        grid.width().saturating_sub(1), grid.height().saturating_sub(1)
+    )]
+    StartOutside {
+        /// The start as given.
+        start: Cell,
+        /// The size of the maze.
+        grid: Grid,
+    },
+    /// A goal is not a cell of the maze.
+    #[error(
+        "the goal {goal} lies outside the maze: columns run from 0 to {}, rows from 0 to {}",
+        grid.width().saturating_sub(1), grid.height().saturating_sub(1)
+    )]
+    GoalOutside {
+        /// The goal as given.
+        goal: Cell,
+        /// The size of the maze.
+        grid: Grid,
+    },
+    /// Walls part the start from every goal.
+    #[error("no way leads from the start {start} to the goal {goal}: open a wall between them")]
+    NoWay {
+        /// Where runs begin.
+        start: Cell,
+        /// The first of the goals.
+        goal: Cell,
+    },
+    /// The maze has no start, and all four walls of every goal stand.
+    #[error("the goal {goal} is walled in on all four sides: open one of its walls")]
+    Enclosed {
+        /// The first of the goals.
+        goal: Cell,
+    },
+}
+
+impl CheckError {
+    /// The cell to look at, if it is one of the maze.
+    pub(crate) const fn cell(self) -> Option<Cell> {
+        match self {
+            Self::OpenBorder { cell, .. } => Some(cell),
+            Self::NoWay { goal, .. } | Self::Enclosed { goal } => Some(goal),
+            Self::NoCells | Self::NoGoal | Self::StartOutside { .. } | Self::GoalOutside { .. } => {
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,359 @@
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::Format;
+use crate::{Cell, CheckError, Direction, Grid};
+
+/// Why a text is not a maze, and where.
+///
+/// The text has no file name; whoever opened the file puts it before the message.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}, column {column}: {fault}")]
+pub struct MazeError {
+    /// The line, counted from 1.
+    pub line: usize,
+    /// The character in the line, counted from 1.
+    pub column: usize,
+    /// What is wrong there.
+    pub fault: Fault,
+}
+
+impl MazeError {
+    pub(super) fn at_start(fault: Fault) -> Self {
+        super::Place::default().fault(fault)
+    }
+}
+
+/// What can be wrong with a maze file. Every message names the offending value and the repair.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// Nothing but blanks.
+    #[error("the file is empty: expected a maze")]
+    Empty,
+    /// The first line is none that a maze file begins with.
+    #[error(
+        "found `{found}`, with which no maze file begins: expected a drawing of posts `o` or `+` and \
+         walls `---` and `|`, a `key = value` line before one, a size above rows of numbers, or \
+         lines `X Y N E S W`"
+    )]
+    UnknownFormat {
+        /// The beginning of the line.
+        found: String,
+    },
+
+    /// A character of a drawing that does not belong where it is.
+    #[error("found {found:?}: expected {expected}")]
+    Character {
+        /// The character, a line feed at the end of a line.
+        found: char,
+        /// What may stand there.
+        expected: &'static str,
+    },
+    /// A tab, whose width nobody knows.
+    #[error("found a tab: draw with blanks")]
+    Tab,
+    /// A line that goes on beyond the east border.
+    #[error(
+        "the drawing goes on beyond the east border: its first line has posts for {width} columns \
+         (one every 4 characters); make all lines equally long"
+    )]
+    BeyondBorder {
+        /// Columns of the first line.
+        width: usize,
+    },
+    /// A drawing without its last line.
+    #[error(
+        "the drawing stops after {lines} lines, in the middle of a row: n rows of cells take 2n + 1 \
+         lines, the last of them the south border"
+    )]
+    Unfinished {
+        /// Lines of the drawing.
+        lines: usize,
+    },
+    /// A second `S`.
+    #[error("the start is marked twice, in {first} and in {second}: keep one `S`")]
+    TwoStarts {
+        /// The cell of the first mark.
+        first: Cell,
+        /// The cell of this one.
+        second: Cell,
+    },
+
+    /// Something that is not the number that belongs there.
+    #[error("found `{found}`: expected {expected}")]
+    Number {
+        /// The text that stands there.
+        found: String,
+        /// What may stand there.
+        expected: &'static str,
+    },
+    /// Too few or too many lines or items.
+    #[error("found {found} {what}, expected {expected}: {repair}")]
+    Count {
+        /// How many there are; of lines and items beyond the last one, only the first is counted.
+        found: usize,
+        /// How many there must be.
+        expected: usize,
+        /// What was counted.
+        what: &'static str,
+        /// What to do about it.
+        repair: &'static str,
+    },
+    /// A maze beyond [`Grid::MAX_SIDE`].
+    #[error(
+        "a side of {side} cells is too long: mazes of up to {} are read",
+        Grid::MAX_SIDE
+    )]
+    TooLarge {
+        /// The side asked for.
+        side: usize,
+    },
+    /// Two cells that tell different things about the wall between them.
+    #[error(
+        "cell {cell} is {} to the {direction}, but {neighbour} beyond is {} to the {}: make the two \
+         agree", side(*open), side(!*open), direction.opposite()
+    )]
+    Disagree {
+        /// The cell at this place.
+        cell: Cell,
+        /// The side in question.
+        direction: Direction,
+        /// Whether `cell` says that it is open.
+        open: bool,
+        /// The cell beyond.
+        neighbour: Cell,
+    },
+    /// A cell listed twice.
+    #[error("cell {cell} was already given on line {first_line}: keep one of the two lines")]
+    Duplicate {
+        /// The cell.
+        cell: Cell,
+        /// Where it is given first.
+        first_line: usize,
+    },
+    /// A cell that is not listed.
+    #[error("cell {cell} of the {width} × {height} maze is missing: add a line for it", width = grid.width(), height = grid.height())]
+    Missing {
+        /// The first such cell from the south-west, row by row.
+        cell: Cell,
+        /// The size the other cells give.
+        grid: Grid,
+    },
+
+    /// A header and nothing below it.
+    #[error(
+        "the drawing is missing: draw the maze below the header, with posts and walls as in `+---+`"
+    )]
+    NoDrawing,
+    /// A line before the drawing that is no `key = value`.
+    #[error("found `{found}`: expected `key = value`, a comment after `#`, or the drawing")]
+    NotAKey {
+        /// The beginning of the line.
+        found: String,
+    },
+    /// A key that no maze file has.
+    #[error("`{found}` is no key of a maze file: use {}", super::tolman::KEYS.join(", "))]
+    UnknownKey {
+        /// The key.
+        found: String,
+    },
+    /// A key given twice.
+    #[error("`{key}` was already given on line {first_line}: keep one of the two lines")]
+    RepeatedKey {
+        /// The key.
+        key: &'static str,
+        /// Where it is given first.
+        first_line: usize,
+    },
+    /// A value its key cannot have.
+    #[error("found `{found}` for `{key}`: expected {expected}")]
+    Value {
+        /// The key.
+        key: &'static str,
+        /// Its value.
+        found: String,
+        /// What it may be.
+        expected: &'static str,
+    },
+    /// The header and the drawing tell different starts.
+    #[error("`start` is {header}, but the drawing has its `S` in {drawing}: drop one of the two")]
+    StartDisagrees {
+        /// The cell of the header.
+        header: Cell,
+        /// The cell of the mark.
+        drawing: Cell,
+    },
+    /// The header and the drawing tell different destinations.
+    #[error(
+        "`destination` is {}, but the drawing has its `G` in {}: drop one of the two",
+        Cells(header),
+        Cells(drawing)
+    )]
+    DestinationDisagrees {
+        /// The cells of the header.
+        header: Vec<Cell>,
+        /// The cells of the marks.
+        drawing: Vec<Cell>,
+    },
+    /// Text below the drawing of a tolman maze.
+    #[error("found `{found}` below the drawing: put it above, or after a `#`")]
+    BelowDrawing {
+        /// The beginning of the line.
+        found: String,
+    },
+
+    /// A maze that is told without a fault, but cannot be used.
+    #[error(transparent)]
+    Maze(#[from] CheckError),
+}
+
+impl Fault {
+    pub(super) fn unknown_format(found: &str) -> Self {
+        Self::UnknownFormat {
+            found: excerpt(found),
+        }
+    }
+
+    pub(super) fn number(found: &str, expected: &'static str) -> Self {
+        Self::Number {
+            found: excerpt(found),
+            expected,
+        }
+    }
+}
+
+/// Why a format cannot hold a maze.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// No format holds a maze with an open border or with marks outside.
+    #[error(transparent)]
+    Maze(#[from] CheckError),
+    /// A maze beyond [`Grid::MAX_SIDE`] could not be read again.
+    #[error(
+        "a side of {side} cells is too long: mazes of up to {} are written",
+        Grid::MAX_SIDE
+    )]
+    TooLarge {
+        /// The longer side.
+        side: u16,
+    },
+    /// The numbers know even squares only.
+    #[error(
+        "the format `{format}` cannot hold a maze of {} × {} cells: it needs a square of even size; \
+         write it as `{}`", grid.width(), grid.height(), Format::Tolman
+    )]
+    Shape {
+        /// The format asked for.
+        format: Format,
+        /// The size of the maze.
+        grid: Grid,
+    },
+    /// The start would be lost.
+    #[error(
+        "the format `{format}` cannot hold {}: {}; write it as `{}`",
+        Start(*start), start_rule(*format), Format::Tolman
+    )]
+    Start {
+        /// The format asked for.
+        format: Format,
+        /// The start of the maze.
+        start: Option<(Cell, Direction)>,
+    },
+    /// The goals would be lost.
+    #[error(
+        "the format `{format}` cannot hold the goals {}: they are always the middle, {}; write it as \
+         `{}`",
+        Cells(goals),
+        Cells(middle),
+        Format::Tolman
+    )]
+    Goals {
+        /// The format asked for.
+        format: Format,
+        /// The goals of the maze.
+        goals: Vec<Cell>,
+        /// The goals the format stands for.
+        middle: Vec<Cell>,
+    },
+    /// A name that does not fit one line.
+    #[error("the name {name:?} has a line break: a maze's name is one line")]
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// A corridor width that no corridor has.
+    #[error("the corridor width {width} m must be a number above 0")]
+    CorridorWidth {
+        /// The width, m.
+        width: f64,
+    },
+}
+
+/// The name of no [`Format`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{name}` is no maze format: use numbers, mazefiles, num or tolman")]
+pub struct UnknownFormat {
+    /// The name as given.
+    pub name: String,
+}
+
+/// The side of a grid that is too long to be read or written, if any.
+pub(super) fn too_large(grid: Grid) -> Option<u16> {
+    Some(grid.width().max(grid.height())).filter(|side| *side > Grid::MAX_SIDE)
+}
+
+/// Enough of a text to recognize it by: files can have lines of any length.
+pub(super) fn excerpt(text: &str) -> String {
+    const LIMIT: usize = 40;
+    let mut short: String = text.chars().take(LIMIT).collect();
+    if text.chars().nth(LIMIT).is_some() {
+        short.push('…');
+    }
+    short
+}
+
+const fn side(open: bool) -> &'static str {
+    if open { "open" } else { "walled" }
+}
+
+const fn start_rule(format: Format) -> &'static str {
+    match format {
+        Format::Mazefiles => "it has an S that looks north",
+        _ => "its start is always (0, 0) looking north",
+    }
+}
+
+struct Start(Option<(Cell, Direction)>);
+
+impl fmt::Display for Start {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some((cell, heading)) => write!(formatter, "the start {cell} looking {heading}"),
+            None => formatter.write_str("a maze without a start"),
+        }
+    }
+}
+
+/// The first few cells of a list.
+struct Cells<'a>(&'a [Cell]);
+
+impl fmt::Display for Cells<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const SHOWN: usize = 8;
+        if self.0.is_empty() {
+            return formatter.write_str("none");
+        }
+        for (index, cell) in self.0.iter().take(SHOWN).enumerate() {
+            let comma = if index == 0 { "" } else { ", " };
+            write!(formatter, "{comma}{cell}")?;
+        }
+        if self.0.len() > SHOWN {
+            formatter.write_str(", …")
+        } else {
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! The text formats, one file each; detection and the entry points here.
+
+mod drawing;
+mod error;
+mod lines;
+mod mazefiles;
+mod num;
+mod numbers;
+mod sides;
+mod tolman;
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
+
+pub(crate) use drawing::draw;
+pub use error::{Fault, MazeError, UnknownFormat, WriteError};
+use lines::{Lines, Place};
+
+use crate::{Cell, Direction, Maze};
+
+/// What a maze file tells: the maze, and what only tolman's own format can add to it.
+///
+/// ```
+/// use tolman_maze::{Format, MazeFile, read, write};
+///
+/// let text = "\
+/// name = Two rooms
+/// corridor_width = 0.5
+///
+/// +---+---+
+/// | S   G |
+/// +---+---+
+/// ";
+/// let file: MazeFile = read(text).unwrap();
+/// assert_eq!(file.name.as_deref(), Some("Two rooms"));
+/// assert_eq!(file.corridor_width, Some(0.5));
+/// assert_eq!(write(&file, Format::Mazefiles).unwrap(), "o---o---o\n| S   G |\no---o---o\n");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct MazeFile {
+    /// What people call the maze.
+    pub name: Option<String>,
+    /// The side of a cell, m; finite and above 0. `None` leaves it to the world that is built.
+    pub corridor_width: Option<f64>,
+    /// The maze itself.
+    pub maze: Maze,
+}
+
+impl From<Maze> for MazeFile {
+    /// A maze without a name, in corridors of no stated width.
+    fn from(maze: Maze) -> Self {
+        Self {
+            name: None,
+            corridor_width: None,
+            maze,
+        }
+    }
+}
+
+/// A text format of mazes. Its name (`numbers`, `mazefiles`, `num`, `tolman`) is what it displays as
+/// and parses from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// The numbers of the micromouse paper's test program. Line 1 is the size n, an even number; then
+    /// line x has n comma-separated numbers, item y of it the sum of the open sides of the cell in
+    /// column x from the west and row y from the south: 1 north, 2 east, 4 south, 8 west. Squares
+    /// only; the start is the south-west cell, looking north; the goal is the middle 2 × 2.
+    Numbers,
+    /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first;
+    /// posts `o` or `+`, walls `---` and `|`, marks `S` and `G`. Without an `S` the start is the
+    /// south-west cell; it looks north. The drawing ends at the first line that starts with neither a
+    /// post, a wall nor a blank; what follows is ignored.
+    Mazefiles,
+    /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
+    /// stands. The start is the south-west cell, looking north; the goal is the middle.
+    Num,
+    /// tolman's own file for corridor worlds: `key = value` lines, then a drawing. All of
+    /// `docs/maze-format.md`.
+    Tolman,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Numbers, Self::Mazefiles, Self::Num, Self::Tolman];
+
+    /// The name, as a command line takes it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Numbers => "numbers",
+            Self::Mazefiles => "mazefiles",
+            Self::Num => "num",
+            Self::Tolman => "tolman",
+        }
+    }
+
+    /// The usual file extension, without the dot. Two formats share `txt`: what a file holds is
+    /// found by its text, see [`Format::detect`].
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Numbers | Self::Mazefiles => "txt",
+            Self::Num => "num",
+            Self::Tolman => "maze",
+        }
+    }
+
+    /// The format that `text` is in, by its first line that is not blank: a `key = value` or a
+    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`], one number (or numbers parted by
+    /// commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
+    ///
+    /// # Errors
+    /// [`Fault::Empty`], or [`Fault::UnknownFormat`] with the line.
+    ///
+    /// ```
+    /// use tolman_maze::Format;
+    ///
+    /// assert_eq!(Format::detect("o---o---o\n").unwrap(), Format::Mazefiles);
+    /// assert_eq!(Format::detect("12\n1,5,7\n").unwrap(), Format::Numbers);
+    /// assert!(Format::detect("<html>").is_err());
+    /// ```
+    pub fn detect(text: &str) -> Result<Self, MazeError> {
+        let mut lines = Lines::of(text);
+        let line = lines
+            .next_filled()
+            .ok_or(MazeError::at_start(Fault::Empty))?;
+        let first = line.text.trim();
+        if first.starts_with('#') || first.contains('=') {
+            Ok(Self::Tolman)
+        } else if first.starts_with(drawing::is_post) {
+            Ok(Self::Mazefiles)
+        } else if first.contains(|c: char| !c.is_ascii_digit() && !matches!(c, ',' | ' ' | '\t')) {
+            Err(line.place_of(first).fault(Fault::unknown_format(first)))
+        } else if first.contains([' ', '\t']) && !first.contains(',') {
+            Ok(Self::Num)
+        } else {
+            Ok(Self::Numbers)
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl FromStr for Format {
+    type Err = UnknownFormat;
+
+    fn from_str(name: &str) -> Result<Self, UnknownFormat> {
+        let found = Self::ALL.into_iter().find(|format| format.name() == name);
+        found.ok_or_else(|| UnknownFormat {
+            name: name.to_string(),
+        })
+    }
+}
+
+/// Reads a maze file of any [`Format`] and checks that its maze can be solved.
+///
+/// # Errors
+/// The first fault of the text (see [`parse`]) or of the maze (see [`Maze::check`]), with its line
+/// and column.
+///
+/// ```
+/// let text = "\
+/// +---+---+
+/// | S | G |
+/// +---+---+
+/// ";
+/// assert_eq!(
+///     tolman_maze::read(text).unwrap_err().to_string(),
+///     "line 2, column 7: no way leads from the start (0, 0) to the goal (1, 0): open a wall between them",
+/// );
+/// ```
+pub fn read(text: &str) -> Result<MazeFile, MazeError> {
+    read_as(text, Format::detect(text)?)
+}
+
+/// [`read`] for a format known beforehand.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_as(text: &str, format: Format) -> Result<MazeFile, MazeError> {
+    parsed(text, format)?.checked()
+}
+
+/// Reads a maze file of any [`Format`], whether or not its maze can be solved: for tools that show or
+/// repair mazes. Everything else goes through [`read`].
+///
+/// # Errors
+/// The first fault of the text, with its line and column: nothing is guessed.
+pub fn parse(text: &str) -> Result<MazeFile, MazeError> {
+    parse_as(text, Format::detect(text)?)
+}
+
+/// [`parse`] for a format known beforehand.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_as(text: &str, format: Format) -> Result<MazeFile, MazeError> {
+    parsed(text, format).map(|parsed| parsed.file)
+}
+
+/// The text of `file` in `format`: reading it gives the same maze again. The name and the corridor
+/// width are left out where the format has no room for them, that is in all but [`Format::Tolman`].
+///
+/// # Errors
+/// What of the maze the format cannot hold.
+pub fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
+    file.maze.check_structure()?;
+    let grid = file.maze.grid();
+    if let Some(side) = error::too_large(grid) {
+        return Err(WriteError::TooLarge { side });
+    }
+    match format {
+        Format::Numbers => numbers::write(&file.maze),
+        Format::Mazefiles => mazefiles::write(&file.maze),
+        Format::Num => num::write(&file.maze),
+        Format::Tolman => tolman::write(file),
+    }
+}
+
+fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
+    let mut lines = Lines::of(text);
+    if lines.clone().next_filled().is_none() {
+        return Err(MazeError::at_start(Fault::Empty));
+    }
+    match format {
+        Format::Numbers => numbers::parse(&mut lines),
+        Format::Mazefiles => mazefiles::parse(&mut lines),
+        Format::Num => num::parse(&mut lines),
+        Format::Tolman => tolman::parse(&mut lines),
+    }
+}
+
+/// What a text holds, and where in it each cell stands, for faults found only later.
+struct Parsed {
+    file: MazeFile,
+    /// By [`Grid::index`](crate::Grid::index).
+    places: Vec<Place>,
+}
+
+impl Parsed {
+    fn new(maze: Maze, places: Vec<Place>) -> Self {
+        Self {
+            file: maze.into(),
+            places,
+        }
+    }
+
+    fn checked(self) -> Result<MazeFile, MazeError> {
+        let Err(error) = self.file.maze.check() else {
+            return Ok(self.file);
+        };
+        let grid = self.file.maze.grid();
+        let place = error
+            .cell()
+            .and_then(|cell| self.places.get(grid.index(cell)));
+        Err(place.copied().unwrap_or_default().fault(Fault::Maze(error)))
+    }
+}
+
+/// Start and goals of the formats that leave them unsaid: the south-west cell looking north, and the
+/// middle.
+fn mark_classic(maze: &mut Maze) {
+    maze.set_start(Some(CLASSIC_START));
+    maze.set_goals(maze.grid().middle().collect());
+}
+
+/// Whether start and goals are those of [`mark_classic`]; such formats can hold no others.
+fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
+    let mut goals: Vec<Cell> = maze.grid().middle().collect();
+    goals.sort_unstable();
+    if maze.start() != Some(CLASSIC_START) {
+        Err(WriteError::Start {
+            format,
+            start: maze.start(),
+        })
+    } else if maze.goals() != goals {
+        Err(WriteError::Goals {
+            format,
+            goals: maze.goals().to_vec(),
+            middle: goals,
+        })
+    } else {
+        Ok(())
+    }
+}
+
+const CLASSIC_START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);

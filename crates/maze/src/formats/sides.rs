@@ -1,0 +1,61 @@
+//! Mazes told cell by cell: each wall is told twice, and the two must agree.
+
+use alloc::vec::Vec;
+
+use super::{Fault, MazeError, Place};
+use crate::{Cell, CheckError, Direction, Grid, Maze};
+
+/// What a text says of one cell.
+#[derive(Clone, Copy)]
+pub(super) struct Sides {
+    /// Bit `1 << direction.index()` is set where the cell is open.
+    pub(super) open: u8,
+    pub(super) place: Place,
+}
+
+impl Sides {
+    pub(super) const fn is_open(self, direction: Direction) -> bool {
+        self.open >> direction.index() & 1 == 1
+    }
+}
+
+/// The bits of [`Sides::open`] of a cell of `maze`.
+pub(super) fn open_sides(maze: &Maze, cell: Cell) -> u8 {
+    let bit = |direction: Direction| u8::from(maze.is_open(cell, direction)) << direction.index();
+    Direction::ALL.into_iter().map(bit).sum()
+}
+
+/// The maze of which `sides` tells every cell, by [`Grid::index`].
+pub(super) fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
+    let mut maze = Maze::open(grid);
+    for (cell, here) in grid.cells().zip(sides) {
+        for direction in Direction::ALL {
+            let open = here.is_open(direction);
+            match grid.neighbour(cell, direction) {
+                Some(neighbour) => {
+                    let there = sides[grid.index(neighbour)];
+                    if there.is_open(direction.opposite()) != open {
+                        let fault = Fault::Disagree {
+                            cell,
+                            direction,
+                            open,
+                            neighbour,
+                        };
+                        return Err(here.place.fault(fault));
+                    }
+                    maze.set_wall(cell, direction, !open);
+                }
+                None if open => {
+                    let fault = Fault::Maze(CheckError::OpenBorder { cell, direction });
+                    return Err(here.place.fault(fault));
+                }
+                None => {}
+            }
+        }
+    }
+    Ok(maze)
+}
+
+pub(super) fn places(sides: &[Sides]) -> Vec<Place> {
+    sides.iter().map(|sides| sides.place).collect()
+}

@@ -1,0 +1,87 @@
+use alloc::vec::Vec;
+
+use rand::Rng;
+
+use super::{GenerateError, Perfect, chance};
+use crate::{Cell, Direction, Maze};
+
+/// A maze with loops: a [`Perfect`] one of whose dead ends a share is opened.
+///
+/// A dead end is opened by removing one of its inner walls, at random, rather one to another dead
+/// end. The start keeps its three walls. With a share of 0 the maze stays perfect; with 1 no other dead end is
+/// left, except where a corridor of one row or column ends. O(cells).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Braided {
+    /// Columns.
+    pub width: u16,
+    /// Rows.
+    pub height: u16,
+    /// The share of dead ends to open, 0 … 1.
+    pub share: f64,
+}
+
+impl Braided {
+    /// Generates the maze that `rng` leads to.
+    ///
+    /// # Errors
+    /// [`GenerateError::Size`], [`GenerateError::Share`].
+    ///
+    /// ```
+    /// use rand::SeedableRng;
+    /// use tolman_maze::Braided;
+    ///
+    /// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(7);
+    /// let maze = Braided { width: 8, height: 8, share: 1.0 }.generate(&mut rng).unwrap();
+    /// // Only the start is still one.
+    /// assert_eq!(maze.dead_ends().count(), 1);
+    /// ```
+    pub fn generate(&self, rng: &mut impl Rng) -> Result<Maze, GenerateError> {
+        if !(0.0..=1.0).contains(&self.share) {
+            return Err(GenerateError::Share { share: self.share });
+        }
+        let mut maze = Perfect {
+            width: self.width,
+            height: self.height,
+        }
+        .generate(rng)?;
+        let start = maze.start().map(|(start, _)| start);
+        let mut closed: Vec<Cell> = maze
+            .dead_ends()
+            .filter(|cell| Some(*cell) != start)
+            .collect();
+        // What was opened is counted by what remains, since one wall can open two. The cast rounds
+        // down, so half more makes it the nearest whole number.
+        let keep = ((1.0 - self.share) * closed.len() as f64 + 0.5) as usize;
+        chance::shuffle(&mut closed, rng);
+        let mut remaining = closed.len();
+        for cell in closed {
+            if remaining <= keep {
+                break;
+            }
+            if maze.degree(cell) == 1 {
+                remaining -= open(&mut maze, cell, start, rng);
+            }
+        }
+        Ok(maze)
+    }
+}
+
+/// Opens the dead end `cell`; how many dead ends that makes fewer.
+fn open(maze: &mut Maze, cell: Cell, start: Option<Cell>, rng: &mut impl Rng) -> usize {
+    let grid = maze.grid();
+    let walled = |direction| {
+        let beyond = grid.neighbour(cell, direction)?;
+        let closed = !maze.is_open(cell, direction) && Some(beyond) != start;
+        closed.then(|| (direction, maze.degree(beyond) == 1))
+    };
+    let mut walls: Vec<(Direction, bool)> = Direction::ALL.into_iter().filter_map(walled).collect();
+    if walls.iter().any(|(_, dead_end)| *dead_end) {
+        walls.retain(|(_, dead_end)| *dead_end);
+    }
+    if walls.is_empty() {
+        return 0;
+    }
+    let (direction, dead_end) = walls[chance::position(walls.len(), rng)];
+    maze.set_wall(cell, direction, false);
+    1 + usize::from(dead_end)
+}

@@ -1,0 +1,40 @@
+use crate::Grid;
+
+/// Why a maze cannot be generated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GenerateError {
+    /// Too small for a start and a goal, or beyond [`Grid::MAX_SIDE`].
+    #[error(
+        "a maze of {width} × {height} cells cannot be generated: it needs at least 2 cells, and at \
+         most {} a side",
+        Grid::MAX_SIDE
+    )]
+    Size {
+        /// Columns asked for.
+        width: u16,
+        /// Rows asked for.
+        height: u16,
+    },
+    /// The share of dead ends to open is none.
+    #[error("a share of {share} dead ends cannot be opened: give a number from 0 to 1")]
+    Share {
+        /// The share asked for.
+        share: f64,
+    },
+    /// No room has such sides.
+    #[error(
+        "rooms with sides of {smallest} to {largest} cells do not fit a maze of {width} × {height}: \
+         the shortest is at least 1, the longest no shorter, and no longer than the maze either way"
+    )]
+    RoomSide {
+        /// The shortest side asked for.
+        smallest: u16,
+        /// The longest side asked for.
+        largest: u16,
+        /// Columns of the maze.
+        width: u16,
+        /// Rows of the maze.
+        height: u16,
+    },
+}

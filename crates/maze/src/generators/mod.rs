@@ -1,0 +1,35 @@
+//! Seeded mazes. All share one way to mark start and goal.
+
+mod braided;
+mod chance;
+mod error;
+mod perfect;
+mod rooms;
+
+pub use braided::Braided;
+pub use error::GenerateError;
+pub use perfect::Perfect;
+pub use rooms::Rooms;
+
+use crate::{Cell, Direction, Grid, Maze};
+
+/// The grid of a size that mazes can be generated in.
+fn grid(width: u16, height: u16) -> Result<Grid, GenerateError> {
+    let grid = Grid::new(width, height);
+    if grid.cell_count() < 2 || width.max(height) > Grid::MAX_SIDE {
+        return Err(GenerateError::Size { width, height });
+    }
+    Ok(grid)
+}
+
+/// Start and goal where classic competitions have them: the south-west cell, looking through its
+/// first opening clockwise from north; and the middle.
+fn mark(maze: &mut Maze) {
+    let start = Cell::new(0, 0);
+    let heading = maze
+        .neighbours(start)
+        .next()
+        .map_or(Direction::North, |(heading, _)| heading);
+    maze.set_start(Some((start, heading)));
+    maze.set_goals(maze.grid().middle().collect());
+}

@@ -1,0 +1,282 @@
+//! What each format's texts mean, and what a format cannot hold.
+
+use tolman_maze::{
+    Cell, Direction, Format, Grid, Maze, MazeFile, WriteError, parse, parse_as, read, write,
+};
+
+/// A 4 × 4 maze, the same in all four formats.
+const DRAWN: &str = "\
+o---o---o---o---o
+|               |
+o   o---o---o   o
+|   | G   G |   |
+o   o   o   o   o
+|   | G   G     |
+o   o   o   o---o
+| S |           |
+o---o---o---o---o
+";
+const NUMBERS: &str = "4\n1,5,5,6\n3,7,6,10\n11,15,12,10\n8,9,5,12\n";
+
+fn drawn() -> Maze {
+    parse_as(DRAWN, Format::Mazefiles).unwrap().maze
+}
+
+#[test]
+fn a_drawing_is_read_as_it_looks() {
+    let maze = drawn();
+    assert_eq!(maze.grid(), Grid::new(4, 4));
+    assert_eq!(maze.start(), Some((Cell::new(0, 0), Direction::North)));
+    let goals = [
+        Cell::new(1, 1),
+        Cell::new(1, 2),
+        Cell::new(2, 1),
+        Cell::new(2, 2),
+    ];
+    assert_eq!(maze.goals(), goals);
+    let open = |cell: Cell| Direction::ALL.map(|direction| u8::from(maze.is_open(cell, direction)));
+    assert_eq!(
+        open(Cell::new(0, 0)),
+        [1, 0, 0, 0],
+        "north, east, south, west of the start"
+    );
+    assert_eq!(open(Cell::new(0, 3)), [0, 1, 1, 0]);
+    assert_eq!(open(Cell::new(2, 1)), [1, 1, 1, 1]);
+    assert_eq!(open(Cell::new(3, 0)), [0, 0, 0, 1]);
+    assert_eq!(maze.to_string(), DRAWN);
+}
+
+#[test]
+fn all_formats_tell_the_same_maze() {
+    let file = MazeFile::from(drawn());
+    for format in Format::ALL {
+        let text = write(&file, format).unwrap();
+        assert_eq!(Format::detect(&text).unwrap(), format);
+        assert_eq!(read(&text).unwrap(), file, "{format}:\n{text}");
+        let windows = format!("\u{feff}{}\r\n\r\n", text.replace('\n', "\r\n"));
+        assert_eq!(
+            read(&windows).unwrap(),
+            file,
+            "{format} with CR LF and a byte order mark"
+        );
+    }
+    assert_eq!(write(&file, Format::Numbers).unwrap(), NUMBERS);
+    let num = write(&file, Format::Num).unwrap();
+    assert!(num.starts_with("0 0 0 1 1 1\n0 1 0 1 0 1\n"), "{num}");
+    let shuffled: Vec<&str> = num.lines().rev().collect();
+    assert_eq!(
+        read(&shuffled.join("\n")).unwrap(),
+        file,
+        "cells may come in any order"
+    );
+}
+
+#[test]
+fn a_drawing_may_be_drawn_in_several_ways() {
+    let check = |text: &str| assert_eq!(read(text).unwrap().maze, drawn(), "\n{text}");
+    check(&DRAWN.replace('o', "+"));
+    check(&DRAWN.replace(" S ", "S  ").replace('G', "g"));
+    check(&DRAWN.replace('\n', "   \n"));
+    check(&DRAWN.replace('\n', "\n    ").replacen('o', "    o", 1));
+    check(&format!("\n\n{DRAWN}\n\n"));
+    check(&DRAWN.replace(" S ", "   "));
+    check(&format!("{DRAWN}Drawn in 1987.\n| not a wall |\n"));
+    check(&DRAWN.replacen('\n', "  the north border, größer\n", 1));
+}
+
+#[test]
+fn a_header_tells_what_a_drawing_cannot() {
+    let check = |header: &str, expect: MazeFile| {
+        let text = format!("{header}\n{DRAWN}");
+        assert_eq!(read(&text).unwrap(), expect, "{header}");
+    };
+    let plain = || MazeFile::from(drawn());
+    let facing = |heading| {
+        let mut file = plain();
+        file.maze.set_start(Some((Cell::new(0, 0), heading)));
+        file
+    };
+    check("# nothing", plain());
+    check("format = tolman maze 1", plain());
+    check(
+        "name = Grüne Ecke",
+        MazeFile {
+            name: Some("Grüne Ecke".to_owned()),
+            ..plain()
+        },
+    );
+    check(
+        "name=\" a \"b\"",
+        MazeFile {
+            name: Some(" a \"b".to_owned()),
+            ..plain()
+        },
+    );
+    check(
+        "  corridor_width =0.25 ",
+        MazeFile {
+            corridor_width: Some(0.25),
+            ..plain()
+        },
+    );
+    check(
+        "corridor_width = 1e1",
+        MazeFile {
+            corridor_width: Some(10.0),
+            ..plain()
+        },
+    );
+    check("start = 0 0", plain());
+    check("start = 0 0 North", plain());
+    check("start = (0, 0), east", facing(Direction::East));
+    check("start = 0,0,south", facing(Direction::South));
+    check("destination = 1 1, 1 2, 2 1, 2 2", plain());
+    check("destination = (2, 2); (1, 1); (1, 2); (2, 1)", plain());
+
+    let unmarked = DRAWN.replace(['S', 'G'], " ");
+    let text = format!("start = 3 3 west\ndestination = 0 1 3 0\n{unmarked}# the end\n");
+    let maze = read(&text).unwrap().maze;
+    assert_eq!(maze.start(), Some((Cell::new(3, 3), Direction::West)));
+    assert_eq!(maze.goals(), [Cell::new(0, 1), Cell::new(3, 0)]);
+
+    let anywhere = format!("destination = 3 0\n{unmarked}");
+    assert_eq!(
+        read(&anywhere).unwrap().maze.start(),
+        None,
+        "a corridor world needs no start"
+    );
+}
+
+#[test]
+fn tolmans_format_gives_everything_back() {
+    let mut maze = Maze::open(Grid::new(3, 2));
+    maze.set_goals(vec![Cell::new(2, 0)]);
+    let names = [
+        None,
+        Some(""),
+        Some("J"),
+        Some(" \"quoted\" = # ¶"),
+        Some("\""),
+    ];
+    let starts = [
+        None,
+        Some((Cell::new(0, 1), Direction::West)),
+        Some((Cell::new(2, 0), Direction::North)),
+    ];
+    for name in names {
+        for corridor_width in [None, Some(0.1), Some(f64::MIN_POSITIVE), Some(f64::MAX)] {
+            for start in starts {
+                maze.set_start(start);
+                let name = name.map(str::to_owned);
+                let file = MazeFile {
+                    name,
+                    corridor_width,
+                    maze: maze.clone(),
+                };
+                let text = write(&file, Format::Tolman).unwrap();
+                assert_eq!(read(&text).unwrap(), file, "\n{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_a_format_cannot_hold_it_refuses() {
+    let check = |change: fn(&mut MazeFile), format: Format, expect: &str| {
+        let mut file = MazeFile::from(drawn());
+        change(&mut file);
+        let error = write(&file, format).unwrap_err();
+        assert_eq!(error.to_string(), expect);
+    };
+    let goal = |file: &mut MazeFile| file.maze.set_goals(vec![Cell::new(3, 3)]);
+    check(
+        goal,
+        Format::Numbers,
+        "the format `numbers` cannot hold the goals (3, 3): they are always the middle, (1, 1), \
+         (1, 2), (2, 1), (2, 2); write it as `tolman`",
+    );
+    check(
+        |file| file.maze.set_goals(vec![]),
+        Format::Num,
+        "the format `num` cannot hold the goals none: they are always the middle, (1, 1), (1, 2), \
+         (2, 1), (2, 2); write it as `tolman`",
+    );
+    let east = |file: &mut MazeFile| {
+        file.maze
+            .set_start(Some((Cell::new(0, 0), Direction::East)));
+    };
+    check(
+        east,
+        Format::Num,
+        "the format `num` cannot hold the start (0, 0) looking east: its start is always (0, 0) \
+         looking north; write it as `tolman`",
+    );
+    check(
+        |file| file.maze.set_start(None),
+        Format::Mazefiles,
+        "the format `mazefiles` cannot hold a maze without a start: it has an S that looks north; \
+         write it as `tolman`",
+    );
+    check(
+        |file| file.maze = Maze::open(Grid::new(3, 3)),
+        Format::Numbers,
+        "the format `numbers` cannot hold a maze of 3 × 3 cells: it needs a square of even size; \
+         write it as `tolman`",
+    );
+    check(
+        |file| file.name = Some("two\nlines".to_owned()),
+        Format::Tolman,
+        "the name \"two\\nlines\" has a line break: a maze's name is one line",
+    );
+    check(
+        |file| file.corridor_width = Some(f64::NAN),
+        Format::Tolman,
+        "the corridor width NaN m must be a number above 0",
+    );
+    check(
+        |file| file.maze.set_wall(Cell::new(3, 2), Direction::East, false),
+        Format::Tolman,
+        "the border of cell (3, 2) is open to the east: close it with a wall",
+    );
+    check(
+        |file| file.maze.set_goals(vec![Cell::new(4, 0)]),
+        Format::Tolman,
+        "the goal (4, 0) lies outside the maze: columns run from 0 to 3, rows from 0 to 3",
+    );
+    check(
+        |file| file.maze = Maze::open(Grid::new(1, 1025)),
+        Format::Tolman,
+        "a side of 1025 cells is too long: mazes of up to 1024 are written",
+    );
+    let file = MazeFile::from(Maze::open(Grid::new(0, 3)));
+    assert!(matches!(
+        write(&file, Format::Num),
+        Err(WriteError::Maze(_))
+    ));
+}
+
+#[test]
+fn the_largest_maze_goes_through_every_format() {
+    let mut maze = Maze::open(Grid::new(Grid::MAX_SIDE, Grid::MAX_SIDE));
+    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    maze.set_goals(maze.grid().middle().collect());
+    let file = MazeFile::from(maze);
+    for format in Format::ALL {
+        let text = write(&file, format).unwrap();
+        assert!(parse(&text).unwrap() == file, "{format}");
+    }
+}
+
+#[test]
+fn formats_have_names() {
+    for format in Format::ALL {
+        assert_eq!(format.to_string().parse(), Ok(format));
+        assert_eq!(format.name(), format.to_string());
+    }
+    let error = "csv".parse::<Format>().unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "`csv` is no maze format: use numbers, mazefiles, num or tolman"
+    );
+    assert_eq!(format!("{:>10}|", Format::Num), "       num|");
+}

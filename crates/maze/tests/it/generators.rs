@@ -1,0 +1,208 @@
+//! Every generated maze is connected, closed, marked, and the same for the same seed.
+
+use proptest::prelude::*;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_maze::{Braided, Direction, GenerateError, Maze, Perfect, Rooms};
+
+fn rng(seed: u64) -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(seed)
+}
+
+/// What every generator promises.
+fn holds_together(maze: &Maze) -> Result<(), TestCaseError> {
+    prop_assert_eq!(maze.check(), Ok(()));
+    prop_assert!(
+        maze.steps_to_goal().iter().all(Option::is_some),
+        "all cells are joined"
+    );
+    let (start, heading) = maze.start().expect("every generator marks the start");
+    prop_assert!(maze.is_open(start, heading));
+    prop_assert!(
+        maze.grid()
+            .middle()
+            .all(|cell| maze.goals().contains(&cell))
+    );
+    Ok(())
+}
+
+fn sides() -> impl Strategy<Value = (u16, u16)> {
+    (1_u16..30, 1_u16..30).prop_filter("two cells", |(width, height)| width * height > 1)
+}
+
+proptest! {
+    #[test]
+    fn perfect_mazes_are_trees((width, height) in sides(), seed: u64) {
+        let maze = Perfect { width, height }.generate(&mut rng(seed)).expect("a fit size");
+        holds_together(&maze)?;
+        // Connected with one opening less than cells: no loop.
+        prop_assert_eq!(maze.opening_count(), maze.grid().cell_count() - 1);
+        prop_assert_eq!(maze.degree(maze.start().expect("marked").0), 1);
+        if height > 1 {
+            prop_assert_eq!(maze.start().expect("marked").1, Direction::North);
+        }
+    }
+
+    #[test]
+    fn braiding_opens_the_share_of_dead_ends(width in 2_u16..30, height in 2_u16..30, share in 0.0..=1.0, seed: u64) {
+        let perfect = Perfect { width, height }.generate(&mut rng(seed)).expect("a fit size");
+        let braided = Braided { width, height, share };
+        let maze = braided.generate(&mut rng(seed)).expect("a fit size");
+        holds_together(&maze)?;
+        // All but the start, which stays closed.
+        let before = perfect.dead_ends().count() - 1;
+        let after = maze.dead_ends().count() - 1;
+        let wanted = ((1.0 - share) * before as f64 + 0.5) as usize;
+        // The last one opened can take a second with it; a corner beside the start may be walled in.
+        prop_assert!(after <= wanted + 1 && after + 1 >= wanted, "{before} -> {after}, not {wanted}");
+        prop_assert_eq!(maze.degree(maze.start().expect("marked").0), 1);
+    }
+
+    #[test]
+    fn rooms_are_joined((width, height) in sides(), attempts in 0_u32..40, extra_doors in 0_u32..5, seed: u64) {
+        let largest = width.min(height).min(5);
+        let smallest = largest.min(2);
+        let rooms = Rooms { width, height, attempts, smallest, largest, extra_doors };
+        let maze = rooms.generate(&mut rng(seed)).expect("fit sizes");
+        holds_together(&maze)?;
+    }
+
+    #[test]
+    fn rooms_are_open_inside(seed: u64) {
+        // One room of 3 × 3 and no loops but its own: four 2 × 2 blocks in it, so four openings more
+        // than a tree has.
+        let rooms = Rooms { width: 9, height: 7, attempts: 1, smallest: 3, largest: 3, extra_doors: 0 };
+        let maze = rooms.generate(&mut rng(seed)).expect("fit sizes");
+        let grid = maze.grid();
+        let placed = maze.opening_count() == grid.cell_count() - 1 + 4;
+        let refused = maze.opening_count() == grid.cell_count() - 1;
+        prop_assert!(placed || refused, "a room is whole or, on the start, not there");
+        let doors = Rooms { extra_doors: 3, ..rooms }.generate(&mut rng(seed)).expect("fit sizes");
+        let loops = doors.opening_count() - maze.opening_count();
+        prop_assert_eq!(loops, if placed { 3 } else { 0 });
+    }
+}
+
+#[test]
+fn impossible_wishes_are_refused() {
+    let rng = &mut rng(1);
+    for (width, height) in [(0, 0), (0, 9), (1, 1), (1025, 2), (2, u16::MAX)] {
+        let refused = Err(GenerateError::Size { width, height });
+        assert_eq!(Perfect { width, height }.generate(rng), refused);
+        assert_eq!(
+            Braided {
+                width,
+                height,
+                share: 0.5
+            }
+            .generate(rng),
+            refused
+        );
+        let rooms = Rooms {
+            width,
+            height,
+            attempts: 1,
+            smallest: 1,
+            largest: 1,
+            extra_doors: 0,
+        };
+        assert_eq!(rooms.generate(rng), refused);
+    }
+    for share in [-0.1, 1.1, f64::NAN, f64::INFINITY] {
+        let error = Braided {
+            width: 4,
+            height: 4,
+            share,
+        }
+        .generate(rng)
+        .unwrap_err();
+        assert!(error.to_string().contains("number from 0 to 1"), "{error}");
+    }
+    for (smallest, largest) in [(0, 2), (3, 2), (2, 7)] {
+        let rooms = Rooms {
+            width: 9,
+            height: 6,
+            attempts: 9,
+            smallest,
+            largest,
+            extra_doors: 0,
+        };
+        let refused = GenerateError::RoomSide {
+            smallest,
+            largest,
+            width: 9,
+            height: 6,
+        };
+        assert_eq!(rooms.generate(rng), Err(refused));
+    }
+}
+
+/// The draws are over `u32` and ChaCha is the same everywhere, so these hold on every platform.
+#[test]
+fn a_seed_is_a_maze() {
+    let check = |maze: Maze, expect: &str| assert_eq!(maze.to_string(), expect, "\n{maze}");
+    check(
+        Perfect {
+            width: 6,
+            height: 4,
+        }
+        .generate(&mut rng(1))
+        .unwrap(),
+        "\
+o---o---o---o---o---o---o
+|       |               |
+o   o   o   o---o   o---o
+|   |     G   G |       |
+o---o---o---o---o---o   o
+|         G | G         |
+o   o---o   o   o---o   o
+| S |           |       |
+o---o---o---o---o---o---o
+",
+    );
+    check(
+        Braided {
+            width: 6,
+            height: 4,
+            share: 0.5,
+        }
+        .generate(&mut rng(1))
+        .unwrap(),
+        "\
+o---o---o---o---o---o---o
+|       |               |
+o   o   o   o---o   o---o
+|   |     G   G |       |
+o---o---o---o---o---o   o
+|         G | G         |
+o   o   o   o   o---o   o
+| S |                   |
+o---o---o---o---o---o---o
+",
+    );
+    check(
+        Rooms {
+            width: 9,
+            height: 5,
+            attempts: 9,
+            smallest: 2,
+            largest: 3,
+            extra_doors: 1,
+        }
+        .generate(&mut rng(1))
+        .unwrap(),
+        "\
+o---o---o---o---o---o---o---o---o---o
+|   |       |                       |
+o   o   o   o   o   o---o---o---o---o
+|   |           |                   |
+o   o   o   o---o   o   o   o   o   o
+|   |       |     G |   |           |
+o   o---o   o   o   o   o   o   o---o
+|       |   |       |   |           |
+o   o   o   o   o   o   o   o   o   o
+| S |       |       |   |           |
+o---o---o---o---o---o---o---o---o---o
+",
+    );
+}
