@@ -1,0 +1,45 @@
+use tolman_geom::Point;
+
+use crate::Material;
+
+/// Whether a door lets through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DoorState {
+    /// Not there for bodies and sensors.
+    Open,
+    /// A wall like any other.
+    Shut,
+}
+
+/// A wall that comes and goes.
+///
+/// A door that is to shut while a body stands in it waits until the body is out of the way.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Door {
+    /// What it is called by; no two doors of a world share a name.
+    pub name: String,
+    /// One end, m.
+    pub start: Point,
+    /// The other end, m.
+    pub end: Point,
+    /// What it is made of.
+    #[serde(default)]
+    pub material: Material,
+    /// How it stands when a run begins.
+    pub state: DoorState,
+    /// When it changes by itself, in order of time.
+    #[serde(default)]
+    pub schedule: Vec<DoorEvent>,
+}
+
+/// One change of a door on schedule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DoorEvent {
+    /// Microseconds since the run began.
+    pub time_us: u64,
+    /// How the door stands from then on.
+    pub state: DoorState,
+}

@@ -1,0 +1,79 @@
+use thiserror::Error;
+use tolman_robot::Body;
+
+use crate::{Chance, Contact, Surroundings};
+
+/// How a robot moves in one time step: a circular arc of `distance` metres of path along which it
+/// turns by `turn` radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Motion {
+    /// Path length, m; negative is backward.
+    pub distance: f64,
+    /// Turn, rad; positive is counter-clockwise.
+    pub turn: f64,
+}
+
+/// A kind of robot: its body, its motors, its sensors.
+///
+/// The simulation calls [`motion`](Self::motion) and then [`sense`](Self::sense) once a step, each with
+/// the [`Chance`] of this robot and tick.
+pub trait Model {
+    /// What it is told in one time step.
+    type Command: core::fmt::Debug;
+    /// What it senses after one.
+    type Sensing: core::fmt::Debug;
+
+    /// Its outline.
+    fn body(&self) -> &Body;
+
+    /// What happens where the body meets something.
+    fn contact(&self) -> Contact;
+
+    /// The length of one time step, µs.
+    fn step_us(&self) -> u64;
+
+    /// Whether a command can be carried out at all.
+    ///
+    /// # Errors
+    /// The part of the command that is not a number.
+    fn check(&self, command: &Self::Command) -> Result<(), CommandError>;
+
+    /// What the motors make of a command. Called only with a command that passed
+    /// [`check`](Self::check).
+    fn motion(&mut self, command: &Self::Command, chance: &Chance) -> Motion;
+
+    /// What it senses before anything was sensed: the buffers that [`sense`](Self::sense) fills.
+    fn silent(&self) -> Self::Sensing;
+
+    /// Senses anew.
+    fn sense(
+        &mut self,
+        surroundings: &Surroundings<'_>,
+        chance: &Chance,
+        sensing: &mut Self::Sensing,
+    );
+}
+
+/// A command that cannot be carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("the command's {part} is {value}; give a finite number")]
+pub struct CommandError {
+    /// Which part of the command.
+    pub part: &'static str,
+    /// What it says.
+    pub value: f64,
+}
+
+impl CommandError {
+    /// Checks that one part of a command is a finite number.
+    ///
+    /// # Errors
+    /// If it is not.
+    pub fn check(part: &'static str, value: f64) -> Result<(), Self> {
+        if value.is_finite() {
+            Ok(())
+        } else {
+            Err(Self { part, value })
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! The robots, one file each, reading like their data sheets.
+
+mod laser_pioneer;
+
+pub use laser_pioneer::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};

@@ -1,0 +1,112 @@
+use tolman_geom::{Point, Pose};
+use tolman_robot::Body;
+
+use crate::{Wall, World};
+
+/// Everything a body can meet at one moment: the world's walls, the doors that are shut, and the
+/// bodies of all robots.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scene<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) shut: &'a [Wall],
+    pub(crate) bodies: &'a [Placed],
+}
+
+impl<'a> Scene<'a> {
+    /// The bodies of all robots but `robot`.
+    pub(crate) fn others(&self, robot: usize) -> impl Iterator<Item = &'a Placed> + use<'a> {
+        let (before, after) = (
+            &self.bodies[..robot],
+            self.bodies.get(robot + 1..).unwrap_or(&[]),
+        );
+        before.iter().chain(after)
+    }
+}
+
+/// A body somewhere.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed {
+    body: Body,
+    pose: Pose,
+    radius: f64,
+    /// A polygon's corners in the world.
+    corners: Vec<Point>,
+}
+
+impl Placed {
+    pub(crate) fn new(body: Body, pose: Pose) -> Self {
+        let radius = body.radius();
+        let mut placed = Self {
+            body,
+            pose,
+            radius,
+            corners: Vec::new(),
+        };
+        placed.move_to(pose);
+        placed
+    }
+
+    pub(crate) fn move_to(&mut self, pose: Pose) {
+        self.pose = pose;
+        if let Body::Polygon { corners } = &self.body {
+            self.corners.clear();
+            let (ahead, origin) = (pose.heading.unit(), pose.position);
+            self.corners.extend(corners.iter().map(|corner| {
+                let (x, y) = (corner.x, corner.y);
+                Point::new(
+                    origin.x + (ahead.x * x - ahead.y * y),
+                    origin.y + (ahead.y * x + ahead.x * y),
+                )
+            }));
+        }
+    }
+
+    pub(crate) fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    /// The radius of the smallest disc round the pose that holds the body.
+    pub(crate) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// A polygon's corners in the world; none for a disc.
+    pub(crate) fn corners(&self) -> &[Point] {
+        &self.corners
+    }
+
+    /// A polygon's sides in the world; none for a disc.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = Wall> + '_ {
+        let next = self.corners.iter().cycle().skip(1);
+        self.corners
+            .iter()
+            .zip(next)
+            .map(|(start, end)| Wall::between(*start, *end))
+    }
+
+    /// Whether `point` lies in a polygon; never in a disc, which has no sides.
+    pub(crate) fn encloses(&self, point: Point) -> bool {
+        !self.corners.is_empty()
+            && self
+                .sides()
+                .all(|side| (side.end - side.start).perp(&(point - side.start)) >= 0.0)
+    }
+
+    /// How far a ray meets the body from outside, m; infinity if it does not.
+    pub(crate) fn ray(&self, origin: Point, direction: tolman_geom::Vector) -> f64 {
+        if self.corners.is_empty() {
+            let to_centre = self.pose.position - origin;
+            let ahead = direction.dot(&to_centre);
+            let aside = direction.perp(&to_centre);
+            let square = self.radius * self.radius - aside * aside;
+            if square < 0.0 {
+                return f64::INFINITY;
+            }
+            let range = ahead - square.sqrt();
+            return if range >= 0.0 { range } else { f64::INFINITY };
+        }
+        self.sides()
+            .map(|side| side.ray(origin, direction))
+            .fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,96 @@
+use thiserror::Error;
+use tolman_geom::{Heading, Vector};
+use tolman_robot::{Ring, Scan};
+
+use super::Sensor;
+use crate::{Chance, Surroundings};
+
+/// A laser ring or fan in the middle of the robot: one exact range per beam.
+#[derive(Clone, Debug)]
+pub struct Laser {
+    ring: Ring,
+    /// Unit vectors of the beams in the robot's frame.
+    beams: Vec<Vector>,
+}
+
+impl Laser {
+    /// A laser with the beams of `ring`.
+    ///
+    /// # Errors
+    /// If the ring has no beams or too many, sweeps more than a full circle, or has no range.
+    pub fn new(ring: Ring) -> Result<Self, LaserError> {
+        if ring.beams == 0 || ring.beams > 1_000_000 {
+            return Err(LaserError::Beams { beams: ring.beams });
+        }
+        if !(ring.max_range.is_finite() && ring.max_range > 0.0) {
+            return Err(LaserError::MaxRange {
+                max_range: ring.max_range,
+            });
+        }
+        let field = ring.spacing * f64::from(ring.beams - 1);
+        if !(ring.first_bearing.is_finite()
+            && (0.0..core::f64::consts::TAU).contains(&field)
+            && (ring.spacing > 0.0 || ring.beams == 1))
+        {
+            return Err(LaserError::Field {
+                first_bearing: ring.first_bearing,
+                spacing: ring.spacing,
+            });
+        }
+        let beams = (0..ring.beams)
+            .map(|beam| Heading::from_radians(ring.bearing(beam)).unit())
+            .collect();
+        Ok(Self { ring, beams })
+    }
+
+    /// The geometry of its beams.
+    #[must_use]
+    pub fn ring(&self) -> Ring {
+        self.ring
+    }
+}
+
+impl Sensor for Laser {
+    type Reading = Scan;
+
+    fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<Scan>) {
+        let scan = reading.get_or_insert_with(|| Scan::clear(self.ring));
+        let (origin, ahead) = (around.pose.position, around.pose.heading.unit());
+        for (range, beam) in scan.ranges.iter_mut().zip(&self.beams) {
+            let direction = Vector::new(
+                ahead.x * beam.x - ahead.y * beam.y,
+                ahead.y * beam.x + ahead.x * beam.y,
+            );
+            *range = around.cast(origin, direction, self.ring.max_range);
+        }
+    }
+}
+
+/// Why a laser cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LaserError {
+    /// No beams, or too many.
+    #[error("the laser has {beams} beams; give 1 to 1,000,000")]
+    Beams {
+        /// How many.
+        beams: u32,
+    },
+    /// It sees nothing.
+    #[error("the laser's range is {max_range} m; give a positive number of metres")]
+    MaxRange {
+        /// The offending range, m.
+        max_range: f64,
+    },
+    /// Its beams do not run once round at most.
+    #[error(
+        "the laser's beams start at {first_bearing} rad and are {spacing} rad apart; give finite \
+         numbers, counter-clockwise and within one circle"
+    )]
+    Field {
+        /// Bearing of beam 0, rad.
+        first_bearing: f64,
+        /// From one beam to the next, rad.
+        spacing: f64,
+    },
+}

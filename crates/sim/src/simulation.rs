@@ -1,0 +1,498 @@
+use alloc::sync::Arc;
+
+use thiserror::Error;
+use tolman_geom::Pose;
+
+use crate::scene::{Placed, Scene};
+use crate::{
+    BodyError, Chance, CommandError, DoorState, Model, Motion, Surroundings, Wall, World, body,
+    contact,
+};
+
+/// A robot of a simulation: its place in the order of adding, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RobotId(pub u32);
+
+/// What really is, for scoring; no robot knows it.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Truth {
+    /// Where the robot is.
+    pub pose: Pose,
+    /// How it moved in the last step.
+    pub motion: Motion,
+    /// Whether that motion was cut by a contact.
+    pub bump: bool,
+    /// Steps since the run began.
+    pub tick: u64,
+    /// Microseconds since the run began.
+    pub time_us: u64,
+}
+
+/// Robots in a world.
+///
+/// Robots act one after the other in the order they were added, then all sense. Nothing depends on
+/// anything but the world, the seed, the robots and their commands.
+#[derive(Debug)]
+pub struct Simulation<M: Model> {
+    world: Arc<World>,
+    chance: Chance,
+    tick: u64,
+    step_us: u64,
+    doors: Doors,
+    robots: Vec<Running<M>>,
+    /// The robots' bodies, in the same order.
+    bodies: Vec<Placed>,
+}
+
+#[derive(Debug)]
+struct Running<M: Model> {
+    model: M,
+    truth: Truth,
+    sensing: M::Sensing,
+}
+
+impl<M: Model> Simulation<M> {
+    /// A world without robots at time 0. `run` is the seed of all chance in it.
+    pub fn new(world: impl Into<Arc<World>>, run: u64) -> Self {
+        let world = world.into();
+        let doors = Doors::of(&world);
+        Self {
+            world,
+            chance: Chance::of_run(run),
+            tick: 0,
+            step_us: 0,
+            doors,
+            robots: Vec::new(),
+            bodies: Vec::new(),
+        }
+    }
+
+    /// Puts a further robot at `pose` and lets it sense.
+    ///
+    /// # Errors
+    /// If the robot cannot stand there, or keeps another time step than those before it.
+    pub fn add(&mut self, model: M, pose: Pose) -> Result<RobotId, PlaceError> {
+        body::check(model.body())?;
+        let step_us = model.step_us();
+        if step_us == 0 || (!self.robots.is_empty() && step_us != self.step_us) {
+            return Err(PlaceError::Step {
+                step_us,
+                expected_us: self.step_us,
+            });
+        }
+        let index = self.robots.len();
+        let id = RobotId(
+            u32::try_from(index)
+                .ok()
+                .filter(|id| *id < 1 << 24)
+                .ok_or(PlaceError::TooMany)?,
+        );
+        let placed = Placed::new(model.body().clone(), pose);
+        self.check_place(index, &placed)?;
+        self.step_us = step_us;
+        self.bodies.push(placed);
+        let truth = Truth {
+            pose,
+            motion: Motion::default(),
+            bump: false,
+            tick: self.tick,
+            time_us: self.time_us(),
+        };
+        let sensing = model.silent();
+        self.robots.push(Running {
+            model,
+            truth,
+            sensing,
+        });
+        self.sense(index);
+        Ok(id)
+    }
+
+    /// Takes one command per robot, in the order of adding, and lets one time step pass.
+    ///
+    /// # Errors
+    /// If there is not one command per robot, or a command is not made of numbers. Nothing has moved
+    /// then.
+    pub fn step(&mut self, commands: &[M::Command]) -> Result<(), StepError> {
+        if commands.len() != self.robots.len() {
+            let (commands, robots) = (commands.len(), self.robots.len());
+            return Err(StepError::Commands { commands, robots });
+        }
+        for (index, (running, command)) in self.robots.iter().zip(commands).enumerate() {
+            running
+                .model
+                .check(command)
+                .map_err(|source| StepError::Command {
+                    robot: RobotId(index as u32),
+                    source,
+                })?;
+        }
+        self.tick += 1;
+        self.doors.advance(self.tick * self.step_us, &self.bodies);
+        for (index, command) in commands.iter().enumerate() {
+            self.act(index, command);
+        }
+        for index in 0..self.robots.len() {
+            self.sense(index);
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, index: usize, command: &M::Command) {
+        let time_us = self.time_us();
+        let running = &mut self.robots[index];
+        let motion = running
+            .model
+            .motion(command, &self.chance.at(index as u32, self.tick));
+        let scene = Scene {
+            world: &self.world,
+            shut: self.doors.shut(),
+            bodies: &self.bodies,
+        };
+        let before = running.truth.pose;
+        let outcome = contact::moved(&scene, index, motion, running.model.contact());
+        let made = if outcome.bump {
+            contact::motion_between(before, outcome.pose)
+        } else {
+            motion
+        };
+        running.truth = Truth {
+            pose: outcome.pose,
+            motion: made,
+            bump: outcome.bump,
+            tick: self.tick,
+            time_us,
+        };
+        self.bodies[index].move_to(outcome.pose);
+    }
+
+    fn sense(&mut self, index: usize) {
+        let Running {
+            model,
+            truth,
+            sensing,
+        } = &mut self.robots[index];
+        let surroundings = Surroundings {
+            scene: Scene {
+                world: &self.world,
+                shut: self.doors.shut(),
+                bodies: &self.bodies,
+            },
+            robot: index,
+            pose: truth.pose,
+            motion: truth.motion,
+            bump: truth.bump,
+            tick: self.tick,
+            time_us: self.tick * self.step_us,
+        };
+        model.sense(
+            &surroundings,
+            &self.chance.at(index as u32, self.tick),
+            sensing,
+        );
+    }
+
+    /// Lifts a robot and sets it down at `pose`, which it notices at its next step at the earliest:
+    /// a kidnapping.
+    ///
+    /// # Errors
+    /// If it cannot stand there; it then stays where it is.
+    ///
+    /// # Panics
+    /// If `robot` is of another simulation.
+    pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), PlaceError> {
+        let index = robot.0 as usize;
+        let placed = Placed::new(self.robots[index].model.body().clone(), pose);
+        self.check_place(index, &placed)?;
+        self.robots[index].truth.pose = pose;
+        self.bodies[index] = placed;
+        Ok(())
+    }
+
+    fn check_place(&self, index: usize, placed: &Placed) -> Result<(), PlaceError> {
+        let pose = placed.pose();
+        if !pose.is_finite() {
+            return Err(PlaceError::NotFinite { pose });
+        }
+        if !self.world.is_floor(pose.position) {
+            return Err(PlaceError::NotOnFloor { pose });
+        }
+        let walls = self.world.walls().iter().chain(self.doors.shut());
+        let gap = walls
+            .map(|wall| contact::gap_to_wall(placed, wall))
+            .fold(f64::INFINITY, f64::min);
+        if gap <= 0.0 {
+            let free = self.world.nearest_wall_distance(pose.position);
+            return Err(PlaceError::InWall {
+                pose,
+                radius: placed.radius(),
+                free,
+            });
+        }
+        for (other, body) in self.bodies.iter().enumerate() {
+            if other != index && contact::gap_between(placed, body) <= 0.0 {
+                return Err(PlaceError::InRobot {
+                    pose,
+                    other: RobotId(other as u32),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// What a robot sensed last.
+    ///
+    /// # Panics
+    /// If `robot` is of another simulation.
+    #[must_use]
+    pub fn sensing(&self, robot: RobotId) -> &M::Sensing {
+        &self.robots[robot.0 as usize].sensing
+    }
+
+    /// What really is.
+    ///
+    /// # Panics
+    /// If `robot` is of another simulation.
+    #[must_use]
+    pub fn truth(&self, robot: RobotId) -> &Truth {
+        &self.robots[robot.0 as usize].truth
+    }
+
+    /// The model of a robot.
+    ///
+    /// # Panics
+    /// If `robot` is of another simulation.
+    #[must_use]
+    pub fn model(&self, robot: RobotId) -> &M {
+        &self.robots[robot.0 as usize].model
+    }
+
+    /// All robots, in the order of adding.
+    pub fn robots(&self) -> impl Iterator<Item = RobotId> + use<M> {
+        (0..self.robots.len() as u32).map(RobotId)
+    }
+
+    /// The world they are in.
+    #[must_use]
+    pub fn world(&self) -> &Arc<World> {
+        &self.world
+    }
+
+    /// Steps since the run began.
+    #[must_use]
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// Microseconds since the run began.
+    #[must_use]
+    pub fn time_us(&self) -> u64 {
+        self.tick * self.step_us
+    }
+
+    /// How a door stands.
+    ///
+    /// # Errors
+    /// If there is no such door.
+    pub fn door(&self, name: &str) -> Result<DoorState, DoorError> {
+        let index = self.doors.find(name)?;
+        Ok(if self.doors.standing[index].is_shut {
+            DoorState::Shut
+        } else {
+            DoorState::Open
+        })
+    }
+
+    /// Opens or shuts a door, whatever its schedule; one with a body in it shuts when the body is out.
+    ///
+    /// # Errors
+    /// If there is no such door.
+    pub fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), DoorError> {
+        let index = self.doors.find(name)?;
+        self.doors.standing[index].wanted = state;
+        self.doors.settle(&self.bodies);
+        Ok(())
+    }
+}
+
+/// The doors of a running world.
+#[derive(Debug)]
+struct Doors {
+    world: Arc<World>,
+    standing: Vec<Standing>,
+    /// The walls of the doors that are shut.
+    shut: Vec<Wall>,
+}
+
+#[derive(Debug)]
+struct Standing {
+    wanted: DoorState,
+    is_shut: bool,
+    /// How many events of the schedule have passed.
+    passed: usize,
+}
+
+impl Doors {
+    fn of(world: &Arc<World>) -> Self {
+        let standing = world
+            .doors()
+            .iter()
+            .map(|door| Standing {
+                wanted: door.state,
+                is_shut: false,
+                passed: 0,
+            })
+            .collect();
+        let mut doors = Self {
+            world: Arc::clone(world),
+            standing,
+            shut: Vec::new(),
+        };
+        doors.settle(&[]);
+        doors
+    }
+
+    fn shut(&self) -> &[Wall] {
+        &self.shut
+    }
+
+    fn find(&self, name: &str) -> Result<usize, DoorError> {
+        let doors = self.world.doors();
+        doors
+            .iter()
+            .position(|door| door.name == name)
+            .ok_or_else(|| DoorError {
+                name: name.to_owned(),
+            })
+    }
+
+    /// Follows the schedules up to `time_us`.
+    fn advance(&mut self, time_us: u64, bodies: &[Placed]) {
+        for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
+            while let Some(event) = door
+                .schedule
+                .get(standing.passed)
+                .filter(|event| event.time_us <= time_us)
+            {
+                standing.wanted = event.state;
+                standing.passed += 1;
+            }
+        }
+        self.settle(bodies);
+    }
+
+    /// Lets every door be as wanted, unless a body stands in it.
+    fn settle(&mut self, bodies: &[Placed]) {
+        self.shut.clear();
+        for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
+            let wall = Wall {
+                start: door.start,
+                end: door.end,
+                material: door.material,
+            };
+            standing.is_shut = standing.wanted == DoorState::Shut
+                && (standing.is_shut
+                    || bodies
+                        .iter()
+                        .all(|body| contact::gap_to_wall(body, &wall) > 0.0));
+            if standing.is_shut {
+                self.shut.push(wall);
+            }
+        }
+    }
+}
+
+/// Why a robot cannot be put somewhere.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlaceError {
+    /// The pose is not made of numbers.
+    #[error(
+        "the pose ({}, {}) m, heading {} rad has a number that is not finite; give finite numbers",
+        pose.position.x, pose.position.y, pose.heading.radians()
+    )]
+    NotFinite {
+        /// The pose.
+        pose: Pose,
+    },
+    /// Nothing can stand there.
+    #[error(
+        "({}, {}) m lies inside a wall or outside the world; choose a position on the floor",
+        pose.position.x, pose.position.y
+    )]
+    NotOnFloor {
+        /// The pose.
+        pose: Pose,
+    },
+    /// The robot would overlap a wall or a shut door.
+    #[error(
+        "a robot of radius {radius} m does not fit at ({}, {}) m, heading {} rad: the nearest wall is \
+         {free} m from there; choose another pose, a smaller robot or a wider corridor",
+        pose.position.x, pose.position.y, pose.heading.radians()
+    )]
+    InWall {
+        /// The pose.
+        pose: Pose,
+        /// The room the robot needs to every side, m.
+        radius: f64,
+        /// How far the nearest wall is, m.
+        free: f64,
+    },
+    /// The robot would overlap another one.
+    #[error(
+        "at ({}, {}) m the robot would overlap robot {}; choose another pose",
+        pose.position.x, pose.position.y, other.0
+    )]
+    InRobot {
+        /// The pose.
+        pose: Pose,
+        /// The robot that stands there.
+        other: RobotId,
+    },
+    /// The robot keeps another time step than those before it.
+    #[error(
+        "the robot's time step is {step_us} µs, the simulation's {expected_us} µs; make them equal and positive"
+    )]
+    Step {
+        /// The robot's, µs.
+        step_us: u64,
+        /// That of the robots before it, µs; 0 if it is the first.
+        expected_us: u64,
+    },
+    /// There are as many robots as can be told apart.
+    #[error("the simulation holds 2^24 robots already; start another one")]
+    TooMany,
+    /// The robot's body cannot be one.
+    #[error(transparent)]
+    Body(#[from] BodyError),
+}
+
+/// Why a step was not made.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// There is not one command per robot.
+    #[error("there are {commands} commands for {robots} robots; give one command per robot")]
+    Commands {
+        /// How many commands were given.
+        commands: usize,
+        /// How many robots there are.
+        robots: usize,
+    },
+    /// A command cannot be carried out.
+    #[error("robot {}: {source}", robot.0)]
+    Command {
+        /// Whose command.
+        robot: RobotId,
+        /// What is wrong with it.
+        source: CommandError,
+    },
+}
+
+/// There is no door of this name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("the world has no door named `{name}`; name one of its doors")]
+pub struct DoorError {
+    /// The name asked for.
+    pub name: String,
+}

@@ -1,0 +1,69 @@
+use alloc::sync::Arc;
+
+use tolman_geom::Pose;
+use tolman_robot::Robot;
+
+use crate::{Model, PlaceError, RobotId, Simulation, StepError, Truth, World};
+
+/// One robot alone in a world: all that a brain needs of a simulator.
+#[derive(Debug)]
+pub struct Solo<M: Model> {
+    simulation: Simulation<M>,
+    robot: RobotId,
+}
+
+impl<M: Model> Solo<M> {
+    /// A robot at `pose`. `run` is the seed of all chance.
+    ///
+    /// # Errors
+    /// If the robot cannot stand there.
+    pub fn new(
+        world: impl Into<Arc<World>>,
+        model: M,
+        pose: Pose,
+        run: u64,
+    ) -> Result<Self, PlaceError> {
+        let mut simulation = Simulation::new(world, run);
+        let robot = simulation.add(model, pose)?;
+        Ok(Self { simulation, robot })
+    }
+
+    /// What really is.
+    #[must_use]
+    pub fn truth(&self) -> &Truth {
+        self.simulation.truth(self.robot)
+    }
+
+    /// Lifts the robot and sets it down at `pose`.
+    ///
+    /// # Errors
+    /// If it cannot stand there; it then stays where it is.
+    pub fn place(&mut self, pose: Pose) -> Result<(), PlaceError> {
+        self.simulation.place(self.robot, pose)
+    }
+
+    /// The simulation it runs in.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation<M> {
+        &self.simulation
+    }
+
+    /// The simulation it runs in, to open a door or lift the robot. It must stay alone in it.
+    pub fn simulation_mut(&mut self) -> &mut Simulation<M> {
+        &mut self.simulation
+    }
+}
+
+impl<M: Model> Robot for Solo<M> {
+    type Command = M::Command;
+    type Sensing = M::Sensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &M::Sensing {
+        self.simulation.sensing(self.robot)
+    }
+
+    fn step(&mut self, command: &M::Command) -> Result<(), StepError> {
+        self.simulation.step(core::slice::from_ref(command))
+    }
+}

@@ -1,0 +1,278 @@
+use tolman_geom::Point;
+use tolman_maze::{Cell, Grid, Maze};
+use tolman_robot::Body;
+
+use crate::Door;
+
+mod bounds;
+mod error;
+mod lattice;
+mod wall;
+mod zone;
+
+pub use bounds::Bounds;
+pub use error::WorldError;
+pub use lattice::Occupancy;
+pub use wall::{Material, Wall};
+pub use zone::{Area, Zone};
+
+use lattice::Lattice;
+
+/// How a grid maze is drawn to scale.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CorridorSize {
+    /// The free width between two walls, m.
+    pub corridor_width: f64,
+    /// How thick a wall is, m; 0 for walls that are lines.
+    pub wall_thickness: f64,
+}
+
+impl CorridorSize {
+    /// From the middle of one cell to that of the next, m.
+    #[must_use]
+    pub fn pitch(&self) -> f64 {
+        self.corridor_width + self.wall_thickness
+    }
+}
+
+/// What stands still: walls, zones, and doors in their frames.
+///
+/// Metres; x is east, y is north. A world made from a maze has its origin in the middle of the wall
+/// post at the south-west corner of cell (0, 0), so that cell (x, y) covers
+/// [x, x + 1] × [y, y + 1] pitches, walls half a thickness into it included.
+#[derive(Clone, Debug)]
+pub struct World {
+    walls: Vec<Wall>,
+    zones: Vec<Zone>,
+    doors: Vec<Door>,
+    bounds: Bounds,
+    lattice: Option<Lattice>,
+    cells: Option<Cells>,
+}
+
+/// The cells of a world made from a maze.
+#[derive(Clone, Copy, Debug)]
+struct Cells {
+    grid: Grid,
+    pitch: f64,
+}
+
+impl World {
+    /// A maze drawn to scale. Its goal cells become the zone `destination`, its start cell the zone
+    /// `start`, as far as the maze marks them.
+    ///
+    /// Walls that continue each other in a straight line become one [`Wall`]. Thick walls have an
+    /// outline, and a post of their thickness wherever one ends.
+    ///
+    /// # Errors
+    /// If the corridor has no width, or a wall a negative thickness.
+    pub fn from_maze(maze: &Maze, size: &CorridorSize) -> Result<Self, WorldError> {
+        let CorridorSize {
+            corridor_width,
+            wall_thickness,
+        } = *size;
+        if !(corridor_width.is_finite() && corridor_width > 0.0) {
+            return Err(WorldError::CorridorWidth { corridor_width });
+        }
+        if !(wall_thickness.is_finite() && wall_thickness >= 0.0) {
+            return Err(WorldError::WallThickness { wall_thickness });
+        }
+        let pitch = size.pitch();
+        let cells = Cells {
+            grid: maze.grid(),
+            pitch,
+        };
+        let lattice = Lattice::of_maze(maze, pitch, wall_thickness);
+        let mut world = Self::from_lattice(lattice, Material::default())?;
+        world.cells = Some(cells);
+        if let Some((start, _)) = maze.start() {
+            world = world.with_zone(Zone::of_cells("start", &[start], pitch))?;
+        }
+        if !maze.goals().is_empty() {
+            world = world.with_zone(Zone::of_cells("destination", maze.goals(), pitch))?;
+        }
+        Ok(world)
+    }
+
+    /// Free walls.
+    ///
+    /// # Errors
+    /// If there is no wall, or a wall has no length, or an end of one is not a number.
+    pub fn from_segments(walls: Vec<Wall>) -> Result<Self, WorldError> {
+        if walls.is_empty() {
+            return Err(WorldError::NoWalls);
+        }
+        for (index, wall) in walls.iter().enumerate() {
+            wall.check().map_err(|what| WorldError::Wall {
+                index,
+                wall: *wall,
+                what,
+            })?;
+        }
+        let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
+        Ok(Self {
+            walls,
+            zones: Vec::new(),
+            doors: Vec::new(),
+            bounds,
+            lattice: None,
+            cells: None,
+        })
+    }
+
+    /// The outline of the occupied cells of an occupancy grid; beyond its edge everything is
+    /// occupied.
+    ///
+    /// # Errors
+    /// If the grid is empty or wholly occupied, its resolution is not positive, or there is not one
+    /// bit per cell.
+    pub fn from_occupancy(occupancy: &Occupancy) -> Result<Self, WorldError> {
+        Self::from_lattice(Lattice::of_occupancy(occupancy)?, Material::default())
+    }
+
+    fn from_lattice(lattice: Lattice, material: Material) -> Result<Self, WorldError> {
+        let mut world = Self::from_segments(lattice.walls(material))?;
+        world.bounds = lattice.bounds();
+        world.lattice = Some(lattice);
+        Ok(world)
+    }
+
+    /// This world with a further zone.
+    ///
+    /// # Errors
+    /// If there is a zone of that name, or a number of it is not one.
+    pub fn with_zone(mut self, zone: Zone) -> Result<Self, WorldError> {
+        if self.zone(zone.name()).is_some() {
+            return Err(WorldError::ZoneTwice {
+                name: zone.name().to_owned(),
+            });
+        }
+        zone.check()?;
+        self.zones.push(zone);
+        Ok(self)
+    }
+
+    /// This world with a further door.
+    ///
+    /// # Errors
+    /// If there is a door of that name, it has no length, a number of it is not one, or its schedule
+    /// is not in order of time.
+    pub fn with_door(mut self, door: Door) -> Result<Self, WorldError> {
+        if self.doors.iter().any(|other| other.name == door.name) {
+            return Err(WorldError::DoorTwice { name: door.name });
+        }
+        let wall = Wall {
+            start: door.start,
+            end: door.end,
+            material: door.material,
+        };
+        if let Err(what) = wall.check() {
+            return Err(WorldError::Door {
+                name: door.name,
+                what,
+            });
+        }
+        if let Some(late) = door
+            .schedule
+            .windows(2)
+            .find(|pair| pair[0].time_us >= pair[1].time_us)
+        {
+            return Err(WorldError::DoorSchedule {
+                time_us: late[1].time_us,
+                name: door.name,
+            });
+        }
+        self.doors.push(door);
+        Ok(self)
+    }
+
+    /// All walls, doors not among them.
+    #[must_use]
+    pub fn walls(&self) -> &[Wall] {
+        &self.walls
+    }
+
+    /// All zones.
+    #[must_use]
+    pub fn zones(&self) -> &[Zone] {
+        &self.zones
+    }
+
+    /// The zone of this name.
+    #[must_use]
+    pub fn zone(&self, name: &str) -> Option<&Zone> {
+        self.zones.iter().find(|zone| zone.name() == name)
+    }
+
+    /// All doors, as they are when a run begins.
+    #[must_use]
+    pub fn doors(&self) -> &[Door] {
+        &self.doors
+    }
+
+    /// The smallest rectangle that holds all walls.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// The size of the maze this world was made from, if it was.
+    #[must_use]
+    pub fn grid(&self) -> Option<Grid> {
+        self.cells.map(|cells| cells.grid)
+    }
+
+    /// The middle of a cell of the maze this world was made from; in a world of another kind, where
+    /// cells have no size, the origin.
+    #[must_use]
+    pub fn cell_centre(&self, cell: Cell) -> Point {
+        let pitch = self.cells.map_or(0.0, |cells| cells.pitch);
+        Point::new(
+            (f64::from(cell.x) + 0.5) * pitch,
+            (f64::from(cell.y) + 0.5) * pitch,
+        )
+    }
+
+    /// The cell of the maze this world was made from in which `point` lies; none outside it, and
+    /// none in a world of another kind.
+    #[must_use]
+    pub fn cell_at(&self, point: Point) -> Option<Cell> {
+        let Cells { grid, pitch } = self.cells?;
+        let along = |value: f64, count: u16| {
+            let index = (value / pitch).floor();
+            (index >= 0.0 && index < f64::from(count)).then_some(index as u16)
+        };
+        Some(Cell::new(
+            along(point.x, grid.width())?,
+            along(point.y, grid.height())?,
+        ))
+    }
+
+    /// How far `point` is from the nearest wall, m. Doors do not count.
+    #[must_use]
+    pub fn nearest_wall_distance(&self, point: Point) -> f64 {
+        self.walls
+            .iter()
+            .map(|wall| wall.distance(point))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether `point` can be stood on at all: not inside a thick wall or an occupied cell, and not
+    /// outside the border of a maze.
+    #[must_use]
+    pub fn is_floor(&self, point: Point) -> bool {
+        match &self.lattice {
+            Some(lattice) => lattice.is_floor(point),
+            None => point.x.is_finite() && point.y.is_finite(),
+        }
+    }
+
+    /// Whether `body` at `pose` stands on the floor and touches no wall. Doors do not count.
+    #[must_use]
+    pub fn clear_for(&self, body: &Body, pose: tolman_geom::Pose) -> bool {
+        pose.is_finite()
+            && self.is_floor(pose.position)
+            && crate::contact::clearance(self, body, pose) > 0.0
+    }
+}

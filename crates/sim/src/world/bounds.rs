@@ -1,0 +1,47 @@
+use tolman_geom::Point;
+
+/// A rectangle along the axes.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bounds {
+    /// The south-west corner, m.
+    pub min: Point,
+    /// The north-east corner, m.
+    pub max: Point,
+}
+
+impl Bounds {
+    /// The smallest rectangle round `points`; inside out if there are none.
+    #[must_use]
+    pub fn of(points: impl IntoIterator<Item = Point>) -> Self {
+        let nothing = Self {
+            min: Point::new(f64::INFINITY, f64::INFINITY),
+            max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+        };
+        points.into_iter().fold(nothing, |bounds, point| Self {
+            min: bounds.min.inf(&point),
+            max: bounds.max.sup(&point),
+        })
+    }
+
+    /// East-west extent, m.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.max.x - self.min.x
+    }
+
+    /// North-south extent, m.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.max.y - self.min.y
+    }
+
+    /// Whether `point` lies inside or on the edge.
+    #[must_use]
+    pub fn contains(&self, point: Point) -> bool {
+        self.min.x <= point.x
+            && point.x <= self.max.x
+            && self.min.y <= point.y
+            && point.y <= self.max.y
+    }
+}

@@ -1,0 +1,91 @@
+use thiserror::Error;
+
+use super::Wall;
+
+/// Why a world cannot be built.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum WorldError {
+    /// The corridors have no width.
+    #[error("the corridor width is {corridor_width} m; give a positive number of metres")]
+    CorridorWidth {
+        /// The offending width, m.
+        corridor_width: f64,
+    },
+    /// The walls are thinner than nothing.
+    #[error("the wall thickness is {wall_thickness} m; give 0 or more metres")]
+    WallThickness {
+        /// The offending thickness, m.
+        wall_thickness: f64,
+    },
+    /// Nothing stands.
+    #[error("the world has no walls; give at least one")]
+    NoWalls,
+    /// A wall cannot be one.
+    #[error(
+        "wall {index} from ({}, {}) to ({}, {}) m {what}; correct or remove it",
+        wall.start.x, wall.start.y, wall.end.x, wall.end.y
+    )]
+    Wall {
+        /// Which wall, from 0.
+        index: usize,
+        /// The wall.
+        wall: Wall,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// A door cannot be one.
+    #[error("door `{name}` {what}; correct or remove it")]
+    Door {
+        /// Which door.
+        name: String,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// Two doors have one name.
+    #[error("there are two doors named `{name}`; rename one")]
+    DoorTwice {
+        /// The name.
+        name: String,
+    },
+    /// A door's schedule goes back in time.
+    #[error("the schedule of door `{name}` does not move on at {time_us} µs; sort it by time")]
+    DoorSchedule {
+        /// Which door.
+        name: String,
+        /// The first event that is not later than the one before it.
+        time_us: u64,
+    },
+    /// A zone has an area without extent.
+    #[error("area {index} of zone `{name}` has no extent; give it a positive size in metres")]
+    Zone {
+        /// Which zone.
+        name: String,
+        /// Which of its areas, from 0.
+        index: usize,
+    },
+    /// Two zones have one name.
+    #[error("there are two zones named `{name}`; rename one or give one zone both areas")]
+    ZoneTwice {
+        /// The name.
+        name: String,
+    },
+    /// An occupancy grid does not hold what it says.
+    #[error(
+        "the occupancy grid is {width} × {height} cells of {resolution} m with {bits} values; give a \
+         positive size and resolution and one value per cell"
+    )]
+    Occupancy {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Size of a cell, m.
+        resolution: f64,
+        /// How many values it holds.
+        bits: usize,
+    },
+    /// No cell of an occupancy grid is free.
+    #[error("every cell of the occupancy grid is occupied; leave at least one free")]
+    NoFloor,
+}

@@ -1,0 +1,264 @@
+use tolman_geom::Point;
+use tolman_maze::{Direction, Maze};
+
+use super::{Bounds, Material, Wall, WorldError};
+
+/// An occupancy grid as plain data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Occupancy {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Size of a cell, m.
+    pub resolution: f64,
+    /// The south-west corner of the grid, m.
+    pub origin: Point,
+    /// Whether each cell is occupied, row by row from the south-west.
+    pub occupied: Vec<bool>,
+}
+
+/// A rectilinear grid whose walls lie on its lines: what mazes and occupancy grids are made into.
+///
+/// A maze of thin walls has a column per column of cells. With thick walls every wall gets a column
+/// or row of its own, and walls proper are the edges between solid and free cells.
+#[derive(Clone, Debug)]
+pub(crate) struct Lattice {
+    columns: Axis,
+    rows: Axis,
+    /// One flag per edge across x, `columns + 1` to a row.
+    vertical: Vec<bool>,
+    /// One flag per edge across y, `columns` to a row of lattice points.
+    horizontal: Vec<bool>,
+    /// One flag per cell.
+    solid: Vec<bool>,
+}
+
+/// The lines across one axis: `cells + 1` of them.
+///
+/// Line k lies at `origin + k · pitch`; with a thickness, lines 2k and 2k + 1 lie half of it before
+/// and after that.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    cells: usize,
+    origin: f64,
+    pitch: f64,
+    thickness: f64,
+}
+
+impl Axis {
+    fn line(&self, index: usize) -> f64 {
+        if self.thickness > 0.0 {
+            let half = if index.is_multiple_of(2) { -0.5 } else { 0.5 } * self.thickness;
+            self.origin + (index / 2) as f64 * self.pitch + half
+        } else {
+            self.origin + index as f64 * self.pitch
+        }
+    }
+
+    /// The cell that holds `value`, if one does.
+    fn cell(&self, value: f64) -> Option<usize> {
+        let index = if self.thickness > 0.0 {
+            let from_first = value - self.origin + 0.5 * self.thickness;
+            let whole = (from_first / self.pitch).floor();
+            2.0 * whole + f64::from(u8::from(from_first - whole * self.pitch >= self.thickness))
+        } else {
+            ((value - self.origin) / self.pitch).floor()
+        };
+        (index >= 0.0 && index < self.cells as f64).then_some(index as usize)
+    }
+}
+
+impl Lattice {
+    pub(super) fn of_maze(maze: &Maze, pitch: f64, thickness: f64) -> Self {
+        if thickness > 0.0 {
+            Self::thick(maze, pitch, thickness)
+        } else {
+            Self::thin(maze, pitch)
+        }
+    }
+
+    fn thin(maze: &Maze, pitch: f64) -> Self {
+        let grid = maze.grid();
+        let (width, height) = (usize::from(grid.width()), usize::from(grid.height()));
+        let mut vertical = vec![false; (width + 1) * height];
+        let mut horizontal = vec![false; width * (height + 1)];
+        for cell in grid.cells() {
+            let (x, y) = (usize::from(cell.x), usize::from(cell.y));
+            let stands = |direction| !maze.is_open(cell, direction);
+            vertical[y * (width + 1) + x] = stands(Direction::West);
+            vertical[y * (width + 1) + x + 1] = stands(Direction::East);
+            horizontal[y * width + x] = stands(Direction::South);
+            horizontal[(y + 1) * width + x] = stands(Direction::North);
+        }
+        let axis = |cells| Axis {
+            cells,
+            origin: 0.0,
+            pitch,
+            thickness: 0.0,
+        };
+        Self {
+            columns: axis(width),
+            rows: axis(height),
+            vertical,
+            horizontal,
+            solid: vec![false; width * height],
+        }
+    }
+
+    fn thick(maze: &Maze, pitch: f64, thickness: f64) -> Self {
+        let grid = maze.grid();
+        let axis = |cells: u16| Axis {
+            cells: 2 * usize::from(cells) + 1,
+            origin: 0.0,
+            pitch,
+            thickness,
+        };
+        let (columns, rows) = (axis(grid.width()), axis(grid.height()));
+        let mut solid = vec![false; columns.cells * rows.cells];
+        for cell in grid.cells() {
+            for direction in Direction::ALL {
+                if maze.is_open(cell, direction) {
+                    continue;
+                }
+                // The wall's own cell and the posts at both of its ends.
+                let (east, north) = direction.step();
+                for side in -1..=1 {
+                    let x = 2 * i64::from(cell.x) + 1 + i64::from(east) + i64::from(north * side);
+                    let y = 2 * i64::from(cell.y) + 1 + i64::from(north) + i64::from(east * side);
+                    solid[y as usize * columns.cells + x as usize] = true;
+                }
+            }
+        }
+        Self::round_solid(columns, rows, solid)
+    }
+
+    pub(super) fn of_occupancy(occupancy: &Occupancy) -> Result<Self, WorldError> {
+        let &Occupancy {
+            width,
+            height,
+            resolution,
+            origin,
+            ref occupied,
+        } = occupancy;
+        let fits = width > 0 && height > 0 && width.checked_mul(height) == Some(occupied.len());
+        let finite = origin.x.is_finite() && origin.y.is_finite() && resolution.is_finite();
+        if !(fits && finite && resolution > 0.0) {
+            let bits = occupied.len();
+            return Err(WorldError::Occupancy {
+                width,
+                height,
+                resolution,
+                bits,
+            });
+        }
+        if occupied.iter().all(|occupied| *occupied) {
+            return Err(WorldError::NoFloor);
+        }
+        let axis = |cells, origin| Axis {
+            cells,
+            origin,
+            pitch: resolution,
+            thickness: 0.0,
+        };
+        Ok(Self::round_solid(
+            axis(width, origin.x),
+            axis(height, origin.y),
+            occupied.clone(),
+        ))
+    }
+
+    /// Walls wherever solid meets free; beyond the edge everything is solid.
+    fn round_solid(columns: Axis, rows: Axis, solid: Vec<bool>) -> Self {
+        let (width, height) = (columns.cells, rows.cells);
+        let is_solid = |x: Option<usize>, y: Option<usize>| match (x, y) {
+            (Some(x), Some(y)) if x < width && y < height => solid[y * width + x],
+            _ => true,
+        };
+        let edges = |count: usize, columns: usize, before: &dyn Fn(usize, usize) -> bool| {
+            (0..count)
+                .map(|index| before(index % columns, index / columns))
+                .collect()
+        };
+        let vertical = edges((width + 1) * height, width + 1, &|x, y| {
+            is_solid(x.checked_sub(1), Some(y)) != is_solid(Some(x), Some(y))
+        });
+        let horizontal = edges(width * (height + 1), width, &|x, y| {
+            is_solid(Some(x), y.checked_sub(1)) != is_solid(Some(x), Some(y))
+        });
+        Self {
+            columns,
+            rows,
+            vertical,
+            horizontal,
+            solid,
+        }
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds {
+            min: Point::new(self.columns.line(0), self.rows.line(0)),
+            max: Point::new(
+                self.columns.line(self.columns.cells),
+                self.rows.line(self.rows.cells),
+            ),
+        }
+    }
+
+    pub(super) fn is_floor(&self, point: Point) -> bool {
+        match (self.columns.cell(point.x), self.rows.cell(point.y)) {
+            (Some(x), Some(y)) => !self.solid[y * self.columns.cells + x],
+            _ => false,
+        }
+    }
+
+    /// The walls, those in a row joined.
+    pub(super) fn walls(&self, material: Material) -> Vec<Wall> {
+        let (width, height) = (self.columns.cells, self.rows.cells);
+        let mut walls = Vec::new();
+        for x in 0..=width {
+            let at = self.columns.line(x);
+            runs(
+                height,
+                |y| self.vertical[y * (width + 1) + x],
+                |from, to| {
+                    walls.push(Wall {
+                        start: Point::new(at, self.rows.line(from)),
+                        end: Point::new(at, self.rows.line(to)),
+                        material,
+                    });
+                },
+            );
+        }
+        for y in 0..=height {
+            let at = self.rows.line(y);
+            runs(
+                width,
+                |x| self.horizontal[y * width + x],
+                |from, to| {
+                    walls.push(Wall {
+                        start: Point::new(self.columns.line(from), at),
+                        end: Point::new(self.columns.line(to), at),
+                        material,
+                    });
+                },
+            );
+        }
+        walls
+    }
+}
+
+/// Calls `run(from, to)` for every longest run of consecutive indices below `count` that stand.
+fn runs(count: usize, stands: impl Fn(usize) -> bool, mut run: impl FnMut(usize, usize)) {
+    let mut from = None;
+    for index in 0..=count {
+        match (from, index < count && stands(index)) {
+            (None, true) => from = Some(index),
+            (Some(start), false) => {
+                run(start, index);
+                from = None;
+            }
+            _ => {}
+        }
+    }
+}

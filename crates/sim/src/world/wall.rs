@@ -1,0 +1,120 @@
+use tolman_geom::{Point, Vector};
+
+/// A straight wall without thickness: a closed segment, its ends part of it.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// One end, m.
+    pub start: Point,
+    /// The other end, m.
+    pub end: Point,
+    /// What it is made of.
+    #[serde(default)]
+    pub material: Material,
+}
+
+/// How a wall looks to sensors other than the laser, which sees them all alike.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Material {
+    /// Share of infrared light it throws back, 0 … 1.
+    pub reflectance: f64,
+    /// Red, green and blue.
+    pub colour: [u8; 3],
+}
+
+impl Default for Material {
+    /// White and mirroring nothing: the reference surface of data sheets.
+    fn default() -> Self {
+        Self {
+            reflectance: 1.0,
+            colour: [255, 255, 255],
+        }
+    }
+}
+
+impl Wall {
+    /// A wall of the default material.
+    #[must_use]
+    pub fn between(start: Point, end: Point) -> Self {
+        Self {
+            start,
+            end,
+            material: Material::default(),
+        }
+    }
+
+    /// The walls of a polyline through `points`, of the default material.
+    pub fn polyline(points: &[Point]) -> impl Iterator<Item = Self> + '_ {
+        points
+            .windows(2)
+            .map(|pair| Self::between(pair[0], pair[1]))
+    }
+
+    /// The distance from `point`, m.
+    #[must_use]
+    pub fn distance(&self, point: Point) -> f64 {
+        (point - self.nearest(point)).norm()
+    }
+
+    /// The point of the wall nearest to `point`.
+    #[must_use]
+    pub fn nearest(&self, point: Point) -> Point {
+        let along = self.end - self.start;
+        let share = (point - self.start).dot(&along) / along.norm_squared();
+        if share <= 0.0 {
+            self.start
+        } else if share >= 1.0 {
+            self.end
+        } else {
+            self.start + along * share
+        }
+    }
+
+    /// How far a ray meets the wall, m; infinity if it does not. `direction` is a unit vector.
+    ///
+    /// Two walls that share an end leave no gap: on which side of the ray an end lies is computed
+    /// from that end alone, so both walls say the same.
+    #[must_use]
+    pub fn ray(&self, origin: Point, direction: Vector) -> f64 {
+        let (start, end) = (self.start - origin, self.end - origin);
+        let (left_start, left_end) = (direction.perp(&start), direction.perp(&end));
+        let (ahead_start, ahead_end) = (direction.dot(&start), direction.dot(&end));
+        let apart = left_start * left_end > 0.0
+            || (left_start > 0.0 && left_end > 0.0)
+            || (left_start < 0.0 && left_end < 0.0);
+        if apart {
+            return f64::INFINITY;
+        }
+        let between = left_end - left_start;
+        let range = if between.abs() > 0.0 {
+            (ahead_start * left_end - ahead_end * left_start) / between
+        } else if ahead_start * ahead_end < 0.0 {
+            0.0
+        } else {
+            ahead_start.min(ahead_end)
+        };
+        if range >= 0.0 { range } else { f64::INFINITY }
+    }
+
+    /// What is wrong with this wall, if anything is.
+    pub(super) fn check(&self) -> Result<(), &'static str> {
+        let numbers = [
+            self.start.x,
+            self.start.y,
+            self.end.x,
+            self.end.y,
+            self.material.reflectance,
+        ];
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return Err("has a number that is not finite");
+        }
+        if numbers[..4].iter().any(|number| number.abs() > 1e6) {
+            return Err("lies more than 1000 km away");
+        }
+        if (self.end - self.start).norm() < 1e-9 {
+            return Err("has no length");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,97 @@
+use tolman_geom::Point;
+use tolman_maze::Cell;
+
+use super::{Bounds, WorldError};
+
+/// A named part of the floor: a destination, a start, a landmark's place.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Zone {
+    name: String,
+    areas: Vec<Area>,
+}
+
+/// A piece of a [`Zone`].
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Area {
+    /// A rectangle along the axes.
+    Rectangle(Bounds),
+    /// A disc.
+    Disc {
+        /// Its middle, m.
+        centre: Point,
+        /// Its radius, m.
+        radius: f64,
+    },
+}
+
+impl Area {
+    /// Whether `point` lies in it or on its edge.
+    #[must_use]
+    pub fn contains(&self, point: Point) -> bool {
+        match self {
+            Self::Rectangle(bounds) => bounds.contains(point),
+            Self::Disc { centre, radius } => (point - centre).norm() <= *radius,
+        }
+    }
+}
+
+impl Zone {
+    /// The zone that `areas` make up together.
+    #[must_use]
+    pub fn new(name: impl Into<String>, areas: Vec<Area>) -> Self {
+        Self {
+            name: name.into(),
+            areas,
+        }
+    }
+
+    pub(super) fn of_cells(name: &str, cells: &[Cell], pitch: f64) -> Self {
+        let corner = |x: u32, y: u32| Point::new(f64::from(x) * pitch, f64::from(y) * pitch);
+        let area = |cell: &Cell| {
+            let (x, y) = (u32::from(cell.x), u32::from(cell.y));
+            Area::Rectangle(Bounds {
+                min: corner(x, y),
+                max: corner(x + 1, y + 1),
+            })
+        };
+        Self::new(name, cells.iter().map(area).collect())
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What it is made up of.
+    #[must_use]
+    pub fn areas(&self) -> &[Area] {
+        &self.areas
+    }
+
+    /// Whether `point` lies in it or on its edge.
+    #[must_use]
+    pub fn contains(&self, point: Point) -> bool {
+        self.areas.iter().any(|area| area.contains(point))
+    }
+
+    pub(super) fn check(&self) -> Result<(), WorldError> {
+        let extent = |area: &Area| match area {
+            Area::Rectangle(bounds) => bounds.width().min(bounds.height()),
+            Area::Disc { centre, radius } => radius + 0.0 * (centre.x + centre.y),
+        };
+        match self
+            .areas
+            .iter()
+            .position(|area| !(extent(area).is_finite() && extent(area) > 0.0))
+        {
+            Some(index) => Err(WorldError::Zone {
+                name: self.name.clone(),
+                index,
+            }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The simulator as its users see it.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot set itself up has failed"
+)]
+
+mod bodies;
