@@ -2,6 +2,8 @@
 
 // `cfg(test)` tells clippy that helpers beside the tests may unwrap.
 #[cfg(test)]
+mod documentation;
+#[cfg(test)]
 mod faults;
 #[cfg(test)]
 mod formats;

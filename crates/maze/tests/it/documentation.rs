@@ -1,0 +1,48 @@
+//! The page that explains the maze file is true.
+
+use tolman_maze::{Cell, Format, read};
+
+const PAGE: &str = include_str!("../../../../docs/maze-format.md");
+
+/// The text of the page's first block marked `maze`.
+fn example() -> &'static str {
+    let (_, block) = PAGE.split_once("```maze\n").unwrap();
+    block.split_once("```").unwrap().0
+}
+
+#[test]
+fn the_example_is_read_as_it_is_explained() {
+    assert_eq!(Format::detect(example()).unwrap(), Format::Tolman);
+    let file = read(example()).unwrap();
+    assert_eq!(file.name.as_deref(), Some("Loop with a room"));
+    assert_eq!(file.corridor_width, Some(0.5));
+    assert_eq!(file.maze.start().unwrap().0, Cell::new(0, 0));
+    assert_eq!(file.maze.goals(), [Cell::new(4, 1)]);
+    assert_eq!(
+        (file.maze.grid().width(), file.maze.grid().height()),
+        (5, 3)
+    );
+}
+
+/// Every value in the table's example column is taken; the cells are those of the example.
+#[test]
+fn the_keys_of_the_table_are_the_keys_that_are_read() {
+    let drawing = &example()[example().find('+').unwrap()..];
+    let unmarked = drawing.replace(['S', 'G'], " ");
+    let rows = PAGE
+        .lines()
+        .filter(|line| line.starts_with("| `") && line.contains(" = "));
+    let mut header = String::new();
+    for row in rows {
+        let cell = row.trim_end_matches('|').rsplit('|').next().unwrap();
+        let line = cell.trim().trim_matches('`');
+        header.push_str(&format!("{line}\n"));
+    }
+    for key in ["format", "name", "corridor_width", "start", "destination"] {
+        assert!(
+            header.contains(&format!("{key} = ")),
+            "{key} is not in\n{header}"
+        );
+    }
+    read(&format!("{header}\n{unmarked}")).unwrap();
+}
