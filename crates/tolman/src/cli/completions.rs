@@ -1,0 +1,26 @@
+//! `tolman completions`: what a shell needs to complete our command lines.
+
+use std::io::Write;
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+use super::Failure;
+
+/// Writes a completion script for a shell
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman completions bash > ~/.local/share/bash-completion/completions/tolman")]
+pub(super) struct Arguments {
+    /// The shell that is to complete
+    shell: Shell,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    // The generator panics where it cannot write, so it writes to memory.
+    let mut script = Vec::new();
+    let mut command = super::Arguments::command();
+    clap_complete::generate(arguments.shell, &mut command, "tolman", &mut script);
+    Ok(out.write_all(&script)?)
+}

@@ -1,0 +1,69 @@
+//! What a verb can end with, and how it is told.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::builder::styling::{AnsiColor, Style};
+
+/// Why a verb did not do what it was asked for.
+#[derive(Debug)]
+pub(super) enum Failure {
+    /// Whoever called is to give something else.
+    BadInput(anyhow::Error),
+    /// The input was sound, the machine or the work on it was not.
+    Failed(anyhow::Error),
+}
+
+impl Failure {
+    pub(super) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Failed(_) => 1,
+            Self::BadInput(_) => 2,
+        })
+    }
+
+    /// Whether the reader of our output went away.
+    pub(super) fn is_closed_pipe(&self) -> bool {
+        let broken = |cause: &(dyn core::error::Error + 'static)| {
+            let error = cause.downcast_ref::<io::Error>();
+            error.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+        };
+        self.error().chain().any(broken)
+    }
+
+    /// Tells it on stderr, the causes behind it in one line.
+    pub(super) fn complain(&self) {
+        complain(self.error());
+    }
+
+    fn error(&self) -> &anyhow::Error {
+        match self {
+            Self::BadInput(error) | Self::Failed(error) => error,
+        }
+    }
+}
+
+/// Tells an error on stderr, in colour where colours are wanted.
+pub(super) fn complain(error: &anyhow::Error) {
+    let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
+    // Nobody is left to be told that stderr cannot be written.
+    let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {error:#}");
+}
+
+impl<E: Into<anyhow::Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+/// Marks an error as the caller's to mend.
+pub(super) trait OrBadInput<T> {
+    /// Exit code 2 instead of 1.
+    fn or_bad_input(self) -> Result<T, Failure>;
+}
+
+impl<T, E: Into<anyhow::Error>> OrBadInput<T> for Result<T, E> {
+    fn or_bad_input(self) -> Result<T, Failure> {
+        self.map_err(|error| Failure::BadInput(error.into()))
+    }
+}

@@ -1,0 +1,52 @@
+//! `tolman maze check`: can these files be read, and can their mazes be solved?
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+
+use super::{Failure, input, summary::Summary};
+
+/// Reads mazes and checks that a way leads to the goal; exits 2 if one is unsound
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman maze check mazes/*")]
+pub(crate) struct Arguments {
+    /// The maze files, of any format; - reads standard input
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Write one JSON object a sound maze and line
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let mut unsound = Vec::new();
+    for file in &arguments.files {
+        match input::read(file) {
+            Ok(read) => {
+                let summary = Summary::of(input::name(file), &read);
+                if arguments.json {
+                    writeln!(out, "{}", serde_json::to_string(&summary)?)?;
+                } else {
+                    writeln!(out, "{summary}")?;
+                }
+            }
+            Err(failure) => unsound.push(failure),
+        }
+    }
+    let Some(last) = unsound.pop() else {
+        return Ok(());
+    };
+    // What was found sound stands before what was not, wherever the two streams end up.
+    out.flush()?;
+    let (bad, all) = (unsound.len() + 1, arguments.files.len());
+    if all == 1 {
+        return Err(last);
+    }
+    unsound.iter().chain([&last]).for_each(Failure::complain);
+    Err(Failure::BadInput(anyhow!(
+        "{bad} of {all} mazes are unsound"
+    )))
+}

@@ -1,0 +1,26 @@
+//! `tolman maze convert`: the same maze in another format.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::output::Output;
+use super::{Failure, input};
+
+/// Writes a maze in another format
+#[derive(clap::Args)]
+#[command(after_help = "\
+Formats: numbers (of the micromouse test program), mazefiles (drawings), num (of the simulator
+mms), tolman (docs/maze-format.md). The format read is found out from the text.
+
+Example:
+  tolman maze convert taiwan2016f.txt --to num --out taiwan2016f.num")]
+pub(crate) struct Arguments {
+    /// The maze file; - reads standard input
+    file: PathBuf,
+    #[command(flatten)]
+    output: Output,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    arguments.output.write(&input::parse(&arguments.file)?, out)
+}

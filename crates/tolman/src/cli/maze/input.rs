@@ -1,0 +1,67 @@
+//! Maze files as the command line names them.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+
+use anyhow::{Context, anyhow};
+use tolman_maze::MazeFile;
+
+use super::Failure;
+use crate::cli::failure::OrBadInput;
+
+/// Reads a sound maze from a file in any format, or from stdin if the path is `-`.
+///
+/// # Errors
+/// Bad input with the file's name, and line and column where the text is at fault.
+pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
+    let text = text(path)?;
+    tolman_maze::read(&text)
+        .with_context(|| name(path))
+        .or_bad_input()
+}
+
+/// [`read`], for a maze that nobody will ever solve.
+///
+/// # Errors
+/// As [`read`], but for mazes without a way to the goal.
+pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
+    let text = text(path)?;
+    tolman_maze::parse(&text)
+        .with_context(|| name(path))
+        .or_bad_input()
+}
+
+/// What messages call a file.
+pub(super) fn name(path: &Path) -> String {
+    if is_stdin(path) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    }
+}
+
+fn text(path: &Path) -> Result<String, Failure> {
+    let bytes = if is_stdin(path) {
+        let mut bytes = Vec::new();
+        io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        fs::read(path)
+    };
+    let bytes = bytes
+        .with_context(|| format!("cannot read {}; give the path of a maze file", name(path)))
+        .or_bad_input()?;
+    String::from_utf8(bytes)
+        .map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            anyhow!(
+                "{}: byte {at} is not UTF-8 text: expected a maze in text form",
+                name(path)
+            )
+        })
+        .or_bad_input()
+}
+
+fn is_stdin(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}

@@ -1,0 +1,35 @@
+//! `tolman maze`: looks at mazes, checks, converts and makes them.
+
+mod check;
+mod convert;
+mod generate;
+mod input;
+mod output;
+mod show;
+mod summary;
+
+use std::io::Write;
+
+use clap::Subcommand;
+
+use super::failure::Failure;
+
+/// Looks at mazes, checks, converts and makes them
+#[derive(Subcommand)]
+pub(super) enum Verb {
+    Show(show::Arguments),
+    Check(check::Arguments),
+    Convert(convert::Arguments),
+    Generate(generate::Arguments),
+}
+
+impl Verb {
+    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+        match self {
+            Self::Show(arguments) => show::carry_out(&arguments, out),
+            Self::Check(arguments) => check::carry_out(&arguments, out),
+            Self::Convert(arguments) => convert::carry_out(&arguments, out),
+            Self::Generate(arguments) => generate::carry_out(&arguments, out),
+        }
+    }
+}

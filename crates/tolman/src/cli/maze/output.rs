@@ -1,0 +1,40 @@
+//! Mazes written where and as the command line says.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tolman_maze::{Format, MazeFile, write};
+
+use super::Failure;
+use crate::cli::failure::OrBadInput;
+use crate::cli::file::write_whole;
+
+/// Where to, and as what.
+#[derive(clap::Args)]
+pub(super) struct Output {
+    /// The format to write
+    #[arg(long, value_name = "FORMAT", default_value = "tolman", value_parser = formats())]
+    to: Format,
+    /// The file to write, instead of standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl Output {
+    pub(super) fn write(&self, maze: &MazeFile, out: &mut dyn Write) -> Result<(), Failure> {
+        let text = write(maze, self.to)
+            .context("cannot write the maze")
+            .or_bad_input()?;
+        match &self.out {
+            Some(path) => write_whole(path, &text),
+            None => Ok(out.write_all(text.as_bytes())?),
+        }
+    }
+}
+
+fn formats() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::name))
+        .try_map(|name: String| name.parse::<Format>())
+}

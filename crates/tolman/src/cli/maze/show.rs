@@ -1,0 +1,35 @@
+//! `tolman maze show`: a maze as a drawing.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::{Failure, input, summary::Summary};
+
+/// Draws a maze of any format as text
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman maze show mazes/j.maze")]
+pub(crate) struct Arguments {
+    /// The maze file; - reads standard input
+    file: PathBuf,
+    /// Write the figures and the drawing as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let read = input::parse(&arguments.file)?;
+    let summary = Summary::of(input::name(&arguments.file), &read);
+    if arguments.json {
+        let mut json = serde_json::to_value(&summary)?;
+        json["drawing"] = read.maze.to_string().into();
+        writeln!(out, "{json:#}")?;
+        return Ok(());
+    }
+    if let Some(name) = &read.name {
+        writeln!(out, "{name}")?;
+    }
+    writeln!(out, "{}{summary}", read.maze)?;
+    Ok(())
+}

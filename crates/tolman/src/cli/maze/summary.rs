@@ -1,0 +1,83 @@
+//! What is told of a maze beside its drawing.
+
+use core::fmt;
+
+use serde::Serialize;
+use tolman_maze::{Cell, MazeFile};
+
+/// The figures of a maze. Displays as one line.
+#[derive(Serialize)]
+pub(super) struct Summary {
+    file: String,
+    name: Option<String>,
+    columns: u16,
+    rows: u16,
+    corridor_width_m: Option<f64>,
+    start: Option<Start>,
+    goals: Vec<[u16; 2]>,
+    dead_ends: usize,
+    junctions: usize,
+    /// Cells from the start to the nearest goal; none if there is no start or no way.
+    shortest_way: Option<u32>,
+}
+
+#[derive(Serialize)]
+struct Start {
+    cell: [u16; 2],
+    heading: String,
+}
+
+impl Summary {
+    pub(super) fn of(file: String, read: &MazeFile) -> Self {
+        let maze = &read.maze;
+        let grid = maze.grid();
+        let steps = maze.steps_to_goal();
+        let pair = |cell: Cell| [cell.x, cell.y];
+        Self {
+            file,
+            name: read.name.clone(),
+            columns: grid.width(),
+            rows: grid.height(),
+            corridor_width_m: read.corridor_width,
+            start: maze.start().map(|(cell, heading)| Start {
+                cell: pair(cell),
+                heading: heading.to_string(),
+            }),
+            goals: maze.goals().iter().copied().map(pair).collect(),
+            dead_ends: maze.dead_ends().count(),
+            junctions: maze.junctions().count(),
+            shortest_way: maze.start().and_then(|(start, _)| steps[grid.index(start)]),
+        }
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            formatter,
+            "{}: {} × {} cells",
+            self.file, self.columns, self.rows
+        )?;
+        if let Some(width) = self.corridor_width_m {
+            write!(formatter, " of {width} m")?;
+        }
+        match &self.start {
+            Some(Start {
+                cell: [x, y],
+                heading,
+            }) => {
+                write!(formatter, ", start ({x}, {y}) {heading}")?;
+            }
+            None => write!(formatter, ", no start")?,
+        }
+        let (goals, dead_ends, junctions) = (self.goals.len(), self.dead_ends, self.junctions);
+        write!(
+            formatter,
+            ", {goals} goal cells, {dead_ends} dead ends, {junctions} junctions"
+        )?;
+        match self.shortest_way {
+            Some(steps) => write!(formatter, ", shortest way {steps} cells"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! The command line, one verb a file.
+//!
+//! Results go to stdout, everything else to stderr. A verb writes to the `out` it is given and
+//! returns a [`Failure`] if there is something to complain about.
+
+mod completions;
+mod failure;
+mod file;
+mod man;
+mod maze;
+mod stdout;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use failure::Failure;
+use stdout::Stdout;
+
+/// Robots with laser rings in mazes: runs them, measures them, and sets them beside the papers.
+#[derive(Parser)]
+#[command(name = "tolman", version, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Arguments {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tolman maze show mazes/j.maze
+
+Exit codes: 0 done, 1 failed, 2 bad input. Results are written to stdout, errors to stderr.";
+
+#[derive(Subcommand)]
+enum Verb {
+    #[command(subcommand)]
+    Maze(maze::Verb),
+    Completions(completions::Arguments),
+    /// Writes the manual page
+    Man,
+}
+
+/// Parses the command line, does what it says and returns the exit code.
+pub(crate) fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let mut out = Stdout::lock();
+    let done = arguments
+        .verb
+        .carry_out(&mut out)
+        .and_then(|()| Ok(out.flush()?));
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        // Whoever reads has seen enough, as in `tolman maze show … | head -1`.
+        Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.complain();
+            failure.exit_code()
+        }
+    }
+}
+
+impl Verb {
+    fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+        match self {
+            Self::Maze(verb) => verb.carry_out(out),
+            Self::Completions(arguments) => completions::carry_out(&arguments, out),
+            Self::Man => man::carry_out(out),
+        }
+    }
+}

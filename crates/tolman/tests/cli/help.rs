@@ -1,0 +1,44 @@
+use crate::tolman;
+
+#[test]
+fn help_names_every_verb_and_the_exit_codes() {
+    let help = tolman(&["--help"]).done();
+    for part in ["maze", "completions", "man", "Examples:", "Exit codes:"] {
+        assert!(help.contains(part), "no `{part}` in:\n{help}");
+    }
+}
+
+#[test]
+fn every_verb_explains_itself() {
+    for verb in [
+        &["completions"][..],
+        &["maze", "show"],
+        &["maze", "check"],
+        &["maze", "convert"],
+        &["maze", "generate"],
+    ] {
+        let help = tolman(&[verb, &["--help"]].concat()).done();
+        assert!(
+            help.contains("Usage: tolman") && help.contains("Example"),
+            "{help}"
+        );
+    }
+}
+
+#[test]
+fn no_verb_is_refused_with_the_help() {
+    tolman(&[]).refused(2, &["Usage: tolman", "maze"]);
+}
+
+#[test]
+fn completions_and_man_page_know_the_verbs() {
+    for shell in ["bash", "zsh", "fish"] {
+        let script = tolman(&["completions", shell]).done();
+        assert!(script.contains("convert"));
+    }
+    let page = tolman(&["man"]).done();
+    assert!(
+        page.contains(".TH tolman 1") && page.contains("maze"),
+        "{page}"
+    );
+}

@@ -1,0 +1,114 @@
+//! The `tolman` command as its users meet it: what it writes where, and how it exits.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot start its command has failed"
+)]
+
+mod help;
+mod maze;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// How the command ended.
+#[derive(Debug)]
+struct Ended {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl Ended {
+    /// Asks for success and nothing on stderr; returns what was written.
+    #[track_caller]
+    fn done(self) -> String {
+        assert_eq!(
+            (self.code, self.err.as_str()),
+            (Some(0), ""),
+            "{}",
+            self.out
+        );
+        self.out
+    }
+
+    /// Asks for this exit code and a message with all these parts, and nothing on stdout.
+    #[track_caller]
+    fn refused(self, code: i32, parts: &[&str]) {
+        assert_eq!(
+            (self.code, self.out.as_str()),
+            (Some(code), ""),
+            "{}",
+            self.err
+        );
+        for part in parts {
+            assert!(self.err.contains(part), "no `{part}` in: {}", self.err);
+        }
+    }
+}
+
+/// `tolman` with these arguments, started in `folder`.
+fn command_in(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tolman"));
+    command
+        .current_dir(folder)
+        .args(arguments)
+        .stdin(Stdio::null());
+    command
+}
+
+fn tolman_in(folder: &Path, arguments: &[&str]) -> Ended {
+    let output = command_in(folder, arguments).output().unwrap();
+    Ended {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+fn tolman(arguments: &[&str]) -> Ended {
+    tolman_in(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments)
+}
+
+/// `tolman` with this text on its stdin.
+fn tolman_fed(text: &str, arguments: &[&str]) -> Ended {
+    let mut child = command_in(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(text.as_bytes())
+        .unwrap();
+    let output = child.wait_with_output().unwrap();
+    Ended {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// An empty folder of this name, by itself for each test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// A corridor of three cells, 0.95 m wide, with the goal in the east.
+const CORRIDOR: &str = "\
+name = Corridor
+corridor_width = 0.95
+
+o---o---o---o
+| S       G |
+o---o---o---o
+";
