@@ -57,6 +57,15 @@ pub enum Error {
         /// What was found there.
         what: String,
     },
+    /// Another process has the folder of results open.
+    #[error(
+        "another experiment is writing to {}; wait for it or choose another folder with --out",
+        folder.display()
+    )]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// A file or folder cannot be read or written.
     #[error("cannot {action} {}; {repair}", path.display())]
     File {
@@ -136,6 +145,7 @@ impl Error {
                 | Self::Zero { .. }
                 | Self::Seed { .. }
                 | Self::ForeignFolder { .. }
+                | Self::Busy { .. }
         )
     }
 }

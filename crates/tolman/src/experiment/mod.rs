@@ -8,22 +8,43 @@
 //! the index, *not* the row, so that every row of a table meets the same starts and the same noise
 //! and rows can be compared in pairs.
 
+mod analysis;
+mod build;
 mod catalogue;
+mod check;
+mod config_file;
 mod error;
+mod files;
+mod folder;
 mod hash;
 mod options;
+mod plots;
 mod progress;
 mod run;
+mod runner;
+mod runs_file;
+mod sample;
 mod seed;
+mod summary;
 mod table;
+mod terminal;
+mod text;
+mod verdict;
 
+pub use analysis::{Analysis, Contrast, Disagreement, Measured, MetricAnalysis, TableAnalysis};
+pub use build::Build;
 pub use catalogue::{Entry, catalogue, open};
 pub use error::Error;
 pub use options::Options;
 pub use progress::{Event, Progress, Silent};
 pub use run::{Field, Fields, Job, Run};
+pub use runner::{Outcome, execute};
 pub use seed::run_seed;
+pub use summary::{Summary, SummaryRow};
 pub use table::{Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance};
+pub use terminal::Terminal;
+pub use text::{Ink, tables_as_text};
+pub use verdict::{Basis, Verdict};
 
 use crate::draw::Figure;
 

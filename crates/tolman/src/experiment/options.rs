@@ -36,4 +36,50 @@ impl Options {
             .clone()
             .unwrap_or_else(|| PathBuf::from("results").join(name))
     }
+
+    /// The command that makes the same results again.
+    pub fn command_of(&self, name: &str, experiment: &dyn Experiment) -> String {
+        let mut command = format!(
+            "cargo xtask experiment {name} --seed {} --runs {}",
+            self.seed,
+            self.runs_of(experiment)
+        );
+        if self.quick {
+            command += " --quick";
+        }
+        for maze in &self.mazes {
+            command += &format!(" --maze {}", quoted(&maze.to_string_lossy()));
+        }
+        if let Some(out) = &self.out {
+            command += &format!(" --out {}", quoted(&out.to_string_lossy()));
+        }
+        command
+    }
+}
+
+/// An argument as a shell takes it: in single quotes if it holds anything unusual.
+fn quoted(argument: &str) -> String {
+    let usual = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
+    if !argument.is_empty() && argument.chars().all(usual) {
+        argument.to_owned()
+    } else {
+        format!("'{}'", argument.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn arguments_survive_the_shell() {
+        for (argument, expect) in [
+            ("a/b.txt", "a/b.txt"),
+            ("my maze", "'my maze'"),
+            ("it's", r"'it'\''s'"),
+            ("", "''"),
+        ] {
+            assert_eq!(quoted(argument), expect);
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
+use crate::stats::{self, PValue};
+
 /// One table of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -15,6 +17,9 @@ pub struct Table {
     pub paper_runs: Option<u32>,
     /// How the rows are compared with each other; `None` compares none.
     pub comparison: Option<Comparison>,
+    /// What a reader must know to read the values, such as how runs without success count; empty if
+    /// there is nothing.
+    pub note: String,
 }
 
 impl Table {
@@ -27,6 +32,7 @@ impl Table {
             metrics: Vec::new(),
             paper_runs: None,
             comparison: None,
+            note: String::new(),
         }
     }
 
@@ -48,6 +54,13 @@ impl Table {
     #[must_use]
     pub fn paper_runs(mut self, runs: u32) -> Self {
         self.paper_runs = Some(runs);
+        self
+    }
+
+    /// Says what a reader must know to read the values.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.note = note.into();
         self
     }
 
@@ -78,6 +91,24 @@ pub enum Correction {
     Bonferroni,
     /// Holm's step-down procedure: never weaker than Bonferroni's.
     Holm,
+}
+
+impl Correction {
+    /// The name of its author.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Bonferroni => "Bonferroni",
+            Self::Holm => "Holm",
+        }
+    }
+
+    /// Corrects p-values.
+    pub(super) fn correct(self, p_values: &[PValue]) -> Vec<PValue> {
+        match self {
+            Self::Bonferroni => stats::bonferroni(p_values),
+            Self::Holm => stats::holm(p_values),
+        }
+    }
 }
 
 /// One row of a table: one brain, one quantizer, one setting.

@@ -1,7 +1,35 @@
 //! Statistics for comparing samples of runs, held to SciPy's values by golden files.
+//!
+//! Samples are slices of finite numbers; anything else is a [`SampleError`]. p-values are kept as
+//! logarithms ([`PValue`]), so the deep tails of large samples do not underflow. All functions are
+//! deterministic on every platform; the bootstrap draws from the caller's generator.
 
+mod beta;
+mod bootstrap;
+mod effect;
 mod error;
+mod interval;
+mod mann_whitney;
+mod method;
+mod moments;
+mod normal;
+mod p_value;
+mod proportion;
 mod quantile;
+mod ranks;
+mod wilcoxon;
 
+#[cfg(test)]
+mod golden;
+
+pub use bootstrap::bca_interval;
+pub use effect::a12;
 pub use error::SampleError;
+pub use interval::Interval;
+pub use mann_whitney::{MannWhitney, mann_whitney};
+pub use method::Method;
+pub use moments::{mean, standard_deviation};
+pub use p_value::{PValue, bonferroni, holm};
+pub use proportion::{exact_binomial_interval, wilson_interval};
 pub use quantile::{FiveNumbers, five_numbers, quantile};
+pub use wilcoxon::{Wilcoxon, wilcoxon};

@@ -1,0 +1,35 @@
+//! Tells the crate which commit and compiler it is built from, for the reports.
+
+use std::path::Path;
+use std::process::Command;
+
+fn main() {
+    // The log grows with every commit and checkout; without it there is no repository to ask.
+    let log = "../../.git/logs/HEAD";
+    if Path::new(log).exists() {
+        println!("cargo::rerun-if-changed={log}");
+    }
+    println!("cargo::rerun-if-changed=build.rs");
+    let commit = output("git", &["rev-parse", "--short=10", "HEAD"]);
+    let compiler = std::env::var("RUSTC")
+        .ok()
+        .and_then(|rustc| output(&rustc, &["--version"]));
+    println!(
+        "cargo::rustc-env=TOLMAN_COMMIT={}",
+        commit.as_deref().unwrap_or("unknown")
+    );
+    println!(
+        "cargo::rustc-env=TOLMAN_COMPILER={}",
+        compiler.as_deref().unwrap_or("unknown")
+    );
+}
+
+/// The first line a program prints, if it can be run and succeeds.
+fn output(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output
+        .status
+        .success()
+        .then(|| text.lines().next().unwrap_or_default().to_owned())
+}

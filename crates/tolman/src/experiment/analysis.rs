@@ -1,0 +1,199 @@
+//! What the runs say: every metric of every row, beside the paper and beside the reference row.
+
+use super::sample::Sample;
+use super::{Experiment, Metric, PaperValue, Run, Table, Verdict, run_seed};
+use crate::stats::{self, Interval, Method, PValue};
+
+/// All tables of an experiment, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    /// In the experiment's order.
+    pub tables: Vec<TableAnalysis>,
+}
+
+/// One table, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableAnalysis {
+    /// The table.
+    pub table: Table,
+    /// In the table's order.
+    pub metrics: Vec<MetricAnalysis>,
+}
+
+/// One metric of a table, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetricAnalysis {
+    /// The metric.
+    pub metric: Metric,
+    /// The rows that have it, in the table's order.
+    pub rows: Vec<Measured>,
+}
+
+/// One metric of one row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The name of the row.
+    pub row: String,
+    /// How many runs were measured.
+    pub n: u64,
+    /// The value, in the metric's unit.
+    pub value: f64,
+    /// The standard deviation, for means of two runs or more.
+    pub sd: Option<f64>,
+    /// The median, for means.
+    pub median: Option<f64>,
+    /// The 95 % interval of the value.
+    pub interval: Option<Interval>,
+    /// What the paper says.
+    pub paper: Option<PaperValue>,
+    /// Whether that matches.
+    pub verdict: Option<Verdict>,
+    /// How the row differs from the reference row.
+    pub contrast: Option<Contrast>,
+}
+
+/// How a row differs from the reference row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contrast {
+    /// Mann and Whitney's p-value, corrected for the comparisons of the metric.
+    pub p: PValue,
+    /// The probability that a run of this row has a greater value than one of the reference row.
+    pub a12: f64,
+}
+
+/// A value that does not match the paper's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// The table.
+    pub table: String,
+    /// The row.
+    pub row: String,
+    /// The metric.
+    pub metric: String,
+    /// Our value.
+    pub ours: f64,
+    /// The paper's value.
+    pub paper: f64,
+    /// What would have matched.
+    pub accepted: Interval,
+}
+
+impl Analysis {
+    /// Measures runs that are sorted by table, row and index.
+    pub(super) fn of(experiment: &dyn Experiment, runs: &[Run], master_seed: u64) -> Self {
+        let tables = experiment
+            .tables()
+            .iter()
+            .map(|table| TableAnalysis {
+                metrics: table
+                    .metrics
+                    .iter()
+                    .map(|metric| measure(table, metric, runs, master_seed))
+                    .collect(),
+                table: table.clone(),
+            })
+            .collect();
+        Self { tables }
+    }
+
+    /// The values that do not match the paper's, for `--check`.
+    pub fn disagreements(&self) -> Vec<Disagreement> {
+        let mut found = Vec::new();
+        for (table, metric, measured) in self.values() {
+            if let (Some(paper), Some(verdict)) = (&measured.paper, measured.verdict)
+                && !verdict.matches
+            {
+                found.push(Disagreement {
+                    table: table.name.clone(),
+                    row: measured.row.clone(),
+                    metric: metric.name.clone(),
+                    ours: measured.value,
+                    paper: paper.value,
+                    accepted: verdict.accepted,
+                });
+            }
+        }
+        found
+    }
+
+    /// Every measured value with its table and metric.
+    pub fn values(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
+        self.tables.iter().flat_map(|table| {
+            table.metrics.iter().flat_map(move |metric| {
+                metric
+                    .rows
+                    .iter()
+                    .map(move |measured| (&table.table, &metric.metric, measured))
+            })
+        })
+    }
+}
+
+fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> MetricAnalysis {
+    let mut samples = Vec::new();
+    for row in &table.rows {
+        let runs: Vec<&Run> = runs
+            .iter()
+            .filter(|run| run.table == table.name && run.row == row.name)
+            .collect();
+        if let Some(sample) = Sample::of(&metric.statistic, &runs) {
+            samples.push((row, sample));
+        }
+    }
+    let mut rows: Vec<Measured> = samples
+        .iter()
+        .map(|(row, sample)| {
+            let stream = format!("bootstrap of {}, {}, {}", table.name, row.name, metric.name);
+            let value = sample.value();
+            let paper = row.paper_value(&metric.name);
+            Measured {
+                row: row.name.clone(),
+                n: sample.len() as u64,
+                value,
+                sd: sample.sd(),
+                median: sample.median(),
+                interval: sample.interval(run_seed(master_seed, &stream, 0)),
+                paper: paper.cloned(),
+                verdict: paper
+                    .and_then(|paper| Verdict::of(value, paper, table.paper_runs, metric)),
+                contrast: None,
+            }
+        })
+        .collect();
+    contrast(table, &samples, &mut rows);
+    MetricAnalysis {
+        metric: metric.clone(),
+        rows,
+    }
+}
+
+/// Compares every row with the reference row, if the table wants that and the row was measured.
+fn contrast(table: &Table, samples: &[(&super::Row, Sample)], rows: &mut [Measured]) {
+    let Some(comparison) = &table.comparison else {
+        return;
+    };
+    let Some((_, reference)) = samples
+        .iter()
+        .find(|(row, _)| row.name == comparison.reference)
+    else {
+        return;
+    };
+    let reference = reference.numbers();
+    let mut compared = Vec::new();
+    for (place, (row, sample)) in samples.iter().enumerate() {
+        let numbers = sample.numbers();
+        if row.name != comparison.reference
+            && let Ok(test) = stats::mann_whitney(&numbers, &reference, Method::Auto)
+            && let Ok(a12) = stats::a12(&numbers, &reference)
+        {
+            compared.push((place, test.p, a12));
+        }
+    }
+    let p_values: Vec<PValue> = compared.iter().map(|(_, p, _)| *p).collect();
+    for ((place, _, a12), p) in compared
+        .into_iter()
+        .zip(comparison.correction.correct(&p_values))
+    {
+        rows[place].contrast = Some(Contrast { p, a12 });
+    }
+}

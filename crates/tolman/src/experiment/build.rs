@@ -1,0 +1,33 @@
+//! What program made the results.
+
+use std::fs;
+
+use serde::{Deserialize, Serialize};
+
+use super::hash::Fnv64;
+
+/// The build that plays the runs. Results of different builds are never mixed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Build {
+    /// The commit it was built from, or `unknown`.
+    pub commit: String,
+    /// The compiler, as it calls itself.
+    pub compiler: String,
+    /// A hash of the running executable, or `unknown` if it cannot be read.
+    pub executable: String,
+}
+
+impl Build {
+    /// The running program. Reads the executable once.
+    pub fn current() -> Self {
+        let executable = std::env::current_exe().and_then(fs::read);
+        Self {
+            commit: env!("TOLMAN_COMMIT").to_owned(),
+            compiler: env!("TOLMAN_COMPILER").to_owned(),
+            executable: executable.map_or_else(
+                |_| "unknown".to_owned(),
+                |bytes| Fnv64::new().write(&bytes).hex(),
+            ),
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! What is refused before or after it is used.
+
+use alloc::collections::BTreeSet;
+
+use super::{BoxError, Error, Experiment, Field, Fields, Options, Statistic};
+use crate::draw::Figure;
+
+/// Refuses options that would run nothing or could not be written down.
+pub(super) fn options(options: &Options) -> Result<(), Error> {
+    if options.runs == Some(0) {
+        return Err(Error::Zero { option: "--runs" });
+    }
+    if options.jobs == Some(0) {
+        return Err(Error::Zero { option: "--jobs" });
+    }
+    if i64::try_from(options.seed).is_err() {
+        return Err(Error::Seed { seed: options.seed });
+    }
+    Ok(())
+}
+
+/// Refuses tables whose rows or metrics could not be told apart or refer to what is not there.
+pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
+    let refuse = |what: String| {
+        Err(Error::Tables {
+            name: experiment.name().to_owned(),
+            what,
+        })
+    };
+    let tables = experiment.tables();
+    if let Some(name) = repeated(tables.iter().map(|table| &table.name)) {
+        return refuse(format!("two tables are named {name:?}"));
+    }
+    if tables.iter().all(|table| table.rows.is_empty()) {
+        return refuse("no table has a row".to_owned());
+    }
+    for table in tables {
+        let place = format!("table {:?}", table.name);
+        if let Some(name) = repeated(table.rows.iter().map(|row| &row.name)) {
+            return refuse(format!("{place} has two rows named {name:?}"));
+        }
+        if let Some(name) = repeated(table.metrics.iter().map(|metric| &metric.name)) {
+            return refuse(format!("{place} has two metrics named {name:?}"));
+        }
+        for row in &table.rows {
+            let mut values = row.paper.iter();
+            let stray = values.find(|value| {
+                !table
+                    .metrics
+                    .iter()
+                    .any(|metric| metric.name == value.metric)
+            });
+            if let Some(value) = stray {
+                return refuse(format!(
+                    "{place}, row {:?} has the paper's {:?}, which is no metric",
+                    row.name, value.metric
+                ));
+            }
+        }
+        if let Some(comparison) = &table.comparison
+            && !table
+                .rows
+                .iter()
+                .any(|row| row.name == comparison.reference)
+        {
+            let reference = &comparison.reference;
+            return refuse(format!(
+                "{place} is compared with {reference:?}, which is no row"
+            ));
+        }
+        for metric in &table.metrics {
+            let fields: &[&String] = match &metric.statistic {
+                Statistic::Percent { field } | Statistic::Mean { field } => &[field],
+                Statistic::Ratio { over, under } => &[over, under],
+            };
+            if let Some(field) = fields
+                .iter()
+                .find(|field| RESERVED.contains(&field.as_str()))
+            {
+                return refuse(format!(
+                    "{place} measures {field:?}, which identifies a run"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The names of a run's own parts in `runs.jsonl`.
+const RESERVED: [&str; 4] = ["table", "row", "run", "seed"];
+
+/// Refuses fields that JSON cannot hold or that would hide a run's own parts.
+pub(super) fn fields(fields: &Fields) -> Result<(), BoxError> {
+    for (name, field) in fields.iter() {
+        if RESERVED.contains(&name) {
+            return Err(format!("field {name:?} bears a name that identifies the run").into());
+        }
+        if let Field::Number(value) = field
+            && !value.is_finite()
+        {
+            return Err(
+                format!("field {name:?} is {value}; measured values must be finite").into(),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Refuses figures whose names do not serve as file names and ids.
+pub(super) fn figures(experiment: &dyn Experiment, figures: &[Figure]) -> Result<(), Error> {
+    let refuse = |what: String| {
+        Err(Error::Figures {
+            name: experiment.name().to_owned(),
+            source: what.into(),
+        })
+    };
+    if let Some(name) = repeated(figures.iter().map(|figure| &figure.name)) {
+        return refuse(format!("two figures are named {name:?}"));
+    }
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    match figures.iter().find(|figure| {
+        !figure.name.starts_with(|c: char| c.is_ascii_lowercase())
+            || !figure.name.chars().all(plain)
+    }) {
+        Some(figure) => refuse(format!(
+            "{:?} is no name of a figure; use lower-case letters, digits and hyphens",
+            figure.name
+        )),
+        None => Ok(()),
+    }
+}
+
+fn repeated<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<&'a String> {
+    let mut seen = BTreeSet::new();
+    names.find(|name| !seen.insert(*name))
+}

@@ -1,0 +1,79 @@
+//! `config.toml`: all that is needed to make the results again.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Build, Error, Experiment, Options};
+
+const FORMAT: &str = "tolman experiment";
+
+/// The contents of `config.toml`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct ConfigFile {
+    format: String,
+    version: u32,
+    experiment: String,
+    /// The command that makes the results again.
+    pub(super) command: String,
+    seed: u64,
+    runs: u32,
+    build: Build,
+    configuration: toml::Table,
+}
+
+impl ConfigFile {
+    /// The configuration of an experiment that is about to run.
+    pub(super) fn new(
+        experiment: &dyn Experiment,
+        options: &Options,
+        build: &Build,
+    ) -> Result<Self, Error> {
+        let name = experiment.name().to_owned();
+        let configuration = experiment.config().map_err(|source| Error::Config {
+            name: name.clone(),
+            source,
+        })?;
+        Ok(Self {
+            format: FORMAT.to_owned(),
+            version: 1,
+            command: options.command_of(&name, experiment),
+            experiment: name,
+            seed: options.seed,
+            runs: options.runs_of(experiment),
+            build: build.clone(),
+            configuration,
+        })
+    }
+
+    /// Reads the text of a `config.toml`; `None` if it is none of ours.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        toml::from_str(text)
+            .ok()
+            .filter(|file: &Self| file.format == FORMAT)
+    }
+
+    /// The text of `config.toml`.
+    pub(super) fn text(&self) -> Result<String, Error> {
+        toml::to_string_pretty(self).map_err(|error| Error::Config {
+            name: self.experiment.clone(),
+            source: error.into(),
+        })
+    }
+
+    /// Why results made under `former` cannot be part of results made under this configuration;
+    /// `None` if they can. The number of runs is free: every run is by itself.
+    pub(super) fn conflict_with(&self, former: &Self) -> Option<String> {
+        if former.version != self.version {
+            Some(format!("version {} of the folder's format", former.version))
+        } else if former.experiment != self.experiment {
+            Some(format!("experiment {}", former.experiment))
+        } else if former.seed != self.seed {
+            Some(format!("seed {}", former.seed))
+        } else if former.configuration != self.configuration {
+            Some("another configuration, see config.toml there".to_owned())
+        } else if former.build.executable != self.build.executable {
+            Some(format!("another build, of commit {}", former.build.commit))
+        } else {
+            None
+        }
+    }
+}

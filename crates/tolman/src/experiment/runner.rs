@@ -1,0 +1,220 @@
+//! Plays the missing runs of an experiment and writes its folder of results.
+
+use core::time::Duration;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::config_file::ConfigFile;
+use super::folder::Folder;
+use super::runs_file::{Appender, Key, Runs};
+use super::{
+    Analysis, Build, Error, Event, Experiment, Job, Options, Progress, Run, Summary, check, plots,
+    run_seed,
+};
+use crate::draw::Figure;
+use crate::report;
+
+/// What came of an experiment.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// The experiment's name.
+    pub name: String,
+    /// The experiment's title.
+    pub title: String,
+    /// The paper whose tables these are; empty if there is none.
+    pub source: String,
+    /// Where the results lie.
+    pub folder: PathBuf,
+    /// The command that makes them again.
+    pub command: String,
+    /// The master seed.
+    pub seed: u64,
+    /// Runs of each row.
+    pub runs_per_row: u32,
+    /// The threads that played.
+    pub jobs: u32,
+    /// Runs that were played now; the others were there from before.
+    pub played: u64,
+    /// How long the runs that were played now took.
+    pub elapsed: Duration,
+    /// The program that played them.
+    pub build: Build,
+    /// Every run, sorted by table, row and index.
+    pub runs: Vec<Run>,
+    /// What the runs say.
+    pub analysis: Analysis,
+    /// What `summary.json` holds.
+    pub summary: Summary,
+    /// The pictures.
+    pub figures: Vec<Figure>,
+}
+
+/// Runs an experiment: resumes its folder, plays what is missing, and writes `config.toml`,
+/// `runs.jsonl`, `summary.json`, `figures/*.svg` and `report.html`.
+///
+/// The results depend on the experiment's configuration and the seed alone, not on the number of
+/// threads nor on how often the experiment was interrupted.
+///
+/// # Errors
+/// Typed with place and repair; finished runs are kept in every case. See [`Error::is_bad_input`].
+pub fn execute(
+    experiment: &dyn Experiment,
+    options: &Options,
+    build: &Build,
+    progress: &dyn Progress,
+) -> Result<Outcome, Error> {
+    check::options(options)?;
+    check::tables(experiment)?;
+    let runs_per_row = options.runs_of(experiment);
+    if runs_per_row == 0 {
+        return Err(Error::Zero { option: "--runs" });
+    }
+    let config = ConfigFile::new(experiment, options, build)?;
+    let path = options.folder_of(experiment.name());
+    let folder = Folder::open(&path, &config, progress)?;
+    let known = folder.resume(experiment, options.seed, runs_per_row, progress)?;
+
+    let started = Instant::now();
+    let jobs = jobs(experiment, options.seed, runs_per_row);
+    let total = jobs.len() as u64;
+    let reused = known.len() as u64;
+    progress.event(&Event::Started { total, reused });
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.jobs.unwrap_or(0) as usize)
+        .build()
+        .map_err(|source| Error::Threads {
+            jobs: options.jobs.unwrap_or(0),
+            source: source.into(),
+        })?;
+    let played =
+        threads.install(|| play(experiment, &jobs, &known, &folder.appender()?, progress))?;
+    let elapsed = started.elapsed();
+    progress.event(&Event::RunsFinished {
+        played: played.len() as u64,
+        elapsed,
+    });
+    if known.len() + played.len() < jobs.len() {
+        return Err(Error::Interrupted {
+            done: (known.len() + played.len()) as u64,
+            total,
+            folder: path,
+            command: config.command,
+        });
+    }
+
+    let played_count = played.len() as u64;
+    let mut all = known;
+    all.extend(played);
+    let runs: Vec<Run> = all.into_values().collect();
+    folder.write_runs(&runs)?;
+    let analysis = Analysis::of(experiment, &runs, options.seed);
+    let summary = Summary::of(experiment.name(), options.seed, &analysis);
+    folder.write("summary.json", &summary.to_json())?;
+    let mut figures = plots::box_plots(experiment, &runs);
+    figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
+        name: experiment.name().to_owned(),
+        source,
+    })?);
+    check::figures(experiment, &figures)?;
+    folder.write_figures(&figures)?;
+    let outcome = Outcome {
+        name: experiment.name().to_owned(),
+        title: experiment.title().to_owned(),
+        source: experiment.source().to_owned(),
+        folder: path,
+        command: config.command,
+        seed: options.seed,
+        runs_per_row,
+        jobs: u32::try_from(threads.current_num_threads()).unwrap_or(u32::MAX),
+        played: played_count,
+        elapsed,
+        build: build.clone(),
+        runs,
+        analysis,
+        summary,
+        figures,
+    };
+    folder.write("report.html", &report::html(&outcome))?;
+    Ok(outcome)
+}
+
+/// Every job of the experiment with its place in the order of results.
+fn jobs(experiment: &dyn Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
+    let mut jobs = Vec::new();
+    for (t, table) in experiment.tables().iter().enumerate() {
+        for (r, row) in table.rows.iter().enumerate() {
+            jobs.extend((0..runs).map(|run| {
+                let seed = run_seed(master_seed, &table.name, run);
+                (
+                    (t, r, run),
+                    Job {
+                        table: &table.name,
+                        row: &row.name,
+                        run,
+                        seed,
+                    },
+                )
+            }));
+        }
+    }
+    jobs
+}
+
+/// Plays the jobs that are not known yet, in parallel; every finished run is in the file before the
+/// next one begins. Returns fewer than are missing only if the caller asked to stop.
+fn play(
+    experiment: &dyn Experiment,
+    jobs: &[(Key, Job<'_>)],
+    known: &Runs,
+    file: &Appender,
+    progress: &dyn Progress,
+) -> Result<Vec<(Key, Run)>, Error> {
+    jobs.par_iter()
+        .with_max_len(1)
+        .filter(|(key, _)| !known.contains_key(key))
+        .filter_map(|(key, job)| {
+            if progress.stop_requested() {
+                return None;
+            }
+            Some(play_one(experiment, job).and_then(|run| {
+                file.append(&run)?;
+                progress.event(&Event::RunFinished);
+                Ok((*key, run))
+            }))
+        })
+        // The first error ends the others.
+        .collect()
+}
+
+fn play_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Run, Error> {
+    let fields = experiment.run(job).and_then(|fields| {
+        check::fields(&fields)?;
+        Ok(fields)
+    });
+    let Job {
+        table,
+        row,
+        run,
+        seed,
+    } = *job;
+    let (table, row) = (table.to_owned(), row.to_owned());
+    match fields {
+        Ok(fields) => Ok(Run {
+            table,
+            row,
+            run,
+            seed,
+            fields,
+        }),
+        Err(source) => Err(Error::Run {
+            table,
+            row,
+            run,
+            seed,
+            source,
+        }),
+    }
+}

@@ -1,0 +1,78 @@
+//! `summary.json`: one value for each metric of each row.
+
+use serde::Serialize;
+
+use super::Analysis;
+
+/// The contents of `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The experiment's name.
+    pub experiment: String,
+    /// The version of this format: 1.
+    pub version: u32,
+    /// The master seed.
+    pub seed: u64,
+    /// By table, row and metric, in the experiment's order.
+    pub rows: Vec<SummaryRow>,
+}
+
+/// One value of `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SummaryRow {
+    /// The name of the table.
+    pub table: String,
+    /// The name of the row.
+    pub row: String,
+    /// The name of the metric.
+    pub metric: String,
+    /// The value: the mean unless the metric says otherwise. `null` if it is not a number.
+    pub value: f64,
+    /// The standard deviation, for means of two runs or more.
+    pub sd: Option<f64>,
+    /// How many runs were measured.
+    pub n: u64,
+    /// The paper's value.
+    pub paper: Option<f64>,
+}
+
+impl Summary {
+    pub(super) fn of(experiment: &str, seed: u64, analysis: &Analysis) -> Self {
+        let mut rows = Vec::new();
+        for table in &analysis.tables {
+            for row in &table.table.rows {
+                for metric in &table.metrics {
+                    rows.extend(
+                        metric
+                            .rows
+                            .iter()
+                            .filter(|measured| measured.row == row.name)
+                            .map(|measured| SummaryRow {
+                                table: table.table.name.clone(),
+                                row: row.name.clone(),
+                                metric: metric.metric.name.clone(),
+                                value: measured.value,
+                                sd: measured.sd,
+                                n: measured.n,
+                                paper: measured.paper.as_ref().map(|paper| paper.value),
+                            }),
+                    );
+                }
+            }
+        }
+        Self {
+            experiment: experiment.to_owned(),
+            version: 1,
+            seed,
+            rows,
+        }
+    }
+
+    /// The text of `summary.json`, with a line end.
+    pub fn to_json(&self) -> String {
+        // A value of plain fields and string keys always has a JSON form.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}

@@ -1,0 +1,146 @@
+//! Progress on a terminal.
+
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::io::{IsTerminal, Write};
+use std::sync::OnceLock;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Event, Progress};
+
+/// Progress on standard error: a bar with rate and time left on a terminal, and only a final line
+/// elsewhere. Folders set aside and broken lines are told in both cases.
+#[derive(Debug, Default)]
+pub struct Terminal {
+    stop: Arc<AtomicBool>,
+    bar: OnceLock<ProgressBar>,
+}
+
+impl Terminal {
+    /// Progress that asks the runner to stop once `stop` is set, as by a handler of Ctrl-C.
+    pub fn new(stop: Arc<AtomicBool>) -> Self {
+        Self {
+            stop,
+            bar: OnceLock::new(),
+        }
+    }
+
+    /// Writes a line above the bar. A closed standard error is nobody's loss.
+    fn line(&self, text: &str) {
+        let write = || {
+            let _ = writeln!(std::io::stderr(), "{text}");
+        };
+        match self.bar.get() {
+            Some(bar) => bar.suspend(write),
+            None => write(),
+        }
+    }
+}
+
+impl Progress for Terminal {
+    fn event(&self, event: &Event<'_>) {
+        match event {
+            Event::SetAside {
+                folder,
+                moved_to,
+                reason,
+            } => self.line(&format!(
+                "{} held results of {reason}; they are now in {}",
+                folder.display(),
+                moved_to.display()
+            )),
+            Event::BrokenLine { file, line, what } => self.line(&format!(
+                "{}:{line}: {what}; the run is played again",
+                file.display()
+            )),
+            Event::Started { total, reused } => {
+                let bar = ProgressBar::with_draw_target(Some(*total), target());
+                if let Ok(style) =
+                    ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {per_sec}  {eta} left")
+                {
+                    bar.set_style(style);
+                }
+                // Reused runs are done, and no part of the rate.
+                bar.set_position(*reused);
+                bar.reset_eta();
+                bar.reset_elapsed();
+                let _ = self.bar.set(bar);
+                if *reused > 0 {
+                    self.line(&format!("{reused} of {total} runs are there from before"));
+                }
+            }
+            Event::RunFinished => {
+                if let Some(bar) = self.bar.get() {
+                    bar.inc(1);
+                }
+            }
+            Event::RunsFinished { played, elapsed } => {
+                if let Some(bar) = self.bar.get() {
+                    bar.finish_and_clear();
+                }
+                self.line(&format!(
+                    "{played} runs in {}{}",
+                    duration(*elapsed),
+                    rate(*played, *elapsed)
+                ));
+            }
+        }
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+fn target() -> ProgressDrawTarget {
+    if std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    }
+}
+
+/// A duration for readers: `0.4 s`, `41 s`, `2 min 5 s`.
+pub(crate) fn duration(duration: Duration) -> String {
+    let seconds = duration.as_secs_f64();
+    if seconds < 9.95 {
+        return format!("{seconds:.1} s");
+    }
+    let whole = duration.as_secs() + u64::from(duration.subsec_millis() >= 500);
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes} min {seconds} s"),
+        (hours, minutes, _) => format!("{hours} h {minutes} min"),
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
+fn rate(played: u64, elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs_f64();
+    if played > 0 && seconds > 0.0 {
+        format!(", {:.0} a second", played as f64 / seconds)
+    } else {
+        String::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_for_readers() {
+        for (milliseconds, expect) in [
+            (0, "0.0 s"),
+            (9_949, "9.9 s"),
+            (9_960, "10 s"),
+            (59_600, "1 min 0 s"),
+            (125_000, "2 min 5 s"),
+            (3_725_000, "1 h 2 min"),
+        ] {
+            assert_eq!(duration(Duration::from_millis(milliseconds)), expect);
+        }
+    }
+}

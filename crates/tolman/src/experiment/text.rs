@@ -1,0 +1,165 @@
+//! Tables as text for a terminal, ours beside the paper's.
+
+use core::fmt::Write;
+
+use super::{Analysis, Measured, Metric, MetricAnalysis, Statistic, TableAnalysis};
+
+/// Whether text is coloured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ink {
+    /// Plain text.
+    Plain,
+    /// ANSI colours.
+    Coloured,
+}
+
+/// All tables of an analysis, each with a line end. Behind a value of ours stands `=` where it
+/// matches the paper's and `!` where it differs.
+pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
+    let mut text = String::new();
+    for table in &analysis.tables {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        text += &table_as_text(table, ink);
+    }
+    text
+}
+
+/// A value in the form of papers: `73.16 ± 70.23`, `68.0`.
+pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) -> String {
+    let decimals = decimals(metric);
+    match sd {
+        Some(sd) => format!("{value:.decimals$} ± {sd:.decimals$}"),
+        None => format!("{value:.decimals$}"),
+    }
+}
+
+/// Decimals of a metric: success rates of a thousand runs have one.
+pub(crate) const fn decimals(metric: &Metric) -> usize {
+    match metric.statistic {
+        Statistic::Percent { .. } => 1,
+        Statistic::Mean { .. } | Statistic::Ratio { .. } => 2,
+    }
+}
+
+/// A metric's title and unit.
+pub(crate) fn heading(metric: &Metric) -> String {
+    match metric.unit.as_str() {
+        "" => metric.title.clone(),
+        "%" => format!("{} %", metric.title),
+        unit => format!("{} ({unit})", metric.title),
+    }
+}
+
+fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
+    let table = &analysis.table;
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{}",
+        bold(&format!("Table {}  {}", table.name, table.title), ink)
+    );
+    let names = table
+        .rows
+        .iter()
+        .map(|row| row.name.chars().count())
+        .max()
+        .unwrap_or(0);
+    let columns: Vec<Column<'_>> = analysis.metrics.iter().map(Column::new).collect();
+
+    let mut heads = " ".repeat(names);
+    let mut subheads = heads.clone();
+    for column in &columns {
+        let width = column.paper + column.ours + 4;
+        let _ = write!(heads, "   {:<width$}", column.heading);
+        let _ = write!(subheads, "   {:>1$}", "paper", column.paper);
+        let _ = write!(subheads, "  {:>1$}  ", "ours", column.ours);
+    }
+    let _ = writeln!(text, "{}\n{}", heads.trim_end(), subheads.trim_end());
+
+    for row in &table.rows {
+        let mut line = format!("{:<names$}", row.name);
+        for column in &columns {
+            let measured = column
+                .metric
+                .rows
+                .iter()
+                .find(|measured| measured.row == row.name);
+            let (paper, ours) =
+                measured.map_or_else(Default::default, |m| cells(&column.metric.metric, m));
+            let _ = write!(line, "   {paper:>0$}", column.paper);
+            let _ = write!(line, "  {ours:>0$} ", column.ours);
+            line += &mark(measured, ink);
+        }
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    text
+}
+
+/// The columns of one metric.
+struct Column<'a> {
+    metric: &'a MetricAnalysis,
+    heading: String,
+    paper: usize,
+    ours: usize,
+}
+
+impl<'a> Column<'a> {
+    fn new(metric: &'a MetricAnalysis) -> Self {
+        let heading = heading(&metric.metric);
+        let cells: Vec<_> = metric
+            .rows
+            .iter()
+            .map(|row| cells(&metric.metric, row))
+            .collect();
+        let widest = |texts: Vec<&String>| texts.iter().map(|text| text.chars().count()).max();
+        let paper = widest(cells.iter().map(|cell| &cell.0).collect())
+            .unwrap_or(0)
+            .max(5);
+        let ours = widest(cells.iter().map(|cell| &cell.1).collect())
+            .unwrap_or(0)
+            .max(4);
+        // A long heading widens the second column.
+        let ours = ours.max(heading.chars().count().saturating_sub(paper + 4));
+        Self {
+            metric,
+            heading,
+            paper,
+            ours,
+        }
+    }
+}
+
+fn cells(metric: &Metric, measured: &Measured) -> (String, String) {
+    let paper = measured.paper.as_ref();
+    (
+        paper.map_or_else(
+            || "–".into(),
+            |paper| value_with_spread(metric, paper.value, paper.sd),
+        ),
+        value_with_spread(metric, measured.value, measured.sd),
+    )
+}
+
+fn mark(measured: Option<&Measured>, ink: Ink) -> String {
+    let verdict = measured.and_then(|measured| measured.verdict);
+    let (mark, colour) = match verdict.map(|verdict| verdict.matches) {
+        None => return " ".into(),
+        Some(true) => ("=", "32"),
+        Some(false) => ("!", "31"),
+    };
+    painted(mark, colour, ink)
+}
+
+fn bold(text: &str, ink: Ink) -> String {
+    painted(text, "1", ink)
+}
+
+fn painted(text: &str, code: &str, ink: Ink) -> String {
+    match ink {
+        Ink::Plain => text.to_owned(),
+        Ink::Coloured => format!("\u{1b}[{code}m{text}\u{1b}[0m"),
+    }
+}

@@ -1,0 +1,118 @@
+//! Whether a value of ours matches the paper's.
+
+use super::sample::LEVEL;
+use super::{Metric, PaperValue, Statistic, Tolerance};
+use crate::stats::{Interval, exact_binomial_interval};
+
+/// The judgement of one value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// Whether our value is accepted.
+    pub matches: bool,
+    /// The values that are accepted, ends included.
+    pub accepted: Interval,
+    /// Why these.
+    pub basis: Basis,
+}
+
+/// What makes a value match the paper's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// It lies within the metric's stated tolerance.
+    Tolerance,
+    /// It lies within the paper's own 95 % interval: exact binomial for a percentage, mean ± 1.96
+    /// standard errors for a mean.
+    PaperInterval,
+}
+
+impl Verdict {
+    /// Judges `ours`; `None` if neither a tolerance nor the size and spread of the paper's sample is
+    /// known.
+    pub(super) fn of(
+        ours: f64,
+        paper: &PaperValue,
+        paper_runs: Option<u32>,
+        metric: &Metric,
+    ) -> Option<Self> {
+        let around = |half: f64| Interval {
+            low: paper.value - half,
+            high: paper.value + half,
+        };
+        let (accepted, basis) = match metric.tolerance {
+            Some(Tolerance::Absolute(half)) => (around(half), Basis::Tolerance),
+            Some(Tolerance::Relative(share)) => {
+                (around(share * paper.value.abs()), Basis::Tolerance)
+            }
+            None => {
+                let runs = paper_runs?;
+                let own = match metric.statistic {
+                    Statistic::Percent { .. } => own_binomial(paper.value, runs)?,
+                    Statistic::Mean { .. } | Statistic::Ratio { .. } => {
+                        around(1.96 * paper.sd? / f64::from(runs).sqrt())
+                    }
+                };
+                (own, Basis::PaperInterval)
+            }
+        };
+        Some(Self {
+            matches: accepted.contains(ours),
+            accepted,
+            basis,
+        })
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast saturates"
+)]
+fn own_binomial(percent: f64, runs: u32) -> Option<Interval> {
+    let successes = (percent / 100.0 * f64::from(runs)).round() as u64;
+    let rate = exact_binomial_interval(successes, u64::from(runs), LEVEL).ok()?;
+    Some(rate.scaled(100.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn judge(ours: f64, metric: &Metric, value: f64, sd: Option<f64>) -> Option<bool> {
+        let paper = PaperValue {
+            metric: metric.name.clone(),
+            value,
+            sd,
+        };
+        Verdict::of(ours, &paper, Some(25), metric).map(|verdict| verdict.matches)
+    }
+
+    #[test]
+    fn a_tolerance_is_inclusive_on_both_sides() {
+        let points =
+            Metric::percent("success_percent", "success").tolerance(Tolerance::Absolute(15.0));
+        for (ours, expect) in [(53.0, true), (83.0, true), (52.9, false), (83.1, false)] {
+            assert_eq!(judge(ours, &points, 68.0, None), Some(expect), "{ours}");
+        }
+        let share = Metric::mean("steps").tolerance(Tolerance::Relative(0.35));
+        for (ours, expect) in [(66.0, true), (134.0, true), (64.0, false), (136.0, false)] {
+            assert_eq!(
+                judge(ours, &share, 100.0, Some(5.0)),
+                Some(expect),
+                "{ours}"
+            );
+        }
+    }
+
+    #[test]
+    fn without_a_tolerance_the_papers_own_interval_decides() {
+        let percent = Metric::percent("success_percent", "success");
+        // 17 of 25: 46.5 to 85.1 %.
+        for (ours, expect) in [(47.0, true), (85.0, true), (46.0, false), (86.0, false)] {
+            assert_eq!(judge(ours, &percent, 68.0, None), Some(expect), "{ours}");
+        }
+        let mean = Metric::mean("steps");
+        assert_eq!(judge(103.9, &mean, 100.0, Some(10.0)), Some(true));
+        assert_eq!(judge(104.0, &mean, 100.0, Some(10.0)), Some(false));
+        assert_eq!(judge(104.0, &mean, 100.0, None), None);
+    }
+}
