@@ -151,7 +151,10 @@ mod tests {
     #[test]
     fn the_seam_belongs_to_plus_pi() {
         for radians in [PI, -PI, 3.0 * PI, -3.0 * PI] {
-            assert!((Heading::from_radians(radians).radians() - PI).abs() < 1e-9, "{radians}");
+            assert!(
+                (Heading::from_radians(radians).radians() - PI).abs() < 1e-9,
+                "{radians}"
+            );
             assert!(Heading::from_radians(radians).radians() > 0.0);
         }
         assert!((Heading::EAST.reversed().radians() - PI).abs() < 1e-15);

@@ -24,7 +24,10 @@ pub struct Pose {
 
 impl Pose {
     /// The origin, looking east.
-    pub const IDENTITY: Self = Self { position: Point::new(0.0, 0.0), heading: Heading::EAST };
+    pub const IDENTITY: Self = Self {
+        position: Point::new(0.0, 0.0),
+        heading: Heading::EAST,
+    };
 
     /// A pose from its parts.
     #[must_use]
@@ -45,7 +48,10 @@ impl Pose {
     #[must_use]
     pub fn inverse(self) -> Self {
         let heading = Heading::from_radians(-self.heading.radians());
-        Self { position: Point::from(-rotated(heading, self.position.coords)), heading }
+        Self {
+            position: Point::from(-rotated(heading, self.position.coords)),
+            heading,
+        }
     }
 
     /// The pose of `other` as seen from this one: `world_from_a.between(world_from_b)` is `a_from_b`.
@@ -112,7 +118,10 @@ impl From<Isometry2<f64>> for Pose {
 
 fn rotated(heading: Heading, vector: Vector) -> Vector {
     let unit = heading.unit();
-    Vector::new(unit.x * vector.x - unit.y * vector.y, unit.y * vector.x + unit.x * vector.y)
+    Vector::new(
+        unit.x * vector.x - unit.y * vector.y,
+        unit.y * vector.x + unit.x * vector.y,
+    )
 }
 
 /// sin(x)/x, by its series where the quotient would lose digits.

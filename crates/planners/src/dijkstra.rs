@@ -23,7 +23,9 @@ pub fn costs_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) ->
             continue; // A cheaper way was found after this entry was queued.
         }
         graph.for_each_arc(node, |head, step| {
-            let Some(reached) = cost.checked_add(step) else { return };
+            let Some(reached) = cost.checked_add(step) else {
+                return;
+            };
             let best = &mut costs[head as usize];
             if best.is_none_or(|best| reached < best) {
                 *best = Some(reached);

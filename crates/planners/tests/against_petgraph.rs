@@ -17,10 +17,18 @@ fn theirs(list: &[(u32, u32, u32)], source: u32, cost: impl Fn(u32) -> u32) -> V
         graph.add_node(());
     }
     for &(tail, head, weight) in list {
-        graph.add_edge(NodeIndex::new(tail as usize), NodeIndex::new(head as usize), cost(weight));
+        graph.add_edge(
+            NodeIndex::new(tail as usize),
+            NodeIndex::new(head as usize),
+            cost(weight),
+        );
     }
-    let found = dijkstra(&graph, NodeIndex::new(source as usize), None, |edge| *edge.weight());
-    (0..NODES as usize).map(|node| found.get(&NodeIndex::new(node)).copied()).collect()
+    let found = dijkstra(&graph, NodeIndex::new(source as usize), None, |edge| {
+        *edge.weight()
+    });
+    (0..NODES as usize)
+        .map(|node| found.get(&NodeIndex::new(node)).copied())
+        .collect()
 }
 
 proptest! {

@@ -25,9 +25,10 @@ impl Body {
     pub fn radius(&self) -> f64 {
         match self {
             Self::Circle { radius } => *radius,
-            Self::Polygon { corners } => {
-                corners.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max)
-            }
+            Self::Polygon { corners } => corners
+                .iter()
+                .map(|corner| corner.coords.norm())
+                .fold(0.0, f64::max),
         }
     }
 }

@@ -28,7 +28,12 @@ impl Ring {
     /// ```
     #[must_use]
     pub fn full(beams: u32, max_range: f64) -> Self {
-        Self { beams, first_bearing: 0.0, spacing: TAU / f64::from(beams), max_range }
+        Self {
+            beams,
+            first_bearing: 0.0,
+            spacing: TAU / f64::from(beams),
+            max_range,
+        }
     }
 
     /// `beams` beams over a field of view of `field` rad centred ahead, both ends included: a SICK
@@ -36,7 +41,12 @@ impl Ring {
     #[must_use]
     pub fn fan(beams: u32, field: f64, max_range: f64) -> Self {
         let gaps = f64::from(beams.max(2) - 1);
-        Self { beams, first_bearing: -0.5 * field, spacing: field / gaps, max_range }
+        Self {
+            beams,
+            first_bearing: -0.5 * field,
+            spacing: field / gaps,
+            max_range,
+        }
     }
 
     /// The bearing of beam `index`, rad counter-clockwise from ahead.
@@ -60,6 +70,9 @@ impl Scan {
     /// A scan that met nothing.
     #[must_use]
     pub fn clear(ring: Ring) -> Self {
-        Self { ring, ranges: vec![ring.max_range; ring.beams as usize] }
+        Self {
+            ring,
+            ranges: vec![ring.max_range; ring.beams as usize],
+        }
     }
 }

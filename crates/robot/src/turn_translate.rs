@@ -11,5 +11,8 @@ pub struct TurnTranslate {
 
 impl TurnTranslate {
     /// Neither turns nor moves.
-    pub const STOP: Self = Self { turn: 0.0, translate: 0.0 };
+    pub const STOP: Self = Self {
+        turn: 0.0,
+        translate: 0.0,
+    };
 }
