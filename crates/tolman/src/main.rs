@@ -1,5 +1,7 @@
 //! The `tolman` command: `tolman --help`.
 
+extern crate alloc;
+
 mod cli;
 
 use std::process::ExitCode;

@@ -12,6 +12,8 @@ pub(super) enum Failure {
     BadInput(anyhow::Error),
     /// The input was sound, the machine or the work on it was not.
     Failed(anyhow::Error),
+    /// All was done, but `--check` found a table to disagree with the paper.
+    Disagrees(anyhow::Error),
 }
 
 impl Failure {
@@ -19,6 +21,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Failed(_) => 1,
             Self::BadInput(_) => 2,
+            Self::Disagrees(_) => 3,
         })
     }
 
@@ -38,7 +41,7 @@ impl Failure {
 
     fn error(&self) -> &anyhow::Error {
         match self {
-            Self::BadInput(error) | Self::Failed(error) => error,
+            Self::BadInput(error) | Self::Failed(error) | Self::Disagrees(error) => error,
         }
     }
 }

@@ -4,6 +4,7 @@
 //! returns a [`Failure`] if there is something to complain about.
 
 mod completions;
+mod experiment;
 mod failure;
 mod file;
 mod man;
@@ -28,13 +29,16 @@ struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   tolman maze show mazes/j.maze
+  tolman experiment baselines --quick
 
-Exit codes: 0 done, 1 failed, 2 bad input. Results are written to stdout, errors to stderr.";
+Exit codes: 0 done, 1 failed, 2 bad input, 3 a table disagrees with the paper (only with
+`experiment --check`). Results are written to stdout, progress and errors to stderr.";
 
 #[derive(Subcommand)]
 enum Verb {
     #[command(subcommand)]
     Maze(maze::Verb),
+    Experiment(experiment::Arguments),
     Completions(completions::Arguments),
     /// Writes the manual page
     Man,
@@ -63,6 +67,7 @@ impl Verb {
     fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
             Self::Maze(verb) => verb.carry_out(out),
+            Self::Experiment(arguments) => experiment::carry_out(&arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),
             Self::Man => man::carry_out(out),
         }

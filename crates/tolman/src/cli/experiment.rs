@@ -1,0 +1,160 @@
+//! `tolman experiment`: runs papers' tables and shows them beside the papers'.
+
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use tolman::experiment::{
+    Build, Disagreement, Error, Ink, Options, Terminal, catalogue, execute, open, tables_as_text,
+};
+
+use super::Failure;
+
+/// Runs an experiment, shows its tables beside the paper's, and writes a folder of results
+#[derive(clap::Args)]
+#[command(after_help = "\
+The folder holds report.html (opens anywhere), summary.json, runs.jsonl (one line a run),
+figures/*.svg and config.toml. An interrupted experiment goes on where it stopped.
+
+Examples:
+  tolman experiment baselines
+  tolman experiment baselines --quick --out /tmp/look
+  tolman experiment baselines --maze taiwan2016f.txt --maze mine.maze --runs 100")]
+pub(super) struct Arguments {
+    /// The experiment; all of them one after the other when left out
+    name: Option<String>,
+    /// List the experiments and do nothing else
+    #[arg(long)]
+    list: bool,
+    /// The master seed: the same one gives the same results
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Runs of each row, instead of the paper's number
+    #[arg(long, value_name = "N")]
+    runs: Option<u32>,
+    /// Runs at a time, instead of one a core; results do not depend on it
+    #[arg(long, value_name = "N")]
+    jobs: Option<u32>,
+    /// A maze file of any format in place of the experiment's own; may be given several times
+    #[arg(long = "maze", value_name = "FILE")]
+    mazes: Vec<PathBuf>,
+    /// The folder of results, instead of results/NAME; without NAME, the folder of those folders
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Few runs, for a first look
+    #[arg(long)]
+    quick: bool,
+    /// Exit with 3 if a table disagrees with the paper
+    #[arg(long)]
+    check: bool,
+    /// Write each summary.json on standard output instead of the tables
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    if arguments.list {
+        for entry in catalogue() {
+            writeln!(out, "{:<12} {}", entry.name, entry.title)?;
+        }
+        return Ok(());
+    }
+    let build = Build::current();
+    let stop = stop_on_ctrl_c()?;
+    let mut disagreements = Vec::new();
+    for (name, options) in arguments.chosen() {
+        let experiment = open(name, &options).map_err(classify)?;
+        let progress = Terminal::new(Arc::clone(&stop));
+        let outcome = execute(&*experiment, &options, &build, &progress).map_err(classify)?;
+        if arguments.json {
+            out.write_all(outcome.summary.to_json().as_bytes())?;
+        } else {
+            let tables = tables_as_text(&outcome.analysis, ink());
+            let report = outcome.folder.join("report.html");
+            writeln!(out, "{tables}\nThe report: {}", report.display())?;
+        }
+        // The next experiment takes its time: show what there is.
+        out.flush()?;
+        disagreements.extend(outcome.analysis.disagreements());
+    }
+    if arguments.check && !disagreements.is_empty() {
+        let lines: Vec<String> = disagreements.iter().map(told).collect();
+        return Err(Failure::Disagrees(anyhow!("{}", lines.join("\n"))));
+    }
+    Ok(())
+}
+
+impl Arguments {
+    /// The experiments asked for, each with its options.
+    fn chosen(&self) -> Vec<(&str, Options)> {
+        let options = Options {
+            seed: self.seed,
+            runs: self.runs,
+            jobs: self.jobs,
+            mazes: self.mazes.clone(),
+            out: self.out.clone(),
+            quick: self.quick,
+        };
+        if let Some(name) = &self.name {
+            return vec![(name, options)];
+        }
+        let each = |name: &'static str| {
+            let out = self.out.as_ref().map(|out| out.join(name));
+            (
+                name,
+                Options {
+                    out,
+                    ..options.clone()
+                },
+            )
+        };
+        catalogue().iter().map(|entry| each(entry.name)).collect()
+    }
+}
+
+fn classify(error: Error) -> Failure {
+    if error.is_bad_input() {
+        Failure::BadInput(error.into())
+    } else {
+        Failure::Failed(error.into())
+    }
+}
+
+fn told(disagreement: &Disagreement) -> String {
+    let Disagreement {
+        table,
+        row,
+        metric,
+        ours,
+        paper,
+        accepted,
+    } = disagreement;
+    format!(
+        "table {table}, row {row}: {metric} is {ours:.2}, the paper has {paper}; {:.2} to {:.2} agree",
+        accepted.low, accepted.high
+    )
+}
+
+fn ink() -> Ink {
+    match anstream::AutoStream::choice(&io::stdout()) {
+        anstream::ColorChoice::Never => Ink::Plain,
+        _ => Ink::Coloured,
+    }
+}
+
+/// The first Ctrl-C lets the runs that are being played finish, the second ends the program.
+fn stop_on_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        if asked.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+    })?;
+    Ok(stop)
+}
+
+/// The exit code by which shells know a program that Ctrl-C ended.
+const INTERRUPTED: i32 = 130;
