@@ -1,18 +1,34 @@
 //! The drawing of posts and walls that the `mazefiles` collection, mms and tolman's own files share.
 
+use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
 
 use super::lines::{Line, Lines, Place};
 use super::{Fault, MazeError, Parsed};
-use crate::{Cell, Direction, Grid, Maze};
+use crate::{Cell, CheckError, Direction, Grid, Maze};
 
 /// Characters from one post to the next.
 const PITCH: usize = 4;
 
-/// Whether `c` may stand where lines of a drawing have their posts.
-pub(super) const fn is_post(c: char) -> bool {
+/// Whether a drawing begins with this line, which has no blanks before it.
+pub(super) fn begins(line: &str) -> bool {
+    let mut chars = line.chars();
+    chars.next().is_some_and(is_post) && chars.next().is_none_or(|c| matches!(c, '-' | ' '))
+}
+
+const fn is_post(c: char) -> bool {
     matches!(c, 'o' | '+')
+}
+
+/// Where in a line the post to the west of a column is.
+const fn post(column: u16) -> usize {
+    column as usize * PITCH
+}
+
+/// Where in a line the middle of a column is.
+const fn middle(column: u16) -> usize {
+    post(column) + PITCH / 2
 }
 
 /// Reads a drawing from its first line on, which `lines` must be about to give.
@@ -38,64 +54,97 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
 
     // Both sides were held to MAX_SIDE above.
     let grid = Grid::new(width as u16, height as u16);
-    let mut maze = Maze::open(grid);
-    let mut places = alloc::vec![Place::default(); grid.cell_count()];
-    let mut start = None;
-    let mut goals = Vec::new();
-
-    // Walls are read from the line or column to the north and west of a cell; the south and east
-    // borders, which no such cell has, come last.
-    for (index, row) in rows.iter().enumerate() {
-        let beyond = height as u16 - (index / 2) as u16;
-        if index.is_multiple_of(2) {
-            for x in 0..grid.width() {
-                row.post(usize::from(x))?;
-                let stands = row.horizontal(usize::from(x))?;
-                let (cell, side) = match beyond.checked_sub(1) {
-                    Some(y) => (Cell::new(x, y), Direction::North),
-                    None => (Cell::new(x, 0), Direction::South),
-                };
-                maze.set_wall(cell, side, stands);
-                row.border(&maze, cell, side, usize::from(x) * PITCH + 2)?;
-            }
-            row.post(width)?;
-        } else {
-            let y = beyond - 1;
-            for x in 0..grid.width() {
-                let (cell, at) = (Cell::new(x, y), usize::from(x) * PITCH);
-                maze.set_wall(cell, Direction::West, row.vertical(usize::from(x))?);
-                row.border(&maze, cell, Direction::West, at)?;
-                places[grid.index(cell)] = row.place(at + 2);
-                for offset in at + 1..at + PITCH {
-                    match row.char(offset) {
-                        ' ' => {}
-                        'S' | 's' => match start.replace(cell) {
-                            Some(first) if first != cell => {
-                                return Err(row.fault(
-                                    offset,
-                                    Fault::TwoStarts {
-                                        first,
-                                        second: cell,
-                                    },
-                                ));
-                            }
-                            _ => {}
-                        },
-                        'G' | 'g' => goals.push(cell),
-                        _ => return Err(row.unexpected(offset, "a blank, `S` or `G` in a cell")),
-                    }
-                }
-            }
-            let (cell, at) = (Cell::new(grid.width() - 1, y), width * PITCH);
-            maze.set_wall(cell, Direction::East, row.vertical(width)?);
-            row.border(&maze, cell, Direction::East, at)?;
+    let mut reader = Reader {
+        maze: Maze::open(grid),
+        places: vec![Place::default(); grid.cell_count()],
+        start: None,
+        goals: Vec::new(),
+    };
+    // Row y of the cells is line 2 · (height - 1 - y) + 1; the posts to its north are the line before.
+    let rows_of_cells = rows[1..].chunks(2).zip((0..grid.height()).rev());
+    reader.posts(first, grid.height() - 1, Direction::North)?;
+    for (pair, y) in rows_of_cells {
+        if let [cells, posts] = pair {
+            reader.cells(cells, y)?;
+            reader.posts(posts, y, Direction::South)?;
         }
-        row.nothing_beyond(width)?;
+    }
+    reader
+        .maze
+        .set_start(reader.start.map(|cell| (cell, Direction::North)));
+    reader.maze.set_goals(reader.goals);
+    Ok(Parsed::new(reader.maze, reader.places))
+}
+
+/// What was read of a drawing so far.
+struct Reader {
+    maze: Maze,
+    places: Vec<Place>,
+    start: Option<Cell>,
+    goals: Vec<Cell>,
+}
+
+impl Reader {
+    /// Reads the line of posts on the `side` of the cells of row `y`.
+    fn posts(&mut self, row: &Row<'_>, y: u16, side: Direction) -> Result<(), MazeError> {
+        let width = self.maze.grid().width();
+        for x in 0..width {
+            row.post(x)?;
+            let stands = row.horizontal(x)?;
+            self.wall(row, Cell::new(x, y), side, stands)?;
+        }
+        row.post(width)?;
+        row.nothing_beyond(width)
     }
 
-    maze.set_start(start.map(|cell| (cell, Direction::North)));
-    maze.set_goals(goals);
-    Ok(Parsed::new(maze, places))
+    /// Reads the line of the cells of row `y`.
+    fn cells(&mut self, row: &Row<'_>, y: u16) -> Result<(), MazeError> {
+        let grid = self.maze.grid();
+        for x in 0..grid.width() {
+            let cell = Cell::new(x, y);
+            self.wall(row, cell, Direction::West, row.vertical(x)?)?;
+            self.places[grid.index(cell)] = row.place(middle(x));
+            for offset in middle(x) - 1..=middle(x) + 1 {
+                match row.char(offset) {
+                    ' ' => {}
+                    'S' | 's' => {
+                        if let Some(first) = self.start.replace(cell)
+                            && first != cell
+                        {
+                            let second = cell;
+                            return Err(row.fault(offset, Fault::TwoStarts { first, second }));
+                        }
+                    }
+                    'G' | 'g' => self.goals.push(cell),
+                    _ => return Err(row.unexpected(offset, "a blank, `S` or `G` in a cell")),
+                }
+            }
+        }
+        let east = row.vertical(grid.width())?;
+        self.wall(row, Cell::new(grid.width() - 1, y), Direction::East, east)?;
+        row.nothing_beyond(grid.width())
+    }
+
+    /// Takes a wall or opening, which `row` shows on that side of `cell`.
+    fn wall(
+        &mut self,
+        row: &Row<'_>,
+        cell: Cell,
+        direction: Direction,
+        stands: bool,
+    ) -> Result<(), MazeError> {
+        if !stands && self.maze.grid().neighbour(cell, direction).is_none() {
+            let offset = match direction {
+                Direction::North | Direction::South => middle(cell.x),
+                Direction::West => post(cell.x),
+                Direction::East => post(cell.x + 1),
+            };
+            let fault = Fault::Maze(CheckError::OpenBorder { cell, direction });
+            return Err(row.fault(offset, fault));
+        }
+        self.maze.set_wall(cell, direction, stands);
+        Ok(())
+    }
 }
 
 /// Draws `maze`, north first, every line ended by a line feed.
@@ -224,50 +273,38 @@ impl Row<'_> {
         )
     }
 
-    fn post(&self, column: usize) -> Result<(), MazeError> {
-        let offset = column * PITCH;
-        if is_post(self.char(offset)) {
+    /// Expects the post to the west of `column`.
+    fn post(&self, column: u16) -> Result<(), MazeError> {
+        if is_post(self.char(post(column))) {
             Ok(())
         } else {
-            Err(self.unexpected(offset, POST))
+            Err(self.unexpected(post(column), POST))
         }
     }
 
-    /// Whether the wall after the post of `column` stands.
-    fn horizontal(&self, column: usize) -> Result<bool, MazeError> {
-        let first = column * PITCH + 1;
-        let stands = self.char(first) == '-';
+    /// Whether this line of posts has a wall along `column`.
+    fn horizontal(&self, column: u16) -> Result<bool, MazeError> {
+        let mut offsets = post(column) + 1..post(column + 1);
+        let stands = self.char(offsets.start) == '-';
         let drawn = if stands { '-' } else { ' ' };
-        match (first..first + 3).find(|offset| self.char(*offset) != drawn) {
+        match offsets.find(|offset| self.char(*offset) != drawn) {
             None => Ok(stands),
             Some(offset) => Err(self.unexpected(offset, "`---` or three blanks between two posts")),
         }
     }
 
-    /// Whether the wall before the cell of `column` stands.
-    fn vertical(&self, column: usize) -> Result<bool, MazeError> {
-        let offset = column * PITCH;
-        match self.char(offset) {
+    /// Whether this line of cells has a wall to the west of `column`.
+    fn vertical(&self, column: u16) -> Result<bool, MazeError> {
+        match self.char(post(column)) {
             '|' => Ok(true),
             ' ' => Ok(false),
-            _ => Err(self.unexpected(offset, "`|` or a blank between two cells")),
+            _ => Err(self.unexpected(post(column), "`|` or a blank between two cells")),
         }
-    }
-
-    fn border(&self, maze: &Maze, cell: Cell, side: Direction, at: usize) -> Result<(), MazeError> {
-        if maze.grid().neighbour(cell, side).is_none() && maze.is_open(cell, side) {
-            let fault = Fault::Maze(crate::CheckError::OpenBorder {
-                cell,
-                direction: side,
-            });
-            return Err(self.fault(at, fault));
-        }
-        Ok(())
     }
 
     /// Beyond the east border remarks may stand, but no walls: those belong to a wider maze.
-    fn nothing_beyond(&self, width: usize) -> Result<(), MazeError> {
-        let offset = width * PITCH + 1;
+    fn nothing_beyond(&self, width: u16) -> Result<(), MazeError> {
+        let offset = post(width) + 1;
         match self.line.text.get(self.indent + offset..) {
             Some(rest) if rest.contains('|') || rest.contains("--") => {
                 Err(self.fault(offset, Fault::BeyondBorder { width }))

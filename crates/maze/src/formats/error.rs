@@ -61,7 +61,7 @@ pub enum Fault {
     )]
     BeyondBorder {
         /// Columns of the first line.
-        width: usize,
+        width: u16,
     },
     /// A drawing without its last line.
     #[error(
@@ -279,7 +279,10 @@ pub enum WriteError {
         middle: Vec<Cell>,
     },
     /// A name that does not fit one line.
-    #[error("the name {name:?} has a line break: a maze's name is one line")]
+    #[error(
+        "the name {name:?} has a line break or another control character: a maze's name is one line \
+         of text"
+    )]
     Name {
         /// The name.
         name: String,
@@ -305,10 +308,18 @@ pub(super) fn too_large(grid: Grid) -> Option<u16> {
     Some(grid.width().max(grid.height())).filter(|side| *side > Grid::MAX_SIDE)
 }
 
-/// Enough of a text to recognize it by: files can have lines of any length.
+/// Enough of a text to recognize it by: files can have lines of any length, and control characters
+/// that a terminal would obey.
 pub(super) fn excerpt(text: &str) -> String {
     const LIMIT: usize = 40;
-    let mut short: String = text.chars().take(LIMIT).collect();
+    let mut short = String::new();
+    for c in text.chars().take(LIMIT) {
+        if c.is_control() {
+            short.extend(c.escape_default());
+        } else {
+            short.push(c);
+        }
+    }
     if text.chars().nth(LIMIT).is_some() {
         short.push('…');
     }

@@ -128,10 +128,10 @@ impl Format {
             .next_filled()
             .ok_or(MazeError::at_start(Fault::Empty))?;
         let first = line.text.trim();
-        if first.starts_with('#') || first.contains('=') {
-            Ok(Self::Tolman)
-        } else if first.starts_with(drawing::is_post) {
+        if drawing::begins(first) {
             Ok(Self::Mazefiles)
+        } else if first.starts_with('#') || first.contains('=') {
+            Ok(Self::Tolman)
         } else if first.contains(|c: char| !c.is_ascii_digit() && !matches!(c, ',' | ' ' | '\t')) {
             Err(line.place_of(first).fault(Fault::unknown_format(first)))
         } else if first.contains([' ', '\t']) && !first.contains(',') {

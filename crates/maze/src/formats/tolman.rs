@@ -41,7 +41,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
 pub(super) fn write(file: &MazeFile) -> Result<String, WriteError> {
     let mut text = format!("{FORMAT} = {VERSION}\n");
     if let Some(name) = &file.name {
-        if name.contains(['\n', '\r']) {
+        if name.contains(char::is_control) {
             return Err(WriteError::Name { name: name.clone() });
         }
         // Quoted, so that blanks at its ends and quotes within survive.
@@ -84,35 +84,43 @@ fn header<'a>(lines: &mut Lines<'a>) -> Result<Vec<Entry<'a>>, MazeError> {
             .fault(0, Fault::NoDrawing));
         };
         let text = line.text.trim();
-        if let Some((key, value)) = text.split_once('=').filter(|_| !is_comment(text)) {
-            let (key, value) = (key.trim(), value.trim());
-            let place = line.place_of(key);
-            let Some(key) = KEYS.into_iter().find(|known| *known == key) else {
-                return Err(place.fault(Fault::UnknownKey {
-                    found: excerpt(key),
-                }));
-            };
-            if let Some(first) = entries.iter().find(|entry| entry.key == key) {
-                let first_line = first.place.line();
-                return Err(place.fault(Fault::RepeatedKey { key, first_line }));
-            }
-            entries.push(Entry {
-                key,
-                value,
-                place: line.place_of(value),
-            });
-        } else if text.starts_with(drawing::is_post) {
+        if drawing::begins(text) {
             return Ok(entries);
-        } else if !text.is_empty() && !is_comment(text) {
-            return Err(line.place_of(text).fault(Fault::NotAKey {
-                found: excerpt(text),
-            }));
+        }
+        if !text.is_empty() && !is_comment(text) {
+            let entry = Entry::parse(line, text)?;
+            if let Some(first) = entries.iter().find(|first| first.key == entry.key) {
+                let fault = Fault::RepeatedKey {
+                    key: entry.key,
+                    first_line: first.place.line(),
+                };
+                return Err(line.place_of(text).fault(fault));
+            }
+            entries.push(entry);
         }
         *lines = ahead;
     }
 }
 
-impl Entry<'_> {
+impl<'a> Entry<'a> {
+    /// Reads `text`, all but the blanks of `line`.
+    fn parse(line: Line<'a>, text: &'a str) -> Result<Self, MazeError> {
+        let Some((key, value)) = text.split_once('=') else {
+            let found = excerpt(text);
+            return Err(line.place_of(text).fault(Fault::NotAKey { found }));
+        };
+        let (key, value) = (key.trim(), value.trim());
+        let Some(key) = KEYS.into_iter().find(|known| *known == key) else {
+            let found = excerpt(key);
+            return Err(line.place_of(text).fault(Fault::UnknownKey { found }));
+        };
+        Ok(Self {
+            key,
+            value,
+            place: line.place_of(value),
+        })
+    }
+
     fn apply(&self, file: &mut MazeFile) -> Result<(), MazeError> {
         match self.key {
             NAME => file.name = Some(self.name()?),
@@ -135,8 +143,8 @@ impl Entry<'_> {
     }
 
     fn name(&self) -> Result<String, MazeError> {
-        if self.value.is_empty() {
-            return Err(self.expected("a name"));
+        if self.value.is_empty() || self.value.contains(char::is_control) {
+            return Err(self.expected("a line of text"));
         }
         let quoted = self
             .value

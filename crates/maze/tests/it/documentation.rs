@@ -29,9 +29,9 @@ fn the_example_is_read_as_it_is_explained() {
 fn the_keys_of_the_table_are_the_keys_that_are_read() {
     let drawing = &example()[example().find('+').unwrap()..];
     let unmarked = drawing.replace(['S', 'G'], " ");
-    let rows = PAGE
-        .lines()
-        .filter(|line| line.starts_with("| `") && line.contains(" = "));
+    let (_, section) = PAGE.split_once("## The lines above it").unwrap();
+    let (table, _) = section.split_once("\n## ").unwrap();
+    let rows = table.lines().filter(|line| line.starts_with("| `"));
     let mut header = String::new();
     for row in rows {
         let cell = row.trim_end_matches('|').rsplit('|').next().unwrap();

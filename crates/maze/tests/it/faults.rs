@@ -283,7 +283,11 @@ fn headers() {
     );
     with(
         "name =",
-        "line 1, column 7: found `` for `name`: expected a name",
+        "line 1, column 7: found `` for `name`: expected a line of text",
+    );
+    with(
+        "name = a\tb",
+        "line 1, column 8: found `a\\tb` for `name`: expected a line of text",
     );
     with(
         "format = tolman maze 2",

@@ -226,7 +226,8 @@ fn what_a_format_cannot_hold_it_refuses() {
     check(
         |file| file.name = Some("two\nlines".to_owned()),
         Format::Tolman,
-        "the name \"two\\nlines\" has a line break: a maze's name is one line",
+        "the name \"two\\nlines\" has a line break or another control character: a maze's name is one \
+         line of text",
     );
     check(
         |file| file.corridor_width = Some(f64::NAN),

@@ -13,3 +13,5 @@ mod generators;
 mod mazes_of_others;
 #[cfg(test)]
 mod robustness;
+#[cfg(all(test, feature = "serde"))]
+mod serialization;
