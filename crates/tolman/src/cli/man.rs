@@ -1,11 +1,32 @@
-//! `tolman man`: the manual page.
+//! `tolman man`: the manual pages.
 
+use std::fs;
 use std::io::Write;
+use std::path::PathBuf;
 
+use anyhow::Context;
 use clap::CommandFactory;
 
 use super::Failure;
 
-pub(super) fn carry_out(out: &mut dyn Write) -> Result<(), Failure> {
-    Ok(clap_mangen::Man::new(super::Arguments::command()).render(out)?)
+/// Writes the manual page, or those of all verbs into a folder
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  tolman man | man -l -
+  tolman man --out ~/.local/share/man/man1")]
+pub(super) struct Arguments {
+    /// The folder to write tolman.1, tolman-run.1, … into
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let command = super::Arguments::command();
+    match &arguments.out {
+        Some(folder) => Ok(fs::create_dir_all(folder)
+            .and_then(|()| clap_mangen::generate_to(command, folder))
+            .with_context(|| format!("cannot write the pages into {}", folder.display()))?),
+        None => Ok(clap_mangen::Man::new(command).render(out)?),
+    }
 }

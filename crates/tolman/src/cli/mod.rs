@@ -40,8 +40,7 @@ enum Verb {
     Maze(maze::Verb),
     Experiment(experiment::Arguments),
     Completions(completions::Arguments),
-    /// Writes the manual page
-    Man,
+    Man(man::Arguments),
 }
 
 /// Parses the command line, does what it says and returns the exit code.
@@ -69,7 +68,7 @@ impl Verb {
             Self::Maze(verb) => verb.carry_out(out),
             Self::Experiment(arguments) => experiment::carry_out(&arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),
-            Self::Man => man::carry_out(out),
+            Self::Man(arguments) => man::carry_out(&arguments, out),
         }
     }
 }

@@ -12,6 +12,8 @@ fn help_names_every_verb_and_the_exit_codes() {
 fn every_verb_explains_itself() {
     for verb in [
         &["completions"][..],
+        &["man"],
+        &["experiment"],
         &["maze", "show"],
         &["maze", "check"],
         &["maze", "convert"],
@@ -41,4 +43,13 @@ fn completions_and_man_page_know_the_verbs() {
         page.contains(".TH tolman 1") && page.contains("maze"),
         "{page}"
     );
+}
+
+#[test]
+fn every_verb_has_a_man_page() {
+    let folder = crate::folder("man");
+    crate::tolman_in(&folder, &["man", "--out", "pages"]).done();
+    for page in ["tolman.1", "tolman-experiment.1", "tolman-maze-show.1"] {
+        assert!(folder.join("pages").join(page).is_file(), "{page}");
+    }
 }
