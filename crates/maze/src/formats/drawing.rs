@@ -208,17 +208,22 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
         }
         let blanks = line.text.len() - line.text.trim_start_matches(' ').len();
         let indent = rows.first().map_or(blanks, |row| row.indent);
-        let first = line.text.get(indent..).and_then(|text| text.chars().next());
-        match first {
-            Some('\t') => return Err(line.fault(indent, Fault::Tab)),
-            Some(c) if blanks >= indent && (is_post(c) || matches!(c, '|' | ' ')) => {
-                rows.push(Row { line, indent });
-                *lines = ahead;
-            }
-            Some(_) if rows.is_empty() => {
-                return Err(Row { line, indent }.unexpected(0, POST));
-            }
-            _ => return Ok(rows),
+        let text = if blanks < indent {
+            ""
+        } else {
+            &line.text[indent..]
+        };
+        if text.starts_with('\t') {
+            return Err(line.fault(indent, Fault::Tab));
+        }
+        // A remark below the drawing may begin with an o, too: `begins` looks at the next character.
+        if begins(text) || text.starts_with(['|', ' ']) {
+            rows.push(Row { line, indent });
+            *lines = ahead;
+        } else if rows.is_empty() {
+            return Err(Row { line, indent }.unexpected(0, POST));
+        } else {
+            return Ok(rows);
         }
     }
 }

@@ -81,6 +81,7 @@ fn a_drawing_may_be_drawn_in_several_ways() {
     check(&format!("\n\n{DRAWN}\n\n"));
     check(&DRAWN.replace(" S ", "   "));
     check(&format!("{DRAWN}Drawn in 1987.\n| not a wall |\n"));
+    check(&format!("{DRAWN}old maze of the club\n+1 cell\n"));
     check(&DRAWN.replacen('\n', "  the north border, größer\n", 1));
 }
 
