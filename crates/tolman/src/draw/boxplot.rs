@@ -8,7 +8,8 @@ use super::{Drawing, Series};
 use crate::stats::{FiveNumbers, five_numbers};
 
 const LEFT: f64 = 52.0;
-const TOP: f64 = 14.0;
+/// Room for the title of the value axis.
+const TOP: f64 = 30.0;
 const PLOT_HEIGHT: f64 = 260.0;
 const BOTTOM: f64 = 34.0;
 const SLOT: f64 = 128.0;
@@ -80,7 +81,7 @@ impl BoxPlot {
         let scale = Scale::up_to(values.filter(|v| v.is_finite()).fold(0.0, f64::max), 5.0);
         let y = |value: f64| TOP + PLOT_HEIGHT * (1.0 - value / scale.top);
         let body = html! {
-            text class="quiet" x="0" y=(tenths(TOP - 4.0)) { (self.axis) }
+            text class="quiet" x="0" y="12" { (self.axis) }
             @for tick in scale.ticks() {
                 path class="grid" d={ "M" (tenths(LEFT)) " " (tenths(y(tick))) "H" (tenths(width)) } {}
                 text class="quiet" x=(tenths(LEFT - 6.0)) y=(tenths(y(tick)))

@@ -46,6 +46,10 @@ pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text};
 pub use verdict::{Basis, Verdict};
 
+pub(crate) use sample::RESAMPLES;
+pub(crate) use terminal::duration;
+pub(crate) use text::{decimals, heading, value_with_spread};
+
 use crate::draw::Figure;
 
 /// What goes wrong inside an experiment; the runner adds where it happened.

@@ -1,0 +1,43 @@
+//! Figures inline on the page.
+
+use maud::{Markup, html};
+
+use crate::draw::Figure;
+
+/// Figures side by side where there is room.
+pub(super) fn grid<'a>(figures: impl Iterator<Item = &'a Figure>) -> Markup {
+    let figures: Vec<&Figure> = figures.collect();
+    html! {
+        @if !figures.is_empty() {
+            div.figures { @for figure in figures { (one(figure)) } }
+        }
+    }
+}
+
+/// The figures that belong to no table.
+pub(super) fn others(figures: &[Figure]) -> Markup {
+    let mut others = figures
+        .iter()
+        .filter(|figure| figure.table.is_none())
+        .peekable();
+    html! {
+        @if others.peek().is_some() {
+            section {
+                h2 { "More figures" }
+                (grid(others))
+            }
+        }
+    }
+}
+
+fn one(figure: &Figure) -> Markup {
+    html! {
+        figure {
+            div.wide { (figure.inline()) }
+            figcaption {
+                strong { (figure.title) }
+                @if !figure.caption.is_empty() { " " (figure.caption) }
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! How to read the page.
+
+use maud::{Markup, html};
+
+use crate::experiment::{
+    Basis, Metric, Outcome, RESAMPLES, Statistic, Tolerance, Verdict, decimals, heading,
+};
+
+/// The notes below everything, only about what the page shows.
+pub(super) fn notes(outcome: &Outcome) -> Markup {
+    let analysis = &outcome.analysis;
+    let metrics: Vec<&Metric> = analysis
+        .tables
+        .iter()
+        .flat_map(|table| table.metrics.iter().map(|metric| &metric.metric))
+        .collect();
+    let has = |wanted: fn(&Statistic) -> bool| metrics.iter().any(|m| wanted(&m.statistic));
+    let percent = has(|statistic| matches!(statistic, Statistic::Percent { .. }));
+    let mean = has(|statistic| matches!(statistic, Statistic::Mean { .. }));
+    let ratio = has(|statistic| matches!(statistic, Statistic::Ratio { .. }));
+    let compared = analysis
+        .tables
+        .iter()
+        .any(|table| table.table.comparison.is_some());
+    let verdicts: Vec<Verdict> = analysis
+        .values()
+        .filter_map(|(_, _, measured)| measured.verdict)
+        .collect();
+    let by_interval = verdicts
+        .iter()
+        .any(|verdict| verdict.basis == Basis::PaperInterval);
+    html! {
+        section.notes {
+            h2 { "How to read this" }
+            ul {
+                @if !verdicts.is_empty() {
+                    li { b { "Verdict. " } (tolerances(&metrics))
+                        @if by_interval {
+                            "Where no tolerance is stated, our value matches if it lies within the 95 % \
+                             interval of the paper's own sample: exact binomial for a percentage, mean \
+                             ± 1.96 standard errors for a mean. "
+                        }
+                        "The accepted values show when the pointer rests on a verdict."
+                    }
+                }
+                li { b { "95 % interval. " }
+                    @if percent { "Percentages: exact binomial (Clopper–Pearson). " }
+                    @if mean || ratio { "Means and ratios: BCa bootstrap, " (RESAMPLES) " resamples. " }
+                }
+                @if mean { li { b { "Ours. " } "Mean ± standard deviation (n − 1), as the paper has it." } }
+                @if ratio { li { b { "Ratios " } "are sums over all runs divided by sums over all runs." } }
+                @if compared {
+                    li { b { "p. " } "Mann–Whitney U, two-sided, against the reference row, corrected for the \
+                         comparisons within a metric. " b { "A" sub { "12" } ". " }
+                         "The probability that a run of the row has a greater value than one of the \
+                         reference row; 0.5 is no difference."
+                    }
+                }
+                @if mean {
+                    li { b { "Box plots. " } "Box: R-7 quartiles and median. Whiskers: the last datum within \
+                         1.5 interquartile ranges. Dots: every run. Diamond and bar: the paper's mean ± \
+                         standard deviation." }
+                }
+                li { b { "Seeds. " } "The seed of a run comes from the master seed, the table and the index of \
+                     the run, so the rows of a table meet the same starts. " code { "runs.jsonl" }
+                     " lists every run with its seed; " code { "config.toml" } " is all that is needed to make \
+                     them again."
+                }
+            }
+        }
+    }
+}
+
+/// The stated tolerances in words, each metric once.
+fn tolerances(metrics: &[&Metric]) -> String {
+    let mut told: Vec<String> = Vec::new();
+    for metric in metrics {
+        let Some(tolerance) = metric.tolerance else {
+            continue;
+        };
+        let decimals = decimals(metric);
+        let text = match (tolerance, &metric.statistic) {
+            (Tolerance::Absolute(points), Statistic::Percent { .. }) => {
+                format!("{} within ± {points:.0} percentage points", metric.title)
+            }
+            (Tolerance::Absolute(by), _) => format!("{} within ± {by:.decimals$}", heading(metric)),
+            (Tolerance::Relative(share), _) => {
+                format!("{} within ± {:.0} %", metric.title, 100.0 * share)
+            }
+        };
+        if !told.contains(&text) {
+            told.push(text);
+        }
+    }
+    if told.is_empty() {
+        return String::new();
+    }
+    format!(
+        "Our value matches the paper's if it lies within the stated tolerance: {}. ",
+        told.join(", ")
+    )
+}

@@ -1,0 +1,231 @@
+//! What is written and shown.
+
+use std::fs;
+
+use tolman::experiment::{Ink, Options, Run, tables_as_text};
+
+use crate::darts::Darts;
+use crate::support::{fresh, options, read, run};
+
+#[test]
+fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
+    let out = fresh("summary").join("out");
+    let outcome = run(&Darts::new(), &options(&out)).0.unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&read(&out, "summary.json")).unwrap();
+    let keys = |value: &serde_json::Value| -> Vec<String> {
+        value.as_object().unwrap().keys().cloned().collect()
+    };
+    assert_eq!(keys(&summary), ["experiment", "rows", "seed", "version"]);
+    assert_eq!(
+        (&summary["experiment"], &summary["version"]),
+        (&"darts".into(), &1.into())
+    );
+    let rows = summary["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2 * 3 * 4);
+    assert_eq!(
+        keys(&rows[0]),
+        ["metric", "n", "paper", "row", "sd", "table", "value"]
+    );
+    assert!(rows[0]["sd"].is_null(), "a percentage has no spread");
+    assert_eq!(rows[0]["paper"], 60.0);
+    assert!(
+        rows[2]["paper"].is_null(),
+        "the paper does not say how far novices miss"
+    );
+
+    // By hand from the runs.
+    let novice: Vec<&Run> = outcome
+        .runs
+        .iter()
+        .filter(|run| run.table == "1 (near)" && run.row == "Novice")
+        .collect();
+    let throws = |run: &&Run| run.fields.get("throws").unwrap().as_number().unwrap();
+    let mean = novice.iter().map(throws).sum::<f64>() / 40.0;
+    assert!((rows[1]["value"].as_f64().unwrap() - mean).abs() < 1e-12);
+    let variance = novice
+        .iter()
+        .map(throws)
+        .map(|t| (t - mean) * (t - mean))
+        .sum::<f64>()
+        / 39.0;
+    assert!((rows[1]["sd"].as_f64().unwrap() - variance.sqrt()).abs() < 1e-12);
+    let miss: f64 = novice
+        .iter()
+        .map(|run| run.fields.get("miss").unwrap().as_number().unwrap())
+        .sum();
+    assert!((rows[3]["value"].as_f64().unwrap() - miss / (40.0 * mean)).abs() < 1e-12);
+}
+
+#[test]
+fn a_run_is_one_line_that_names_what_plays_it_again() {
+    let out = fresh("line").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let text = read(&out, "runs.jsonl");
+    let line = text.lines().next().unwrap();
+    assert!(
+        line.starts_with(r#"{"table":"1 (near)","row":"Novice","run":0,"seed":"#),
+        "{line}"
+    );
+    let parsed: Run = serde_json::from_str(line).unwrap();
+    use tolman::experiment::Experiment;
+    assert_eq!(Darts::new().run(&parsed.job()).unwrap(), parsed.fields);
+}
+
+#[test]
+fn config_toml_holds_all_that_is_needed_to_run_again() {
+    let out = fresh("config").join("my out");
+    let options = Options {
+        mazes: vec!["a maze.txt".into()],
+        ..options(&out)
+    };
+    run(&Darts::new(), &options).0.unwrap();
+    let config: toml::Table = read(&out, "config.toml").parse().unwrap();
+    assert_eq!(config["seed"].as_integer(), Some(7));
+    assert_eq!(config["runs"].as_integer(), Some(40));
+    assert_eq!(config["configuration"]["reach"].as_float(), Some(1.0));
+    assert_eq!(config["build"]["commit"].as_str(), Some("0123456789"));
+    let command = config["command"].as_str().unwrap();
+    assert!(command.starts_with(
+        "cargo xtask experiment darts --seed 7 --runs 40 --maze 'a maze.txt' --out '"
+    ));
+}
+
+#[test]
+fn disagreements_are_the_values_outside_their_tolerance() {
+    let out = fresh("check").join("out");
+    let mut darts = Darts::new();
+    let agreeing = run(&darts, &options(&out)).0.unwrap();
+    let steps = agreeing.summary.rows[1].value;
+    assert!(
+        agreeing
+            .analysis
+            .disagreements()
+            .iter()
+            .all(|d| d.metric != "throws" || d.row != "Novice" || d.table != "1 (near)")
+    );
+
+    darts.tables[0].rows[0].paper[1].value = 2.0 * steps;
+    let disagreements = run(&darts, &options(&out))
+        .0
+        .unwrap()
+        .analysis
+        .disagreements();
+    let found = disagreements
+        .iter()
+        .find(|d| d.table == "1 (near)" && d.row == "Novice")
+        .unwrap();
+    assert_eq!(found.metric, "throws");
+    assert!((found.accepted.low - 0.65 * 2.0 * steps).abs() < 1e-9);
+}
+
+#[test]
+fn tables_show_ours_beside_the_papers() {
+    let out = fresh("text").join("out");
+    let outcome = run(&Darts::new(), &options(&out)).0.unwrap();
+    let text = tables_as_text(&outcome.analysis, Ink::Plain);
+    assert_eq!(
+        text.lines()
+            .filter(|line| line.starts_with("Novice"))
+            .count(),
+        2
+    );
+    let head: Vec<&str> = text.lines().take(3).collect();
+    assert_eq!(head[0], "Table 1 (near)  From two metres, at most 10 darts");
+    assert!(head[1].contains("success %") && head[1].contains("last miss (m)"));
+    // Every value stands below the end of its column's word.
+    let column = |line: &str, word: &str| {
+        let byte = line.find(word).unwrap() + word.len();
+        line[..byte].chars().count()
+    };
+    let novice = text
+        .lines()
+        .find(|line| line.starts_with("Novice"))
+        .unwrap();
+    assert_eq!(column(head[2], "paper"), column(novice, " 60.0"));
+    assert!(!text.contains('\u{1b}'));
+    assert!(tables_as_text(&outcome.analysis, Ink::Coloured).contains("\u{1b}[32m=\u{1b}[0m"));
+}
+
+#[test]
+fn the_report_is_one_file_without_network() {
+    let out = fresh("report").join("out");
+    let outcome = run(&Darts::new(), &options(&out)).0.unwrap();
+    let page = read(&out, "report.html");
+    assert!(page.starts_with("<!DOCTYPE html>"));
+    for outside in ["http://", "https://", "src=", "<link", "@import", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    assert!(page.contains("Throws until a hit, &lt;by&gt; skill &amp; distance"));
+
+    for element in [
+        "table", "tbody", "tr", "td", "section", "figure", "svg", "g", "circle", "ul", "li",
+    ] {
+        let opened = page.matches(&format!("<{element} ")).count()
+            + page.matches(&format!("<{element}>")).count();
+        let closed = page.matches(&format!("</{element}>")).count();
+        assert!(
+            opened > 0 && opened == closed,
+            "{element}: {opened} {closed}"
+        );
+    }
+    let mut ids: Vec<&str> = page
+        .split(" id=\"")
+        .skip(1)
+        .map(|rest| rest.split('"').next().unwrap())
+        .collect();
+    let all = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(
+        (ids.len(), all),
+        (3 * 5, 3 * 5),
+        "every figure, title and description once"
+    );
+
+    // Every run is a dot in each of the two plots of its table.
+    for run in &outcome.runs {
+        let dot = format!("data-run=\"{}\" data-seed=\"{}\"", run.run, run.seed);
+        assert_eq!(page.matches(&dot).count(), 2 * 3, "{dot}");
+    }
+}
+
+#[test]
+fn figures_are_xml_files_of_their_own() {
+    let out = fresh("figures").join("out");
+    let figures = out.join("figures");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    // One of an earlier time is not kept.
+    fs::write(figures.join("old.svg"), "<svg/>").unwrap();
+    run(&Darts::new(), &options(&out)).0.unwrap();
+
+    let mut names: Vec<String> = fs::read_dir(&figures)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort_unstable();
+    let expect = [
+        "box-1-near-miss",
+        "box-1-near-throws",
+        "box-2-far-miss",
+        "box-2-far-throws",
+        "first-run",
+    ];
+    assert_eq!(names, expect.map(|name| format!("{name}.svg")));
+    for name in names {
+        let text = read(&figures, &name);
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let svg = document.root_element();
+        assert_eq!(
+            svg.tag_name().namespace(),
+            Some("http://www.w3.org/2000/svg")
+        );
+        let labels = svg.attribute("aria-labelledby").unwrap();
+        for label in labels.split(' ') {
+            let node = document
+                .descendants()
+                .find(|node| node.attribute("id") == Some(label))
+                .unwrap();
+            assert!(!node.text().unwrap().is_empty());
+        }
+    }
+}
