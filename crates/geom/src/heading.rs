@@ -31,6 +31,14 @@ impl Heading {
     pub const SOUTH: Self = Self(-FRAC_PI_2);
 
     /// Wraps any angle in radians into (−π, π].
+    ///
+    /// ```
+    /// use core::f64::consts::{FRAC_PI_2, PI};
+    /// use tolman_geom::Heading;
+    ///
+    /// assert!((Heading::from_radians(2.5 * PI).radians() - FRAC_PI_2).abs() < 1e-12);
+    /// assert_eq!(Heading::from_radians(-PI), Heading::WEST);
+    /// ```
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
         if radians > -PI && radians <= PI {
@@ -56,6 +64,12 @@ impl Heading {
     }
 
     /// The direction of a vector; east for the zero vector.
+    ///
+    /// ```
+    /// use tolman_geom::{Heading, Vector};
+    ///
+    /// assert_eq!(Heading::of(Vector::new(0.0, -2.0)), Heading::SOUTH);
+    /// ```
     #[must_use]
     pub fn of(vector: Vector) -> Self {
         Self::from_radians(libm::atan2(vector.y, vector.x))
@@ -132,6 +146,7 @@ mod tests {
             prop_assert!(heading > -PI && heading <= PI);
             let turns = (radians - heading) / TAU;
             prop_assert!((turns - libm::round(turns)).abs() < 1e-6);
+            prop_assert_eq!(Heading::from_radians(heading).radians().to_bits(), heading.to_bits());
         }
 
         #[test]

@@ -74,6 +74,18 @@ impl Pose {
 
     /// Where a body arrives that covers `distance` metres of path while it turns by `turn` radians:
     /// a circular arc, straight when `turn` is 0.
+    ///
+    /// ```
+    /// use core::f64::consts::PI;
+    /// use tolman_geom::{Heading, Point, Pose};
+    ///
+    /// let start = Pose::new(Point::new(1.0, 0.0), Heading::NORTH);
+    /// let straight = start.displaced(2.0, 0.0);
+    /// assert!((straight.position - Point::new(1.0, 2.0)).norm() < 1e-12);
+    /// // Half a circle to the left, of circumference 2π: one step back west, two over.
+    /// let half = start.displaced(PI, PI);
+    /// assert!((half.position - Point::new(-1.0, 0.0)).norm() < 1e-12);
+    /// ```
     #[must_use]
     pub fn displaced(self, distance: f64, turn: f64) -> Self {
         // The chord of the arc leaves at half the turn; its length is sinc(turn / 2) of the path.
@@ -186,5 +198,52 @@ mod tests {
             let twist = Twist::new(linear, angular);
             prop_assert!(same(a.moved(twist, 0.7).moved(twist, -0.7), a));
         }
+    }
+
+    #[test]
+    fn the_series_meets_the_quotient() {
+        for x in [0.999e-4, -0.999e-4, 1.001e-4] {
+            assert!((sinc(x) - libm::sin(x) / x).abs() < 1e-15, "{x}");
+        }
+        assert!((sinc(0.0) - 1.0).abs() < f64::EPSILON);
+    }
+
+    #[test]
+    fn nan_and_infinities_stay_visible() {
+        let at = |x, y, heading| Pose::new(Point::new(x, y), Heading::from_radians(heading));
+        assert!(at(1.0, 2.0, 3.0).is_finite());
+        assert!(!at(f64::NAN, 2.0, 3.0).is_finite());
+        assert!(!at(1.0, f64::INFINITY, 3.0).is_finite());
+        assert!(!at(1.0, 2.0, f64::NAN).is_finite());
+        assert!(!at(1.0, 2.0, 3.0).displaced(f64::NAN, 0.0).is_finite());
+    }
+
+    /// Traces hold these, so the names must last, and no bit of a number may be lost.
+    #[cfg(feature = "serde")]
+    #[test]
+    fn poses_survive_json() {
+        let pose = Pose::new(
+            Point::new(0.1 + 0.2, -1e-300),
+            Heading::from_radians(-1.0 / 3.0),
+        );
+        let json = serde_json::to_string(&pose).unwrap();
+        assert_eq!(
+            json,
+            r#"{"position":[0.30000000000000004,-1e-300],"heading":-0.3333333333333333}"#
+        );
+        assert_eq!(serde_json::from_str::<Pose>(&json).unwrap(), pose);
+
+        let beyond = r#"{"position":[0.0,0.0],"heading":7.0}"#;
+        let wrapped = serde_json::from_str::<Pose>(beyond).unwrap().heading;
+        assert_eq!(
+            wrapped,
+            Heading::from_radians(7.0),
+            "a heading read is wrapped"
+        );
+        let null = r#"{"position":[0.0,0.0],"heading":null}"#;
+        assert!(
+            serde_json::from_str::<Pose>(null).is_err(),
+            "what JSON makes of NaN"
+        );
     }
 }

@@ -25,6 +25,8 @@ impl Twist {
 
     /// The twist of a differential drive whose wheels roll at `left` and `right` m/s, `track` metres apart.
     ///
+    /// Wheels on one spot (`track` 0) have no twist: the result is then not finite.
+    ///
     /// ```
     /// use tolman_geom::Twist;
     /// let spin = Twist::of_wheels(-0.1, 0.1, 0.2);
@@ -33,5 +35,31 @@ impl Twist {
     #[must_use]
     pub fn of_wheels(left: f64, right: f64, track: f64) -> Self {
         Self::new(0.5 * (left + right), (right - left) / track)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// A wheel goes as fast as the body at the wheel's place: v ∓ ω · track / 2.
+        #[test]
+        fn wheels_and_twist_agree(left in -1.0..1.0, right in -1.0..1.0, track in 0.05..1.0) {
+            let twist = Twist::of_wheels(left, right, track);
+            prop_assert!((twist.linear - 0.5 * twist.angular * track - left).abs() < 1e-12);
+            prop_assert!((twist.linear + 0.5 * twist.angular * track - right).abs() < 1e-12);
+        }
+    }
+
+    #[cfg(feature = "serde")]
+    #[test]
+    fn twists_survive_json() {
+        let twist = Twist::new(0.1, -0.2);
+        let json = serde_json::to_string(&twist).unwrap();
+        assert_eq!(json, r#"{"linear":0.1,"angular":-0.2}"#);
+        assert_eq!(serde_json::from_str::<Twist>(&json).unwrap(), twist);
     }
 }

@@ -21,6 +21,20 @@ pub enum Body {
 impl Body {
     /// The radius of the smallest disc round the robot's origin that holds the body, m: the room it
     /// needs to turn in place.
+    ///
+    /// ```
+    /// use tolman_geom::Point;
+    /// use tolman_robot::Body;
+    ///
+    /// let corners = vec![
+    ///     Point::new(-0.1, -0.2),
+    ///     Point::new(0.3, -0.2),
+    ///     Point::new(0.3, 0.4),
+    ///     Point::new(-0.1, 0.4),
+    /// ];
+    /// let body = Body::Polygon { corners };
+    /// assert!((body.radius() - 0.5).abs() < 1e-12, "the far corner is 0.3 ahead and 0.4 left");
+    /// ```
     #[must_use]
     pub fn radius(&self) -> f64 {
         match self {

@@ -21,7 +21,7 @@ pub struct LaserSensing {
 }
 
 impl LaserSensing {
-    /// Before the first reading: nothing sensed yet.
+    /// Before the first reading: a scan that met nothing, and no word from any other sensor.
     #[must_use]
     pub fn silent(ring: Ring) -> Self {
         Self {
@@ -31,5 +31,49 @@ impl LaserSensing {
             odometry: None,
             bump: None,
         }
+    }
+}
+
+#[cfg(all(test, feature = "serde"))]
+mod tests {
+    use tolman_geom::Heading;
+
+    use super::*;
+    use crate::TurnTranslate;
+
+    /// Traces hold these, so the names must last, and no bit of a number may be lost.
+    #[test]
+    fn sensings_and_commands_survive_json() {
+        let mut sensing = LaserSensing::silent(Ring::fan(3, 1.0, 0.1 + 0.2));
+        sensing.time_us = u64::MAX;
+        sensing.compass = Some(Heading::from_radians(-1.0 / 3.0));
+        sensing.odometry = Some(Odometry {
+            distance: 1e-300,
+            turn: -0.7,
+        });
+        let json = serde_json::to_string(&sensing).unwrap();
+        assert_eq!(
+            json,
+            "{\"time_us\":18446744073709551615,\"scan\":{\"ring\":{\"beams\":3,\
+             \"first_bearing\":-0.5,\"spacing\":0.5,\"max_range\":0.30000000000000004},\
+             \"ranges\":[0.30000000000000004,0.30000000000000004,0.30000000000000004]},\
+             \"compass\":-0.3333333333333333,\"odometry\":{\"distance\":1e-300,\"turn\":-0.7},\
+             \"bump\":null}"
+        );
+        assert_eq!(
+            serde_json::from_str::<LaserSensing>(&json).unwrap(),
+            sensing
+        );
+
+        let command = TurnTranslate {
+            turn: -0.25,
+            translate: 1.0,
+        };
+        let json = serde_json::to_string(&command).unwrap();
+        assert_eq!(json, "{\"turn\":-0.25,\"translate\":1.0}");
+        assert_eq!(
+            serde_json::from_str::<TurnTranslate>(&json).unwrap(),
+            command
+        );
     }
 }

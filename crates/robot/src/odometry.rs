@@ -12,6 +12,18 @@ pub struct Odometry {
 
 impl Odometry {
     /// Dead reckoning: the pose after this motion, from the pose before it.
+    ///
+    /// ```
+    /// use core::f64::consts::{FRAC_PI_2, PI};
+    /// use tolman_geom::{Point, Pose};
+    /// use tolman_robot::Odometry;
+    ///
+    /// // Half a circle of radius 1 m to the left, in two steps of a quarter each.
+    /// let quarter = Odometry { distance: FRAC_PI_2, turn: FRAC_PI_2 };
+    /// let pose = quarter.applied_to(quarter.applied_to(Pose::IDENTITY));
+    /// assert!((pose.position - Point::new(0.0, 2.0)).norm() < 1e-12);
+    /// assert!((pose.heading.radians() - PI).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn applied_to(self, pose: Pose) -> Pose {
         pose.displaced(self.distance, self.turn)

@@ -36,15 +36,28 @@ impl Ring {
         }
     }
 
-    /// `beams` beams over a field of view of `field` rad centred ahead, both ends included: a SICK
-    /// LMS200 is `Ring::fan(181, π, 8.0)`.
+    /// `beams` beams over a field of view of `field` rad centred ahead, both ends included; a single
+    /// beam looks ahead.
+    ///
+    /// ```
+    /// use core::f64::consts::{FRAC_PI_2, PI};
+    /// use tolman_robot::Ring;
+    ///
+    /// let lms200 = Ring::fan(181, PI, 8.0);
+    /// assert_eq!(lms200.bearing(0), -FRAC_PI_2, "beam 0 looks right");
+    /// assert!(lms200.bearing(90).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn fan(beams: u32, field: f64, max_range: f64) -> Self {
-        let gaps = f64::from(beams.max(2) - 1);
+        let (first_bearing, spacing) = if beams < 2 {
+            (0.0, 0.0)
+        } else {
+            (-0.5 * field, field / f64::from(beams - 1))
+        };
         Self {
             beams,
-            first_bearing: -0.5 * field,
-            spacing: field / gaps,
+            first_bearing,
+            spacing,
             max_range,
         }
     }
@@ -74,5 +87,45 @@ impl Scan {
             ring,
             ranges: vec![ring.max_range; ring.beams as usize],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::PI;
+
+    use super::*;
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-12
+    }
+
+    #[test]
+    fn a_full_ring_goes_round_once() {
+        for beams in [1, 2, 3, 36, 72, 360] {
+            let ring = Ring::full(beams, 2.5);
+            assert!(near(ring.bearing(0), 0.0));
+            assert!(
+                near(ring.bearing(beams), TAU),
+                "one past the last is the first"
+            );
+        }
+    }
+
+    #[test]
+    fn a_fan_is_centred_and_has_both_ends() {
+        for (beams, field) in [(2, PI), (5, 1.0), (181, PI), (1081, 1.5 * PI)] {
+            let ring = Ring::fan(beams, field, 8.0);
+            assert!(near(ring.bearing(0), -0.5 * field));
+            assert!(near(ring.bearing(beams - 1), 0.5 * field));
+        }
+        assert!(near(Ring::fan(1, PI, 8.0).bearing(0), 0.0));
+    }
+
+    #[test]
+    fn a_clear_scan_reads_the_full_range_on_every_beam() {
+        let scan = Scan::clear(Ring::full(3, 1.25));
+        assert_eq!(scan.ranges, [1.25; 3]);
+        assert!(Scan::clear(Ring::full(0, 1.25)).ranges.is_empty());
     }
 }
