@@ -134,7 +134,10 @@ pub enum Fault {
         first_line: usize,
     },
     /// A cell that is not listed.
-    #[error("cell {cell} of the {width} × {height} maze is missing: add a line for it", width = grid.width(), height = grid.height())]
+    #[error(
+        "cell {cell} of the {} × {} maze is missing: add a line for it",
+        grid.width(), grid.height()
+    )]
     Missing {
         /// The first such cell from the south-west, row by row.
         cell: Cell,

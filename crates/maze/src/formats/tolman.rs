@@ -1,4 +1,5 @@
-//! [`Format::Tolman`](super::Format::Tolman): a header of `key = value` lines, then a drawing; `docs/maze-format.md`.
+//! [`Format::Tolman`](super::Format::Tolman): a header of `key = value` lines, then a drawing; the
+//! page `docs/maze-format.md` explains it.
 
 use alloc::format;
 use alloc::string::{String, ToString};
