@@ -53,6 +53,7 @@ mod solo;
 mod surroundings;
 mod world;
 
+pub mod casters;
 pub mod noise;
 pub mod robots;
 pub mod sensors;

@@ -1,6 +1,7 @@
 use tolman_geom::{Point, Pose};
 use tolman_robot::Body;
 
+use crate::casters::Sweep;
 use crate::{Wall, World};
 
 /// Everything a body can meet at one moment: the world's walls, the doors that are shut, and the
@@ -90,6 +91,19 @@ impl Placed {
             && self
                 .sides()
                 .all(|side| (side.end - side.start).perp(&(point - side.start)) >= 0.0)
+    }
+
+    /// Shortens the beams of `sweep` that meet the body from outside.
+    pub(crate) fn shorten(&self, sweep: &mut Sweep) {
+        if self.corners.is_empty() {
+            sweep.meet_disc(self.pose.position, self.radius);
+        } else if (self.pose.position - sweep.origin()).norm()
+            <= sweep.ring().max_range + self.radius
+        {
+            for side in self.sides() {
+                sweep.meet_wall(&side);
+            }
+        }
     }
 
     /// How far a ray meets the body from outside, m; infinity if it does not.

@@ -1,5 +1,6 @@
 use tolman_geom::{Point, Pose, Vector};
 
+use crate::casters::Sweep;
 use crate::scene::Scene;
 use crate::{Motion, World};
 
@@ -31,12 +32,27 @@ impl<'a> Surroundings<'a> {
     /// meets nothing before. `direction` is a unit vector in the world.
     #[must_use]
     pub fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
-        let walls = self.scene.world.walls().iter().chain(self.scene.shut);
-        let walls = walls.map(|wall| wall.ray(origin, direction));
+        let range = self.world().caster().cast(origin, direction, max_range);
+        let doors = self
+            .scene
+            .shut
+            .iter()
+            .map(|wall| wall.ray(origin, direction));
         let bodies = self
             .scene
             .others(self.robot)
             .map(|other| other.ray(origin, direction));
-        walls.chain(bodies).fold(max_range, f64::min)
+        doors.chain(bodies).fold(range, f64::min)
+    }
+
+    /// Shortens every beam of `sweep` to the wall, shut door or other robot it meets.
+    pub fn scan(&self, sweep: &mut Sweep) {
+        self.world().caster().scan(sweep);
+        for wall in self.scene.shut {
+            sweep.meet_wall(wall);
+        }
+        for other in self.scene.others(self.robot) {
+            other.shorten(sweep);
+        }
     }
 }

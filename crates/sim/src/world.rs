@@ -1,8 +1,11 @@
-use tolman_geom::Point;
+use alloc::sync::Arc;
+
+use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::Body;
 
-use crate::Door;
+use crate::casters::{Caster, Lanes, LatticeWalk, WallIndex};
+use crate::{Door, contact};
 
 mod bounds;
 mod error;
@@ -16,7 +19,7 @@ pub use lattice::Occupancy;
 pub use wall::{Material, Wall};
 pub use zone::{Area, Zone};
 
-use lattice::Lattice;
+pub(crate) use lattice::Lattice;
 
 /// How a grid maze is drawn to scale.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -47,7 +50,9 @@ pub struct World {
     zones: Vec<Zone>,
     doors: Vec<Door>,
     bounds: Bounds,
-    lattice: Option<Lattice>,
+    lattice: Option<Arc<Lattice>>,
+    index: Arc<WallIndex>,
+    caster: Arc<dyn Caster>,
     cells: Option<Cells>,
 }
 
@@ -111,12 +116,15 @@ impl World {
             })?;
         }
         let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
+        let index = Arc::new(WallIndex::new(&walls, Lanes::Widest));
         Ok(Self {
             walls,
             zones: Vec::new(),
             doors: Vec::new(),
             bounds,
             lattice: None,
+            caster: Arc::clone(&index) as Arc<dyn Caster>,
+            index,
             cells: None,
         })
     }
@@ -134,8 +142,11 @@ impl World {
     fn from_lattice(lattice: Lattice, material: Material) -> Result<Self, WorldError> {
         let mut world = Self::from_segments(lattice.walls(material))?;
         world.bounds = lattice.bounds();
-        world.lattice = Some(lattice);
-        Ok(world)
+        world.lattice = Some(Arc::new(lattice));
+        match LatticeWalk::new(&world, Lanes::Widest) {
+            Some(caster) => Ok(world.with_caster(Arc::new(caster))),
+            None => Ok(world),
+        }
     }
 
     /// This world with a further zone.
@@ -185,6 +196,30 @@ impl World {
         }
         self.doors.push(door);
         Ok(self)
+    }
+
+    /// This world seen through another ray caster, which must be one of its walls. The built-in choice
+    /// is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free walls.
+    #[must_use]
+    pub fn with_caster(mut self, caster: Arc<dyn Caster>) -> Self {
+        self.caster = caster;
+        self
+    }
+
+    /// The ray caster all sensors see through.
+    #[must_use]
+    pub fn caster(&self) -> &dyn Caster {
+        &*self.caster
+    }
+
+    /// All walls by place.
+    pub(crate) fn index(&self) -> &Arc<WallIndex> {
+        &self.index
+    }
+
+    /// The grid the walls stand on, if they do.
+    pub(crate) fn lattice(&self) -> Option<&Arc<Lattice>> {
+        self.lattice.as_ref()
     }
 
     /// All walls, doors not among them.
@@ -270,9 +305,9 @@ impl World {
 
     /// Whether `body` at `pose` stands on the floor and touches no wall. Doors do not count.
     #[must_use]
-    pub fn clear_for(&self, body: &Body, pose: tolman_geom::Pose) -> bool {
+    pub fn clear_for(&self, body: &Body, pose: Pose) -> bool {
         pose.is_finite()
             && self.is_floor(pose.position)
-            && crate::contact::clearance(self, body, pose) > 0.0
+            && contact::clearance(self, body, pose) > 0.0
     }
 }

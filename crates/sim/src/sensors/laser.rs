@@ -1,16 +1,14 @@
 use thiserror::Error;
-use tolman_geom::{Heading, Vector};
 use tolman_robot::{Ring, Scan};
 
 use super::Sensor;
+use crate::casters::Sweep;
 use crate::{Chance, Surroundings};
 
 /// A laser ring or fan in the middle of the robot: one exact range per beam.
 #[derive(Clone, Debug)]
 pub struct Laser {
-    ring: Ring,
-    /// Unit vectors of the beams in the robot's frame.
-    beams: Vec<Vector>,
+    sweep: Sweep,
 }
 
 impl Laser {
@@ -37,16 +35,15 @@ impl Laser {
                 spacing: ring.spacing,
             });
         }
-        let beams = (0..ring.beams)
-            .map(|beam| Heading::from_radians(ring.bearing(beam)).unit())
-            .collect();
-        Ok(Self { ring, beams })
+        Ok(Self {
+            sweep: Sweep::new(ring),
+        })
     }
 
     /// The geometry of its beams.
     #[must_use]
     pub fn ring(&self) -> Ring {
-        self.ring
+        self.sweep.ring()
     }
 }
 
@@ -54,15 +51,10 @@ impl Sensor for Laser {
     type Reading = Scan;
 
     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<Scan>) {
-        let scan = reading.get_or_insert_with(|| Scan::clear(self.ring));
-        let (origin, ahead) = (around.pose.position, around.pose.heading.unit());
-        for (range, beam) in scan.ranges.iter_mut().zip(&self.beams) {
-            let direction = Vector::new(
-                ahead.x * beam.x - ahead.y * beam.y,
-                ahead.y * beam.x + ahead.x * beam.y,
-            );
-            *range = around.cast(origin, direction, self.ring.max_range);
-        }
+        let scan = reading.get_or_insert_with(|| Scan::clear(self.ring()));
+        self.sweep.aim(around.pose);
+        around.scan(&mut self.sweep);
+        scan.ranges.copy_from_slice(self.sweep.ranges());
     }
 }
 

@@ -24,8 +24,8 @@ pub struct Occupancy {
 /// or row of its own, and walls proper are the edges between solid and free cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice {
-    columns: Axis,
-    rows: Axis,
+    pub(crate) columns: Axis,
+    pub(crate) rows: Axis,
     /// One flag per edge across x, `columns + 1` to a row.
     vertical: Vec<bool>,
     /// One flag per edge across y, `columns` to a row of lattice points.
@@ -39,8 +39,8 @@ pub(crate) struct Lattice {
 /// Line k lies at `origin + k · pitch`; with a thickness, lines 2k and 2k + 1 lie half of it before
 /// and after that.
 #[derive(Clone, Copy, Debug)]
-struct Axis {
-    cells: usize,
+pub(crate) struct Axis {
+    pub(crate) cells: usize,
     origin: f64,
     pitch: f64,
     thickness: f64,
@@ -54,6 +54,20 @@ impl Axis {
         } else {
             self.origin + index as f64 * self.pitch
         }
+    }
+
+    /// The distance from `at` in cell `cell` to the line that bounds the cell `by` cells further on, or
+    /// back.
+    #[inline(always)]
+    pub(crate) fn ahead(&self, cell: usize, back: bool, by: usize, at: f64) -> f64 {
+        // Lines before the first, which no walk reaches, are as good as the first.
+        let distance = if back {
+            at - self.line(cell.saturating_sub(by))
+        } else {
+            self.line(cell + 1 + by) - at
+        };
+        // A point on a line may round to the cell on its other side.
+        distance.max(0.0)
     }
 
     /// The cell that holds `value`, if one does.
@@ -205,11 +219,39 @@ impl Lattice {
         }
     }
 
+    /// The cell that holds `point`, if one does: column and row.
+    pub(crate) fn cell(&self, point: Point) -> Option<(usize, usize)> {
+        Some((self.columns.cell(point.x)?, self.rows.cell(point.y)?))
+    }
+
+    /// Whether a wall stands on line `column` across x, at `row`; never outside the grid.
+    #[inline(always)]
+    pub(crate) fn vertical(&self, column: usize, row: usize) -> bool {
+        column <= self.columns.cells
+            && row < self.rows.cells
+            && self.vertical[row * (self.columns.cells + 1) + column]
+    }
+
+    /// Whether a wall stands on line `row` across y, at `column`; never outside the grid.
+    #[inline(always)]
+    pub(crate) fn horizontal(&self, column: usize, row: usize) -> bool {
+        column < self.columns.cells
+            && row <= self.rows.cells
+            && self.horizontal[row * self.columns.cells + column]
+    }
+
+    /// How many lines of one axis a ray of this length crosses at most.
+    pub(crate) fn lines_within(&self, range: f64) -> usize {
+        let Axis {
+            pitch, thickness, ..
+        } = self.columns;
+        let per_pitch = if thickness > 0.0 { 2.0 } else { 1.0 };
+        ((range / pitch).ceil() * per_pitch) as usize
+    }
+
     pub(super) fn is_floor(&self, point: Point) -> bool {
-        match (self.columns.cell(point.x), self.rows.cell(point.y)) {
-            (Some(x), Some(y)) => !self.solid[y * self.columns.cells + x],
-            _ => false,
-        }
+        self.cell(point)
+            .is_some_and(|(x, y)| !self.solid[y * self.columns.cells + x])
     }
 
     /// The walls, those in a row joined.

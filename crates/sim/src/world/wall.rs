@@ -1,5 +1,7 @@
 use tolman_geom::{Point, Vector};
 
+use crate::casters::Seen;
+
 /// A straight wall without thickness: a closed segment, its ends part of it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -78,23 +80,25 @@ impl Wall {
     #[must_use]
     pub fn ray(&self, origin: Point, direction: Vector) -> f64 {
         let (start, end) = (self.start - origin, self.end - origin);
-        let (left_start, left_end) = (direction.perp(&start), direction.perp(&end));
-        let (ahead_start, ahead_end) = (direction.dot(&start), direction.dot(&end));
-        let apart = left_start * left_end > 0.0
-            || (left_start > 0.0 && left_end > 0.0)
-            || (left_start < 0.0 && left_end < 0.0);
-        if apart {
-            return f64::INFINITY;
+        let range = Seen::new(start, end).range(direction.x, direction.y);
+        if range < f64::INFINITY {
+            return range;
         }
-        let between = left_end - left_start;
-        let range = if between.abs() > 0.0 {
-            (ahead_start * left_end - ahead_end * left_start) / between
-        } else if ahead_start * ahead_end < 0.0 {
-            0.0
-        } else {
-            ahead_start.min(ahead_end)
-        };
-        if range >= 0.0 { range } else { f64::INFINITY }
+        if !(direction.perp(&start).abs() > 0.0 || direction.perp(&end).abs() > 0.0) {
+            // The ray runs along the wall.
+            let (start, end) = (direction.dot(&start), direction.dot(&end));
+            let nearest = if start * end < 0.0 {
+                0.0
+            } else {
+                start.min(end)
+            };
+            return if nearest >= 0.0 {
+                nearest
+            } else {
+                f64::INFINITY
+            };
+        }
+        f64::INFINITY
     }
 
     /// What is wrong with this wall, if anything is.

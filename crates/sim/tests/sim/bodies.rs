@@ -2,38 +2,12 @@
 
 use proptest::prelude::*;
 use tolman_geom::{Heading, Pose};
-use tolman_maze::{Cell, Direction, Grid, Maze};
+use tolman_maze::{Cell, Maze};
 use tolman_robot::TurnTranslate;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{Contact, CorridorSize, Model, Simulation, World};
+use tolman_sim::{Contact, Model, Simulation, World};
 
-fn maze() -> impl Strategy<Value = Maze> {
-    (1_u16..7, 1_u16..7, prop::collection::vec(any::<bool>(), 72)).prop_map(
-        |(width, height, walls)| {
-            let grid = Grid::new(width, height);
-            let mut maze = Maze::open(grid);
-            for (cell, walls) in grid.cells().zip(walls.chunks(2)) {
-                for (direction, stands) in
-                    [Direction::North, Direction::East].into_iter().zip(walls)
-                {
-                    if grid.neighbour(cell, direction).is_some() {
-                        maze.set_wall(cell, direction, *stands);
-                    }
-                }
-            }
-            maze
-        },
-    )
-}
-
-fn size() -> impl Strategy<Value = CorridorSize> {
-    (0.6..1.2, prop_oneof![Just(0.0), 0.01..0.2]).prop_map(|(corridor_width, wall_thickness)| {
-        CorridorSize {
-            corridor_width,
-            wall_thickness,
-        }
-    })
-}
+use crate::worlds::{maze, size};
 
 fn command() -> impl Strategy<Value = TurnTranslate> {
     (-1.0..1.0, -1.0..1.0).prop_map(|(turn, translate)| TurnTranslate { turn, translate })

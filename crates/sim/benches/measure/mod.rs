@@ -1,0 +1,105 @@
+//! What the benches share: criterion's measurement, and a table of it with ratios.
+//!
+//! The table counts seconds of this thread's processor time, so that a busy machine does not blur it;
+//! criterion's own report counts seconds on the wall.
+
+use core::fmt;
+use std::time::{Duration, Instant};
+
+use criterion::Criterion;
+
+/// Lets criterion measure `work` and gives how often it is done a second: the median over samples;
+/// none if the command line left it out.
+pub fn per_second<R>(
+    criterion: &mut Criterion,
+    label: &str,
+    work: &mut impl FnMut() -> R,
+) -> Option<f64> {
+    let mut samples: Vec<f64> = Vec::new();
+    let mut group = criterion.benchmark_group("sim");
+    group.warm_up_time(Duration::from_millis(200));
+    group.measurement_time(Duration::from_millis(1500));
+    group.sample_size(10);
+    group.sampling_mode(criterion::SamplingMode::Flat);
+    group.bench_function(label, |bencher| {
+        bencher.iter_custom(|iterations| {
+            let (wall, processor) = (Instant::now(), processor_time());
+            for _ in 0..iterations {
+                core::hint::black_box(work());
+            }
+            let elapsed = wall.elapsed();
+            let used = processor_time()
+                .zip(processor)
+                .map_or(elapsed, |(now, then)| now - then);
+            // The kernel counts processor time in scheduler ticks of up to 4 ms.
+            if used > Duration::from_millis(40) {
+                samples.push(iterations as f64 / used.as_secs_f64());
+            }
+            elapsed
+        });
+    });
+    group.finish();
+    samples.sort_by(f64::total_cmp);
+    samples.get(samples.len() / 2).copied()
+}
+
+/// How long this thread has had a processor, where the system tells.
+fn processor_time() -> Option<Duration> {
+    let schedule = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    schedule
+        .split(' ')
+        .next()?
+        .parse()
+        .ok()
+        .map(Duration::from_nanos)
+}
+
+/// Figures by row and column, grouped, each with its ratio to one row of its group.
+pub struct Table {
+    unit: &'static str,
+    reference: &'static str,
+    figures: Vec<(String, String, String, f64)>,
+}
+
+impl Table {
+    pub fn new(unit: &'static str, reference: &'static str) -> Self {
+        Self {
+            unit,
+            reference,
+            figures: Vec::new(),
+        }
+    }
+
+    pub fn enter(&mut self, group: &str, row: &str, column: &str, figure: Option<f64>) {
+        if let Some(figure) = figure {
+            self.figures
+                .push((group.into(), row.into(), column.into(), figure));
+        }
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = self.unit;
+        writeln!(formatter, "| | | | {unit} | ratio to {} |", self.reference)?;
+        writeln!(formatter, "| --- | --- | ---: | ---: | ---: |")?;
+        for (group, row, column, figure) in &self.figures {
+            let reference =
+                self.figures
+                    .iter()
+                    .find(|(other_group, other_row, other_column, _)| {
+                        (other_group, other_row.as_str(), other_column)
+                            == (group, self.reference, column)
+                    });
+            let ratio = match reference {
+                Some((.., reference)) => format!("{:.1}", figure / reference),
+                None => String::new(),
+            };
+            writeln!(
+                formatter,
+                "| {group} | {row} | {column} | {figure:.1} | {ratio} |"
+            )?;
+        }
+        Ok(())
+    }
+}

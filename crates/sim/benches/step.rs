@@ -1,0 +1,2 @@
+//! World steps per second.
+fn main() {}

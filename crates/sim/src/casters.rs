@@ -1,0 +1,64 @@
+//! Ray casters: three ways to answer the same question, held to each other by tests.
+//!
+//! | caster | worlds | how |
+//! | --- | --- | --- |
+//! | [`LatticeWalk`] | mazes and occupancy grids | from grid line to grid line, lanes over beams |
+//! | [`WallIndex`] | any | draws the walls near by into a one-dimensional depth buffer |
+//! | [`ParryPolyline`] | any | parry2d's bounding volume hierarchy, ray by ray: the reference |
+//!
+//! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never
+//! leaks. Whether a ray that passes the free end of a wall within rounding (10⁻⁹ m) reads the end or what
+//! lies behind it is left open; everywhere else the three agree to 10⁻⁹ m.
+
+use core::fmt;
+
+use tolman_geom::{Point, Vector};
+
+mod lattice_walk;
+mod parry;
+mod sweep;
+mod wall_index;
+
+pub use lattice_walk::LatticeWalk;
+pub use parry::ParryPolyline;
+pub(crate) use sweep::Seen;
+pub use sweep::Sweep;
+pub use wall_index::WallIndex;
+
+/// Knows how far it is to the nearest wall in any direction.
+pub trait Caster: fmt::Debug + Send + Sync {
+    /// How far a ray goes before it meets a wall, m; `max_range` if it meets none before.
+    /// `direction` is a unit vector.
+    fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64;
+
+    /// Shortens every beam of `sweep` to the wall it meets.
+    fn scan(&self, sweep: &mut Sweep) {
+        let origin = sweep.origin();
+        for beam in 0..sweep.beams() {
+            let range = self.cast(origin, sweep.direction(beam), sweep.range(beam));
+            sweep.shorten(beam, range);
+        }
+    }
+}
+
+/// For how many beams at once the casters of this crate compute. The numbers are the same to the
+/// bit: lanes do what scalars do, and nothing is fused.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lanes {
+    /// As many as every processor of the target has lanes for: two on plain x86-64.
+    Baseline,
+    /// As many as this processor has lanes for, found out at run time.
+    #[default]
+    Widest,
+}
+
+impl Lanes {
+    /// Runs `kernel` compiled for these lanes. What it is to be compiled for must be inlined into it.
+    #[inline(always)]
+    fn run(self, kernel: impl FnOnce()) {
+        match self {
+            Self::Baseline => kernel(),
+            Self::Widest => pulp::Arch::new().dispatch(kernel),
+        }
+    }
+}
