@@ -87,7 +87,7 @@ fn print_table(table: &[(&str, Duration, String)], total: Duration) {
 
 fn tests() -> Result<Outcome> {
     if installed("cargo-nextest") {
-        return passes("nextest run --workspace");
+        return passes("nextest run --workspace --status-level fail");
     }
     passes("test --workspace --lib --bins --tests --quiet")
 }
