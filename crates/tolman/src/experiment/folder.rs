@@ -77,8 +77,8 @@ impl Folder {
             runs_file::write(&spare_file, spare.values())?;
         }
         runs_file::write(&file, kept.values())?;
-        if spare.is_empty() && spare_file.exists() {
-            at("remove", &spare_file, fs::remove_file(&spare_file))?;
+        if spare.is_empty() {
+            self.discard(SPARE)?;
         }
         Ok(kept)
     }
@@ -113,6 +113,15 @@ impl Folder {
             write_whole(&folder.join(name), figure.standalone().as_bytes())?;
         }
         Ok(())
+    }
+
+    /// Removes a file of the folder, if it is there.
+    pub(super) fn discard(&self, name: &str) -> Result<(), Error> {
+        let path = self.path.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            result => at("remove", &path, result),
+        }
     }
 
     /// Writes a file of the folder.

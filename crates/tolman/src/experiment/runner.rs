@@ -81,6 +81,11 @@ pub fn execute(
     let jobs = jobs(experiment, options.seed, runs_per_row);
     let total = jobs.len() as u64;
     let reused = known.len() as u64;
+    if reused < total {
+        // What they say of fewer runs must not pass for the outcome of these.
+        folder.discard("summary.json")?;
+        folder.discard("report.html")?;
+    }
     progress.event(&Event::Started { total, reused });
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(options.jobs.unwrap_or(0) as usize)

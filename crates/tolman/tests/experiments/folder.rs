@@ -49,6 +49,12 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     let folder = fresh("interrupted");
     let (whole, parts) = (folder.join("whole"), folder.join("parts"));
     run(&Darts::new(), &options(&whole)).0.unwrap();
+    // A smaller outcome of before does not pass for the outcome of the interrupted one.
+    let few = Options {
+        runs: Some(2),
+        ..options(&parts)
+    };
+    run(&Darts::new(), &few).0.unwrap();
 
     let listener = Listener::stopping_after(100);
     let stopped = execute(&Darts::new(), &options(&parts), &build(), &listener);
