@@ -4,24 +4,38 @@ use std::path::Path;
 use std::process::Command;
 
 fn main() {
-    // The log grows with every commit and checkout; without it there is no repository to ask.
+    // Any change of the sources may make the tree differ from its commit, and the log of HEAD grows
+    // with every commit and checkout.
+    println!("cargo::rerun-if-changed=..");
     let log = "../../.git/logs/HEAD";
     if Path::new(log).exists() {
         println!("cargo::rerun-if-changed={log}");
     }
-    println!("cargo::rerun-if-changed=build.rs");
-    let commit = output("git", &["rev-parse", "--short=10", "HEAD"]);
     let compiler = std::env::var("RUSTC")
         .ok()
         .and_then(|rustc| output(&rustc, &["--version"]));
     println!(
         "cargo::rustc-env=TOLMAN_COMMIT={}",
-        commit.as_deref().unwrap_or("unknown")
+        commit().as_deref().unwrap_or("unknown")
     );
     println!(
         "cargo::rustc-env=TOLMAN_COMPILER={}",
         compiler.as_deref().unwrap_or("unknown")
     );
+}
+
+/// The commit, with a mark if the sources differ from it.
+fn commit() -> Option<String> {
+    let commit = output("git", &["rev-parse", "--short=10", "HEAD"])?;
+    let changes = output(
+        "git",
+        &["status", "--porcelain", "--untracked-files=no", ".."],
+    )?;
+    Some(if changes.is_empty() {
+        commit
+    } else {
+        format!("{commit}-dirty")
+    })
 }
 
 /// The first line a program prints, if it can be run and succeeds.

@@ -21,6 +21,8 @@ mod wilcoxon;
 
 #[cfg(test)]
 mod golden;
+#[cfg(test)]
+mod properties;
 
 pub use bootstrap::bca_interval;
 pub use effect::a12;
