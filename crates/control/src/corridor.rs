@@ -1,7 +1,10 @@
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
 
 use thiserror::Error;
-use tolman_robot::{Ring, Scan};
+use tolman_geom::Heading;
+use tolman_robot::Ring;
+
+use crate::View;
 
 /// Why a ring of beams cannot be used to look for opposite walls.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -46,7 +49,8 @@ pub struct Corridor {
 /// In a corridor the walls are close at most angles and far only along it; in a junction they are
 /// far in several directions. With 72 beams there are 36 sums; at least 14 in a row, counted round
 /// the circle, must be below 1.625 corridor widths. Other rings ask for the same share of the half
-/// circle. O(beams).
+/// circle. A corridor runs north–south or east–west: one that seems to run along a diagonal is the
+/// inside of a bend, whose two corners look like walls. O(beams).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorDetector {
     /// Opposite pairs in the ring.
@@ -96,11 +100,11 @@ impl CorridorDetector {
         2 * self.pairs
     }
 
-    /// The corridor the scan was taken in, or none where it looks like a junction or an open place
+    /// The corridor that is in view, or none where it looks like a junction, a bend or an open place
     /// (or where the scan is of another ring).
     #[must_use]
-    pub fn detect(&self, scan: &Scan) -> Option<Corridor> {
-        let (front, back) = scan.ranges.split_at_checked(self.pairs)?;
+    pub fn detect(&self, view: View<'_>) -> Option<Corridor> {
+        let (front, back) = view.scan.ranges.split_at_checked(self.pairs)?;
         if back.len() != self.pairs {
             return None;
         }
@@ -115,10 +119,16 @@ impl CorridorDetector {
                 narrowest = pair;
             }
         }
-        (longest >= self.run).then(|| Corridor {
-            // Aligned, the narrowest pair is the one that looks left and right.
-            misaligned_beams: narrowest as i32 - (self.pairs / 2) as i32,
-            narrowest: sum(narrowest),
-        })
+        // Aligned, the narrowest pair is the one that looks left and right.
+        let misaligned_beams = narrowest as i32 - (self.pairs / 2) as i32;
+        let axis = view.heading.turned(f64::from(misaligned_beams) * view.scan.ring.spacing);
+        (longest >= self.run && runs_along_the_compass(axis))
+            .then(|| Corridor { misaligned_beams, narrowest: sum(narrowest) })
     }
+}
+
+/// Whether an axis is nearer to north–south or east–west than to a diagonal.
+fn runs_along_the_compass(axis: Heading) -> bool {
+    let quarters = axis.radians() / FRAC_PI_2;
+    libm::fabs(quarters - libm::round(quarters)) <= 0.25
 }

@@ -60,7 +60,7 @@ impl Stack {
         }
         let situation = Situation {
             view,
-            corridor: self.detector.detect(view.scan),
+            corridor: self.detector.detect(view),
         };
         self.layers
             .iter_mut()

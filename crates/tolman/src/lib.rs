@@ -1,12 +1,18 @@
 //! Agents, the experiments that measure them, and what is shown of the results.
 //!
-//! In the order data flows: an [`experiment`] plays every run of its tables, [`stats`] weighs the
+//! In the order data flows: a [`course`] is a maze made ready for runs, the [`pioneer`] the robot that
+//! runs in it, one of the [`agents`] its mind, and an [`episode`] one run. An [`experiment`] plays every run of its tables, [`stats`] weighs the
 //! runs against each other and against the paper, [`draw`] makes pictures of them and [`report`]
 //! gathers everything on one page.
 
 extern crate alloc;
 
+pub mod agents;
+pub mod course;
+pub mod data;
 pub mod draw;
+pub mod episode;
 pub mod experiment;
+pub mod pioneer;
 pub mod report;
 pub mod stats;

@@ -1,4 +1,5 @@
 use rand::{Rng, RngExt};
+use tolman_control::Outcome;
 use tolman_maze::Direction;
 
 use super::{Brain, Perception};
@@ -17,7 +18,7 @@ pub struct Avoid {
 impl Brain for Avoid {
     fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
         match perception.last {
-            Some((action, outcome)) if outcome.moved() => {
+            Some((action, Outcome::Completed)) => {
                 self.travelling = Some(action);
                 self.failed.clear();
             }
@@ -25,10 +26,15 @@ impl Brain for Avoid {
             None => {}
         }
         let back = self.travelling.map(Direction::opposite);
-        let untried: Vec<Direction> =
-            Direction::ALL.into_iter().filter(|action| !self.failed.contains(action)).collect();
-        let onward: Vec<Direction> =
-            untried.iter().copied().filter(|action| Some(*action) != back).collect();
+        let untried: Vec<Direction> = Direction::ALL
+            .into_iter()
+            .filter(|action| !self.failed.contains(action))
+            .collect();
+        let onward: Vec<Direction> = untried
+            .iter()
+            .copied()
+            .filter(|action| Some(*action) != back)
+            .collect();
 
         let choices = if !onward.is_empty() {
             onward

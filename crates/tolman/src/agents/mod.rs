@@ -18,7 +18,7 @@ use tolman_robot::Scan;
 use tolman_sim::Truth;
 
 pub use avoid::Avoid;
-pub use oracle::{Oracle, OracleConfig, OracleError};
+pub use oracle::{Oracle, Policy};
 pub use random::Random;
 pub use wall_follow::WallFollow;
 
@@ -27,10 +27,10 @@ pub use wall_follow::WallFollow;
 pub struct Perception<'a> {
     /// The action before this one and how it ended; none at the start.
     pub last: Option<(Direction, Outcome)>,
-    /// The laser's ranges, in the robot's frame.
-    pub scan: &'a Scan,
-    /// The compass heading.
-    pub heading: Heading,
+    /// The laser's ranges, in the robot's frame; none where the laser gave nothing.
+    pub scan: Option<&'a Scan>,
+    /// The compass heading; none where the compass gave nothing.
+    pub heading: Option<Heading>,
 }
 
 /// Chooses high-level actions from what the robot perceives.

@@ -1,4 +1,5 @@
 use rand::{Rng, RngExt};
+use tolman_control::Outcome;
 use tolman_maze::Direction;
 
 use super::{Brain, Perception};
@@ -16,7 +17,7 @@ pub struct WallFollow {
 impl Brain for WallFollow {
     fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
         match perception.last {
-            Some((action, outcome)) if outcome.moved() => {
+            Some((action, Outcome::Completed)) => {
                 self.travelling = Some(action);
                 self.tried = 0;
             }

@@ -1,6 +1,6 @@
 //! The experiments there are.
 
-use super::{BoxError, Error, Experiment, Options};
+use super::{BoxError, Error, Experiment, Options, baselines};
 
 /// One experiment of the catalogue.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,11 @@ pub struct Entry {
 
 /// All experiments, in the order they are listed.
 pub const fn catalogue() -> &'static [Entry] {
-    &[]
+    &[Entry {
+        name: "baselines",
+        title: "Mazes without a map: MSLST's baselines",
+        open: baselines::open,
+    }]
 }
 
 /// Makes an experiment ready by its name.

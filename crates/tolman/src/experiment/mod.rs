@@ -10,6 +10,7 @@
 
 mod analysis;
 mod build;
+mod baselines;
 mod catalogue;
 mod check;
 mod config_file;
@@ -110,7 +111,7 @@ pub trait Experiment: Sync {
 
     /// Runs of each row under `--quick`, for a first look.
     fn quick_runs(&self) -> u32 {
-        self.default_runs().div_ceil(20)
+        self.default_runs().min(10)
     }
 
     /// The tables, in the order they are shown.

@@ -1,0 +1,218 @@
+use alloc::sync::Arc;
+
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_control::{Outcome, Stack, View};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::Direction;
+use tolman_planners::{Arcs, costs_from};
+use tolman_robot::{Robot, TurnTranslate};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::{Solo, Truth};
+
+use super::Yardstick;
+use crate::course::Course;
+use crate::episode::EpisodeError;
+use crate::pioneer::without_noise;
+
+/// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body and
+/// the same layers as everyone else. Not in the paper.
+///
+/// Its [`Policy`] says what each action would cost in time steps from about where the robot is. An action
+/// that has just failed there is not tried again before the robot has moved.
+#[derive(Clone, Debug)]
+pub struct Oracle {
+    policy: Arc<Policy>,
+    failed: Vec<Direction>,
+}
+
+impl Oracle {
+    /// An oracle that follows `policy`.
+    #[must_use]
+    pub const fn new(policy: Arc<Policy>) -> Self {
+        Self {
+            policy,
+            failed: Vec::new(),
+        }
+    }
+}
+
+impl Yardstick for Oracle {
+    fn choose(
+        &mut self,
+        last: Option<(Direction, Outcome)>,
+        truth: &Truth,
+        _rng: &mut dyn Rng,
+    ) -> Direction {
+        match last {
+            Some((action, Outcome::Failed)) => self.failed.push(action),
+            _ => self.failed.clear(),
+        }
+        if self.failed.len() == Direction::ALL.len() {
+            self.failed.clear();
+        }
+        let costs = self.policy.costs(truth.pose);
+        // Ties go to the first, clockwise from north: the same on every run.
+        Direction::ALL
+            .into_iter()
+            .filter(|action| !self.failed.contains(action))
+            .min_by_key(|action| costs[action.index()].unwrap_or(u32::MAX))
+            .unwrap_or(Direction::North)
+    }
+}
+
+/// What every action costs, in time steps to the destination, from every place of a course.
+///
+/// Places are a lattice of positions, each with the two axes a robot can face along. The arcs between them
+/// are found by letting the robot itself carry out each action there, with its own layers and without
+/// noise, and seeing where it ends and how long it took; Dijkstra's algorithm does the rest. Exact for a
+/// noise-free robot but for the rounding of where actions end to the lattice.
+#[derive(Clone, Debug)]
+pub struct Policy {
+    lattice: Lattice,
+    /// For each node and action, the steps from there to the destination that begin with the action.
+    costs: Vec<[Option<u32>; 4]>,
+}
+
+/// An action that has not ended by then oscillates; the policy leaves it out.
+const LONGEST_ACTION: u32 = 40;
+
+impl Policy {
+    /// Works out the policy of a course, on positions `spacing` metres apart. Every node is simulated
+    /// four times: about 10 µs per node and action, and a node per axis and `spacing`² of floor.
+    ///
+    /// # Errors
+    /// When the robot cannot be built for the course.
+    pub fn new(
+        course: &Course,
+        robot: &LaserPioneerConfig,
+        spacing: f64,
+    ) -> Result<Self, EpisodeError> {
+        let lattice = Lattice::new(course, spacing);
+        let model = LaserPioneer::new(without_noise(robot))?;
+        let mut stack = Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)?;
+        let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::EAST);
+        let mut solo = Solo::new(course.world.clone(), model, somewhere, 0)?;
+
+        let mut arcs = Vec::new();
+        let mut ends = vec![[None; 4]; lattice.node_count()];
+        let mut goals = Vec::new();
+        for node in 0..lattice.node_count() as u32 {
+            let pose = lattice.pose(node);
+            if course.destination().contains(pose.position) {
+                goals.push(node);
+                continue;
+            }
+            for action in Direction::ALL {
+                // Walls stand in the way of some lattice points; nobody ever stands there.
+                if solo.place(pose).is_err() {
+                    break;
+                }
+                if let Some((end, steps)) = carry_out(action, &mut solo, &mut stack, course)? {
+                    let head = lattice.nearest(end);
+                    ends[node as usize][action.index()] = Some((head, steps));
+                    arcs.push((node, head, steps));
+                }
+            }
+        }
+        let to_destination = costs_from(&Arcs::new(lattice.node_count(), &arcs).reversed(), goals);
+        let costs = ends
+            .into_iter()
+            .map(|actions| {
+                actions.map(|end| {
+                    let (head, steps) = end?;
+                    Some(to_destination[head as usize]? + steps)
+                })
+            })
+            .collect();
+        Ok(Self { lattice, costs })
+    }
+
+    /// The steps to the destination from about `pose`, by the action they begin with; none where it would
+    /// not lead there.
+    #[must_use]
+    pub fn costs(&self, pose: Pose) -> [Option<u32>; 4] {
+        self.costs[self.lattice.nearest(pose) as usize]
+    }
+}
+
+/// Carries out one action; where it ends and after how many steps, or none if it fails or never ends.
+fn carry_out(
+    action: Direction,
+    solo: &mut Solo<LaserPioneer>,
+    stack: &mut Stack,
+    course: &Course,
+) -> Result<Option<(Pose, u32)>, EpisodeError> {
+    // The layers draw only to get out of corners; a fixed seed makes the policy repeatable.
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    stack.begin(action);
+    // It was lifted here: one step at rest and it sees where it is.
+    let rest = solo.step(&TurnTranslate::STOP);
+    rest.map_err(|source| EpisodeError::Step { step: 0, source })?;
+    for step in 1..=LONGEST_ACTION {
+        let sensing = solo.sensing();
+        let (Some(scan), Some(heading)) = (&sensing.scan, sensing.compass) else {
+            return Ok(None);
+        };
+        let proposal = stack.correct(View { scan, heading }, &mut rng);
+        solo.step(&proposal.command)
+            .map_err(|source| EpisodeError::Step { step, source })?;
+        let pose = solo.truth().pose;
+        if course.destination().contains(pose.position) {
+            return Ok(Some((pose, step)));
+        }
+        match proposal.ends {
+            Some(Outcome::Failed) => return Ok(None),
+            Some(_) => return Ok(Some((pose, step))),
+            None => {}
+        }
+    }
+    Ok(None)
+}
+
+/// Positions on a square lattice over a course, each with two axes.
+#[derive(Clone, Debug)]
+struct Lattice {
+    origin: Point,
+    spacing: f64,
+    columns: u32,
+    rows: u32,
+}
+
+/// The headings a node stands for: east–west and north–south.
+const AXES: [Heading; 2] = [Heading::EAST, Heading::NORTH];
+
+impl Lattice {
+    fn new(course: &Course, spacing: f64) -> Self {
+        let bounds = course.world.bounds();
+        let size = bounds.max - bounds.min;
+        Self {
+            origin: bounds.min,
+            spacing,
+            columns: (size.x / spacing) as u32 + 1,
+            rows: (size.y / spacing) as u32 + 1,
+        }
+    }
+
+    const fn node_count(&self) -> usize {
+        self.columns as usize * self.rows as usize * AXES.len()
+    }
+
+    fn pose(&self, node: u32) -> Pose {
+        let axes = AXES.len() as u32;
+        let (place, axis) = (node / axes, node % axes);
+        let (column, row) = (place % self.columns, place / self.columns);
+        let offset = tolman_geom::Vector::new(f64::from(column), f64::from(row)) * self.spacing;
+        Pose::new(self.origin + offset, AXES[axis as usize])
+    }
+
+    fn nearest(&self, pose: Pose) -> u32 {
+        let offset = (pose.position - self.origin) / self.spacing;
+        let index = |value: f64, count: u32| (libm::round(value).max(0.0) as u32).min(count - 1);
+        let column = index(offset.x, self.columns);
+        let row = index(offset.y, self.rows);
+        let north_south = libm::fabs(libm::sin(pose.heading.radians())) > 0.5_f64.sqrt();
+        (row * self.columns + column) * AXES.len() as u32 + u32::from(north_south)
+    }
+}

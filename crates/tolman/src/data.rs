@@ -1,0 +1,22 @@
+//! Mazes and logs of others, which are not part of this project.
+//!
+//! They are read from the folder that the variable `TOLMAN_DATA` names, or else from `../shared/data`
+//! beside the current folder. What needs them is skipped, and says so, where neither is there.
+
+use std::env;
+use std::path::PathBuf;
+
+const DEFAULT: &str = "../shared/data";
+
+/// The folder, if it is there.
+#[must_use]
+pub fn folder() -> Option<PathBuf> {
+    let named = env::var_os("TOLMAN_DATA").map_or_else(|| PathBuf::from(DEFAULT), PathBuf::from);
+    named.is_dir().then_some(named)
+}
+
+/// What to tell the reader where it is not.
+#[must_use]
+pub fn missing(what: &str) -> String {
+    format!("Skipped: {what}, which are not here. Set TOLMAN_DATA to the folder that holds them.")
+}

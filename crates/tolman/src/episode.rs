@@ -1,0 +1,181 @@
+//! One run of one mind: from a start until the destination is reached or time is up.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use thiserror::Error;
+use tolman_control::{Outcome, RingError, Stack, View};
+use tolman_geom::Pose;
+use tolman_maze::Direction;
+use tolman_robot::{Robot, TurnTranslate};
+use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig};
+use tolman_sim::{PlaceError, Solo, StepError, Zone};
+
+use crate::agents::{Mind, Perception};
+use crate::course::Course;
+
+/// Why a run could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EpisodeError {
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] ConfigError),
+    /// The robot cannot start where it was put.
+    #[error("the robot cannot start there")]
+    Start(#[from] PlaceError),
+    /// The layers do not fit the robot's ring.
+    #[error("the layers do not fit the robot's ring")]
+    Layers(#[from] RingError),
+    /// A step could not be made.
+    #[error("step {step} could not be made")]
+    Step {
+        /// Which one, from 0.
+        step: u32,
+        /// Why.
+        source: StepError,
+    },
+}
+
+/// What a run is made of, beside the mind.
+#[derive(Clone, Debug)]
+pub struct Trial<'a> {
+    /// Where it takes place.
+    pub course: &'a Course,
+    /// The robot.
+    pub robot: LaserPioneerConfig,
+    /// Where it begins.
+    pub start: Pose,
+    /// Time steps after which it has failed.
+    pub step_limit: u32,
+    /// The seed of the run: world, layers and mind draw from streams of their own.
+    pub seed: u64,
+}
+
+/// What became of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Episode {
+    /// Whether the robot's centre came to lie in the destination.
+    pub reached: bool,
+    /// High-level actions begun.
+    pub actions: u32,
+    /// How many of those failed.
+    pub failed_actions: u32,
+    /// Time steps made; the limit where time ran out.
+    pub steps: u32,
+    /// Steps in which the body touched a wall.
+    pub bumps: u32,
+    /// The true pose at the start and after every step.
+    pub path: Vec<Pose>,
+}
+
+/// The streams that one run's seed is split into, beside the simulation's own.
+const LAYERS_STREAM: u64 = 1;
+const MIND_STREAM: u64 = 2;
+
+/// Lets `mind` drive until its robot reaches the destination or the trial's time is up.
+///
+/// `watch` is shown the robot after every step.
+///
+/// # Errors
+/// [`EpisodeError`] if the robot cannot be built or placed.
+pub fn run(
+    trial: &Trial<'_>,
+    mind: &mut Mind,
+    mut watch: impl FnMut(&TurnTranslate, &Solo<LaserPioneer>),
+) -> Result<Episode, EpisodeError> {
+    let robot = LaserPioneer::new(trial.robot.clone())?;
+    let mut solo = Solo::new(trial.course.world.clone(), robot, trial.start, trial.seed)?;
+    let mut stack = Stack::paper(
+        trial.robot.ring,
+        2.0 * trial.robot.radius,
+        trial.course.corridor_width,
+    )?;
+    let stream = |stream| {
+        let mut rng = ChaCha8Rng::seed_from_u64(trial.seed);
+        rng.set_stream(stream);
+        rng
+    };
+    let (mut layers_rng, mut mind_rng) = (stream(LAYERS_STREAM), stream(MIND_STREAM));
+
+    let mut episode = Episode {
+        reached: false,
+        actions: 0,
+        failed_actions: 0,
+        steps: 0,
+        bumps: 0,
+        path: vec![trial.start],
+    };
+    let destination = trial.course.destination();
+    let mut last = None;
+    while episode.steps < trial.step_limit && !episode.reached {
+        let action = choose(mind, last, &solo, &mut mind_rng);
+        stack.begin(action);
+        episode.actions += 1;
+        while episode.steps < trial.step_limit && !episode.reached {
+            let ends = step(
+                &mut solo,
+                &mut stack,
+                &mut layers_rng,
+                &mut episode,
+                &mut watch,
+            )?;
+            episode.reached = is_in(destination, &solo);
+            if let Some(outcome) = ends {
+                episode.failed_actions += u32::from(!outcome.moved());
+                last = Some((action, outcome));
+                break;
+            }
+        }
+    }
+    Ok(episode)
+}
+
+fn choose(
+    mind: &mut Mind,
+    last: Option<(Direction, Outcome)>,
+    solo: &Solo<LaserPioneer>,
+    rng: &mut ChaCha8Rng,
+) -> Direction {
+    match mind {
+        Mind::Yardstick(yardstick) => yardstick.choose(last, solo.truth(), rng),
+        Mind::Brain(brain) => {
+            let sensing = solo.sensing();
+            let perception = Perception {
+                last,
+                scan: sensing.scan.as_ref(),
+                heading: sensing.compass,
+            };
+            brain.choose(&perception, rng)
+        }
+    }
+}
+
+/// One time step of the action under way; how the action ends, if it does.
+fn step(
+    solo: &mut Solo<LaserPioneer>,
+    stack: &mut Stack,
+    rng: &mut ChaCha8Rng,
+    episode: &mut Episode,
+    watch: &mut impl FnMut(&TurnTranslate, &Solo<LaserPioneer>),
+) -> Result<Option<Outcome>, EpisodeError> {
+    let sensing = solo.sensing();
+    let proposal = match (&sensing.scan, sensing.compass) {
+        (Some(scan), Some(heading)) => stack.correct(View { scan, heading }, rng),
+        // Blind for a moment: stand still until the sensors are back.
+        _ => tolman_control::Proposal::default(),
+    };
+    solo.step(&proposal.command)
+        .map_err(|source| EpisodeError::Step {
+            step: episode.steps,
+            source,
+        })?;
+    episode.steps += 1;
+    episode.bumps += u32::from(solo.truth().bump);
+    episode.path.push(solo.truth().pose);
+    watch(&proposal.command, solo);
+    Ok(proposal.ends)
+}
+
+fn is_in(zone: &Zone, solo: &Solo<LaserPioneer>) -> bool {
+    zone.contains(solo.truth().pose.position)
+}

@@ -1,0 +1,185 @@
+//! The baselines of MSLST: what wandering and wall-following reach without any map.
+//!
+//! Tables 2 and 3 of "Maze Solving by Learning State Topologies" for its two simple brains, with a random
+//! one as the floor and an oracle as the ceiling; competition mazes, or any others, as further tables; and
+//! how often the corridor detector takes each kind of place for a corridor.
+
+mod detector;
+mod figures;
+mod worlds;
+
+use alloc::sync::Arc;
+use std::sync::OnceLock;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_sim::robots::LaserPioneerConfig;
+
+use super::{
+    BoxError, Comparison, Correction, Experiment, Fields, Job, Metric, Options, Row, Run, Table,
+    Tolerance,
+};
+use crate::agents::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
+use crate::draw::Figure;
+use crate::episode::{self, Episode, EpisodeError, Trial};
+use crate::pioneer;
+
+use worlds::Venue;
+
+/// The brains, in the order of the paper's tables, then floor and ceiling.
+const ROWS: [&str; 4] = ["Avoid", "Wall-follow", "Random", "Oracle"];
+
+/// The stream of a run's seed that its start is drawn from.
+const START_STREAM: u64 = 3;
+
+/// The oracle's policy lattice: positions per corridor width.
+const LATTICE: f64 = 8.0;
+
+/// The experiment, ready to run.
+#[derive(Debug)]
+pub struct Baselines {
+    robot: LaserPioneerConfig,
+    venues: Vec<Venue>,
+    /// The oracle's policy of each venue, worked out when it is first asked for.
+    policies: Vec<OnceLock<Arc<Policy>>>,
+    tables: Vec<Table>,
+}
+
+/// Reads the worlds and sets the tables up.
+///
+/// # Errors
+/// If a maze cannot be read, or the robot does not fit its corridors.
+pub fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+    let (venues, missing) = worlds::venues(&options.mazes)?;
+    let mut tables: Vec<Table> = venues.iter().map(table).collect();
+    if let (Some(missing), Some(table)) = (missing, tables.last_mut()) {
+        table.note = format!("{} {missing}", table.note);
+    }
+    tables.push(detector::table());
+    let policies = venues.iter().map(|_| OnceLock::new()).collect();
+    Ok(Box::new(Baselines { robot: pioneer::calibrated(), venues, policies, tables }))
+}
+
+fn table(venue: &Venue) -> Table {
+    let mut table = Table::new(&venue.table, &venue.title)
+        .metric(
+            Metric::percent("success_percent", "reached")
+                .titled("success")
+                .tolerance(Tolerance::Absolute(15.0)),
+        )
+        .metric(Metric::mean("actions"))
+        .metric(Metric::mean("steps").tolerance(Tolerance::Relative(0.35)))
+        .metric(
+            Metric::ratio("steps_per_action", "steps", "actions")
+                .titled("steps / action")
+                .tolerance(Tolerance::Relative(0.2)),
+        );
+    for name in ROWS {
+        let row = Row::new(name);
+        table = table.row(match venue.paper.iter().find(|paper| paper.row == name) {
+            Some(paper) => row
+                .paper("success_percent", paper.success_percent)
+                .paper_mean("actions", paper.actions.0, paper.actions.1)
+                .paper_mean("steps", paper.steps.0, paper.steps.1)
+                .paper("steps_per_action", paper.steps.0 / paper.actions.0),
+            None => row,
+        });
+    }
+    if !venue.paper.is_empty() {
+        table = table.paper_runs(25);
+    }
+    table.comparison =
+        Some(Comparison { reference: ROWS[0].into(), correction: Correction::Bonferroni });
+    table.note(format!(
+        "A run ends when the robot's centre lies in the destination, or fails after {} time steps, which \
+         then count as its steps.",
+        venue.step_limit
+    ))
+}
+
+impl Baselines {
+    fn venue(&self, table: &str) -> Option<(usize, &Venue)> {
+        self.venues.iter().enumerate().find(|(_, venue)| venue.table == table)
+    }
+
+    /// Plays one run; also how figures play it again.
+    fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
+        let Some((index, venue)) = self.venue(job.table) else { return Ok(None) };
+        let mut start_rng = ChaCha8Rng::seed_from_u64(job.seed);
+        start_rng.set_stream(START_STREAM);
+        let trial = Trial {
+            course: &venue.course,
+            robot: self.robot.clone(),
+            start: venue.course.random_start(&pioneer::body(), &mut start_rng),
+            step_limit: venue.step_limit,
+            seed: job.seed,
+        };
+        let mut mind = match job.row {
+            "Avoid" => Mind::Brain(Box::new(Avoid::default())),
+            "Wall-follow" => Mind::Brain(Box::new(WallFollow::default())),
+            "Random" => Mind::Brain(Box::new(Random)),
+            _ => Mind::Yardstick(Box::new(Oracle::new(self.policy(index)?))),
+        };
+        episode::run(&trial, &mut mind, |_, _| {}).map(Some)
+    }
+
+    fn policy(&self, venue: usize) -> Result<Arc<Policy>, EpisodeError> {
+        if let Some(policy) = self.policies[venue].get() {
+            return Ok(Arc::clone(policy));
+        }
+        let course = &self.venues[venue].course;
+        let policy = Policy::new(course, &self.robot, course.corridor_width / LATTICE)?;
+        // Two threads may work it out at once; they get the same.
+        Ok(Arc::clone(self.policies[venue].get_or_init(|| Arc::new(policy))))
+    }
+}
+
+impl Experiment for Baselines {
+    fn name(&self) -> &str {
+        "baselines"
+    }
+
+    fn title(&self) -> &str {
+        "Mazes without a map: MSLST's baselines"
+    }
+
+    fn source(&self) -> &str {
+        "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3"
+    }
+
+    fn default_runs(&self) -> u32 {
+        25
+    }
+
+    fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    fn config(&self) -> Result<toml::Table, BoxError> {
+        let mut config = toml::Table::new();
+        config.insert("robot".into(), toml::Value::try_from(&self.robot)?);
+        for venue in &self.venues {
+            let mut world = toml::Table::new();
+            world.insert("maze".into(), venue.course.maze.to_string().into());
+            world.insert("corridor_width".into(), venue.course.corridor_width.into());
+            world.insert("step_limit".into(), i64::from(venue.step_limit).into());
+            config.insert(venue.table.clone(), world.into());
+        }
+        Ok(config)
+    }
+
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let Some(episode) = self.episode(job)? else { return detector::run(job) };
+        Ok(Fields::new()
+            .flag("reached", episode.reached)
+            .text("outcome", if episode.reached { "reached" } else { "timed out" })
+            .count("actions", u64::from(episode.actions))
+            .count("failed_actions", u64::from(episode.failed_actions))
+            .count("steps", u64::from(episode.steps))
+            .count("bumps", u64::from(episode.bumps)))
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        figures::of(self, runs)
+    }
+}

@@ -1,0 +1,146 @@
+//! Where the baselines run: the paper's two mazes, or the files that the caller names.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tolman_maze::MazeFile;
+
+use crate::course::Course;
+use crate::data;
+use crate::experiment::BoxError;
+use crate::pioneer;
+
+/// One world with its table.
+#[derive(Debug)]
+pub(super) struct Venue {
+    /// The name of its table in `summary.json`.
+    pub(super) table: String,
+    /// The title of its table.
+    pub(super) title: String,
+    pub(super) course: Course,
+    pub(super) step_limit: u32,
+    /// What the paper says of it.
+    pub(super) paper: &'static [PaperRow],
+}
+
+/// A row of the paper's tables 2 and 3; means with their standard deviations.
+#[derive(Debug)]
+pub(super) struct PaperRow {
+    pub(super) row: &'static str,
+    pub(super) success_percent: f64,
+    pub(super) actions: (f64, f64),
+    pub(super) steps: (f64, f64),
+}
+
+const TABLE_2: &[PaperRow] = &[
+    PaperRow {
+        row: "Avoid",
+        success_percent: 68.0,
+        actions: (73.16, 70.231),
+        steps: (109.48, 78.521),
+    },
+    PaperRow {
+        row: "Wall-follow",
+        success_percent: 92.0,
+        actions: (43.68, 26.24),
+        steps: (91.76, 56.421),
+    },
+];
+
+const TABLE_3: &[PaperRow] = &[
+    PaperRow {
+        row: "Avoid",
+        success_percent: 40.0,
+        actions: (247.32, 166.916),
+        steps: (383.72, 173.098),
+    },
+    PaperRow {
+        row: "Wall-follow",
+        success_percent: 72.0,
+        actions: (130.04, 83.414),
+        steps: (278.52, 162.169),
+    },
+];
+
+/// The paper's limits, time steps.
+const J_STEPS: u32 = 200;
+const LARGE_STEPS: u32 = 500;
+
+/// Competition mazes that join in where they are found.
+const COMPETITION: [&str; 2] = ["mazes/classic/taiwan2016f.txt", "mazes/classic/apec2016.txt"];
+
+/// The worlds for these files, or the default ones, and a remark on what is not there.
+pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
+    let large = built_in("Large", include_str!("../../../../../mazes/large.maze"))?;
+    let steps_per_cell = f64::from(LARGE_STEPS) / large.starts().len() as f64;
+    if !files.is_empty() {
+        let venues: Result<Vec<Venue>, BoxError> =
+            files.iter().map(|path| from_file(path, steps_per_cell)).collect();
+        return Ok((told_apart(venues?), None));
+    }
+    let mut venues = vec![
+        Venue {
+            table: "2 (J)".into(),
+            title: "The J maze".into(),
+            course: built_in("J", include_str!("../../../../../mazes/j.maze"))?,
+            step_limit: J_STEPS,
+            paper: TABLE_2,
+        },
+        Venue {
+            table: "3 (Large)".into(),
+            title: "The Large maze".into(),
+            course: large,
+            step_limit: LARGE_STEPS,
+            paper: TABLE_3,
+        },
+    ];
+    let Some(folder) = data::folder() else {
+        return Ok((venues, Some(data::missing("competition mazes"))));
+    };
+    for file in COMPETITION {
+        let path = folder.join(file);
+        if path.exists() {
+            venues.push(from_file(&path, steps_per_cell)?);
+        }
+    }
+    Ok((venues, None))
+}
+
+fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
+    Ok(Course::new(name, &tolman_maze::read(text)?, &pioneer::body())?)
+}
+
+fn from_file(path: &Path, steps_per_cell: f64) -> Result<Venue, BoxError> {
+    let in_file = |source: BoxError| -> BoxError { Box::new(InFile { path: path.to_owned(), source }) };
+    let text = fs::read_to_string(path).map_err(|error| in_file(error.into()))?;
+    let file: MazeFile = tolman_maze::read(&text).map_err(|error| in_file(error.into()))?;
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let name = file.name.clone().or(stem).unwrap_or_default();
+    let course = Course::new(&name, &file, &pioneer::body()).map_err(|error| in_file(error.into()))?;
+    // Time in proportion to the floor, as much for each cell as the paper gives in the Large maze.
+    let step_limit = libm::ceil(steps_per_cell * course.starts().len() as f64) as u32;
+    Ok(Venue { table: name.clone(), title: format!("The maze {name}"), course, step_limit, paper: &[] })
+}
+
+/// Two files may bear one name; the later ones get a number.
+fn told_apart(mut venues: Vec<Venue>) -> Vec<Venue> {
+    for index in 1..venues.len() {
+        let name = venues[index].table.clone();
+        let mut candidate = name.clone();
+        let mut count = 1;
+        while venues[..index].iter().any(|before| before.table == candidate) {
+            count += 1;
+            candidate = format!("{name} ({count})");
+        }
+        venues[index].table = candidate;
+    }
+    venues
+}
+
+/// An error with the file it happened in.
+#[derive(Debug, thiserror::Error)]
+#[error("the maze file {} cannot be used", path.display())]
+struct InFile {
+    path: PathBuf,
+    source: BoxError,
+}

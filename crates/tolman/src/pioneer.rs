@@ -1,0 +1,70 @@
+//! The robot of MSLST: a Pioneer with a ring of 72 laser beams and a compass, and its layers.
+
+use tolman_robot::{Body, Ring};
+use tolman_sim::Contact;
+use tolman_sim::noise::Gaussian;
+use tolman_sim::robots::{LaserPioneerConfig, MotorNoise};
+
+/// MSLST measures in robot units: one is the robot's diameter. Metres.
+pub const ROBOT_UNIT: f64 = 0.5;
+
+/// The width of a corridor where a maze says nothing of it: 1.9 robot units, in metres.
+///
+/// Avoid's buffer of 0.9 units needs more than 1.8; the corridor test needs less than 2.0
+/// (see `docs/mslst.md`).
+pub const CORRIDOR_WIDTH: f64 = 1.9 * ROBOT_UNIT;
+
+/// How many beams the ring has.
+const BEAMS: u32 = 72;
+
+/// How far they reach, robot units.
+const REACH_UNITS: f64 = 2.5;
+
+/// The ring of 72 beams over the full circle that reaches 2.5 robot units.
+#[must_use]
+pub fn ring() -> Ring {
+    Ring::full(BEAMS, REACH_UNITS * ROBOT_UNIT)
+}
+
+/// The robot as it was calibrated on the paper's baselines, and then frozen (see `docs/mslst.md`).
+#[must_use]
+pub fn calibrated() -> LaserPioneerConfig {
+    LaserPioneerConfig {
+        radius: 0.5 * ROBOT_UNIT,
+        ring: ring(),
+        turn_per_step: 92_f64.to_radians(),
+        translate_per_step: 2.0 * ROBOT_UNIT,
+        motor_noise: MotorNoise {
+            turn: Gaussian {
+                relative_sd: 0.08,
+                absolute_sd: 0.5_f64.to_radians(),
+            },
+            translate: Gaussian::relative(0.2),
+            drift_sd: 4_f64.to_radians(),
+        },
+        contact: Contact::Slide,
+        ..LaserPioneerConfig::noiseless()
+    }
+}
+
+/// Its body: a disc one robot unit across.
+#[must_use]
+pub const fn body() -> Body {
+    Body::Circle {
+        radius: 0.5 * ROBOT_UNIT,
+    }
+}
+
+/// The same robot with perfect motors and sensors: what a planner reckons with.
+#[must_use]
+pub fn without_noise(robot: &LaserPioneerConfig) -> LaserPioneerConfig {
+    LaserPioneerConfig {
+        radius: robot.radius,
+        ring: robot.ring,
+        turn_per_step: robot.turn_per_step,
+        translate_per_step: robot.translate_per_step,
+        contact: robot.contact,
+        step_us: robot.step_us,
+        ..LaserPioneerConfig::noiseless()
+    }
+}
