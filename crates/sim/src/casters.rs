@@ -52,13 +52,26 @@ pub enum Lanes {
     Widest,
 }
 
-impl Lanes {
-    /// Runs `kernel` compiled for these lanes. What it is to be compiled for must be inlined into it.
+/// Runs kernels compiled for some [`Lanes`].
+#[derive(Clone, Copy, Debug)]
+struct Kernels(Option<pulp::Arch>);
+
+impl From<Lanes> for Kernels {
+    fn from(lanes: Lanes) -> Self {
+        match lanes {
+            Lanes::Baseline => Self(None),
+            Lanes::Widest => Self(Some(pulp::Arch::new())),
+        }
+    }
+}
+
+impl Kernels {
+    /// Runs `kernel`, which is compiled for the lanes as far as it is inlined.
     #[inline(always)]
     fn run(self, kernel: impl FnOnce()) {
-        match self {
-            Self::Baseline => kernel(),
-            Self::Widest => pulp::Arch::new().dispatch(kernel),
+        match self.0 {
+            None => kernel(),
+            Some(arch) => arch.dispatch(kernel),
         }
     }
 }

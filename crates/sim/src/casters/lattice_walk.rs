@@ -3,7 +3,7 @@ use alloc::sync::Arc;
 use tolman_geom::{Point, Vector};
 
 use super::sweep::{LANES, Sweep};
-use super::{Caster, Lanes, WallIndex};
+use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
 use crate::world::Lattice;
 
@@ -21,45 +21,42 @@ pub struct LatticeWalk {
     lattice: Arc<Lattice>,
     /// For rays from outside the grid.
     index: Arc<WallIndex>,
-    lanes: Lanes,
+    kernels: Kernels,
 }
-
-/// The most lines of one axis that are crossed all at once.
-const MOST: usize = 4;
 
 /// The lines and walls ahead in one of the four quadrants, numbered away from the origin.
 #[derive(Clone, Copy, Debug)]
-struct Quadrant {
+struct Quadrant<const COUNT: usize> {
+    west: bool,
+    south: bool,
     /// Distance to the lines across x.
-    columns: [f64; MOST],
+    columns: [f64; COUNT],
     /// Distance to the lines across y.
-    rows: [f64; MOST],
-    vertical: [Line; MOST],
-    horizontal: [Line; MOST],
+    rows: [f64; COUNT],
+    vertical: [Line<COUNT>; COUNT],
+    horizontal: [Line<COUNT>; COUNT],
 }
 
-/// Where walls are missing along a line, cell by cell: all ones where one is missing, else 0.
-#[derive(Clone, Copy, Debug, Default)]
-struct Line {
-    /// At the cell beside the origin's.
+/// Where walls are missing along a line, cell by cell from the origin's: all ones where one is
+/// missing, else 0.
+#[derive(Clone, Copy, Debug)]
+struct Line<const COUNT: usize> {
     first: u64,
-    /// At the farthest cell.
     last: u64,
     /// Which cells differ from the one before.
-    changes: [u64; MOST],
+    changes: [u64; COUNT],
 }
 
-impl Line {
-    fn new(count: usize, stands: impl Fn(usize) -> bool) -> Self {
-        let missing = |cell| if stands(cell) { 0 } else { u64::MAX };
-        let mut changes = [0; MOST];
-        for (cell, change) in changes.iter_mut().enumerate().take(count) {
-            *change = missing(cell) ^ missing(cell + 1);
-        }
+impl<const COUNT: usize> Line<COUNT> {
+    /// Of the walls standing along a line, a bit each.
+    #[inline(always)]
+    fn new(standing: u32) -> Self {
+        let ones = |bits: u32, bit: usize| u64::from(bits >> bit & 1).wrapping_neg();
+        let changes = standing ^ standing >> 1;
         Self {
-            first: missing(0),
-            last: missing(count),
-            changes,
+            first: !ones(standing, 0),
+            last: !ones(standing, COUNT),
+            changes: core::array::from_fn(|bit| ones(changes, bit)),
         }
     }
 }
@@ -72,67 +69,48 @@ impl LatticeWalk {
         Some(Self {
             lattice,
             index: Arc::clone(world.index()),
-            lanes,
+            kernels: lanes.into(),
         })
     }
 
-    fn quadrant(
+    #[inline(always)]
+    fn quadrant<const COUNT: usize>(
         &self,
-        cell: (usize, usize),
+        (column, row): (usize, usize),
         origin: Point,
         west: bool,
         south: bool,
-        count: usize,
-    ) -> Quadrant {
+    ) -> Quadrant<COUNT> {
         let lattice = &self.lattice;
-        let step = |from: usize, back: bool, by: usize| {
-            if back {
-                from.wrapping_sub(by)
-            } else {
-                from + by
-            }
-        };
         // The lines around cell c are c and c + 1.
-        let line = |cell: usize, back: bool, by: usize| step(cell + usize::from(!back), back, by);
-        let mut quadrant = Quadrant {
-            columns: [0.0; MOST],
-            rows: [0.0; MOST],
-            vertical: [Line::default(); MOST],
-            horizontal: [Line::default(); MOST],
-        };
-        for by in 0..count {
-            let (column, row) = (line(cell.0, west, by), line(cell.1, south, by));
-            quadrant.columns[by] = lattice.columns.ahead(cell.0, west, by, origin.x);
-            quadrant.rows[by] = lattice.rows.ahead(cell.1, south, by, origin.y);
-            quadrant.vertical[by] = Line::new(count, |other| {
-                lattice.vertical(column, step(cell.1, south, other))
-            });
-            quadrant.horizontal[by] = Line::new(count, |other| {
-                lattice.horizontal(step(cell.0, west, other), row)
-            });
+        let column_lines: [usize; COUNT] =
+            core::array::from_fn(|by| step(column + usize::from(!west), west, by));
+        let row_lines: [usize; COUNT] =
+            core::array::from_fn(|by| step(row + usize::from(!south), south, by));
+        Quadrant {
+            west,
+            south,
+            columns: core::array::from_fn(|by| lattice.columns.ahead(column, west, by, origin.x)),
+            rows: core::array::from_fn(|by| lattice.rows.ahead(row, south, by, origin.y)),
+            vertical: column_lines.map(|line| Line::new(lattice.vertical.along(line, row, south))),
+            horizontal: row_lines
+                .map(|line| Line::new(lattice.horizontal.along(line, column, west))),
         }
-        quadrant
     }
 
     /// All beams, each crossing `COUNT` lines of each axis at most.
     #[inline(always)]
     fn cross<const COUNT: usize>(&self, cell: (usize, usize), sweep: &mut Sweep) {
-        let quadrants = [(false, false), (true, false), (false, true), (true, true)]
-            .map(|(west, south)| self.quadrant(cell, sweep.origin, west, south, COUNT));
-        let x = sweep.world.x.as_chunks::<LANES>().0;
-        let y = sweep.world.y.as_chunks::<LANES>().0;
-        let ranges = sweep.ranges.as_chunks_mut::<LANES>().0;
-        for ((x, y), ranges) in x.iter().zip(y).zip(ranges) {
-            let mut which = [0; LANES];
-            for lane in 0..LANES {
-                which[lane] = usize::from(x[lane] < 0.0) + 2 * usize::from(y[lane] < 0.0);
-            }
-            if which == [which[0]; LANES] {
-                *ranges = crossed::<COUNT>(&quadrants[which[0]], x, y, ranges);
-            } else {
-                for lane in 0..LANES {
-                    let all = crossed::<COUNT>(&quadrants[which[lane]], x, y, ranges);
-                    ranges[lane] = all[lane];
+        for (quadrant, (west, south)) in
+            (0..).zip([(true, true), (false, true), (false, false), (true, false)])
+        {
+            let ahead = self.quadrant::<COUNT>(cell, sweep.origin, west, south);
+            for (first, past) in sweep.quadrant(quadrant) {
+                let x = &sweep.world.x.as_chunks::<LANES>().0[first..past];
+                let y = &sweep.world.y.as_chunks::<LANES>().0[first..past];
+                let ranges = &mut sweep.ranges.as_chunks_mut::<LANES>().0[first..past];
+                for ((x, y), ranges) in x.iter().zip(y).zip(ranges) {
+                    ahead.cross(x, y, ranges);
                 }
             }
         }
@@ -159,7 +137,7 @@ impl LatticeWalk {
                 if to_row >= max_range || row >= lattice.rows.cells {
                     return max_range;
                 }
-                if lattice.horizontal(column, row + usize::from(!south)) {
+                if lattice.horizontal.stands(row + usize::from(!south), column) {
                     return to_row;
                 }
                 rows += 1;
@@ -168,7 +146,7 @@ impl LatticeWalk {
                 if to_column >= max_range || column >= lattice.columns.cells {
                     return max_range;
                 }
-                if lattice.vertical(column + usize::from(!west), row) {
+                if lattice.vertical.stands(column + usize::from(!west), row) {
                     return to_column;
                 }
                 columns += 1;
@@ -186,43 +164,49 @@ fn reciprocal(component: f64) -> f64 {
     1.0 / if size > 1e-300 { size } else { 1e-300 }
 }
 
-/// How far beams of one quadrant get.
+/// The index `by` steps on, or back; one past all others where there is none.
 #[inline(always)]
-fn crossed<const COUNT: usize>(
-    quadrant: &Quadrant,
-    x: &[f64; LANES],
-    y: &[f64; LANES],
-    ranges: &[f64; LANES],
-) -> [f64; LANES] {
-    let mut result = *ranges;
-    for lane in 0..LANES {
-        let (per_x, per_y) = (reciprocal(x[lane]), reciprocal(y[lane]));
-        let mut no_vertical = [0; COUNT];
-        let mut no_horizontal = [0; COUNT];
-        for line in 0..COUNT {
-            no_vertical[line] = quadrant.vertical[line].first;
-            no_horizontal[line] = quadrant.horizontal[line].last;
-        }
-        for column in 0..COUNT {
-            for row in 0..COUNT {
-                let row_first = quadrant.rows[row] * per_y < quadrant.columns[column] * per_x;
-                let row_first = if row_first { u64::MAX } else { 0 };
-                no_vertical[column] ^= row_first & quadrant.vertical[column].changes[row];
-                no_horizontal[row] ^= row_first & quadrant.horizontal[row].changes[column];
-            }
-        }
-        let mut nearest = ranges[lane];
-        for line in 0..COUNT {
-            // All ones make a NaN, which is nearer than nothing.
-            let column = (quadrant.columns[line] * per_x).to_bits() | no_vertical[line];
-            let row = (quadrant.rows[line] * per_y).to_bits() | no_horizontal[line];
-            for range in [f64::from_bits(column), f64::from_bits(row)] {
-                nearest = if range < nearest { range } else { nearest };
-            }
-        }
-        result[lane] = nearest;
+fn step(from: usize, back: bool, by: usize) -> usize {
+    if back {
+        from.wrapping_sub(by)
+    } else {
+        from + by
     }
-    result
+}
+
+impl<const COUNT: usize> Quadrant<COUNT> {
+    /// Shortens the beams that lie in this quadrant.
+    #[inline(always)]
+    fn cross(&self, x: &[f64; LANES], y: &[f64; LANES], ranges: &mut [f64; LANES]) {
+        for lane in 0..LANES {
+            let (per_x, per_y) = (reciprocal(x[lane]), reciprocal(y[lane]));
+            let columns = self.columns.map(|distance| distance * per_x);
+            let rows = self.rows.map(|distance| distance * per_y);
+            let mut no_vertical = self.vertical.map(|line| line.first);
+            let mut no_horizontal = self.horizontal.map(|line| line.last);
+            for column in 0..COUNT {
+                for row in 0..COUNT {
+                    let row_first = if rows[row] < columns[column] {
+                        u64::MAX
+                    } else {
+                        0
+                    };
+                    no_vertical[column] ^= row_first & self.vertical[column].changes[row];
+                    no_horizontal[row] ^= row_first & self.horizontal[row].changes[column];
+                }
+            }
+            let mut nearest = ranges[lane];
+            for line in 0..COUNT {
+                // All ones make a NaN, which is nearer than nothing.
+                let column = f64::from_bits(columns[line].to_bits() | no_vertical[line]);
+                let row = f64::from_bits(rows[line].to_bits() | no_horizontal[line]);
+                nearest = if column < nearest { column } else { nearest };
+                nearest = if row < nearest { row } else { nearest };
+            }
+            let inside = ((x[lane] < 0.0) == self.west) & ((y[lane] < 0.0) == self.south);
+            ranges[lane] = if inside { nearest } else { ranges[lane] };
+        }
+    }
 }
 
 impl Caster for LatticeWalk {
@@ -238,19 +222,19 @@ impl Caster for LatticeWalk {
             return self.index.scan(sweep);
         };
         match self.lattice.lines_within(sweep.ring().max_range) {
-            0 | 1 => self.lanes.run(
+            0 | 1 => self.kernels.run(
                 #[inline(always)]
                 || self.cross::<1>(cell, sweep),
             ),
-            2 => self.lanes.run(
+            2 => self.kernels.run(
                 #[inline(always)]
                 || self.cross::<2>(cell, sweep),
             ),
-            3 => self.lanes.run(
+            3 => self.kernels.run(
                 #[inline(always)]
                 || self.cross::<3>(cell, sweep),
             ),
-            4 => self.lanes.run(
+            4 => self.kernels.run(
                 #[inline(always)]
                 || self.cross::<4>(cell, sweep),
             ),

@@ -126,7 +126,7 @@ impl Sweep {
     pub fn aim(&mut self, pose: Pose) {
         let ahead = pose.heading.unit();
         self.origin = pose.position;
-        self.first = pose.heading.radians() + self.ring.first_bearing;
+        self.first = pose.heading.turned(self.ring.first_bearing).radians();
         let local = self.local.x.iter().zip(&self.local.y);
         let world = self.world.x.iter_mut().zip(&mut self.world.y);
         for ((x, y), (world_x, world_y)) in local.zip(world) {
@@ -195,11 +195,10 @@ impl Sweep {
     #[inline(always)]
     pub(super) fn meet_seen(&mut self, seen: &Seen, from: f64, to: f64) {
         let span = self.span(from, to);
-        for (first, last) in self.chunks(from, span).into_iter().flatten() {
-            let beams = first * LANES..(last + 1) * LANES;
-            let x = self.world.x[beams.clone()].as_chunks::<LANES>().0;
-            let y = self.world.y[beams.clone()].as_chunks::<LANES>().0;
-            let ranges = self.ranges[beams].as_chunks_mut::<LANES>().0;
+        for (first, past) in self.chunks(from, span) {
+            let x = &self.world.x.as_chunks::<LANES>().0[first..past];
+            let y = &self.world.y.as_chunks::<LANES>().0[first..past];
+            let ranges = &mut self.ranges.as_chunks_mut::<LANES>().0[first..past];
             for ((x, y), ranges) in x.iter().zip(y).zip(ranges) {
                 for lane in 0..LANES {
                     let range = seen.range(x[lane], y[lane]);
@@ -240,8 +239,8 @@ impl Sweep {
         let from = self.index(middle - half);
         let span = 2.0 * half * self.density + 2.0 * self.margin;
         let apart = distance * distance - radius * radius;
-        for (first, last) in self.chunks(from, span).into_iter().flatten() {
-            for beam in first * LANES..(last + 1) * LANES {
+        for (first, past) in self.chunks(from, span) {
+            for beam in first * LANES..past * LANES {
                 let (x, y) = (self.world.x[beam], self.world.y[beam]);
                 let ahead = x * to_centre.x + y * to_centre.y;
                 let square = ahead * ahead - apart;
@@ -256,9 +255,20 @@ impl Sweep {
     /// The place among the beams, in [0, circle), of a bearing in the world, less the margin.
     #[inline(always)]
     pub(super) fn index(&self, bearing: f64) -> f64 {
-        let index = (bearing - self.first) * self.density - self.margin;
-        let index = index - (index / self.circle).floor() * self.circle;
-        if index < self.circle { index } else { 0.0 }
+        let mut index = (bearing - self.first) * self.density - self.margin;
+        // Two bearings are less than two circles apart.
+        for _ in 0..2 {
+            index += if index < 0.0 { self.circle } else { 0.0 };
+        }
+        index
+    }
+
+    /// The chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise), and some
+    /// others.
+    #[inline(always)]
+    pub(super) fn quadrant(&self, quadrant: u32) -> [(usize, usize); 2] {
+        let from = self.index(f64::from(quadrant) * FRAC_PI_2 - PI);
+        self.chunks(from, FRAC_PI_2 * self.density + 2.0 * self.margin)
     }
 
     /// How many beams lie between two indices, a margin on both sides included.
@@ -272,15 +282,16 @@ impl Sweep {
         span + 2.0 * self.margin
     }
 
-    /// The chunks of beams, first and last, from index `from` over `span`; twice, for a span that runs
-    /// across the seam of the circle.
+    /// The chunks of beams, first and one past the last, from index `from` over `span`; twice, for a span
+    /// that runs across the seam of the circle.
     #[inline(always)]
-    fn chunks(&self, from: f64, span: f64) -> [Option<(usize, usize)>; 2] {
-        let last_beam = f64::from(self.ring.beams - 1);
+    fn chunks(&self, from: f64, span: f64) -> [(usize, usize); 2] {
+        let end = self.ranges.len() / LANES;
         [from, from - self.circle].map(|from| {
-            let first = from.max(0.0).ceil();
-            let last = (from + span).min(last_beam);
-            (first <= last).then(|| (first as usize / LANES, last as usize / LANES))
+            // Beams before the span are tried in vain.
+            let first = from.max(0.0) as u32 as usize / LANES;
+            let past = ((from + span + LANES as f64).max(0.0) as u32 as usize / LANES).min(end);
+            (first.min(past), past)
         })
     }
 }

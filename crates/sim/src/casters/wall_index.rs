@@ -1,8 +1,9 @@
+use core::ops::Range;
+
 use tolman_geom::{Point, Vector};
-use tolman_robot::Ring;
 
 use super::sweep::{Seen, Sweep, bearing};
-use super::{Caster, Lanes};
+use super::{Caster, Kernels, Lanes};
 use crate::{Bounds, Wall};
 
 /// All walls by place: a loose grid on several levels.
@@ -18,14 +19,26 @@ pub struct WallIndex {
     levels: Vec<Level>,
     /// Sorted by level, row and column.
     walls: Vec<Wall>,
+    /// The same walls for lanes.
+    ends: Ends,
     bounds: Bounds,
-    lanes: Lanes,
+    kernels: Kernels,
+}
+
+/// The coordinates of many walls' ends.
+#[derive(Clone, Debug)]
+struct Ends {
+    start_x: Vec<f64>,
+    start_y: Vec<f64>,
+    end_x: Vec<f64>,
+    end_y: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
 struct Level {
     corner: Point,
-    cell: f64,
+    /// Cells per metre.
+    per_metre: f64,
     columns: usize,
     rows: usize,
     /// How far a wall of this level reaches from its middle, along either axis.
@@ -70,31 +83,50 @@ impl WallIndex {
             }
             cell *= 2.0;
         }
+        let ends = Ends {
+            start_x: sorted.iter().map(|wall| wall.start.x).collect(),
+            start_y: sorted.iter().map(|wall| wall.start.y).collect(),
+            end_x: sorted.iter().map(|wall| wall.end.x).collect(),
+            end_y: sorted.iter().map(|wall| wall.end.y).collect(),
+        };
         Self {
             levels,
             walls: sorted,
+            ends,
             bounds,
-            lanes,
+            kernels: lanes.into(),
         }
     }
 
     /// Calls `visit` with all walls that come within `reach` of `centre` along both axes, and some that
     /// do not, in slices.
-    #[inline(always)]
     pub(crate) fn near<'a>(&'a self, centre: Point, reach: f64, mut visit: impl FnMut(&'a [Wall])) {
+        self.places(centre, reach, |places| visit(&self.walls[places]));
+    }
+
+    /// Where such walls are in the list of all.
+    #[inline(always)]
+    fn places(&self, centre: Point, reach: f64, mut visit: impl FnMut(Range<usize>)) {
         for level in &self.levels {
             let reach = reach + level.reach;
-            let (Some((west, east)), Some((south, north))) = (
-                span(centre.x - level.corner.x, reach, level.cell, level.columns),
-                span(centre.y - level.corner.y, reach, level.cell, level.rows),
-            ) else {
-                continue;
-            };
-            for row in south..=north {
-                let from = level.starts[row * level.columns + west] as usize;
-                let to = level.starts[row * level.columns + east + 1] as usize;
+            let (west, east) = span(
+                centre.x - level.corner.x,
+                reach,
+                level.per_metre,
+                level.columns,
+            );
+            let (south, north) = span(
+                centre.y - level.corner.y,
+                reach,
+                level.per_metre,
+                level.rows,
+            );
+            for row in south..north {
+                let row = row * level.columns;
+                let from = level.starts[row + west] as usize;
+                let to = level.starts[row + east] as usize;
                 if from < to {
-                    visit(&self.walls[from..to]);
+                    visit(from..to);
                 }
             }
         }
@@ -110,7 +142,7 @@ impl WallIndex {
         let outside = (self.bounds.min - point)
             .sup(&(point - self.bounds.max))
             .sup(&Vector::zeros());
-        let mut reach = outside.norm() + self.levels[0].cell;
+        let mut reach = outside.norm() + self.levels[0].per_metre.recip();
         loop {
             let mut nearest = f64::INFINITY;
             self.near(point, reach, |walls| {
@@ -160,7 +192,7 @@ impl Level {
         starts.push(sorted.len() as u32);
         Self {
             corner: middles.min,
-            cell,
+            per_metre: cell.recip(),
             columns,
             rows,
             reach,
@@ -178,17 +210,19 @@ fn middle(wall: &Wall) -> Point {
     nalgebra::center(&wall.start, &wall.end)
 }
 
-/// The first and last of `count` cells that lie within `reach` of `at`, if any does.
+/// The first and one past the last of `count` cells that lie within `reach` of `at`.
 #[inline(always)]
-fn span(at: f64, reach: f64, cell: f64, count: usize) -> Option<(usize, usize)> {
+fn span(at: f64, reach: f64, per_metre: f64, count: usize) -> (usize, usize) {
     // The last cell also holds what lies on the far edge of the level.
-    let (first, last) = ((at - reach) / cell, (at + reach) / cell);
-    (first <= count as f64 && last >= 0.0).then(|| {
-        (
-            (first.max(0.0) as usize).min(count - 1),
-            (last as usize).min(count - 1),
-        )
-    })
+    let last = count as f64 - 1.0;
+    let (from, to) = ((at - reach) * per_metre, (at + reach) * per_metre);
+    if from > last + 1.0 || to < 0.0 {
+        return (0, 0);
+    }
+    (
+        from.clamp(0.0, last) as u32 as usize,
+        to.clamp(0.0, last) as u32 as usize + 1,
+    )
 }
 
 /// How many walls are looked at together.
@@ -196,7 +230,12 @@ const BLOCK: usize = 32;
 
 /// A block of walls as seen from the origin of a sweep.
 struct Block {
-    seen: [Seen; BLOCK],
+    right_x: [f64; BLOCK],
+    right_y: [f64; BLOCK],
+    left_x: [f64; BLOCK],
+    left_y: [f64; BLOCK],
+    area: [f64; BLOCK],
+    /// The indices of the right and left ends among the beams.
     from: [f64; BLOCK],
     to: [f64; BLOCK],
     /// The square of the distance from the origin.
@@ -210,7 +249,7 @@ impl Caster for WallIndex {
             return max_range;
         };
         let end = max_range.min(self.farthest(origin));
-        let half_piece = 2.0 * lowest.cell;
+        let half_piece = 2.0 / lowest.per_metre;
         let mut range = max_range;
         let mut from = 0.0;
         while from <= end {
@@ -231,7 +270,7 @@ impl Caster for WallIndex {
     }
 
     fn scan(&self, sweep: &mut Sweep) {
-        self.lanes.run(
+        self.kernels.run(
             #[inline(always)]
             || self.draw(sweep),
         );
@@ -249,43 +288,81 @@ impl WallIndex {
 
     #[inline(always)]
     fn draw(&self, sweep: &mut Sweep) {
-        let Ring { max_range, .. } = sweep.ring();
-        let origin = sweep.origin();
-        let nothing = Seen {
-            right: Vector::zeros(),
-            left: Vector::zeros(),
-            area: 0.0,
-        };
+        let max_range = sweep.ring().max_range;
+        let nothing = [0.0; BLOCK];
         let mut block = Block {
-            seen: [nothing; BLOCK],
-            from: [0.0; BLOCK],
-            to: [0.0; BLOCK],
-            square: [0.0; BLOCK],
+            right_x: nothing,
+            right_y: nothing,
+            left_x: nothing,
+            left_y: nothing,
+            area: nothing,
+            from: nothing,
+            to: nothing,
+            square: nothing,
         };
-        self.near(origin, max_range.min(self.farthest(origin)), |walls| {
-            for walls in walls.chunks(BLOCK) {
-                for (index, wall) in walls.iter().enumerate() {
-                    let (start, end) = (wall.start - origin, wall.end - origin);
-                    let along = end - start;
-                    let share = (-start.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-                    let seen = Seen::new(start, end);
-                    block.square[index] = (start + along * share).norm_squared();
-                    block.from[index] = sweep.index(bearing(seen.right.x, seen.right.y));
-                    block.to[index] = sweep.index(bearing(seen.left.x, seen.left.y));
-                    block.seen[index] = seen;
-                }
-                for (index, wall) in walls.iter().enumerate() {
-                    if block.square[index] > max_range * max_range {
-                        continue;
-                    }
-                    let seen = &block.seen[index];
-                    if seen.area > 0.0 {
-                        sweep.meet_seen(seen, block.from[index], block.to[index]);
-                    } else {
-                        sweep.meet_edge_on(wall);
+        let reach = max_range.min(self.farthest(sweep.origin));
+        self.places(
+            sweep.origin,
+            reach,
+            #[inline(always)]
+            |places| {
+                for from in places.clone().step_by(BLOCK) {
+                    let places = from..places.end.min(from + BLOCK);
+                    block.look(&self.ends, places.clone(), sweep);
+                    for (index, place) in places.enumerate() {
+                        if block.square[index] > max_range * max_range {
+                            continue;
+                        }
+                        if block.area[index] > 0.0 {
+                            let seen = block.seen(index);
+                            sweep.meet_seen(&seen, block.from[index], block.to[index]);
+                        } else {
+                            sweep.meet_edge_on(&self.walls[place]);
+                        }
                     }
                 }
-            }
-        });
+            },
+        );
+    }
+}
+
+impl Block {
+    /// Looks at a block of walls, in lanes over walls.
+    #[inline(always)]
+    fn look(&mut self, ends: &Ends, places: Range<usize>, sweep: &Sweep) {
+        let (x, y) = (sweep.origin.x, sweep.origin.y);
+        let count = places.len().min(BLOCK);
+        let start_x = &ends.start_x[places.clone()][..count];
+        let start_y = &ends.start_y[places.clone()][..count];
+        let end_x = &ends.end_x[places.clone()][..count];
+        let end_y = &ends.end_y[places][..count];
+        for index in 0..count {
+            let start = Vector::new(start_x[index] - x, start_y[index] - y);
+            let end = Vector::new(end_x[index] - x, end_y[index] - y);
+            let along = end - start;
+            let share =
+                -(start.x * along.x + start.y * along.y) / (along.x * along.x + along.y * along.y);
+            let share = if share > 0.0 { share } else { 0.0 };
+            let share = if share < 1.0 { share } else { 1.0 };
+            let (near_x, near_y) = (start.x + along.x * share, start.y + along.y * share);
+            self.square[index] = near_x * near_x + near_y * near_y;
+            let seen = Seen::new(start, end);
+            self.right_x[index] = seen.right.x;
+            self.right_y[index] = seen.right.y;
+            self.left_x[index] = seen.left.x;
+            self.left_y[index] = seen.left.y;
+            self.area[index] = seen.area;
+            self.from[index] = sweep.index(bearing(seen.right.x, seen.right.y));
+            self.to[index] = sweep.index(bearing(seen.left.x, seen.left.y));
+        }
+    }
+
+    #[inline(always)]
+    fn seen(&self, index: usize) -> Seen {
+        Seen {
+            right: Vector::new(self.right_x[index], self.right_y[index]),
+            left: Vector::new(self.left_x[index], self.left_y[index]),
+            area: self.area[index],
+        }
     }
 }

@@ -26,10 +26,10 @@ pub struct Occupancy {
 pub(crate) struct Lattice {
     pub(crate) columns: Axis,
     pub(crate) rows: Axis,
-    /// One flag per edge across x, `columns + 1` to a row.
-    vertical: Vec<bool>,
-    /// One flag per edge across y, `columns` to a row of lattice points.
-    horizontal: Vec<bool>,
+    /// The walls on the lines across x, cell by cell northward.
+    pub(crate) vertical: Lines,
+    /// The walls on the lines across y, cell by cell eastward.
+    pub(crate) horizontal: Lines,
     /// One flag per cell.
     solid: Vec<bool>,
 }
@@ -95,15 +95,15 @@ impl Lattice {
     fn thin(maze: &Maze, pitch: f64) -> Self {
         let grid = maze.grid();
         let (width, height) = (usize::from(grid.width()), usize::from(grid.height()));
-        let mut vertical = vec![false; (width + 1) * height];
-        let mut horizontal = vec![false; width * (height + 1)];
+        let mut vertical = Lines::new(width + 1, height);
+        let mut horizontal = Lines::new(height + 1, width);
         for cell in grid.cells() {
             let (x, y) = (usize::from(cell.x), usize::from(cell.y));
             let stands = |direction| !maze.is_open(cell, direction);
-            vertical[y * (width + 1) + x] = stands(Direction::West);
-            vertical[y * (width + 1) + x + 1] = stands(Direction::East);
-            horizontal[y * width + x] = stands(Direction::South);
-            horizontal[(y + 1) * width + x] = stands(Direction::North);
+            vertical.set(x, y, stands(Direction::West));
+            vertical.set(x + 1, y, stands(Direction::East));
+            horizontal.set(y, x, stands(Direction::South));
+            horizontal.set(y + 1, x, stands(Direction::North));
         }
         let axis = |cells| Axis {
             cells,
@@ -189,17 +189,24 @@ impl Lattice {
             (Some(x), Some(y)) if x < width && y < height => solid[y * width + x],
             _ => true,
         };
-        let edges = |count: usize, columns: usize, before: &dyn Fn(usize, usize) -> bool| {
-            (0..count)
-                .map(|index| before(index % columns, index / columns))
-                .collect()
-        };
-        let vertical = edges((width + 1) * height, width + 1, &|x, y| {
-            is_solid(x.checked_sub(1), Some(y)) != is_solid(Some(x), Some(y))
-        });
-        let horizontal = edges(width * (height + 1), width, &|x, y| {
-            is_solid(Some(x), y.checked_sub(1)) != is_solid(Some(x), Some(y))
-        });
+        let mut vertical = Lines::new(width + 1, height);
+        for (line, cell) in vertical.places() {
+            let (before, after) = (line.checked_sub(1), Some(line));
+            vertical.set(
+                line,
+                cell,
+                is_solid(before, Some(cell)) != is_solid(after, Some(cell)),
+            );
+        }
+        let mut horizontal = Lines::new(height + 1, width);
+        for (line, cell) in horizontal.places() {
+            let (before, after) = (line.checked_sub(1), Some(line));
+            horizontal.set(
+                line,
+                cell,
+                is_solid(Some(cell), before) != is_solid(Some(cell), after),
+            );
+        }
         Self {
             columns,
             rows,
@@ -224,22 +231,6 @@ impl Lattice {
         Some((self.columns.cell(point.x)?, self.rows.cell(point.y)?))
     }
 
-    /// Whether a wall stands on line `column` across x, at `row`; never outside the grid.
-    #[inline(always)]
-    pub(crate) fn vertical(&self, column: usize, row: usize) -> bool {
-        column <= self.columns.cells
-            && row < self.rows.cells
-            && self.vertical[row * (self.columns.cells + 1) + column]
-    }
-
-    /// Whether a wall stands on line `row` across y, at `column`; never outside the grid.
-    #[inline(always)]
-    pub(crate) fn horizontal(&self, column: usize, row: usize) -> bool {
-        column < self.columns.cells
-            && row <= self.rows.cells
-            && self.horizontal[row * self.columns.cells + column]
-    }
-
     /// How many lines of one axis a ray of this length crosses at most.
     pub(crate) fn lines_within(&self, range: f64) -> usize {
         let Axis {
@@ -262,7 +253,7 @@ impl Lattice {
             let at = self.columns.line(x);
             runs(
                 height,
-                |y| self.vertical[y * (width + 1) + x],
+                |y| self.vertical.stands(x, y),
                 |from, to| {
                     walls.push(Wall {
                         start: Point::new(at, self.rows.line(from)),
@@ -276,7 +267,7 @@ impl Lattice {
             let at = self.rows.line(y);
             runs(
                 width,
-                |x| self.horizontal[y * width + x],
+                |x| self.horizontal.stands(y, x),
                 |from, to| {
                     walls.push(Wall {
                         start: Point::new(self.columns.line(from), at),
@@ -287,6 +278,65 @@ impl Lattice {
             );
         }
         walls
+    }
+}
+
+/// Which walls stand on parallel lines, a bit each.
+///
+/// Every line is padded with a word of nothing at both ends, so that a look along it needs no bounds.
+#[derive(Clone, Debug)]
+pub(crate) struct Lines {
+    lines: usize,
+    cells: usize,
+    /// Words to a line.
+    stride: usize,
+    words: Vec<u64>,
+}
+
+impl Lines {
+    fn new(lines: usize, cells: usize) -> Self {
+        let stride = cells.div_ceil(64) + 2;
+        Self {
+            lines,
+            cells,
+            stride,
+            words: vec![0; lines * stride],
+        }
+    }
+
+    /// All places: line and cell along it.
+    fn places(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let cells = self.cells;
+        (0..self.lines).flat_map(move |line| (0..cells).map(move |cell| (line, cell)))
+    }
+
+    fn set(&mut self, line: usize, cell: usize, stands: bool) {
+        let word = &mut self.words[line * self.stride + cell / 64 + 1];
+        let bit = 1 << (cell % 64);
+        if stands { *word |= bit } else { *word &= !bit }
+    }
+
+    /// Whether a wall stands on `line` beside `cell`; never outside the grid.
+    #[inline(always)]
+    pub(crate) fn stands(&self, line: usize, cell: usize) -> bool {
+        line < self.lines
+            && cell < self.cells
+            && self.words[line * self.stride + cell / 64 + 1] >> (cell % 64) & 1 == 1
+    }
+
+    /// The walls on `line` from `cell` on, or back: 32 bits, the lowest at `cell`. None outside the
+    /// grid.
+    #[inline(always)]
+    pub(crate) fn along(&self, line: usize, cell: usize, back: bool) -> u32 {
+        if line >= self.lines {
+            return 0;
+        }
+        let words = &self.words[line * self.stride..][..self.stride];
+        // Bit of the padded line: that of the cell, or that 31 before it.
+        let bit = cell + if back { 33 } else { 64 };
+        let pair = u128::from(words[bit / 64]) | u128::from(words[bit / 64 + 1]) << 64;
+        let bits = (pair >> (bit % 64)) as u32;
+        if back { bits.reverse_bits() } else { bits }
     }
 }
 
