@@ -6,7 +6,7 @@ use thiserror::Error;
 use tolman_control::{Outcome, RingError, Stack, View};
 use tolman_geom::Pose;
 use tolman_maze::Direction;
-use tolman_robot::{Robot, TurnTranslate};
+use tolman_robot::{Body, Robot, TurnTranslate};
 use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::{PlaceError, Solo, StepError, Zone};
 
@@ -71,6 +71,19 @@ pub struct Episode {
 /// The streams that one run's seed is split into, beside the simulation's own.
 const LAYERS_STREAM: u64 = 1;
 const MIND_STREAM: u64 = 2;
+const START_STREAM: u64 = 3;
+
+/// The random start of the run with this seed: see [`Course::random_start`].
+#[must_use]
+pub fn random_start(course: &Course, body: &Body, seed: u64) -> Pose {
+    course.random_start(body, &mut stream(seed, START_STREAM))
+}
+
+fn stream(seed: u64, stream: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(stream);
+    rng
+}
 
 /// Lets `mind` drive until its robot reaches the destination or the trial's time is up.
 ///
@@ -90,12 +103,8 @@ pub fn run(
         2.0 * trial.robot.radius,
         trial.course.corridor_width,
     )?;
-    let stream = |stream| {
-        let mut rng = ChaCha8Rng::seed_from_u64(trial.seed);
-        rng.set_stream(stream);
-        rng
-    };
-    let (mut layers_rng, mut mind_rng) = (stream(LAYERS_STREAM), stream(MIND_STREAM));
+    let mut layers_rng = stream(trial.seed, LAYERS_STREAM);
+    let mut mind_rng = stream(trial.seed, MIND_STREAM);
 
     let mut episode = Episode {
         reached: false,

@@ -75,21 +75,20 @@ pub struct Policy {
     costs: Vec<[Option<u32>; 4]>,
 }
 
+/// Positions of the lattice per corridor width.
+const POSITIONS: f64 = 8.0;
+
 /// An action that has not ended by then oscillates; the policy leaves it out.
 const LONGEST_ACTION: u32 = 40;
 
 impl Policy {
-    /// Works out the policy of a course, on positions `spacing` metres apart. Every node is simulated
-    /// four times: about 10 µs per node and action, and a node per axis and `spacing`² of floor.
+    /// Works out the policy of a course, on eight positions per corridor width. Every node is simulated
+    /// four times: about 10 µs per node and action, and a node per axis and position.
     ///
     /// # Errors
     /// When the robot cannot be built for the course.
-    pub fn new(
-        course: &Course,
-        robot: &LaserPioneerConfig,
-        spacing: f64,
-    ) -> Result<Self, EpisodeError> {
-        let lattice = Lattice::new(course, spacing);
+    pub fn new(course: &Course, robot: &LaserPioneerConfig) -> Result<Self, EpisodeError> {
+        let lattice = Lattice::new(course, course.corridor_width / POSITIONS);
         let model = LaserPioneer::new(without_noise(robot))?;
         let mut stack = Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)?;
         let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::EAST);

@@ -4,6 +4,7 @@ use core::fmt::Write;
 
 use maud::{Markup, html};
 use tolman_geom::Point;
+use tolman_sim::{Area, Bounds, World};
 
 use super::number::tenths;
 use super::{Drawing, Series};
@@ -76,6 +77,21 @@ impl Plan {
             );
         }
         plan.walls = html! { path class="wall" stroke-width="2.5" d=(path) {} };
+        plan
+    }
+
+    /// A plan that is `width` user units wide, with the walls of a world and its destination.
+    pub fn of_world(world: &World, width: f64) -> Self {
+        let walls: Vec<[Point; 2]> =
+            world.walls().iter().map(|wall| [wall.start, wall.end]).collect();
+        let mut plan = Self::of_walls(&walls, width);
+        let destination = world.zone("destination");
+        for area in destination.into_iter().flat_map(tolman_sim::Zone::areas) {
+            if let Area::Rectangle(Bounds { min, max }) = *area {
+                let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+                plan.zone(&corners, Zone::Destination);
+            }
+        }
         plan
     }
 

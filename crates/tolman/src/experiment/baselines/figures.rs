@@ -1,10 +1,9 @@
 //! Where the runs went: for each maze and brain, the middle run over all others.
 
 use tolman_geom::Point;
-use tolman_sim::{Area, Bounds, World};
 
 use super::{Baselines, ROWS, Venue};
-use crate::draw::{Figure, Plan, Series, Zone};
+use crate::draw::{Figure, Plan, Series};
 use crate::experiment::{BoxError, Field, Run};
 
 /// How many runs one plan shows at most.
@@ -47,7 +46,7 @@ fn plan(
     middle: &Run,
     series: Series,
 ) -> Result<Figure, BoxError> {
-    let mut plan = plan_of(&venue.course.world);
+    let mut plan = Plan::of_world(&venue.course.world, WIDTH);
     for run in runs.iter().take(SHOWN).filter(|run| run.run != middle.run) {
         plan.faint_trajectory(&way(experiment, run)?, series);
     }
@@ -65,20 +64,6 @@ fn plan(
             middle.run
         ))
         .table(&venue.table))
-}
-
-/// The walls and the destination of a world.
-pub(crate) fn plan_of(world: &World) -> Plan {
-    let walls: Vec<[Point; 2]> =
-        world.walls().iter().map(|wall| [wall.start, wall.end]).collect();
-    let mut plan = Plan::of_walls(&walls, WIDTH);
-    for area in world.zone("destination").into_iter().flat_map(tolman_sim::Zone::areas) {
-        if let Area::Rectangle(Bounds { min, max }) = *area {
-            let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-            plan.zone(&corners, Zone::Destination);
-        }
-    }
-    plan
 }
 
 fn way(experiment: &Baselines, run: &Run) -> Result<Vec<Point>, BoxError> {

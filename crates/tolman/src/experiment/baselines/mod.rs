@@ -11,8 +11,6 @@ mod worlds;
 use alloc::sync::Arc;
 use std::sync::OnceLock;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::{
@@ -28,12 +26,6 @@ use worlds::Venue;
 
 /// The brains, in the order of the paper's tables, then floor and ceiling.
 const ROWS: [&str; 4] = ["Avoid", "Wall-follow", "Random", "Oracle"];
-
-/// The stream of a run's seed that its start is drawn from.
-const START_STREAM: u64 = 3;
-
-/// The oracle's policy lattice: positions per corridor width.
-const LATTICE: f64 = 8.0;
 
 /// The experiment, ready to run.
 #[derive(Debug)]
@@ -105,12 +97,10 @@ impl Baselines {
     /// Plays one run; also how figures play it again.
     fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
         let Some((index, venue)) = self.venue(job.table) else { return Ok(None) };
-        let mut start_rng = ChaCha8Rng::seed_from_u64(job.seed);
-        start_rng.set_stream(START_STREAM);
         let trial = Trial {
             course: &venue.course,
             robot: self.robot.clone(),
-            start: venue.course.random_start(&pioneer::body(), &mut start_rng),
+            start: episode::random_start(&venue.course, &pioneer::body(), job.seed),
             step_limit: venue.step_limit,
             seed: job.seed,
         };
@@ -127,8 +117,7 @@ impl Baselines {
         if let Some(policy) = self.policies[venue].get() {
             return Ok(Arc::clone(policy));
         }
-        let course = &self.venues[venue].course;
-        let policy = Policy::new(course, &self.robot, course.corridor_width / LATTICE)?;
+        let policy = Policy::new(&self.venues[venue].course, &self.robot)?;
         // Two threads may work it out at once; they get the same.
         Ok(Arc::clone(self.policies[venue].get_or_init(|| Arc::new(policy))))
     }
