@@ -9,6 +9,7 @@ mod failure;
 mod file;
 mod man;
 mod maze;
+mod run;
 mod stdout;
 
 use std::io::Write;
@@ -28,6 +29,7 @@ struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
+  tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman maze show mazes/j.maze
   tolman experiment baselines --quick
 
@@ -36,6 +38,7 @@ Exit codes: 0 done, 1 failed, 2 bad input, 3 a table disagrees with the paper (o
 
 #[derive(Subcommand)]
 enum Verb {
+    Run(run::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
     Experiment(experiment::Arguments),
@@ -65,6 +68,7 @@ pub(crate) fn main() -> ExitCode {
 impl Verb {
     fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
+            Self::Run(arguments) => run::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),
             Self::Experiment(arguments) => experiment::carry_out(&arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),

@@ -1,17 +1,18 @@
 //! Progress on a terminal.
 
 use alloc::sync::Arc;
+use core::fmt;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use std::io::{IsTerminal, Write};
 use std::sync::OnceLock;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::{Event, Progress};
 
-/// Progress on standard error: a bar with rate and time left on a terminal, and only a final line
-/// elsewhere. Folders set aside and broken lines are told in both cases.
+/// Progress on standard error: a bar with rate and time left on a terminal, nothing elsewhere.
+/// Folders set aside and broken lines are told in both cases.
 #[derive(Debug, Default)]
 pub struct Terminal {
     stop: Arc<AtomicBool>,
@@ -56,20 +57,15 @@ impl Progress for Terminal {
                 file.display()
             )),
             Event::Started { total, reused } => {
-                let bar = ProgressBar::with_draw_target(Some(*total), target());
-                if let Ok(style) =
-                    ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {per_sec}  {eta} left")
-                {
-                    bar.set_style(style);
+                if *reused > 0 {
+                    self.line(&format!("{reused} of {total} runs are there from before"));
                 }
+                let bar = ProgressBar::with_draw_target(Some(*total), target()).with_style(style());
                 // Reused runs are done, and no part of the rate.
                 bar.set_position(*reused);
                 bar.reset_eta();
                 bar.reset_elapsed();
                 let _ = self.bar.set(bar);
-                if *reused > 0 {
-                    self.line(&format!("{reused} of {total} runs are there from before"));
-                }
             }
             Event::RunFinished => {
                 if let Some(bar) = self.bar.get() {
@@ -80,11 +76,13 @@ impl Progress for Terminal {
                 if let Some(bar) = self.bar.get() {
                     bar.finish_and_clear();
                 }
-                self.line(&format!(
-                    "{played} runs in {}{}",
-                    duration(*elapsed),
-                    rate(*played, *elapsed)
-                ));
+                if on_terminal() {
+                    self.line(&format!(
+                        "{played} runs in {}{}",
+                        duration(*elapsed),
+                        rate(*played, *elapsed)
+                    ));
+                }
             }
         }
     }
@@ -94,12 +92,25 @@ impl Progress for Terminal {
     }
 }
 
+fn style() -> ProgressStyle {
+    ProgressStyle::with_template("{bar:30} {pos}/{len} runs  {rate}  {eta} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .with_key("rate", |state: &ProgressState, out: &mut dyn fmt::Write| {
+            // A bar that cannot be written is only not shown.
+            let _ = write!(out, "{:.0} a second", state.per_sec());
+        })
+}
+
 fn target() -> ProgressDrawTarget {
-    if std::io::stderr().is_terminal() {
+    if on_terminal() {
         ProgressDrawTarget::stderr()
     } else {
         ProgressDrawTarget::hidden()
     }
+}
+
+fn on_terminal() -> bool {
+    std::io::stderr().is_terminal()
 }
 
 /// A duration for readers: `0.4 s`, `41 s`, `2 min 5 s`.

@@ -3,7 +3,15 @@ use crate::tolman;
 #[test]
 fn help_names_every_verb_and_the_exit_codes() {
     let help = tolman(&["--help"]).done();
-    for part in ["maze", "completions", "man", "Examples:", "Exit codes:"] {
+    for part in [
+        "run",
+        "maze",
+        "experiment",
+        "completions",
+        "man",
+        "Examples:",
+        "Exit codes:",
+    ] {
         assert!(help.contains(part), "no `{part}` in:\n{help}");
     }
 }
@@ -11,7 +19,8 @@ fn help_names_every_verb_and_the_exit_codes() {
 #[test]
 fn every_verb_explains_itself() {
     for verb in [
-        &["completions"][..],
+        &["run"][..],
+        &["completions"],
         &["man"],
         &["experiment"],
         &["maze", "show"],

@@ -5,8 +5,10 @@
     reason = "a test that cannot start its command has failed"
 )]
 
+mod experiment;
 mod help;
 mod maze;
+mod run;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

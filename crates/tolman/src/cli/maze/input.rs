@@ -33,7 +33,7 @@ pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
 }
 
 /// What messages call a file.
-pub(super) fn name(path: &Path) -> String {
+pub(in crate::cli) fn name(path: &Path) -> String {
     if is_stdin(path) {
         "standard input".to_owned()
     } else {

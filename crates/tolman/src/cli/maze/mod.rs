@@ -13,6 +13,7 @@ use std::io::Write;
 use clap::Subcommand;
 
 use super::failure::Failure;
+pub(super) use input::{name, read};
 
 /// Looks at mazes, checks, converts and makes them
 #[derive(Subcommand)]

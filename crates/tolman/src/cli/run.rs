@@ -1,0 +1,133 @@
+//! `tolman run`: one robot, one maze, one seed.
+
+mod brain;
+mod picture;
+mod start;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::Context;
+use brain::Brain;
+use serde_json::json;
+use start::Start;
+use tolman::course::Course;
+use tolman::episode::{self, Episode, EpisodeError, Trial};
+use tolman::pioneer::{body, calibrated};
+
+use super::failure::OrBadInput;
+use super::file::write_whole;
+use super::{Failure, maze};
+
+/// Sends one robot through a maze and tells what became of it
+#[derive(clap::Args)]
+#[command(after_help = "\
+The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
+runs.jsonl and the default start, it is the run of that line.
+
+Examples:
+  tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
+  tolman run avoid --maze taiwan2016f.txt --start marked --steps 20000")]
+pub(super) struct Arguments {
+    /// Who chooses the actions
+    brain: Brain,
+    /// The maze file, of any format; - reads standard input
+    #[arg(long, value_name = "FILE")]
+    maze: PathBuf,
+    /// What all chance of the run follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
+    /// and degrees from the south-west corner, counter-clockwise from east
+    #[arg(
+        long,
+        value_name = "WHERE",
+        default_value = "random",
+        allow_hyphen_values = true
+    )]
+    start: Start,
+    /// Give up after so many time steps
+    #[arg(long, value_name = "LIMIT", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..))]
+    steps: u32,
+    /// Draw its way over the maze
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write the outcome as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let file = maze::read(&arguments.maze)?;
+    let robot = calibrated();
+    let course = Course::new(&maze::name(&arguments.maze), &file, &body())
+        .with_context(|| maze::name(&arguments.maze))
+        .or_bad_input()?;
+    let start = arguments.start.on(&course, arguments.seed)?;
+    let trial = Trial {
+        course: &course,
+        robot: robot.clone(),
+        start,
+        step_limit: arguments.steps,
+        seed: arguments.seed,
+    };
+    let mut mind = arguments.brain.mind(&course, &robot)?;
+    let episode = episode::run(&trial, &mut mind, |_, _| ()).map_err(classify)?;
+    let told = arguments.told(&episode);
+    if let Some(path) = &arguments.svg {
+        write_whole(path, &picture::of(&course, &episode, &told))?;
+    }
+    if arguments.json {
+        let json = json!({
+            "brain": arguments.brain.to_string(),
+            "maze": course.name,
+            "seed": arguments.seed,
+            "start": {
+                "x": start.position.x,
+                "y": start.position.y,
+                "heading_deg": start.heading.degrees(),
+            },
+            "reached": episode.reached,
+            "actions": episode.actions,
+            "failed_actions": episode.failed_actions,
+            "steps": episode.steps,
+            "step_limit": arguments.steps,
+            "bumps": episode.bumps,
+        });
+        writeln!(out, "{json:#}")?;
+        return Ok(());
+    }
+    writeln!(out, "{told}")?;
+    Ok(())
+}
+
+impl Arguments {
+    /// The outcome in words.
+    fn told(&self, episode: &Episode) -> String {
+        let Episode {
+            actions,
+            failed_actions,
+            steps,
+            bumps,
+            ..
+        } = episode;
+        let came = if episode.reached {
+            "reached the destination"
+        } else {
+            "did not arrive"
+        };
+        format!(
+            "{} {came}: {steps} steps, {actions} actions of which {failed_actions} failed, \
+             {bumps} bumps",
+            self.brain
+        )
+    }
+}
+
+/// A start that does not serve is the caller's to mend.
+fn classify(error: EpisodeError) -> Failure {
+    match error {
+        EpisodeError::Start(_) => Failure::BadInput(error.into()),
+        _ => Failure::Failed(error.into()),
+    }
+}

@@ -1,0 +1,124 @@
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::{CORRIDOR, folder, tolman, tolman_in};
+
+/// Two runs of each row of the baselines in the corridor, results in `out`.
+fn baselines(folder: &Path, out: &str, more: &[&str]) -> crate::Ended {
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let usual = [
+        "experiment",
+        "baselines",
+        "--maze",
+        "corridor.maze",
+        "--runs",
+        "2",
+        "--out",
+        out,
+    ];
+    tolman_in(folder, &[&usual[..], more].concat())
+}
+
+#[test]
+fn the_list_names_what_there_is() {
+    assert!(
+        tolman(&["experiment", "--list"])
+            .done()
+            .contains("baselines")
+    );
+}
+
+#[test]
+fn a_folder_of_results_is_written() {
+    let folder = folder("results");
+    let shown = baselines(&folder, "out", &[]).done();
+    for part in ["Avoid", "Wall-follow", "Random", "Oracle", "report.html"] {
+        assert!(shown.contains(part), "no {part} in:\n{shown}");
+    }
+    let out = folder.join("out");
+    for name in ["report.html", "summary.json", "runs.jsonl", "config.toml"] {
+        assert!(fs::metadata(out.join(name)).unwrap().len() > 100, "{name}");
+    }
+    assert_ne!(fs::read_dir(out.join("figures")).unwrap().count(), 0);
+}
+
+#[test]
+fn json_is_the_summary() {
+    let folder = folder("json");
+    let shown = baselines(&folder, "out", &["--json"]).done();
+    assert_eq!(
+        shown,
+        fs::read_to_string(folder.join("out/summary.json")).unwrap()
+    );
+    let shown: Value = serde_json::from_str(&shown).unwrap();
+    assert_eq!(shown["experiment"], "baselines");
+    assert_eq!(shown["seed"], 1);
+    assert!(!shown["rows"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn the_number_of_jobs_changes_nothing() {
+    let folder = folder("jobs");
+    baselines(&folder, "one", &["--jobs", "1"]).done();
+    baselines(&folder, "two", &["--jobs", "2"]).done();
+    let runs = |out: &str| fs::read_to_string(folder.join(out).join("runs.jsonl")).unwrap();
+    assert_eq!(runs("one"), runs("two"));
+}
+
+#[test]
+fn a_broken_line_is_reported_and_its_run_made_again() {
+    let folder = folder("broken");
+    baselines(&folder, "out", &[]).done();
+    let file = folder.join("out/runs.jsonl");
+    let whole = fs::read_to_string(&file).unwrap();
+    fs::write(&file, &whole[..whole.len() - 20]).unwrap();
+    let ended = baselines(&folder, "out", &[]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.err.contains("played again"), "{}", ended.err);
+    assert_eq!(fs::read_to_string(&file).unwrap(), whole);
+}
+
+#[test]
+fn bad_input_is_refused() {
+    tolman(&["experiment", "genius"]).refused(2, &["genius", "baselines"]);
+    tolman(&["experiment", "baselines", "--runs", "0"]).refused(2, &["--runs"]);
+    tolman(&["experiment", "baselines", "--jobs", "0"]).refused(2, &["--jobs"]);
+    tolman(&["experiment", "baselines", "--runs=-1"]).refused(2, &["--runs"]);
+    tolman(&["experiment", "baselines", "--maze", "gone.maze"]).refused(2, &["gone.maze"]);
+}
+
+#[test]
+fn a_maze_the_robot_does_not_fit_is_refused() {
+    let folder = folder("narrow");
+    fs::write(folder.join("narrow.maze"), CORRIDOR.replace("0.95", "0.3")).unwrap();
+    tolman_in(
+        &folder,
+        &[
+            "experiment",
+            "baselines",
+            "--maze",
+            "narrow.maze",
+            "--out",
+            "out",
+        ],
+    )
+    .refused(2, &["narrow.maze", "does not fit"]);
+    assert!(!folder.join("out").exists(), "nothing half-written");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let folder = folder("unwritable");
+    baselines(&folder, "corridor.maze/out", &[]).refused(1, &["corridor.maze/out"]);
+}
+
+#[test]
+fn a_folder_of_something_else_is_left_alone() {
+    let folder = folder("foreign");
+    fs::create_dir(folder.join("out")).unwrap();
+    fs::write(folder.join("out/thesis.tex"), "precious").unwrap();
+    baselines(&folder, "out", &[]).refused(2, &["thesis.tex"]);
+    assert_eq!(fs::read_dir(folder.join("out")).unwrap().count(), 1);
+}

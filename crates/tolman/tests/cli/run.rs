@@ -1,0 +1,96 @@
+use std::fs;
+
+use crate::{CORRIDOR, folder, tolman, tolman_fed, tolman_in};
+
+/// Runs a brain in the corridor with these further options.
+fn run(more: &[&str]) -> crate::Ended {
+    tolman_fed(
+        CORRIDOR,
+        &[&["run", "oracle", "--maze", "-"], more].concat(),
+    )
+}
+
+#[test]
+fn a_run_tells_its_outcome() {
+    let told = run(&["--start", "marked"]).done();
+    assert!(told.contains("reached the destination"), "{told}");
+}
+
+#[test]
+fn the_same_seed_makes_the_same_run() {
+    let run = |seed| {
+        tolman_fed(
+            CORRIDOR,
+            &["run", "avoid", "--maze", "-", "--json", "--seed", seed],
+        )
+        .done()
+    };
+    assert_eq!(run("4"), run("4"));
+    assert_ne!(run("4"), run("5"));
+}
+
+#[test]
+fn a_run_out_of_time_is_an_outcome() {
+    let told = run(&["--start", "marked", "--steps", "1", "--json"]).done();
+    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+    assert_eq!(
+        (&told["reached"], &told["steps"]),
+        (&false.into(), &1.into())
+    );
+}
+
+#[test]
+fn a_picture_is_drawn() {
+    let folder = folder("run");
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let run = [
+        "run",
+        "oracle",
+        "--maze",
+        "corridor.maze",
+        "--start",
+        "marked",
+    ];
+    tolman_in(&folder, &[&run[..], &["--svg", "run.svg"]].concat()).done();
+    let picture = fs::read_to_string(folder.join("run.svg")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains("trajectory"));
+}
+
+#[test]
+fn an_unknown_brain_is_refused_with_those_there_are() {
+    tolman(&["run", "genius", "--maze", "x"]).refused(2, &["genius", "wall-follow", "oracle"]);
+}
+
+#[test]
+fn a_robot_that_does_not_fit_is_refused() {
+    let narrow = CORRIDOR.replace("0.95", "0.4");
+    tolman_fed(&narrow, &["run", "avoid", "--maze", "-"])
+        .refused(2, &["0.4 m", "does not fit", "corridor_width"]);
+}
+
+#[test]
+fn a_start_in_a_wall_or_outside_is_refused() {
+    run(&["--start", "0.95,0.1"]).refused(2, &["start"]);
+    run(&["--start", "-5,0.5"]).refused(2, &["start"]);
+}
+
+#[test]
+fn a_start_that_is_no_place_is_refused() {
+    run(&["--start", "NaN,1"]).refused(2, &["NaN"]);
+    run(&["--start", "somewhere"]).refused(2, &["--start", "expected random"]);
+}
+
+#[test]
+fn a_marked_start_has_to_be_marked() {
+    let unmarked = CORRIDOR.replace('S', " ");
+    tolman_fed(
+        &unmarked,
+        &["run", "avoid", "--maze", "-", "--start", "marked"],
+    )
+    .refused(2, &["marks no start"]);
+}
+
+#[test]
+fn a_run_of_no_steps_is_refused() {
+    run(&["--steps", "0"]).refused(2, &["--steps"]);
+}
