@@ -32,15 +32,15 @@ pub fn calibrated() -> LaserPioneerConfig {
     LaserPioneerConfig {
         radius: 0.5 * ROBOT_UNIT,
         ring: ring(),
-        turn_per_step: 92_f64.to_radians(),
+        turn_per_step: 91_f64.to_radians(),
         translate_per_step: 2.0 * ROBOT_UNIT,
         motor_noise: MotorNoise {
             turn: Gaussian {
                 relative_sd: 0.08,
                 absolute_sd: 0.5_f64.to_radians(),
             },
-            translate: Gaussian::relative(0.2),
-            drift_sd: 4_f64.to_radians(),
+            translate: Gaussian::relative(0.25),
+            drift_sd: 2_f64.to_radians(),
         },
         contact: Contact::Slide,
         ..LaserPioneerConfig::noiseless()
