@@ -121,9 +121,13 @@ impl CorridorDetector {
         }
         // Aligned, the narrowest pair is the one that looks left and right.
         let misaligned_beams = narrowest as i32 - (self.pairs / 2) as i32;
-        let axis = view.heading.turned(f64::from(misaligned_beams) * view.scan.ring.spacing);
-        (longest >= self.run && runs_along_the_compass(axis))
-            .then(|| Corridor { misaligned_beams, narrowest: sum(narrowest) })
+        let axis = view
+            .heading
+            .turned(f64::from(misaligned_beams) * view.scan.ring.spacing);
+        (longest >= self.run && runs_along_the_compass(axis)).then(|| Corridor {
+            misaligned_beams,
+            narrowest: sum(narrowest),
+        })
     }
 }
 

@@ -18,6 +18,8 @@ pub struct Orient {
     pub turn_per_beam: f64,
     /// Move's turn command for an eighth of a circle: its 0.0105 a degree times 45.
     pub across_above: f64,
+    /// Misalignment at which the robot stands square across the corridor, beams: a quarter circle.
+    pub square_beams: f64,
     /// Narrower than this is a corner, m. Paper: "noticeably less than the width"; here 0.95 widths,
     /// since in a corridor the least sum is the width to within half a percent.
     pub corner_below: f64,
@@ -34,6 +36,7 @@ impl Orient {
         Self {
             turn_per_beam: 0.04 * degrees_per_beam / 5.0,
             across_above: 0.0105 * 45.0,
+            square_beams: f64::from(beams) / 4.0,
             corner_below: 0.95 * width,
             nudge: 0.1,
         }
@@ -60,7 +63,11 @@ impl Layer for Orient {
             return proposal;
         }
         let misaligned = f64::from(corridor.misaligned_beams);
-        let turn = self.turn_per_beam * misaligned;
+        let mut turn = self.turn_per_beam * misaligned;
+        if misaligned.abs() >= self.square_beams {
+            // Square across, both ways to the axis are as long: take Move's.
+            turn = libm::copysign(turn, proposal.command.turn);
+        }
         if self.contradicts(proposal.command.turn, turn) {
             proposal.command.turn = turn;
             proposal.command.translate = 0.0;
