@@ -1,2 +1,136 @@
-//! World steps per second.
-fn main() {}
+//! World steps per second: one robot alone, and many that see each other.
+//!
+//! One iteration is one step of the whole world: commands, contact, scans of 72 beams of 2.5 units for
+//! every robot. Robots of 0.5 units diameter drive and turn at random, in mazes of 400 and 40,000 unit
+//! walls.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a bench that cannot set itself up has failed, and its table is its result"
+)]
+
+mod measure;
+
+use std::sync::Arc;
+
+use criterion::Criterion;
+use measure::Table;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::Braided;
+use tolman_robot::{Ring, TurnTranslate};
+use tolman_sim::casters::{Lanes, LatticeWalk, ParryPolyline};
+use tolman_sim::noise::Gaussian;
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise};
+use tolman_sim::{CorridorSize, Simulation, World};
+
+const PARRY: &str = "parry2d polyline";
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut table = Table::new("k steps/s", PARRY);
+    for (side, robots) in [(19, 1), (199, 1), (19, 100), (62, 1000)] {
+        let mut rng = ChaCha8Rng::seed_from_u64(u64::from(side));
+        let maze = Braided {
+            width: side,
+            height: side,
+            share: 0.5,
+        }
+        .generate(&mut rng)
+        .unwrap();
+        let size = CorridorSize {
+            corridor_width: 1.0,
+            wall_thickness: 0.0,
+        };
+        let world = World::from_maze(&maze, &size).unwrap();
+        let baseline = Arc::new(LatticeWalk::new(&world, Lanes::Baseline).unwrap());
+        let parry = Arc::new(ParryPolyline::new(world.walls()));
+        let worlds = [
+            (PARRY, world.clone().with_caster(parry), quiet()),
+            (
+                "lattice walk",
+                world.clone().with_caster(baseline.clone()),
+                quiet(),
+            ),
+            (
+                "lattice walk, noise on everything",
+                world.clone().with_caster(baseline),
+                noisy(),
+            ),
+            ("lattice walk, AVX2", world, quiet()),
+        ];
+        for (name, world, config) in worlds {
+            let mut sim = crowd(world, &config, robots, &mut rng);
+            let commands: Vec<Vec<TurnTranslate>> = (0..64)
+                .map(|_| (0..robots).map(|_| command(&mut rng)).collect())
+                .collect();
+            let mut next = commands.iter().cycle();
+            let mut step = || sim.step(next.next().unwrap_or(&commands[0]));
+            let group = format!("{robots} robots");
+            let column = format!("{}", (side + 1) * (side + 1));
+            let label = format!("{group}, {column} walls, {name}");
+            let per_second = measure::per_second(&mut criterion, &label, &mut step);
+            table.enter(&group, name, &column, per_second.map(|steps| steps / 1e3));
+        }
+    }
+    criterion.final_summary();
+    println!("{table}");
+}
+
+fn quiet() -> LaserPioneerConfig {
+    LaserPioneerConfig {
+        radius: 0.25,
+        ring: Ring::full(72, 2.5),
+        turn_per_step: 0.5,
+        translate_per_step: 0.1,
+        ..LaserPioneerConfig::noiseless()
+    }
+}
+
+fn noisy() -> LaserPioneerConfig {
+    let noise = Gaussian {
+        relative_sd: 0.02,
+        absolute_sd: 0.01,
+    };
+    LaserPioneerConfig {
+        motor_noise: MotorNoise {
+            turn: noise,
+            translate: noise,
+            drift_sd: 0.1,
+        },
+        scan_noise: noise,
+        compass_noise: noise,
+        odometry_distance_noise: noise,
+        odometry_turn_noise: noise,
+        ..quiet()
+    }
+}
+
+fn command(rng: &mut ChaCha8Rng) -> TurnTranslate {
+    TurnTranslate {
+        turn: rng.random_range(-1.0..1.0),
+        translate: rng.random_range(-0.2..1.0),
+    }
+}
+
+/// Robots at random places of the world.
+fn crowd(
+    world: World,
+    config: &LaserPioneerConfig,
+    robots: u32,
+    rng: &mut ChaCha8Rng,
+) -> Simulation<LaserPioneer> {
+    let bounds = world.bounds();
+    let mut sim = Simulation::new(world, 1);
+    while sim.robots().len() < robots as usize {
+        let x = rng.random_range(bounds.min.x..bounds.max.x);
+        let y = rng.random_range(bounds.min.y..bounds.max.y);
+        let heading = Heading::from_radians(rng.random_range(-3.0..3.0));
+        let robot = LaserPioneer::new(config.clone()).unwrap();
+        // Places that are taken are refused; try others.
+        let _ = sim.add(robot, Pose::new(Point::new(x, y), heading));
+    }
+    sim
+}

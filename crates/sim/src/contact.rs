@@ -6,7 +6,6 @@
 use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::{Point, Pose, Vector};
-use tolman_robot::Body;
 
 use crate::scene::{Placed, Scene};
 use crate::{Motion, Wall, World};
@@ -21,14 +20,6 @@ pub enum Contact {
     Slide,
 }
 
-/// How a motion ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Outcome {
-    pub(crate) pose: Pose,
-    /// Whether the motion was cut.
-    pub(crate) bump: bool,
-}
-
 /// Bodies keep this far apart, m: more than a step's rounding, less than any sensor sees.
 const SKIN: f64 = 1e-6;
 
@@ -38,14 +29,16 @@ const CUT: f64 = 1e-12;
 /// The longest turn along one chord, rad.
 const CHORD_TURN: f64 = 0.1;
 
-/// How far `body` at `pose` is from the nearest wall of `world`, m; 0 or less where it overlaps one.
-pub(crate) fn clearance(world: &World, body: &Body, pose: Pose) -> f64 {
-    let placed = Placed::new(body.clone(), pose);
+/// Whether `body` overlaps no wall of `world` and none of the doors that are `shut`.
+pub(crate) fn is_clear(world: &World, shut: &[Wall], body: &Placed) -> bool {
+    let clear = |walls: &[Wall]| walls.iter().all(|wall| gap_to_wall(body, wall) > 0.0);
+    let mut all_clear = clear(shut);
     world
-        .walls()
-        .iter()
-        .map(|wall| gap_to_wall(&placed, wall))
-        .fold(f64::INFINITY, f64::min)
+        .index()
+        .near(body.pose().position, body.radius(), |walls| {
+            all_clear &= clear(walls);
+        });
+    all_clear
 }
 
 /// The distance between a body and a wall, m; 0 or less where they overlap.
@@ -63,16 +56,28 @@ pub(crate) fn gap_to_wall(body: &Placed, wall: &Wall) -> f64 {
     corners.chain(ends).fold(f64::INFINITY, f64::min)
 }
 
-/// The distance between two bodies, m; 0 or less where they overlap.
-pub(crate) fn gap_between(a: &Placed, b: &Placed) -> f64 {
-    match (a.corners().is_empty(), b.corners().is_empty()) {
-        (true, true) => (a.pose().position - b.pose().position).norm() - a.radius() - b.radius(),
-        (false, _) if b.encloses(a.corners()[0]) || a.encloses(b.pose().position) => 0.0,
-        (false, _) => a
-            .sides()
-            .map(|side| gap_to_wall(b, &side))
-            .fold(f64::INFINITY, f64::min),
-        (true, false) => gap_between(b, a),
+/// The distance between a body and a disc, m; 0 or less where they overlap.
+fn gap_to_disc(body: &Placed, centre: Point, radius: f64) -> f64 {
+    if body.corners().is_empty() {
+        return (body.pose().position - centre).norm() - body.radius() - radius;
+    }
+    if body.encloses(centre) {
+        return 0.0;
+    }
+    body.sides()
+        .map(|side| side.distance(centre))
+        .fold(f64::INFINITY, f64::min)
+        - radius
+}
+
+/// Whether two bodies overlap.
+pub(crate) fn overlap(a: &Placed, b: &Placed) -> bool {
+    match (a.corners(), b.corners()) {
+        (_, []) => gap_to_disc(a, b.pose().position, b.radius()) <= 0.0,
+        ([], _) => overlap(b, a),
+        ([corner, ..], _) => {
+            b.encloses(*corner) || b.sides().any(|side| gap_to_wall(a, &side) <= 0.0)
+        }
     }
 }
 
@@ -81,89 +86,107 @@ fn crosses(a: &Wall, b: &Wall) -> bool {
     side(a, b.start) * side(a, b.end) <= 0.0 && side(b, a.start) * side(b, a.end) <= 0.0
 }
 
-/// Moves the body of robot `robot` until it has carried out `motion` or met something.
-pub(crate) fn moved(scene: &Scene<'_>, robot: usize, motion: Motion, contact: Contact) -> Outcome {
-    let body = &scene.bodies[robot];
-    let start = body.pose();
-    let free = start.displaced(motion.distance, motion.turn);
-    let reach = body.radius() + motion.distance.abs() + 2.0 * SKIN;
-    let obstacles = Obstacles::near(scene, robot, start.position, reach);
-    if obstacles.is_empty() {
-        return Outcome {
-            pose: free,
-            bump: false,
-        };
-    }
-    let chords = (motion.turn.abs() / CHORD_TURN).ceil().max(1.0);
-    let mut mover = Mover {
-        body: body.clone(),
-        obstacles,
-        cut: 0.0,
-    };
-    let mut met = false;
-    for chord in 0..chords as u32 {
-        let before = start.displaced(
-            motion.distance * f64::from(chord) / chords,
-            motion.turn * f64::from(chord) / chords,
-        );
-        let after = start.displaced(
-            motion.distance * f64::from(chord + 1) / chords,
-            motion.turn * f64::from(chord + 1) / chords,
-        );
-        let half_turn = 0.5 * motion.turn / chords;
-        mover.turn(half_turn);
-        if !(met && contact == Contact::Stop) {
-            met |= mover.translate(after.position - before.position, contact);
-        }
-        mover.turn(half_turn);
-    }
-    if mover.cut <= CUT {
-        return Outcome {
-            pose: free,
-            bump: false,
-        };
-    }
-    Outcome {
-        pose: mover.body.pose(),
-        bump: true,
-    }
-}
-
-/// What is near enough to be met in one step.
-struct Obstacles<'a> {
+/// What is near enough to a body to be met in one step. Kept from step to step for its memory.
+#[derive(Debug, Default)]
+pub(crate) struct Obstacles {
+    /// Walls, shut doors and the sides of polygons.
     walls: Vec<Wall>,
-    bodies: Vec<&'a Placed>,
+    /// Other robots: centre and radius.
+    discs: Vec<(Point, f64)>,
 }
 
-impl<'a> Obstacles<'a> {
-    fn near(scene: &Scene<'a>, robot: usize, position: Point, reach: f64) -> Self {
+impl Obstacles {
+    fn gather(&mut self, scene: &Scene<'_>, robot: usize, position: Point, reach: f64) {
+        self.walls.clear();
+        self.discs.clear();
         let near = |wall: &&Wall| wall.distance(position) <= reach;
-        Self {
-            walls: scene
-                .world
-                .walls()
-                .iter()
-                .chain(scene.shut)
-                .filter(near)
-                .copied()
-                .collect(),
-            bodies: scene
-                .others(robot)
-                .filter(|other| (other.pose().position - position).norm() <= reach + other.radius())
-                .collect(),
+        scene.world.index().near(position, reach, |walls| {
+            self.walls.extend(walls.iter().filter(near));
+        });
+        self.walls.extend(scene.shut.iter().filter(near));
+        for other in scene.others(robot) {
+            let (centre, radius) = (other.pose().position, other.radius());
+            if (centre - position).norm_squared() > (reach + radius) * (reach + radius) {
+                continue;
+            }
+            if other.corners().is_empty() {
+                self.discs.push((centre, radius));
+            } else {
+                self.walls.extend(other.sides());
+            }
         }
     }
 
     fn is_empty(&self) -> bool {
-        self.walls.is_empty() && self.bodies.is_empty()
+        self.walls.is_empty() && self.discs.is_empty()
     }
 
     /// The gap between `body` and the nearest of them, m.
     fn gap(&self, body: &Placed) -> f64 {
         let walls = self.walls.iter().map(|wall| gap_to_wall(body, wall));
-        let bodies = self.bodies.iter().map(|other| gap_between(body, other));
-        walls.chain(bodies).fold(f64::INFINITY, f64::min)
+        let discs = self
+            .discs
+            .iter()
+            .map(|(centre, radius)| gap_to_disc(body, *centre, *radius));
+        walls.chain(discs).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Moves the body of robot `robot` until it has carried out `motion` or met something. Says whether
+/// the motion was cut.
+pub(crate) fn advance(
+    world: &World,
+    shut: &[Wall],
+    bodies: &mut [Placed],
+    robot: usize,
+    motion: Motion,
+    contact: Contact,
+    obstacles: &mut Obstacles,
+) -> bool {
+    let start = bodies[robot].pose();
+    let free = start.displaced(motion.distance, motion.turn);
+    let reach = bodies[robot].radius() + motion.distance.abs() + 2.0 * SKIN;
+    obstacles.gather(
+        &Scene {
+            world,
+            shut,
+            bodies,
+        },
+        robot,
+        start.position,
+        reach,
+    );
+    let body = &mut bodies[robot];
+    if obstacles.is_empty() {
+        body.move_to(free);
+        return false;
+    }
+    let chords = (motion.turn.abs() / CHORD_TURN).ceil().max(1.0);
+    let along = |chord: u32| {
+        let share = f64::from(chord) / chords;
+        start
+            .displaced(motion.distance * share, motion.turn * share)
+            .position
+    };
+    let half_turn = 0.5 * motion.turn / chords;
+    let mut mover = Mover {
+        body,
+        obstacles,
+        cut: 0.0,
+    };
+    let mut met = false;
+    for chord in 0..chords as u32 {
+        mover.turn(half_turn);
+        if !(met && contact == Contact::Stop) {
+            met |= mover.translate(along(chord + 1) - along(chord), contact);
+        }
+        mover.turn(half_turn);
+    }
+    let bump = mover.cut > CUT;
+    if !bump {
+        body.move_to(free);
+    }
+    bump
 }
 
 /// A touch: after what share of a displacement, and the unit normal away from what was touched.
@@ -174,33 +197,74 @@ struct Touch {
 }
 
 struct Mover<'a> {
-    body: Placed,
-    obstacles: Obstacles<'a>,
+    body: &'a mut Placed,
+    obstacles: &'a Obstacles,
     /// How much of the motion was not carried out, m.
     cut: f64,
 }
 
 impl Mover<'_> {
-    /// Turns in place as far as possible.
+    /// Turns in place as far as possible, by a small angle: every point goes along the chord of its
+    /// arc.
     fn turn(&mut self, turn: f64) {
         let pose = self.body.pose();
+        let turned = |share: f64| Pose::new(pose.position, pose.heading.turned(share * turn));
         if self.body.corners().is_empty() {
-            self.body
-                .move_to(Pose::new(pose.position, pose.heading.turned(turn)));
+            self.body.move_to(turned(1.0));
             return;
         }
-        // Conservative advancement: no point of the body moves further than its radius times the turn.
-        let mut turned = 0.0;
-        while turned < turn.abs() {
-            let room = self.obstacles.gap(&self.body) - SKIN;
-            if room < SKIN {
-                self.cut += (turn.abs() - turned) * self.body.radius();
-                break;
+        let free = self.first_touch_turning(turn);
+        self.body.move_to(turned(free));
+        if free < 1.0 || self.obstacles.gap(self.body) <= 0.0 {
+            // Between the chords and the arcs lies less than a millimetre; halve it.
+            let (mut clear, mut blocked) = (0.0, free);
+            for _ in 0..24 {
+                let middle = 0.5 * (clear + blocked);
+                self.body.move_to(turned(middle));
+                if self.obstacles.gap(self.body) > 0.5 * SKIN {
+                    clear = middle;
+                } else {
+                    blocked = middle;
+                }
             }
-            turned = (turned + room / self.body.radius()).min(turn.abs());
-            let heading = pose.heading.turned(turned.copysign(turn));
-            self.body.move_to(Pose::new(pose.position, heading));
+            self.body.move_to(turned(clear));
+            self.cut += (1.0 - clear) * turn.abs() * self.body.radius();
         }
+    }
+
+    /// The share of a small turn after which a polygon first touches something, at most 1.
+    fn first_touch_turning(&self, turn: f64) -> f64 {
+        let pivot = self.body.pose().position;
+        let (sin, cos) = libm::sincos(turn);
+        // The chord of a point that turns about the pivot.
+        let chord = |point: Point, sin: f64| {
+            let arm = point - pivot;
+            Vector::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y) - arm
+        };
+        let mut free: f64 = 1.0;
+        let mut keep =
+            |touch: Option<Touch>| free = free.min(touch.map_or(1.0, |touch| touch.share));
+        for wall in &self.obstacles.walls {
+            for corner in self.body.corners() {
+                keep(disc_meets_wall(*corner, SKIN, chord(*corner, sin), wall));
+            }
+            for side in self.body.sides() {
+                for end in [wall.start, wall.end] {
+                    keep(disc_meets_wall(end, SKIN, chord(end, -sin), &side));
+                }
+            }
+        }
+        for (centre, radius) in &self.obstacles.discs {
+            for side in self.body.sides() {
+                keep(disc_meets_wall(
+                    *centre,
+                    radius + SKIN,
+                    chord(*centre, -sin),
+                    &side,
+                ));
+            }
+        }
+        free
     }
 
     /// Moves by `displacement` as far as possible; says whether something was met.
@@ -238,7 +302,7 @@ impl Mover<'_> {
         let before = self.body.pose();
         self.body
             .move_to(Pose::new(before.position + displacement, before.heading));
-        let clear = self.obstacles.gap(&self.body) > 0.0;
+        let clear = self.obstacles.gap(self.body) > 0.0;
         if !clear {
             self.cut += displacement.norm();
             self.body.move_to(before);
@@ -258,19 +322,8 @@ impl Mover<'_> {
         for wall in &self.obstacles.walls {
             self.touch_wall(wall, displacement, &mut keep);
         }
-        for other in &self.obstacles.bodies {
-            if other.corners().is_empty() {
-                self.touch_disc(
-                    other.pose().position,
-                    other.radius(),
-                    displacement,
-                    &mut keep,
-                );
-            } else {
-                for side in other.sides() {
-                    self.touch_wall(&side, displacement, &mut keep);
-                }
-            }
+        for (centre, radius) in &self.obstacles.discs {
+            self.touch_disc(*centre, *radius, displacement, &mut keep);
         }
         first
     }
@@ -340,8 +393,9 @@ fn disc_meets_wall(centre: Point, radius: f64, displacement: Vector, wall: &Wall
     let offset = across.dot(&(centre - wall.start));
     let normal = if offset < 0.0 { -across } else { across };
     let approach = -displacement.dot(&normal);
-    let side = (approach > 0.0 && offset.abs() >= radius)
-        .then(|| (offset.abs() - radius) / approach)
+    // Rounding may find the side of the wall a little nearer than its nearest point.
+    let side = (approach > 0.0)
+        .then(|| (offset.abs() - radius).max(0.0) / approach)
         .filter(|share| {
             let foot = along.dot(&(centre + displacement * *share - wall.start));
             *share <= 1.0 && foot >= 0.0 && foot <= along.norm_squared()

@@ -42,6 +42,7 @@ pub struct Simulation<M: Model> {
     robots: Vec<Running<M>>,
     /// The robots' bodies, in the same order.
     bodies: Vec<Placed>,
+    obstacles: contact::Obstacles,
 }
 
 #[derive(Debug)]
@@ -64,6 +65,7 @@ impl<M: Model> Simulation<M> {
             doors,
             robots: Vec::new(),
             bodies: Vec::new(),
+            obstacles: contact::Obstacles::default(),
         }
     }
 
@@ -141,29 +143,30 @@ impl<M: Model> Simulation<M> {
     fn act(&mut self, index: usize, command: &M::Command) {
         let time_us = self.time_us();
         let running = &mut self.robots[index];
-        let motion = running
-            .model
-            .motion(command, &self.chance.at(index as u32, self.tick));
-        let scene = Scene {
-            world: &self.world,
-            shut: self.doors.shut(),
-            bodies: &self.bodies,
-        };
-        let before = running.truth.pose;
-        let outcome = contact::moved(&scene, index, motion, running.model.contact());
-        let made = if outcome.bump {
-            contact::motion_between(before, outcome.pose)
+        let chance = self.chance.at(index as u32, self.tick);
+        let motion = running.model.motion(command, &chance);
+        let bump = contact::advance(
+            &self.world,
+            self.doors.shut(),
+            &mut self.bodies,
+            index,
+            motion,
+            running.model.contact(),
+            &mut self.obstacles,
+        );
+        let (before, pose) = (running.truth.pose, self.bodies[index].pose());
+        let motion = if bump {
+            contact::motion_between(before, pose)
         } else {
             motion
         };
         running.truth = Truth {
-            pose: outcome.pose,
-            motion: made,
-            bump: outcome.bump,
+            pose,
+            motion,
+            bump,
             tick: self.tick,
             time_us,
         };
-        self.bodies[index].move_to(outcome.pose);
     }
 
     fn sense(&mut self, index: usize) {
@@ -217,12 +220,13 @@ impl<M: Model> Simulation<M> {
         if !self.world.is_floor(pose.position) {
             return Err(PlaceError::NotOnFloor { pose });
         }
-        let walls = self.world.walls().iter().chain(self.doors.shut());
-        let gap = walls
-            .map(|wall| contact::gap_to_wall(placed, wall))
-            .fold(f64::INFINITY, f64::min);
-        if gap <= 0.0 {
-            let free = self.world.nearest_wall_distance(pose.position);
+        if !contact::is_clear(&self.world, self.doors.shut(), placed) {
+            let doors = self
+                .doors
+                .shut()
+                .iter()
+                .map(|door| door.distance(pose.position));
+            let free = doors.fold(self.world.nearest_wall_distance(pose.position), f64::min);
             return Err(PlaceError::InWall {
                 pose,
                 radius: placed.radius(),
@@ -230,7 +234,7 @@ impl<M: Model> Simulation<M> {
             });
         }
         for (other, body) in self.bodies.iter().enumerate() {
-            if other != index && contact::gap_between(placed, body) <= 0.0 {
+            if other != index && contact::overlap(placed, body) {
                 return Err(PlaceError::InRobot {
                     pose,
                     other: RobotId(other as u32),
@@ -268,7 +272,7 @@ impl<M: Model> Simulation<M> {
     }
 
     /// All robots, in the order of adding.
-    pub fn robots(&self) -> impl Iterator<Item = RobotId> + use<M> {
+    pub fn robots(&self) -> impl ExactSizeIterator<Item = RobotId> + use<M> {
         (0..self.robots.len() as u32).map(RobotId)
     }
 

@@ -5,6 +5,7 @@ use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::Body;
 
 use crate::casters::{Caster, Lanes, LatticeWalk, WallIndex};
+use crate::scene::Placed;
 use crate::{Door, contact};
 
 mod bounds;
@@ -19,7 +20,7 @@ pub use lattice::Occupancy;
 pub use wall::{Material, Wall};
 pub use zone::{Area, Zone};
 
-pub(crate) use lattice::Lattice;
+pub(crate) use lattice::{Lattice, Lines};
 
 /// How a grid maze is drawn to scale.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -308,6 +309,6 @@ impl World {
     pub fn clear_for(&self, body: &Body, pose: Pose) -> bool {
         pose.is_finite()
             && self.is_floor(pose.position)
-            && contact::clearance(self, body, pose) > 0.0
+            && contact::is_clear(self, &[], &Placed::new(body.clone(), pose))
     }
 }

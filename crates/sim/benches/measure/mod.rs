@@ -4,13 +4,14 @@
 //! criterion's own report counts seconds on the wall.
 
 use core::fmt;
-use std::time::{Duration, Instant};
+use core::time::Duration;
+use std::time::Instant;
 
 use criterion::Criterion;
 
 /// Lets criterion measure `work` and gives how often it is done a second: the median over samples;
 /// none if the command line left it out.
-pub fn per_second<R>(
+pub(crate) fn per_second<R>(
     criterion: &mut Criterion,
     label: &str,
     work: &mut impl FnMut() -> R,
@@ -55,14 +56,14 @@ fn processor_time() -> Option<Duration> {
 }
 
 /// Figures by row and column, grouped, each with its ratio to one row of its group.
-pub struct Table {
+pub(crate) struct Table {
     unit: &'static str,
     reference: &'static str,
     figures: Vec<(String, String, String, f64)>,
 }
 
 impl Table {
-    pub fn new(unit: &'static str, reference: &'static str) -> Self {
+    pub(crate) fn new(unit: &'static str, reference: &'static str) -> Self {
         Self {
             unit,
             reference,
@@ -70,7 +71,7 @@ impl Table {
         }
     }
 
-    pub fn enter(&mut self, group: &str, row: &str, column: &str, figure: Option<f64>) {
+    pub(crate) fn enter(&mut self, group: &str, row: &str, column: &str, figure: Option<f64>) {
         if let Some(figure) = figure {
             self.figures
                 .push((group.into(), row.into(), column.into(), figure));

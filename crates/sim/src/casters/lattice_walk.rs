@@ -5,7 +5,7 @@ use tolman_geom::{Point, Vector};
 use super::sweep::{LANES, Sweep};
 use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
-use crate::world::Lattice;
+use crate::world::{Lattice, Lines};
 
 /// Walks each ray from grid line to grid line (Amanatides, Woo: *A fast voxel traversal algorithm for
 /// ray tracing*, 1987) in worlds made from mazes and occupancy grids.
@@ -19,9 +19,101 @@ use crate::world::Lattice;
 #[derive(Clone, Debug)]
 pub struct LatticeWalk {
     lattice: Arc<Lattice>,
+    vertical: Edges,
+    horizontal: Edges,
     /// For rays from outside the grid.
     index: Arc<WallIndex>,
     kernels: Kernels,
+}
+
+/// The most lines of one axis that are crossed all at once.
+const MOST: usize = 3;
+
+/// For every edge of the grid, which walls stand on its line: here and on the next three cells in the
+/// low four bits, here and on the last three in the high four.
+#[derive(Clone, Debug)]
+struct Edges {
+    cells: usize,
+    /// Line by line, with empty lines before the first and after the last.
+    walls: Vec<u8>,
+}
+
+impl Edges {
+    fn new(lines: &Lines) -> Self {
+        let (count, cells) = (lines.lines(), lines.cells());
+        let mut walls = vec![0; (count + 2 * MOST) * cells];
+        for line in 0..count {
+            for cell in 0..cells {
+                for by in 0..=MOST {
+                    let on = u8::from(lines.stands(line, cell + by)) << by;
+                    let back = u8::from(lines.stands(line, cell.wrapping_sub(by))) << by;
+                    walls[(line + MOST) * cells + cell] |= on | back << 4;
+                }
+            }
+        }
+        Self { cells, walls }
+    }
+
+    /// The walls from `cell` on, or back, on the line `by` lines beyond that which bounds cell `from`.
+    #[inline(always)]
+    fn along<const COUNT: usize>(
+        &self,
+        (from, before): (usize, bool),
+        by: usize,
+        (cell, back): (usize, bool),
+    ) -> &'static Line<COUNT> {
+        // The lines around cell c are c and c + 1.
+        let line = if before {
+            from + MOST - by
+        } else {
+            from + 1 + MOST + by
+        };
+        let walls = self.walls[line * self.cells + cell];
+        &Line::TABLE[usize::from(if back { walls >> 4 } else { walls & 15 })]
+    }
+}
+
+/// Where walls are missing along a line, cell by cell from the origin's: the bits of infinity where
+/// one is missing, of 0 where one stands.
+#[derive(Clone, Copy, Debug)]
+struct Line<const COUNT: usize> {
+    first: u64,
+    last: u64,
+    /// Which cells differ from the one before.
+    changes: [u64; COUNT],
+}
+
+impl<const COUNT: usize> Line<COUNT> {
+    /// By the walls standing, a bit each.
+    const TABLE: [Self; 16] = {
+        let mut table = [Self {
+            first: 0,
+            last: 0,
+            changes: [0; COUNT],
+        }; 16];
+        let mut walls = 0;
+        while walls < 16 {
+            let line = &mut table[walls];
+            line.first = infinite(!walls, 0);
+            line.last = infinite(!walls, COUNT);
+            let mut cell = 0;
+            while cell < COUNT {
+                line.changes[cell] = infinite(walls ^ walls >> 1, cell);
+                cell += 1;
+            }
+            walls += 1;
+        }
+        table
+    };
+}
+
+/// Infinity's bits if `bit` is set, which added to a distance take it out of the running; or 0.
+const fn infinite(bits: usize, bit: usize) -> u64 {
+    if bits >> bit & 1 == 1 {
+        f64::INFINITY.to_bits()
+    } else {
+        0
+    }
 }
 
 /// The lines and walls ahead in one of the four quadrants, numbered away from the origin.
@@ -33,32 +125,8 @@ struct Quadrant<const COUNT: usize> {
     columns: [f64; COUNT],
     /// Distance to the lines across y.
     rows: [f64; COUNT],
-    vertical: [Line<COUNT>; COUNT],
-    horizontal: [Line<COUNT>; COUNT],
-}
-
-/// Where walls are missing along a line, cell by cell from the origin's: all ones where one is
-/// missing, else 0.
-#[derive(Clone, Copy, Debug)]
-struct Line<const COUNT: usize> {
-    first: u64,
-    last: u64,
-    /// Which cells differ from the one before.
-    changes: [u64; COUNT],
-}
-
-impl<const COUNT: usize> Line<COUNT> {
-    /// Of the walls standing along a line, a bit each.
-    #[inline(always)]
-    fn new(standing: u32) -> Self {
-        let ones = |bits: u32, bit: usize| u64::from(bits >> bit & 1).wrapping_neg();
-        let changes = standing ^ standing >> 1;
-        Self {
-            first: !ones(standing, 0),
-            last: !ones(standing, COUNT),
-            changes: core::array::from_fn(|bit| ones(changes, bit)),
-        }
-    }
+    vertical: [&'static Line<COUNT>; COUNT],
+    horizontal: [&'static Line<COUNT>; COUNT],
 }
 
 impl LatticeWalk {
@@ -67,6 +135,8 @@ impl LatticeWalk {
     pub fn new(world: &World, lanes: Lanes) -> Option<Self> {
         let lattice = Arc::clone(world.lattice()?);
         Some(Self {
+            vertical: Edges::new(&lattice.vertical),
+            horizontal: Edges::new(&lattice.horizontal),
             lattice,
             index: Arc::clone(world.index()),
             kernels: lanes.into(),
@@ -82,20 +152,21 @@ impl LatticeWalk {
         south: bool,
     ) -> Quadrant<COUNT> {
         let lattice = &self.lattice;
-        // The lines around cell c are c and c + 1.
-        let column_lines: [usize; COUNT] =
-            core::array::from_fn(|by| step(column + usize::from(!west), west, by));
-        let row_lines: [usize; COUNT] =
-            core::array::from_fn(|by| step(row + usize::from(!south), south, by));
-        Quadrant {
+        let mut ahead = Quadrant {
             west,
             south,
-            columns: core::array::from_fn(|by| lattice.columns.ahead(column, west, by, origin.x)),
-            rows: core::array::from_fn(|by| lattice.rows.ahead(row, south, by, origin.y)),
-            vertical: column_lines.map(|line| Line::new(lattice.vertical.along(line, row, south))),
-            horizontal: row_lines
-                .map(|line| Line::new(lattice.horizontal.along(line, column, west))),
+            columns: [0.0; COUNT],
+            rows: [0.0; COUNT],
+            vertical: [&Line::TABLE[0]; COUNT],
+            horizontal: [&Line::TABLE[0]; COUNT],
+        };
+        for by in 0..COUNT {
+            ahead.columns[by] = lattice.columns.ahead(column, west, by, origin.x);
+            ahead.rows[by] = lattice.rows.ahead(row, south, by, origin.y);
+            ahead.vertical[by] = self.vertical.along((column, west), by, (row, south));
+            ahead.horizontal[by] = self.horizontal.along((row, south), by, (column, west));
         }
+        ahead
     }
 
     /// All beams, each crossing `COUNT` lines of each axis at most.
@@ -124,13 +195,7 @@ impl LatticeWalk {
         let (mut columns, mut rows) = (0, 0);
         let mut to_column = lattice.columns.ahead(cell.0, west, 0, origin.x) * per_x;
         let mut to_row = lattice.rows.ahead(cell.1, south, 0, origin.y) * per_y;
-        let step = |from: usize, back: bool, by: usize| {
-            if back {
-                from.wrapping_sub(by)
-            } else {
-                from + by
-            }
-        };
+
         loop {
             let (column, row) = (step(cell.0, west, columns), step(cell.1, south, rows));
             if to_row < to_column {
@@ -180,10 +245,16 @@ impl<const COUNT: usize> Quadrant<COUNT> {
     fn cross(&self, x: &[f64; LANES], y: &[f64; LANES], ranges: &mut [f64; LANES]) {
         for lane in 0..LANES {
             let (per_x, per_y) = (reciprocal(x[lane]), reciprocal(y[lane]));
-            let columns = self.columns.map(|distance| distance * per_x);
-            let rows = self.rows.map(|distance| distance * per_y);
-            let mut no_vertical = self.vertical.map(|line| line.first);
-            let mut no_horizontal = self.horizontal.map(|line| line.last);
+            let mut columns = [0.0; COUNT];
+            let mut rows = [0.0; COUNT];
+            let mut no_vertical = [0; COUNT];
+            let mut no_horizontal = [0; COUNT];
+            for line in 0..COUNT {
+                columns[line] = self.columns[line] * per_x;
+                rows[line] = self.rows[line] * per_y;
+                no_vertical[line] = self.vertical[line].first;
+                no_horizontal[line] = self.horizontal[line].last;
+            }
             for column in 0..COUNT {
                 for row in 0..COUNT {
                     let row_first = if rows[row] < columns[column] {
@@ -197,11 +268,10 @@ impl<const COUNT: usize> Quadrant<COUNT> {
             }
             let mut nearest = ranges[lane];
             for line in 0..COUNT {
-                // All ones make a NaN, which is nearer than nothing.
-                let column = f64::from_bits(columns[line].to_bits() | no_vertical[line]);
-                let row = f64::from_bits(rows[line].to_bits() | no_horizontal[line]);
-                nearest = if column < nearest { column } else { nearest };
-                nearest = if row < nearest { row } else { nearest };
+                let column = columns[line] + f64::from_bits(no_vertical[line]);
+                let row = rows[line] + f64::from_bits(no_horizontal[line]);
+                let first = if column < row { column } else { row };
+                nearest = if first < nearest { first } else { nearest };
             }
             let inside = ((x[lane] < 0.0) == self.west) & ((y[lane] < 0.0) == self.south);
             ranges[lane] = if inside { nearest } else { ranges[lane] };
@@ -233,10 +303,6 @@ impl Caster for LatticeWalk {
             3 => self.kernels.run(
                 #[inline(always)]
                 || self.cross::<3>(cell, sweep),
-            ),
-            4 => self.kernels.run(
-                #[inline(always)]
-                || self.cross::<4>(cell, sweep),
             ),
             _ => {
                 for beam in 0..sweep.beams() {

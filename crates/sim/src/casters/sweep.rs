@@ -182,7 +182,7 @@ impl Sweep {
     pub fn meet_wall(&mut self, wall: &Wall) {
         let (start, end) = (wall.start - self.origin, wall.end - self.origin);
         let seen = Seen::new(start, end);
-        if !(seen.area > 0.0) {
+        if seen.area <= 0.0 {
             self.meet_edge_on(wall);
             return;
         }
@@ -228,10 +228,12 @@ impl Sweep {
     /// Shortens the beams that meet a disc from outside.
     pub fn meet_disc(&mut self, centre: Point, radius: f64) {
         let to_centre = centre - self.origin;
-        let distance = to_centre.norm();
-        if distance - radius > self.ring.max_range || distance <= radius {
+        let farthest = self.ring.max_range + radius;
+        let square = to_centre.norm_squared();
+        if square > farthest * farthest || square <= radius * radius {
             return;
         }
+        let distance = square.sqrt();
         let share = radius / distance;
         // A bound from above of the arc sine: its series with all later terms in the cube.
         let half = share * (1.0 + (FRAC_PI_2 - 1.0) * share * share);

@@ -282,26 +282,30 @@ impl Lattice {
 }
 
 /// Which walls stand on parallel lines, a bit each.
-///
-/// Every line is padded with a word of nothing at both ends, so that a look along it needs no bounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Lines {
     lines: usize,
     cells: usize,
-    /// Words to a line.
-    stride: usize,
     words: Vec<u64>,
 }
 
 impl Lines {
     fn new(lines: usize, cells: usize) -> Self {
-        let stride = cells.div_ceil(64) + 2;
         Self {
             lines,
             cells,
-            stride,
-            words: vec![0; lines * stride],
+            words: vec![0; (lines * cells).div_ceil(64)],
         }
+    }
+
+    /// How many lines there are.
+    pub(crate) fn lines(&self) -> usize {
+        self.lines
+    }
+
+    /// How many cells lie along each.
+    pub(crate) fn cells(&self) -> usize {
+        self.cells
     }
 
     /// All places: line and cell along it.
@@ -311,32 +315,19 @@ impl Lines {
     }
 
     fn set(&mut self, line: usize, cell: usize, stands: bool) {
-        let word = &mut self.words[line * self.stride + cell / 64 + 1];
-        let bit = 1 << (cell % 64);
-        if stands { *word |= bit } else { *word &= !bit }
+        let place = line * self.cells + cell;
+        let bit = 1 << (place % 64);
+        if stands {
+            self.words[place / 64] |= bit;
+        } else {
+            self.words[place / 64] &= !bit;
+        }
     }
 
     /// Whether a wall stands on `line` beside `cell`; never outside the grid.
-    #[inline(always)]
     pub(crate) fn stands(&self, line: usize, cell: usize) -> bool {
-        line < self.lines
-            && cell < self.cells
-            && self.words[line * self.stride + cell / 64 + 1] >> (cell % 64) & 1 == 1
-    }
-
-    /// The walls on `line` from `cell` on, or back: 32 bits, the lowest at `cell`. None outside the
-    /// grid.
-    #[inline(always)]
-    pub(crate) fn along(&self, line: usize, cell: usize, back: bool) -> u32 {
-        if line >= self.lines {
-            return 0;
-        }
-        let words = &self.words[line * self.stride..][..self.stride];
-        // Bit of the padded line: that of the cell, or that 31 before it.
-        let bit = cell + if back { 33 } else { 64 };
-        let pair = u128::from(words[bit / 64]) | u128::from(words[bit / 64 + 1]) << 64;
-        let bits = (pair >> (bit % 64)) as u32;
-        if back { bits.reverse_bits() } else { bits }
+        let place = line.saturating_mul(self.cells).saturating_add(cell);
+        line < self.lines && cell < self.cells && self.words[place / 64] >> (place % 64) & 1 == 1
     }
 }
 
