@@ -82,8 +82,11 @@ impl Plan {
 
     /// A plan that is `width` user units wide, with the walls of a world and its destination.
     pub fn of_world(world: &World, width: f64) -> Self {
-        let walls: Vec<[Point; 2]> =
-            world.walls().iter().map(|wall| [wall.start, wall.end]).collect();
+        let walls: Vec<[Point; 2]> = world
+            .walls()
+            .iter()
+            .map(|wall| [wall.start, wall.end])
+            .collect();
         let mut plan = Self::of_walls(&walls, width);
         let destination = world.zone("destination");
         for area in destination.into_iter().flat_map(tolman_sim::Zone::areas) {

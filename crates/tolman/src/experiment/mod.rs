@@ -9,8 +9,8 @@
 //! and rows can be compared in pairs.
 
 mod analysis;
-mod build;
 mod baselines;
+mod build;
 mod catalogue;
 mod check;
 mod config_file;

@@ -52,7 +52,12 @@ pub(super) fn read(
 }
 
 fn parse(line: &[u8], experiment: &dyn Experiment, master: u64) -> Result<(Key, Run), String> {
-    let run: Run = serde_json::from_slice(line).map_err(|error| error.to_string())?;
+    let run: Run = serde_json::from_slice(line).map_err(|error| {
+        // It was given one line, so the line it names is not that of the file.
+        let what = error.to_string();
+        let what = what.split(" at line ").next().unwrap_or_default();
+        format!("{what} at column {}", error.column())
+    })?;
     let key = key_of(experiment, &run)
         .ok_or_else(|| format!("there is no row {:?} in a table {:?}", run.row, run.table))?;
     let seed = run_seed(master, &run.table, run.run);

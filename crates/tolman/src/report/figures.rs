@@ -32,7 +32,8 @@ pub(super) fn others(figures: &[Figure]) -> Markup {
 
 fn one(figure: &Figure) -> Markup {
     html! {
-        figure {
+        // As wide as its picture, so that the caption does not push the next figure away.
+        figure style=(format!("width: min(100%, {:.0}px)", figure.drawing.width)) {
             div.wide { (figure.inline()) }
             figcaption {
                 strong { (figure.title) }

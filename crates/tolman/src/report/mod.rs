@@ -1,8 +1,8 @@
 //! The report: one HTML file that opens anywhere, without network.
 //!
 //! The page is put together from parts, each a function of the [`Outcome`]: header and cards
-//! ([`header`]), one section for each table ([`table`]), figures ([`figures`]) and the notes that
-//! say how to read it all ([`notes`]). Every dot of a plot bears `data-table`, `data-row`,
+//! (`header`), one section for each table (`table`), figures (`figures`) and the notes that
+//! say how to read it all (`notes`). Every dot of a plot bears `data-table`, `data-row`,
 //! `data-run` and `data-seed`.
 
 mod figures;
