@@ -1,0 +1,66 @@
+//! Maze files as worlds for the robot.
+
+use tolman::course::Course;
+use tolman::episode::{self, Trial, random_start};
+use tolman::pioneer::body;
+use tolman_geom::{Heading, Pose};
+
+use crate::support::{Cast, course, data_of_others, files, root, trial};
+
+/// Every random start is on the floor, clear of the walls and outside the destination.
+fn check_starts(course: &Course) {
+    for seed in 0..50 {
+        let start = random_start(course, &body(), seed);
+        assert!(
+            course.world.clear_for(&body(), start),
+            "{}: {start:?}",
+            course.name
+        );
+        let steps = course.maze.steps_to_goal();
+        let cell = course.world.cell_at(start.position).unwrap();
+        assert!(
+            steps[course.maze.grid().index(cell)].is_some_and(|steps| steps > 0),
+            "{}: no run can start at {cell}",
+            course.name
+        );
+    }
+}
+
+#[test]
+fn the_projects_mazes_are_courses() {
+    let files = files(&root().join("mazes"));
+    assert!(files.len() >= 2);
+    for file in files {
+        check_starts(&course(&file));
+    }
+}
+
+#[test]
+fn the_mazes_of_others_are_courses() {
+    let Some(data) = data_of_others() else { return };
+    let mut courses = 0;
+    for file in files(&data.join("mazes/classic")) {
+        let text = std::fs::read_to_string(&file).unwrap();
+        // Some of them cannot be solved, and say so in their names.
+        if let Ok(maze) = tolman_maze::read(&text) {
+            check_starts(&Course::new(&file.to_string_lossy(), &maze, &body()).unwrap());
+            courses += 1;
+        }
+    }
+    assert!(courses > 200, "{courses}");
+}
+
+#[test]
+fn an_oracle_crosses_a_competition_maze() {
+    let Some(data) = data_of_others() else { return };
+    let course = course(&data.join("mazes/classic/taiwan2016f.txt"));
+    let (cell, _) = course.maze.start().unwrap();
+    let trial = Trial {
+        start: Pose::new(course.world.cell_centre(cell), Heading::EAST),
+        step_limit: 5000,
+        ..trial(&course, 1)
+    };
+    let mut oracle = Cast::on(&course).mind("Oracle");
+    let episode = episode::run(&trial, &mut oracle, |_, _| {}).unwrap();
+    assert!(episode.reached, "{} steps", episode.steps);
+}

@@ -1,0 +1,51 @@
+//! The same seed gives the same bits.
+
+use tolman::episode;
+use tolman::pioneer::calibrated;
+use tolman_robot::Robot;
+use tolman_sim::Solo;
+use tolman_sim::robots::LaserPioneer;
+
+use crate::support::{Cast, own_course, trial};
+
+#[test]
+fn a_run_is_its_seed() {
+    let course = own_course("j.maze");
+    let cast = Cast::on(&course);
+    for name in Cast::NAMES {
+        let run =
+            |seed| episode::run(&trial(&course, seed), &mut cast.mind(name), |_, _| {}).unwrap();
+        assert_eq!(run(8), run(8), "{name}");
+        assert_ne!(run(8), run(9), "{name}");
+    }
+}
+
+/// A recorded run is played again from its commands alone: the brain and the layers have no part in
+/// the world's chance.
+#[test]
+fn the_commands_of_a_run_make_it_again() {
+    let course = own_course("large.maze");
+    let cast = Cast::on(&course);
+    for name in Cast::NAMES {
+        let trial = trial(&course, 4);
+        let mut commands = Vec::new();
+        let mut sensed = Vec::new();
+        let episode = episode::run(&trial, &mut cast.mind(name), |command, solo| {
+            commands.push(*command);
+            sensed.push(solo.sensing().clone());
+        })
+        .unwrap();
+
+        let robot = LaserPioneer::new(calibrated()).unwrap();
+        let mut solo = Solo::new(course.world.clone(), robot, trial.start, trial.seed).unwrap();
+        for (step, command) in commands.iter().enumerate() {
+            solo.step(command).unwrap();
+            assert_eq!(
+                solo.truth().pose,
+                episode.path[step + 1],
+                "{name}, step {step}"
+            );
+            assert_eq!(*solo.sensing(), sensed[step], "{name}, step {step}");
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Courses, minds and episodes for the scenarios.
+
+use alloc::sync::Arc;
+use std::env;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tolman::agents::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
+use tolman::course::Course;
+use tolman::episode::{Trial, random_start};
+use tolman::pioneer::{body, calibrated};
+use tolman_sim::robots::LaserPioneerConfig;
+
+/// The workspace's folder.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+/// The mazes and logs of others, if they are here; if not, says so.
+pub(crate) fn data_of_others() -> Option<PathBuf> {
+    let folder =
+        env::var_os("TOLMAN_DATA").map_or_else(|| root().join("../shared/data"), PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    // Written past the test harness, which would keep it to itself.
+    let missing = folder.display();
+    let _ = writeln!(
+        io::stderr(),
+        "SKIPPED: {missing} is not there; set TOLMAN_DATA to run this test"
+    );
+    None
+}
+
+/// The files in a folder, in alphabetical order.
+pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    files.sort();
+    files
+}
+
+/// The course of a maze file.
+pub(crate) fn course(path: &Path) -> Course {
+    let text = fs::read_to_string(path).unwrap();
+    let file = tolman_maze::read(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+    Course::new(&path.to_string_lossy(), &file, &body()).unwrap()
+}
+
+/// One of the project's own mazes.
+pub(crate) fn own_course(name: &str) -> Course {
+    course(&root().join("mazes").join(name))
+}
+
+/// Who can drive on a course.
+pub(crate) struct Cast {
+    /// What the oracle knows.
+    policy: Arc<Policy>,
+}
+
+impl Cast {
+    pub(crate) const NAMES: [&str; 4] = ["Avoid", "Wall-follow", "Random", "Oracle"];
+
+    pub(crate) fn on(course: &Course) -> Self {
+        Self {
+            policy: Arc::new(Policy::new(course, &calibrated()).unwrap()),
+        }
+    }
+
+    /// A fresh mind that remembers no run.
+    pub(crate) fn mind(&self, name: &str) -> Mind {
+        match name {
+            "Avoid" => Mind::Brain(Box::<Avoid>::default()),
+            "Wall-follow" => Mind::Brain(Box::<WallFollow>::default()),
+            "Random" => Mind::Brain(Box::new(Random)),
+            "Oracle" => Mind::Yardstick(Box::new(Oracle::new(Arc::clone(&self.policy)))),
+            _ => panic!("there is no {name}"),
+        }
+    }
+}
+
+/// A run of the calibrated robot from the random start of this seed.
+pub(crate) fn trial(course: &Course, seed: u64) -> Trial<'_> {
+    trial_of(course, calibrated(), seed)
+}
+
+/// A run of `robot` from the random start of this seed.
+pub(crate) fn trial_of(course: &Course, robot: LaserPioneerConfig, seed: u64) -> Trial<'_> {
+    let start = random_start(course, &body(), seed);
+    Trial {
+        course,
+        robot,
+        start,
+        step_limit: 500,
+        seed,
+    }
+}
