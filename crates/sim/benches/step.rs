@@ -10,9 +10,11 @@
     reason = "a bench that cannot set itself up has failed, and its table is its result"
 )]
 
+extern crate alloc;
+
 mod measure;
 
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use criterion::Criterion;
 use measure::Table;

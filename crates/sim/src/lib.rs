@@ -11,8 +11,8 @@
 //! 3. A robot is a [`Model`]: a body, a motor that makes a [`Motion`] of a command, and sensors. A
 //!    [`Sensor`](sensors::Sensor) reads its [`Surroundings`]. [`robots`] holds the models and reads like
 //!    their data sheets.
-//! 4. [`noise`] wraps sensors and motors: every disturbance draws from its own channel of [`Chance`],
-//!    so that adding one never shifts another.
+//! 4. [`noise`] wraps sensors and motors: every fault draws from its own channel of [`Chance`], so that
+//!    adding one never shifts another.
 //! 5. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all a brain
 //!    gets to see. The [`Truth`] lies beside it, for scoring.
 //!

@@ -1,25 +1,67 @@
-//! Noise and faults, each a wrapper round a sensor or a motor.
+//! Noise and faults: what comes between a sensor and its reading, or a motor and its motion.
 //!
-//! A [`Disturbance`] changes a value after it was read or made; it knows nothing of where the value
-//! came from. What it draws, it draws from a [`Channel`](crate::Channel) of its own.
+//! A [`Fault`] changes a value after it was read or made and knows nothing of where it came from;
+//! [`Faulty`] wraps a sensor in several, one after the other. Every fault draws from a
+//! [`Channel`](crate::Channel) of its own, so none shifts another one's numbers.
+//!
+//! To add one: write a file with a type that implements [`Disturbance`], and give [`Fault`] a variant
+//! for it. Kidnapping is no fault of the robot: see [`Simulation::place`](crate::Simulation::place).
+
+use alloc::collections::VecDeque;
 
 use tolman_geom::Heading;
-use tolman_robot::{Odometry, Scan};
+use tolman_robot::Scan;
 
-use crate::{Draws, Motion};
+use crate::Draws;
 
+mod bias;
+mod delay;
+mod drop_out;
+mod fault;
+mod faulty;
 mod gaussian;
+mod outliers;
+mod quantization;
+mod slip;
+mod stuck;
 
+pub use bias::Bias;
+pub use delay::Delay;
+pub use drop_out::DropOut;
+pub use fault::{Fault, FaultError};
+pub use faulty::{Faults, Faulty};
 pub use gaussian::Gaussian;
+pub use outliers::Outliers;
+pub use quantization::Quantization;
+pub use slip::Slip;
+pub use stuck::Stuck;
 
-/// Something that happens to a value.
+/// Something that happens to a value each time it is read.
 pub trait Disturbance<V> {
-    /// Changes `value`, or takes it away.
-    fn disturb(&mut self, value: &mut Option<V>, draws: &mut Draws);
+    /// Changes `value`, or takes it away. `past` is this disturbance's own, to remember by.
+    fn disturb(&self, value: &mut Option<V>, past: &mut Past<V>, draws: &mut Draws);
+}
+
+/// What a disturbance remembers from one reading to the next; empty before the first.
+#[derive(Clone, Debug)]
+pub struct Past<V> {
+    /// Earlier values, the oldest first.
+    pub values: VecDeque<Option<V>>,
+    /// For how many more readings something goes on.
+    pub steps_left: u32,
+}
+
+impl<V> Default for Past<V> {
+    fn default() -> Self {
+        Self {
+            values: VecDeque::new(),
+            steps_left: 0,
+        }
+    }
 }
 
 /// A value made of numbers that can be disturbed one by one.
-pub trait Values {
+pub trait Values: Clone {
     /// Replaces every number by what `change` makes of it.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
 }
@@ -43,19 +85,5 @@ impl Values for Scan {
 impl Values for Heading {
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
         *self = Self::from_radians(change(self.radians()));
-    }
-}
-
-impl Values for Odometry {
-    fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
-        self.distance = change(self.distance);
-        self.turn = change(self.turn);
-    }
-}
-
-impl Values for Motion {
-    fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
-        self.distance = change(self.distance);
-        self.turn = change(self.turn);
     }
 }

@@ -2,4 +2,6 @@
 
 mod laser_pioneer;
 
-pub use laser_pioneer::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};
+pub use laser_pioneer::{
+    ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise,
+};

@@ -1,7 +1,7 @@
-use super::{Disturbance, Values};
+use super::{Disturbance, Past, Values};
 use crate::Draws;
 
-/// Gaussian noise: a share of the value and an amount of its own, both without bias.
+/// Gaussian noise without bias: a share of the value and an amount of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gaussian {
@@ -51,8 +51,10 @@ impl Gaussian {
 }
 
 impl<V: Values> Disturbance<V> for Gaussian {
-    fn disturb(&mut self, value: &mut Option<V>, draws: &mut Draws) {
-        if let Some(value) = value {
+    fn disturb(&self, value: &mut Option<V>, _: &mut Past<V>, draws: &mut Draws) {
+        if let Some(value) = value
+            && *self != Self::NONE
+        {
             value.change(|number| self.around(number, draws));
         }
     }

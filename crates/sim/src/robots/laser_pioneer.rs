@@ -1,7 +1,7 @@
 use thiserror::Error;
-use tolman_robot::{Body, LaserSensing, Ring, TurnTranslate};
+use tolman_robot::{Body, LaserSensing, Odometry, Ring, TurnTranslate};
 
-use crate::noise::{Disturbance, Gaussian};
+use crate::noise::{Fault, FaultError, Faults, Faulty, Gaussian};
 use crate::sensors::{Bumper, Compass, Laser, LaserError, Sensor, WheelOdometry};
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
 
@@ -29,6 +29,9 @@ pub struct LaserPioneerConfig {
     pub odometry_distance_noise: Gaussian,
     /// Noise of the rolled turn, rad.
     pub odometry_turn_noise: Gaussian,
+    /// What else is wrong with motors and sensors.
+    #[serde(default)]
+    pub faults: LaserPioneerFaults,
     /// What happens where the body meets something.
     pub contact: Contact,
     /// Length of a time step, µs.
@@ -47,6 +50,24 @@ pub struct MotorNoise {
     pub drift_sd: f64,
 }
 
+/// What is wrong with a robot beyond plain noise; each list happens in order, after the noise.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LaserPioneerFaults {
+    /// Of the turn the motors make, rad; a drop-out makes none.
+    pub motor_turn: Vec<Fault>,
+    /// Of the distance the motors make, m; a drop-out makes none.
+    pub motor_distance: Vec<Fault>,
+    /// Of each range, m.
+    pub scan: Vec<Fault>,
+    /// Of the compass, rad.
+    pub compass: Vec<Fault>,
+    /// Of the rolled distance, m; a drop-out takes the whole odometry.
+    pub odometry_distance: Vec<Fault>,
+    /// Of the rolled turn, rad; a drop-out takes the whole odometry.
+    pub odometry_turn: Vec<Fault>,
+}
+
 impl LaserPioneerConfig {
     /// A robot of the paper's proportions with perfect motors and sensors: 72 beams all round that
     /// reach 2.5 robot units, a robot unit being 0.5 m.
@@ -62,6 +83,7 @@ impl LaserPioneerConfig {
             compass_noise: Gaussian::NONE,
             odometry_distance_noise: Gaussian::NONE,
             odometry_turn_noise: Gaussian::NONE,
+            faults: LaserPioneerFaults::default(),
             contact: Contact::Slide,
             step_us: 100_000,
         }
@@ -89,6 +111,24 @@ impl LaserPioneerConfig {
                 return Err(ConfigError::Field { field, value });
             }
         }
+        let faults = [
+            ("faults.motor_turn", &self.faults.motor_turn),
+            ("faults.motor_distance", &self.faults.motor_distance),
+            ("faults.scan", &self.faults.scan),
+            ("faults.compass", &self.faults.compass),
+            ("faults.odometry_distance", &self.faults.odometry_distance),
+            ("faults.odometry_turn", &self.faults.odometry_turn),
+        ];
+        for (field, faults) in faults {
+            for (index, fault) in faults.iter().enumerate() {
+                let error = |source| ConfigError::Fault {
+                    field,
+                    index,
+                    source,
+                };
+                fault.check().map_err(error)?;
+            }
+        }
         if self.step_us == 0 {
             return Err(ConfigError::Field {
                 field: "step_us",
@@ -104,9 +144,13 @@ impl LaserPioneerConfig {
 pub struct LaserPioneer {
     config: LaserPioneerConfig,
     body: Body,
-    laser: Laser,
-    compass: Compass,
+    motor_turn: Faults<f64>,
+    motor_distance: Faults<f64>,
+    laser: Faulty<Laser>,
+    compass: Faulty<Compass>,
     odometry: WheelOdometry,
+    odometry_distance: Faults<f64>,
+    odometry_turn: Faults<f64>,
     bumper: Bumper,
 }
 
@@ -121,11 +165,35 @@ impl LaserPioneer {
             radius: config.radius,
         };
         body::check(&body)?;
+        let laser = Laser::new(config.ring)?;
+        // Noise is the fault nearest to the truth.
+        let all = |noise: Gaussian, faults: &[Fault]| -> Vec<Fault> {
+            [Fault::Gaussian(noise)]
+                .into_iter()
+                .chain(faults.iter().copied())
+                .collect()
+        };
+        let (motors, faults) = (&config.motor_noise, &config.faults);
+        let distance = all(config.odometry_distance_noise, &faults.odometry_distance);
         Ok(Self {
             body,
-            laser: Laser::new(config.ring)?,
-            compass: Compass,
+            motor_turn: Faults::new("motor turn", all(motors.turn, &faults.motor_turn)),
+            motor_distance: Faults::new(
+                "motor distance",
+                all(motors.translate, &faults.motor_distance),
+            ),
+            laser: Faulty::new("scan", laser, all(config.scan_noise, &faults.scan)),
+            compass: Faulty::new(
+                "compass",
+                Compass,
+                all(config.compass_noise, &faults.compass),
+            ),
             odometry: WheelOdometry,
+            odometry_distance: Faults::new("odometry distance", distance),
+            odometry_turn: Faults::new(
+                "odometry turn",
+                all(config.odometry_turn_noise, &faults.odometry_turn),
+            ),
             bumper: Bumper,
             config,
         })
@@ -162,21 +230,26 @@ impl Model for LaserPioneer {
     /// Commands beyond −1 … 1 count as full rate. Turn and translation of one step happen together,
     /// along an arc.
     fn motion(&mut self, command: &TurnTranslate, chance: &Chance) -> Motion {
-        let noise = &self.config.motor_noise;
-        let mut turn = command.turn.clamp(-1.0, 1.0) * self.config.turn_per_step;
-        let mut distance = command.translate.clamp(-1.0, 1.0) * self.config.translate_per_step;
-        if turn.abs() > 0.0 {
-            turn = noise
-                .turn
-                .around(turn, &mut chance.draws(Channel::named("turn motor")));
+        let config = &self.config;
+        let driven = |command: f64, full: f64, faults: &mut Faults<f64>| {
+            let mut made = Some(command.clamp(-1.0, 1.0) * full);
+            // A motor that is not driven keeps still.
+            if command.abs() > 0.0 {
+                faults.disturb(&mut made, chance);
+            }
+            made.unwrap_or(0.0)
+        };
+        let turn = driven(command.turn, config.turn_per_step, &mut self.motor_turn);
+        let distance = driven(
+            command.translate,
+            config.translate_per_step,
+            &mut self.motor_distance,
+        );
+        let drift = Gaussian::absolute(config.motor_noise.drift_sd * distance.abs());
+        Motion {
+            distance,
+            turn: drift.around(turn, &mut chance.draws(Channel::named("drift"))),
         }
-        if distance.abs() > 0.0 {
-            let draws = &mut chance.draws(Channel::named("translate motor"));
-            distance = noise.translate.around(distance, draws);
-            let drift = Gaussian::absolute(noise.drift_sd * distance.abs());
-            turn = drift.around(turn, &mut chance.draws(Channel::named("drift")));
-        }
-        Motion { distance, turn }
     }
 
     fn silent(&self) -> LaserSensing {
@@ -184,22 +257,17 @@ impl Model for LaserPioneer {
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut LaserSensing) {
-        let config = &mut self.config;
-        let draws = |name| chance.draws(Channel::named(name));
         sensing.time_us = around.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
-        config
-            .scan_noise
-            .disturb(&mut sensing.scan, &mut draws("scan"));
         self.compass.sense(around, chance, &mut sensing.compass);
-        config
-            .compass_noise
-            .disturb(&mut sensing.compass, &mut draws("compass"));
         self.odometry.sense(around, chance, &mut sensing.odometry);
-        if let Some(odometry) = &mut sensing.odometry {
-            let (distance, turn) = (&config.odometry_distance_noise, &config.odometry_turn_noise);
-            odometry.distance = distance.around(odometry.distance, &mut draws("odometry distance"));
-            odometry.turn = turn.around(odometry.turn, &mut draws("odometry turn"));
+        if let Some(Odometry { distance, turn }) = sensing.odometry {
+            let (mut distance, mut turn) = (Some(distance), Some(turn));
+            self.odometry_distance.disturb(&mut distance, chance);
+            self.odometry_turn.disturb(&mut turn, chance);
+            sensing.odometry = distance
+                .zip(turn)
+                .map(|(distance, turn)| Odometry { distance, turn });
         }
         self.bumper.sense(around, chance, &mut sensing.bump);
     }
@@ -216,6 +284,16 @@ pub enum ConfigError {
         field: &'static str,
         /// What it says.
         value: f64,
+    },
+    /// A fault has no sense.
+    #[error("`{field}`, fault {index}: {source}")]
+    Fault {
+        /// Of what.
+        field: &'static str,
+        /// Which of its faults, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: FaultError,
     },
     /// The laser cannot be built.
     #[error("`ring`: {0}")]

@@ -7,4 +7,5 @@
 
 mod bodies;
 mod casters;
+mod noise;
 mod worlds;
