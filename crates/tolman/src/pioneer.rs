@@ -36,7 +36,7 @@ pub fn calibrated() -> LaserPioneerConfig {
         translate_per_step: 2.0 * ROBOT_UNIT,
         motor_noise: MotorNoise {
             turn: Gaussian {
-                relative_sd: 0.08,
+                relative_sd: 0.12,
                 absolute_sd: 0.5_f64.to_radians(),
             },
             translate: Gaussian::relative(0.25),
