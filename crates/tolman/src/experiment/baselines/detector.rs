@@ -27,14 +27,20 @@ const ARM: u16 = 2;
 const PLACES: [(&str, &[Direction]); 5] = [
     ("corridor", &[Direction::North, Direction::South]),
     ("bend", &[Direction::North, Direction::East]),
-    ("T junction", &[Direction::North, Direction::East, Direction::South]),
+    (
+        "T junction",
+        &[Direction::North, Direction::East, Direction::South],
+    ),
     ("crossing", &Direction::ALL),
     ("dead end", &[Direction::North]),
 ];
 
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NAME, "What the corridor detector takes for a corridor")
-        .metric(Metric::mean("called_corridor_percent").titled("called corridor").unit("%"));
+    let mut table = Table::new(NAME, "What the corridor detector takes for a corridor").metric(
+        Metric::mean("called_corridor_percent")
+            .titled("called corridor")
+            .unit("%"),
+    );
     for (name, _) in PLACES {
         table = table.row(Row::new(name));
     }
@@ -45,7 +51,10 @@ pub(super) fn table() -> Table {
 
 /// One run: the share of random poses in a place that look like a corridor.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let open = PLACES.iter().find(|(name, _)| *name == job.row).map_or(&[][..], |(_, open)| open);
+    let open = PLACES
+        .iter()
+        .find(|(name, _)| *name == job.row)
+        .map_or(&[][..], |(_, open)| open);
     let centre = Cell::new(ARM, ARM);
     let file = MazeFile::from(place(centre, open));
     let course = Course::new(job.row, &file, &pioneer::body())?;
@@ -54,7 +63,10 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let play = 0.5 * (course.corridor_width - pioneer::ROBOT_UNIT) * 0.99;
     let mut called = 0_u32;
     for _ in 0..POSES {
-        let offset = Vector::new(rng.random_range(-play..=play), rng.random_range(-play..=play));
+        let offset = Vector::new(
+            rng.random_range(-play..=play),
+            rng.random_range(-play..=play),
+        );
         let heading = Heading::from_degrees(rng.random_range(-180.0..180.0));
         let pose = Pose::new(course.world.cell_centre(centre) + offset, heading);
         let robot = LaserPioneer::new(pioneer::calibrated())?;

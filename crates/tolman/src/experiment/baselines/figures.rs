@@ -16,11 +16,20 @@ pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, Bo
     let mut figures = Vec::new();
     for (number, venue) in experiment.venues.iter().enumerate() {
         for (series, row) in (0_u32..).zip(ROWS) {
-            let of_row: Vec<&Run> =
-                runs.iter().filter(|run| run.table == venue.table && run.row == row).collect();
+            let of_row: Vec<&Run> = runs
+                .iter()
+                .filter(|run| run.table == venue.table && run.row == row)
+                .collect();
             if let Some(middle) = middle(&of_row) {
                 let name = format!("plan-{number}-{series}");
-                figures.push(plan(experiment, venue, &name, &of_row, middle, Series(series))?);
+                figures.push(plan(
+                    experiment,
+                    venue,
+                    &name,
+                    &of_row,
+                    middle,
+                    Series(series),
+                )?);
             }
         }
     }
@@ -57,7 +66,10 @@ fn plan(
         _ => 0,
     };
     let shown = runs.len().min(SHOWN);
-    let description = format!("Plan of {}: the ways of {shown} runs of {row}.", venue.title);
+    let description = format!(
+        "Plan of {}: the ways of {shown} runs of {row}.",
+        venue.title
+    );
     Ok(Figure::new(name, format!("{row} in {}", venue.course.name), plan.drawing(description))
         .caption(format!(
             "Run {} ({steps} steps, the median) from ring to dot, over {shown} runs. The destination is shaded.",

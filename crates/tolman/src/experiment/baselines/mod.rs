@@ -29,7 +29,7 @@ const ROWS: [&str; 4] = ["Avoid", "Wall-follow", "Random", "Oracle"];
 
 /// The experiment, ready to run.
 #[derive(Debug)]
-pub struct Baselines {
+struct Baselines {
     robot: LaserPioneerConfig,
     venues: Vec<Venue>,
     /// The oracle's policy of each venue, worked out when it is first asked for.
@@ -41,7 +41,7 @@ pub struct Baselines {
 ///
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.
-pub fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     let (venues, missing) = worlds::venues(&options.mazes)?;
     let mut tables: Vec<Table> = venues.iter().map(table).collect();
     if let (Some(missing), Some(table)) = (missing, tables.last_mut()) {
@@ -49,7 +49,12 @@ pub fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     }
     tables.push(detector::table());
     let policies = venues.iter().map(|_| OnceLock::new()).collect();
-    Ok(Box::new(Baselines { robot: pioneer::calibrated(), venues, policies, tables }))
+    Ok(Box::new(Baselines {
+        robot: pioneer::calibrated(),
+        venues,
+        policies,
+        tables,
+    }))
 }
 
 fn table(venue: &Venue) -> Table {
@@ -80,8 +85,10 @@ fn table(venue: &Venue) -> Table {
     if !venue.paper.is_empty() {
         table = table.paper_runs(25);
     }
-    table.comparison =
-        Some(Comparison { reference: ROWS[0].into(), correction: Correction::Bonferroni });
+    table.comparison = Some(Comparison {
+        reference: ROWS[0].into(),
+        correction: Correction::Bonferroni,
+    });
     table.note(format!(
         "A run ends when the robot's centre lies in the destination, or fails after {} time steps, which \
          then count as its steps.",
@@ -91,12 +98,17 @@ fn table(venue: &Venue) -> Table {
 
 impl Baselines {
     fn venue(&self, table: &str) -> Option<(usize, &Venue)> {
-        self.venues.iter().enumerate().find(|(_, venue)| venue.table == table)
+        self.venues
+            .iter()
+            .enumerate()
+            .find(|(_, venue)| venue.table == table)
     }
 
     /// Plays one run; also how figures play it again.
     fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
-        let Some((index, venue)) = self.venue(job.table) else { return Ok(None) };
+        let Some((index, venue)) = self.venue(job.table) else {
+            return Ok(None);
+        };
         let trial = Trial {
             course: &venue.course,
             robot: self.robot.clone(),
@@ -119,7 +131,9 @@ impl Baselines {
         }
         let policy = Policy::new(&self.venues[venue].course, &self.robot)?;
         // Two threads may work it out at once; they get the same.
-        Ok(Arc::clone(self.policies[venue].get_or_init(|| Arc::new(policy))))
+        Ok(Arc::clone(
+            self.policies[venue].get_or_init(|| Arc::new(policy)),
+        ))
     }
 }
 
@@ -158,10 +172,19 @@ impl Experiment for Baselines {
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let Some(episode) = self.episode(job)? else { return detector::run(job) };
+        let Some(episode) = self.episode(job)? else {
+            return detector::run(job);
+        };
         Ok(Fields::new()
             .flag("reached", episode.reached)
-            .text("outcome", if episode.reached { "reached" } else { "timed out" })
+            .text(
+                "outcome",
+                if episode.reached {
+                    "reached"
+                } else {
+                    "timed out"
+                },
+            )
             .count("actions", u64::from(episode.actions))
             .count("failed_actions", u64::from(episode.failed_actions))
             .count("steps", u64::from(episode.steps))

@@ -67,15 +67,20 @@ const J_STEPS: u32 = 200;
 const LARGE_STEPS: u32 = 500;
 
 /// Competition mazes that join in where they are found.
-const COMPETITION: [&str; 2] = ["mazes/classic/taiwan2016f.txt", "mazes/classic/apec2016.txt"];
+const COMPETITION: [&str; 2] = [
+    "mazes/classic/taiwan2016f.txt",
+    "mazes/classic/apec2016.txt",
+];
 
 /// The worlds for these files, or the default ones, and a remark on what is not there.
 pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
     let large = built_in("Large", include_str!("../../../../../mazes/large.maze"))?;
     let steps_per_cell = f64::from(LARGE_STEPS) / large.starts().len() as f64;
     if !files.is_empty() {
-        let venues: Result<Vec<Venue>, BoxError> =
-            files.iter().map(|path| from_file(path, steps_per_cell)).collect();
+        let venues: Result<Vec<Venue>, BoxError> = files
+            .iter()
+            .map(|path| from_file(path, steps_per_cell))
+            .collect();
         return Ok((told_apart(venues?), None));
     }
     let mut venues = vec![
@@ -107,19 +112,37 @@ pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), 
 }
 
 fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
-    Ok(Course::new(name, &tolman_maze::read(text)?, &pioneer::body())?)
+    Ok(Course::new(
+        name,
+        &tolman_maze::read(text)?,
+        &pioneer::body(),
+    )?)
 }
 
 fn from_file(path: &Path, steps_per_cell: f64) -> Result<Venue, BoxError> {
-    let in_file = |source: BoxError| -> BoxError { Box::new(InFile { path: path.to_owned(), source }) };
+    let in_file = |source: BoxError| -> BoxError {
+        Box::new(InFile {
+            path: path.to_owned(),
+            source,
+        })
+    };
     let text = fs::read_to_string(path).map_err(|error| in_file(error.into()))?;
     let file: MazeFile = tolman_maze::read(&text).map_err(|error| in_file(error.into()))?;
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let stem = path
+        .file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned());
     let name = file.name.clone().or(stem).unwrap_or_default();
-    let course = Course::new(&name, &file, &pioneer::body()).map_err(|error| in_file(error.into()))?;
+    let course =
+        Course::new(&name, &file, &pioneer::body()).map_err(|error| in_file(error.into()))?;
     // Time in proportion to the floor, as much for each cell as the paper gives in the Large maze.
     let step_limit = libm::ceil(steps_per_cell * course.starts().len() as f64) as u32;
-    Ok(Venue { table: name.clone(), title: format!("The maze {name}"), course, step_limit, paper: &[] })
+    Ok(Venue {
+        table: name.clone(),
+        title: format!("The maze {name}"),
+        course,
+        step_limit,
+        paper: &[],
+    })
 }
 
 /// Two files may bear one name; the later ones get a number.
@@ -128,7 +151,10 @@ fn told_apart(mut venues: Vec<Venue>) -> Vec<Venue> {
         let name = venues[index].table.clone();
         let mut candidate = name.clone();
         let mut count = 1;
-        while venues[..index].iter().any(|before| before.table == candidate) {
+        while venues[..index]
+            .iter()
+            .any(|before| before.table == candidate)
+        {
             count += 1;
             candidate = format!("{name} ({count})");
         }
