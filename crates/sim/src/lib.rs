@@ -13,7 +13,8 @@
 //!    their data sheets.
 //! 4. [`noise`] wraps sensors and motors: every fault draws from its own channel of [`Chance`], so that
 //!    adding one never shifts another.
-//! 5. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all a brain
+//! 5. [`trace`] writes down what happened and replays it to the bit.
+//! 6. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all a brain
 //!    gets to see. The [`Truth`] lies beside it, for scoring.
 //!
 //! Metres, radians, microseconds; x is east, y is north, angles grow counter-clockwise.
@@ -57,6 +58,7 @@ pub mod casters;
 pub mod noise;
 pub mod robots;
 pub mod sensors;
+pub mod trace;
 
 pub use body::BodyError;
 pub use chance::{Chance, Channel, Draws};
@@ -66,4 +68,7 @@ pub use model::{CommandError, Model, Motion};
 pub use simulation::{DoorError, PlaceError, RobotId, Simulation, StepError, Truth};
 pub use solo::Solo;
 pub use surroundings::Surroundings;
-pub use world::{Area, Bounds, CorridorSize, Material, Occupancy, Wall, World, WorldError, Zone};
+pub use world::{
+    Area, Bounds, CorridorSize, Material, Occupancy, Polyline, Wall, World, WorldError,
+    WorldFileError, Zone,
+};

@@ -8,19 +8,24 @@ use crate::casters::{Caster, Lanes, LatticeWalk, WallIndex};
 use crate::scene::Placed;
 use crate::{Door, contact};
 
+mod bit_rows;
 mod bounds;
 mod error;
+mod file;
 mod lattice;
 mod wall;
 mod zone;
 
 pub use bounds::Bounds;
 pub use error::WorldError;
+pub(crate) use file::Head;
+pub use file::{Polyline, WorldFileError};
 pub use lattice::Occupancy;
 pub use wall::{Material, Wall};
 pub use zone::{Area, Zone};
 
-pub(crate) use lattice::{Lattice, Lines};
+pub(crate) use bit_rows::BitRows;
+pub(crate) use lattice::Lattice;
 
 /// How a grid maze is drawn to scale.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

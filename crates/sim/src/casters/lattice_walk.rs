@@ -5,7 +5,7 @@ use tolman_geom::{Point, Vector};
 use super::sweep::{LANES, Sweep};
 use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
-use crate::world::{Lattice, Lines};
+use crate::world::{BitRows, Lattice};
 
 /// Walks each ray from grid line to grid line (Amanatides, Woo: *A fast voxel traversal algorithm for
 /// ray tracing*, 1987) in worlds made from mazes and occupancy grids.
@@ -39,14 +39,14 @@ struct Edges {
 }
 
 impl Edges {
-    fn new(lines: &Lines) -> Self {
-        let (count, cells) = (lines.lines(), lines.cells());
+    fn new(lines: &BitRows) -> Self {
+        let (count, cells) = (lines.rows(), lines.length());
         let mut walls = vec![0; (count + 2 * MOST) * cells];
         for line in 0..count {
             for cell in 0..cells {
                 for by in 0..=MOST {
-                    let on = u8::from(lines.stands(line, cell + by)) << by;
-                    let back = u8::from(lines.stands(line, cell.wrapping_sub(by))) << by;
+                    let on = u8::from(lines.get(line, cell + by)) << by;
+                    let back = u8::from(lines.get(line, cell.wrapping_sub(by))) << by;
                     walls[(line + MOST) * cells + cell] |= on | back << 4;
                 }
             }
@@ -202,7 +202,7 @@ impl LatticeWalk {
                 if to_row >= max_range || row >= lattice.rows.cells {
                     return max_range;
                 }
-                if lattice.horizontal.stands(row + usize::from(!south), column) {
+                if lattice.horizontal.get(row + usize::from(!south), column) {
                     return to_row;
                 }
                 rows += 1;
@@ -211,7 +211,7 @@ impl LatticeWalk {
                 if to_column >= max_range || column >= lattice.columns.cells {
                     return max_range;
                 }
-                if lattice.vertical.stands(column + usize::from(!west), row) {
+                if lattice.vertical.get(column + usize::from(!west), row) {
                     return to_column;
                 }
                 columns += 1;

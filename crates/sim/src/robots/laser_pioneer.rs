@@ -3,6 +3,7 @@ use tolman_robot::{Body, LaserSensing, Odometry, Ring, TurnTranslate};
 
 use crate::noise::{Fault, FaultError, Faults, Faulty, Gaussian};
 use crate::sensors::{Bumper, Compass, Laser, LaserError, Sensor, WheelOdometry};
+use crate::trace::Recordable;
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
 
 /// The robot of MSLST: a Pioneer-like disc that turns in place, with a laser ring and a compass.
@@ -270,6 +271,19 @@ impl Model for LaserPioneer {
                 .map(|(distance, turn)| Odometry { distance, turn });
         }
         self.bumper.sense(around, chance, &mut sensing.bump);
+    }
+}
+
+impl Recordable for LaserPioneer {
+    type Config = LaserPioneerConfig;
+    type ConfigError = ConfigError;
+
+    fn config(&self) -> &LaserPioneerConfig {
+        &self.config
+    }
+
+    fn from_config(config: LaserPioneerConfig) -> Result<Self, ConfigError> {
+        Self::new(config)
     }
 }
 

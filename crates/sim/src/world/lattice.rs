@@ -1,7 +1,7 @@
 use tolman_geom::Point;
 use tolman_maze::{Direction, Maze};
 
-use super::{Bounds, Material, Wall, WorldError};
+use super::{BitRows, Bounds, Material, Wall, WorldError};
 
 /// An occupancy grid as plain data.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,23 +22,25 @@ pub struct Occupancy {
 ///
 /// A maze of thin walls has a column per column of cells. With thick walls every wall gets a column
 /// or row of its own, and walls proper are the edges between solid and free cells.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Lattice {
     pub(crate) columns: Axis,
     pub(crate) rows: Axis,
     /// The walls on the lines across x, cell by cell northward.
-    pub(crate) vertical: Lines,
+    pub(crate) vertical: BitRows,
     /// The walls on the lines across y, cell by cell eastward.
-    pub(crate) horizontal: Lines,
-    /// One flag per cell.
-    solid: Vec<bool>,
+    pub(crate) horizontal: BitRows,
+    /// The cells that are wall through and through, row by row.
+    solid: BitRows,
 }
 
 /// The lines across one axis: `cells + 1` of them.
 ///
 /// Line k lies at `origin + k · pitch`; with a thickness, lines 2k and 2k + 1 lie half of it before
 /// and after that.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Axis {
     pub(crate) cells: usize,
     origin: f64,
@@ -95,8 +97,8 @@ impl Lattice {
     fn thin(maze: &Maze, pitch: f64) -> Self {
         let grid = maze.grid();
         let (width, height) = (usize::from(grid.width()), usize::from(grid.height()));
-        let mut vertical = Lines::new(width + 1, height);
-        let mut horizontal = Lines::new(height + 1, width);
+        let mut vertical = BitRows::new(width + 1, height);
+        let mut horizontal = BitRows::new(height + 1, width);
         for cell in grid.cells() {
             let (x, y) = (usize::from(cell.x), usize::from(cell.y));
             let stands = |direction| !maze.is_open(cell, direction);
@@ -116,7 +118,7 @@ impl Lattice {
             rows: axis(height),
             vertical,
             horizontal,
-            solid: vec![false; width * height],
+            solid: BitRows::new(height, width),
         }
     }
 
@@ -129,7 +131,7 @@ impl Lattice {
             thickness,
         };
         let (columns, rows) = (axis(grid.width()), axis(grid.height()));
-        let mut solid = vec![false; columns.cells * rows.cells];
+        let mut solid = BitRows::new(rows.cells, columns.cells);
         for cell in grid.cells() {
             for direction in Direction::ALL {
                 if maze.is_open(cell, direction) {
@@ -140,7 +142,7 @@ impl Lattice {
                 for side in -1..=1 {
                     let x = 2 * i64::from(cell.x) + 1 + i64::from(east) + i64::from(north * side);
                     let y = 2 * i64::from(cell.y) + 1 + i64::from(north) + i64::from(east * side);
-                    solid[y as usize * columns.cells + x as usize] = true;
+                    solid.set(y as usize, x as usize, true);
                 }
             }
         }
@@ -175,21 +177,25 @@ impl Lattice {
             pitch: resolution,
             thickness: 0.0,
         };
+        let mut solid = BitRows::new(height, width);
+        for (index, occupied) in occupied.iter().enumerate() {
+            solid.set(index / width, index % width, *occupied);
+        }
         Ok(Self::round_solid(
             axis(width, origin.x),
             axis(height, origin.y),
-            occupied.clone(),
+            solid,
         ))
     }
 
     /// Walls wherever solid meets free; beyond the edge everything is solid.
-    fn round_solid(columns: Axis, rows: Axis, solid: Vec<bool>) -> Self {
+    fn round_solid(columns: Axis, rows: Axis, solid: BitRows) -> Self {
         let (width, height) = (columns.cells, rows.cells);
         let is_solid = |x: Option<usize>, y: Option<usize>| match (x, y) {
-            (Some(x), Some(y)) if x < width && y < height => solid[y * width + x],
+            (Some(x), Some(y)) if x < width && y < height => solid.get(y, x),
             _ => true,
         };
-        let mut vertical = Lines::new(width + 1, height);
+        let mut vertical = BitRows::new(width + 1, height);
         for (line, cell) in vertical.places() {
             let (before, after) = (line.checked_sub(1), Some(line));
             vertical.set(
@@ -198,7 +204,7 @@ impl Lattice {
                 is_solid(before, Some(cell)) != is_solid(after, Some(cell)),
             );
         }
-        let mut horizontal = Lines::new(height + 1, width);
+        let mut horizontal = BitRows::new(height + 1, width);
         for (line, cell) in horizontal.places() {
             let (before, after) = (line.checked_sub(1), Some(line));
             horizontal.set(
@@ -214,6 +220,23 @@ impl Lattice {
             horizontal,
             solid,
         }
+    }
+
+    /// Whether the parts of a lattice that was read fit each other.
+    pub(super) fn is_sound(&self) -> bool {
+        let (columns, rows) = (&self.columns, &self.rows);
+        let axis = |axis: &Axis| {
+            axis.cells > 0
+                && axis.origin.abs() <= 1e6
+                && (1e-6..=1e6).contains(&axis.pitch)
+                && axis.thickness >= 0.0
+                && axis.thickness < axis.pitch
+        };
+        axis(columns)
+            && axis(rows)
+            && self.vertical.has_shape(columns.cells + 1, rows.cells)
+            && self.horizontal.has_shape(rows.cells + 1, columns.cells)
+            && self.solid.has_shape(rows.cells, columns.cells)
     }
 
     pub(super) fn bounds(&self) -> Bounds {
@@ -241,8 +264,7 @@ impl Lattice {
     }
 
     pub(super) fn is_floor(&self, point: Point) -> bool {
-        self.cell(point)
-            .is_some_and(|(x, y)| !self.solid[y * self.columns.cells + x])
+        self.cell(point).is_some_and(|(x, y)| !self.solid.get(y, x))
     }
 
     /// The walls, those in a row joined.
@@ -253,7 +275,7 @@ impl Lattice {
             let at = self.columns.line(x);
             runs(
                 height,
-                |y| self.vertical.stands(x, y),
+                |y| self.vertical.get(x, y),
                 |from, to| {
                     walls.push(Wall {
                         start: Point::new(at, self.rows.line(from)),
@@ -267,7 +289,7 @@ impl Lattice {
             let at = self.rows.line(y);
             runs(
                 width,
-                |x| self.horizontal.stands(y, x),
+                |x| self.horizontal.get(y, x),
                 |from, to| {
                     walls.push(Wall {
                         start: Point::new(self.columns.line(from), at),
@@ -278,56 +300,6 @@ impl Lattice {
             );
         }
         walls
-    }
-}
-
-/// Which walls stand on parallel lines, a bit each.
-#[derive(Clone, Debug)]
-pub(crate) struct Lines {
-    lines: usize,
-    cells: usize,
-    words: Vec<u64>,
-}
-
-impl Lines {
-    fn new(lines: usize, cells: usize) -> Self {
-        Self {
-            lines,
-            cells,
-            words: vec![0; (lines * cells).div_ceil(64)],
-        }
-    }
-
-    /// How many lines there are.
-    pub(crate) fn lines(&self) -> usize {
-        self.lines
-    }
-
-    /// How many cells lie along each.
-    pub(crate) fn cells(&self) -> usize {
-        self.cells
-    }
-
-    /// All places: line and cell along it.
-    fn places(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let cells = self.cells;
-        (0..self.lines).flat_map(move |line| (0..cells).map(move |cell| (line, cell)))
-    }
-
-    fn set(&mut self, line: usize, cell: usize, stands: bool) {
-        let place = line * self.cells + cell;
-        let bit = 1 << (place % 64);
-        if stands {
-            self.words[place / 64] |= bit;
-        } else {
-            self.words[place / 64] &= !bit;
-        }
-    }
-
-    /// Whether a wall stands on `line` beside `cell`; never outside the grid.
-    pub(crate) fn stands(&self, line: usize, cell: usize) -> bool {
-        let place = line.saturating_mul(self.cells).saturating_add(cell);
-        line < self.lines && cell < self.cells && self.words[place / 64] >> (place % 64) & 1 == 1
     }
 }
 

@@ -46,13 +46,6 @@ impl Wall {
         }
     }
 
-    /// The walls of a polyline through `points`, of the default material.
-    pub fn polyline(points: &[Point]) -> impl Iterator<Item = Self> + '_ {
-        points
-            .windows(2)
-            .map(|pair| Self::between(pair[0], pair[1]))
-    }
-
     /// The distance from `point`, m.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {

@@ -8,4 +8,5 @@
 mod bodies;
 mod casters;
 mod noise;
+mod traces;
 mod worlds;

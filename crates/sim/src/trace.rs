@@ -1,0 +1,65 @@
+//! Traces: what happened in a run, written as JSON lines and replayed to the bit.
+//!
+//! The first line holds the world, the seed and the robots. Then follows one line per tick and robot
+//! with its command, pose, bump and, if chosen, what it sensed; and one for every robot that was
+//! lifted and every door that was moved from outside. [`replay`] simulates the commands again and
+//! compares every number.
+//!
+//! ```
+//! use tolman_geom::{Heading, Point, Pose};
+//! use tolman_robot::TurnTranslate;
+//! use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+//! use tolman_sim::trace::{Detail, Recording, replay};
+//! use tolman_sim::{Wall, World};
+//!
+//! let wall = Wall::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));
+//! let world = World::from_segments(vec![wall])?;
+//! let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?;
+//! let start = Pose::new(Point::origin(), Heading::EAST);
+//!
+//! let mut file = Vec::new();
+//! let mut recording = Recording::start(world, 7, vec![(robot, start)], &mut file, Detail::Sensing)?;
+//! for _ in 0..10 {
+//!     recording.step(&[TurnTranslate { turn: 0.1, translate: 0.5 }])?;
+//! }
+//! recording.finish()?;
+//! assert_eq!(replay::<LaserPioneer>(file.as_slice())?.tick(), 10);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod lines;
+mod recording;
+mod replay;
+
+use core::error::Error;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+pub use error::{RecordError, ReplayError};
+pub use recording::{Detail, Recording};
+pub use replay::replay;
+
+use crate::Model;
+
+/// A model that can be written down and built again.
+pub trait Recordable:
+    Model<Command: Clone + Serialize + DeserializeOwned, Sensing: Clone + Serialize + DeserializeOwned>
+{
+    /// All that is needed to build one.
+    type Config: Clone + Serialize + DeserializeOwned;
+    /// Why one cannot be built.
+    type ConfigError: Error + Send + Sync + 'static;
+
+    /// What this one was built to.
+    fn config(&self) -> &Self::Config;
+
+    /// Builds one.
+    ///
+    /// # Errors
+    /// If the configuration has no sense.
+    fn from_config(config: Self::Config) -> Result<Self, Self::ConfigError>
+    where
+        Self: Sized;
+}

@@ -1,0 +1,105 @@
+use std::io;
+
+use thiserror::Error;
+
+use crate::{DoorError, PlaceError, StepError, WorldFileError};
+
+/// Why a run was not recorded.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// The trace could not be written.
+    #[error("cannot write the trace: {0}")]
+    Write(#[from] io::Error),
+    /// A number cannot be written as JSON.
+    #[error("cannot write the trace: {0}")]
+    Json(#[from] serde_json::Error),
+    /// The world cannot be written.
+    #[error("cannot write the trace's world: {0}")]
+    World(#[from] WorldFileError),
+    /// There is nothing to record.
+    #[error("there is no robot to record; give at least one")]
+    NoRobots,
+    /// A robot cannot stand where it was put.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// A step was not made.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// There is no such door.
+    #[error(transparent)]
+    Door(#[from] DoorError),
+}
+
+/// Why a trace was not replayed to its end.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReplayError {
+    /// The file could not be read.
+    #[error("cannot read the trace: {0}")]
+    Read(#[from] io::Error),
+    /// There is no first line.
+    #[error("the trace is empty; record one")]
+    Empty,
+    /// It is of another format.
+    #[error("line 1: the format is `{found}`; expected `tolman-trace`")]
+    Format {
+        /// What it says.
+        found: String,
+    },
+    /// It is of a version this program does not know.
+    #[error("line 1: the version is {found}; this program reads version 1")]
+    Version {
+        /// What it says.
+        found: u32,
+    },
+    /// A line is broken: cut short, or changed by hand.
+    #[error("line {line}, column {column}: {source}; record the trace anew")]
+    Line {
+        /// Which line, from 1.
+        line: usize,
+        /// Where in the line, from 1; 0 where it has no place.
+        column: usize,
+        /// What is wrong with it.
+        source: serde_json::Error,
+    },
+    /// The world cannot be built again.
+    #[error("line 1: {0}")]
+    World(#[from] WorldFileError),
+    /// A robot cannot be built or placed again, or a command not be given again.
+    #[error("line {line}: {source}")]
+    Refused {
+        /// Which line, from 1.
+        line: usize,
+        /// Why.
+        source: Box<dyn core::error::Error + Send + Sync>,
+    },
+    /// The lines of a tick are not one per robot in order.
+    #[error(
+        "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order"
+    )]
+    Order {
+        /// Which line, from 1.
+        line: usize,
+        /// The robot expected.
+        robot: usize,
+        /// The tick expected.
+        tick: u64,
+    },
+    /// The simulation does something else than was recorded.
+    #[error(
+        "line {line}: at tick {tick} robot {robot} differs:\n  recorded {recorded}\n  replayed {replayed}"
+    )]
+    Differs {
+        /// Which line, from 1.
+        line: usize,
+        /// The first tick that differs.
+        tick: u64,
+        /// The first robot that differs in it.
+        robot: u32,
+        /// The line as it was recorded.
+        recorded: String,
+        /// The line as it would be now.
+        replayed: String,
+    },
+}
