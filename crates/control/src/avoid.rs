@@ -53,14 +53,14 @@ impl Layer for Avoid {
         _rng: &mut dyn Rng,
     ) -> Proposal {
         let translate = proposal.command.translate;
-        if translate == 0.0 {
-            return proposal;
-        }
         let ranges = &situation.view.scan.ranges;
         let beams = ranges.len();
+        if translate == 0.0 || beams == 0 {
+            return proposal;
+        }
         let middle = if translate > 0.0 { 0 } else { beams / 2 };
         let left = |offset: usize| ranges[(middle + offset) % beams];
-        let right = |offset: usize| ranges[(middle + beams - offset) % beams];
+        let right = |offset: usize| ranges[(middle + beams - offset % beams) % beams];
         let nearest = |from: usize, to: usize, side: &dyn Fn(usize) -> f64| {
             (from..=to).map(side).fold(f64::INFINITY, f64::min)
         };

@@ -34,10 +34,13 @@ impl Layer for Center {
             return proposal;
         }
         let ranges = &situation.view.scan.ranges;
-        let (left, right) = (ranges[ranges.len() / 4], ranges[3 * ranges.len() / 4]);
-        let towards_middle = if left > self.ratio * right {
+        let beam = |quarters: usize| ranges.get(quarters * ranges.len() / 4);
+        let (Some(left), Some(right)) = (beam(1), beam(3)) else {
+            return proposal;
+        };
+        let towards_middle = if *left > self.ratio * *right {
             self.turn
-        } else if right > self.ratio * left {
+        } else if *right > self.ratio * *left {
             -self.turn
         } else {
             0.0

@@ -418,3 +418,32 @@ mod stack {
         assert_eq!(heading_of(Direction::West), Heading::WEST);
     }
 }
+
+/// A layer may be handed any scan when it is used without the stack.
+#[test]
+fn no_layer_minds_a_scan_without_beams_or_of_another_ring() {
+    for beams in [0, 1, 2, 3, 5, 8, 181] {
+        let scan = Scan::clear(Ring::full(beams, 1.25));
+        let corridor = Some(Corridor {
+            misaligned_beams: 1,
+            narrowest: WIDTH,
+        });
+        let layers: [&mut dyn Layer; 4] = [
+            &mut Move::paper(),
+            &mut Orient::paper(72, WIDTH),
+            &mut Center::paper(),
+            &mut Avoid::paper(72, UNIT),
+        ];
+        for layer in layers {
+            layer.begin(Direction::North);
+            for translate in [-0.25, 0.25] {
+                let command = TurnTranslate {
+                    turn: 0.0,
+                    translate,
+                };
+                let got = corrected(layer, command, &scan, Heading::NORTH, corridor);
+                assert!(got.command.turn.is_finite() && got.command.translate.is_finite());
+            }
+        }
+    }
+}
