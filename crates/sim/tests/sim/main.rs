@@ -7,6 +7,7 @@
 
 mod bodies;
 mod casters;
+mod leaks;
 mod noise;
 mod traces;
 mod worlds;

@@ -1,0 +1,168 @@
+//! Millions of rays through mazes against an exact oracle in integers: none leaks.
+//!
+//! Origins are multiples of 2⁻²⁰ of a cell; directions are taken to 2⁻⁶⁰. On which side of a lattice
+//! point a ray passes is then a comparison of integers below 2⁸⁸.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::{Cell, Direction, Grid, Maze};
+use tolman_robot::Ring;
+use tolman_sim::casters::{Caster, Lanes, LatticeWalk, Sweep, WallIndex};
+use tolman_sim::{CorridorSize, World};
+
+/// Origins are multiples of 1 / `GRAIN` of a cell.
+const GRAIN: i128 = 1 << 20;
+
+/// Directions are taken in multiples of 1 / `FINE`.
+const FINE: f64 = 1_152_921_504_606_846_976.0;
+
+/// How closely a ray may pass a wall's end and read either the end or what lies behind it: 2⁻³⁰ of a
+/// cell, times both units.
+const ASIDE: i128 = 1 << (20 + 60 - 30);
+
+/// A ray in integers: the origin in grains, the direction in multiples of 1 / `FINE`.
+#[derive(Clone, Copy)]
+struct Ray {
+    x: i128,
+    y: i128,
+    dx: i128,
+    dy: i128,
+}
+
+/// The range of a ray that passes lattice points as if moved sideways by `aside`, in cells; none if
+/// it crosses 32 lines and meets nothing.
+fn exact(maze: &Maze, ray: Ray, aside: i128) -> Option<f64> {
+    let (mut column, mut row) = (ray.x.div_euclid(GRAIN), ray.y.div_euclid(GRAIN));
+    let east = ray.dx > 0;
+    let north = ray.dy > 0;
+    for _ in 0..32 {
+        let cell = Cell::new(u16::try_from(column).ok()?, u16::try_from(row).ok()?);
+        let (to_x, to_y) = (column + i128::from(east), row + i128::from(north));
+        // Distances to the next lines, in grains.
+        let (across, up) = ((to_x * GRAIN - ray.x).abs(), (to_y * GRAIN - ray.y).abs());
+        // across / |dx| against up / |dy|; the sideways shift moves the corner by itself.
+        let side = across * ray.dy.abs() - up * ray.dx.abs();
+        let column_first = ray.dy == 0 || (ray.dx != 0 && side < aside);
+        let direction = match (column_first, east, north) {
+            (true, true, _) => Direction::East,
+            (true, false, _) => Direction::West,
+            (false, _, true) => Direction::North,
+            (false, _, false) => Direction::South,
+        };
+        if !maze.is_open(cell, direction) {
+            let (grains, along) = if column_first {
+                (across, ray.dx)
+            } else {
+                (up, ray.dy)
+            };
+            return Some(grains as f64 / GRAIN as f64 * (FINE / along.abs() as f64));
+        }
+        if column_first {
+            column += if east { 1 } else { -1 };
+        } else {
+            row += if north { 1 } else { -1 };
+        }
+    }
+    None
+}
+
+fn maze(side: u16, rng: &mut ChaCha8Rng) -> Maze {
+    let mut maze = Maze::open(Grid::new(side, side));
+    for cell in maze.grid().cells().collect::<Vec<_>>() {
+        for direction in [Direction::North, Direction::East] {
+            if maze.grid().neighbour(cell, direction).is_some() {
+                maze.set_wall(cell, direction, rng.random_range(0..5_u32) < 2);
+            }
+        }
+    }
+    maze
+}
+
+/// Casts at least `count` rays from random points, every other one exactly towards or past a lattice
+/// point, with every caster; gives how many were cast.
+fn fuzz(count: u64, seed: u64) -> u64 {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut cast = 0;
+    while cast < count {
+        let side = rng.random_range(1..12_u32) as u16;
+        let maze = maze(side, &mut rng);
+        let size = CorridorSize {
+            corridor_width: 1.0,
+            wall_thickness: 0.0,
+        };
+        let world = World::from_maze(&maze, &size).unwrap();
+        let lattice = LatticeWalk::new(&world, Lanes::Widest).unwrap();
+        let index = WallIndex::new(world.walls(), Lanes::Widest);
+        let max_range = [0.8, 2.5, 20.0][rng.random_range(0..3_u32) as usize];
+        let mut sweep = Sweep::new(Ring::full(72, max_range));
+        for _ in 0..50 {
+            // Half of the origins lie on a coarse raster, so that beams meet posts head on.
+            let coarse = rng.random::<bool>();
+            let mut coordinate = || {
+                let grains = rng.random_range(1..u32::from(side) << 20);
+                i128::from(if coarse {
+                    (grains >> 17 << 17) | 1 << 16
+                } else {
+                    grains | 1
+                })
+            };
+            let (x, y) = (coordinate(), coordinate());
+            let origin = Point::new(x as f64 / GRAIN as f64, y as f64 / GRAIN as f64);
+            let target = Point::new(
+                f64::from(rng.random_range(0..=u32::from(side))),
+                f64::from(rng.random_range(0..=u32::from(side))),
+            );
+            // Beam 0 looks at a post.
+            let pose = Pose::new(origin, Heading::of(target - origin));
+            for caster in [&lattice as &dyn Caster, &index] {
+                sweep.aim(pose);
+                caster.scan(&mut sweep);
+                for beam in 0..sweep.beams() {
+                    let unit = sweep.direction(beam);
+                    let ray = Ray {
+                        x,
+                        y,
+                        dx: (unit.x * FINE) as i128,
+                        dy: (unit.y * FINE) as i128,
+                    };
+                    let seen = [0, ASIDE, -ASIDE].map(|aside| {
+                        exact(&maze, ray, aside).map_or(max_range, |range| range.min(max_range))
+                    });
+                    let least = seen.into_iter().fold(f64::INFINITY, f64::min) - 1e-9;
+                    let most = seen.into_iter().fold(0.0, f64::max) + 1e-9;
+                    let range = sweep.range(beam);
+                    assert!(
+                        (least..=most).contains(&range),
+                        "from {origin} towards {unit}: {range} instead of {seen:?} in\n{maze}"
+                    );
+                    cast += 1;
+                }
+            }
+        }
+    }
+    cast
+}
+
+#[test]
+fn no_ray_leaks() {
+    fuzz(1_000_000, 1);
+}
+
+/// Some minutes; `cargo xtask bench` runs it.
+#[test]
+#[ignore = "casts a thousand million rays"]
+fn no_ray_of_a_thousand_million_leaks() {
+    let threads = std::thread::available_parallelism().map_or(1, core::num::NonZero::get) as u64;
+    let share = 1_000_000_000_u64.div_ceil(threads);
+    let cast: u64 = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|thread| scope.spawn(move || fuzz(share, 100 + thread)))
+            .collect();
+        workers
+            .into_iter()
+            .map(|worker| worker.join().unwrap())
+            .sum()
+    });
+    println!("{cast} rays, none leaked");
+}
