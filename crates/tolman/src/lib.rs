@@ -1,9 +1,10 @@
 //! Agents, the experiments that measure them, and what is shown of the results.
 //!
 //! In the order data flows: a [`course`] is a maze made ready for runs, the [`pioneer`] the robot that
-//! runs in it, one of the [`agents`] its mind, and an [`episode`] one run. An [`experiment`] plays every run of its tables, [`stats`] weighs the
-//! runs against each other and against the paper, [`draw`] makes pictures of them and [`report`]
-//! gathers everything on one page.
+//! runs in it, one of the [`agents`] its mind, and an [`episode`] one run. An [`experiment`] plays
+//! every run of its tables, [`stats`] weighs the runs against each other and against the paper,
+//! [`draw`] makes pictures of them and [`report`] gathers everything on one page. [`data`] finds what
+//! other people measured, [`files`] writes ours.
 
 extern crate alloc;
 
@@ -13,6 +14,7 @@ pub mod data;
 pub mod draw;
 pub mod episode;
 pub mod experiment;
+pub mod files;
 pub mod pioneer;
 pub mod report;
 pub mod stats;

@@ -1,25 +1,18 @@
-//! Files that are either whole or not there.
+//! The files that the command line asks for.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::Context;
+use tolman::files;
 
 use super::Failure;
 
-/// Writes `text` beside `path` and renames it into place.
+/// Writes `text` to the file at `path`, whole or not at all.
 ///
 /// # Errors
-/// If one of the two cannot be done; nothing is left behind.
-pub(super) fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        // The first error is the one to tell.
-        let _ = fs::remove_file(&beside);
-    }
-    Ok(written.with_context(|| {
+/// A failure that names the file and a repair.
+pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    Ok(files::write_whole(path, text.as_bytes()).with_context(|| {
         format!(
             "cannot write {}: give a path in a folder that can be written to",
             path.display()

@@ -16,8 +16,7 @@ use tolman::episode::{self, Episode, EpisodeError, Trial};
 use tolman::pioneer::{body, calibrated};
 
 use super::failure::OrBadInput;
-use super::file::write_whole;
-use super::{Failure, maze};
+use super::{Failure, file, maze};
 
 /// Sends one robot through a maze and tells what became of it
 #[derive(clap::Args)]
@@ -58,9 +57,9 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let file = maze::read(&arguments.maze)?;
+    let read = maze::read(&arguments.maze)?;
     let robot = calibrated();
-    let course = Course::new(&maze::name(&arguments.maze), &file, &body())
+    let course = Course::new(&maze::name(&arguments.maze), &read, &body())
         .with_context(|| maze::name(&arguments.maze))
         .or_bad_input()?;
     let start = arguments.start.on(&course, arguments.seed)?;
@@ -75,7 +74,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let episode = episode::run(&trial, &mut mind, |_, _| ()).map_err(classify)?;
     let told = arguments.told(&episode);
     if let Some(path) = &arguments.svg {
-        write_whole(path, &picture::of(&course, &episode, &told))?;
+        file::write(path, &picture::of(&course, &episode, &told))?;
     }
     if arguments.json {
         let json = json!({

@@ -9,7 +9,7 @@ use tolman_maze::{Format, MazeFile, write};
 
 use super::Failure;
 use crate::cli::failure::OrBadInput;
-use crate::cli::file::write_whole;
+use crate::cli::file;
 
 /// Where to, and as what.
 #[derive(clap::Args)]
@@ -28,7 +28,7 @@ impl Output {
             .context("cannot write the maze")
             .or_bad_input()?;
         match &self.out {
-            Some(path) => write_whole(path, &text),
+            Some(path) => file::write(path, &text),
             None => Ok(out.write_all(text.as_bytes())?),
         }
     }
