@@ -2,7 +2,7 @@ use alloc::sync::Arc;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{LANES, Sweep};
+use super::sweep::{Chunk, LANES, Sweep};
 use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
 use crate::world::{BitRows, Lattice};
@@ -176,12 +176,9 @@ impl LatticeWalk {
             (0..).zip([(true, true), (false, true), (false, false), (true, false)])
         {
             let ahead = self.quadrant::<COUNT>(cell, sweep.origin, west, south);
-            for (first, past) in sweep.quadrant(quadrant) {
-                let x = &sweep.world.x.as_chunks::<LANES>().0[first..past];
-                let y = &sweep.world.y.as_chunks::<LANES>().0[first..past];
-                let ranges = &mut sweep.ranges.as_chunks_mut::<LANES>().0[first..past];
-                for ((x, y), ranges) in x.iter().zip(y).zip(ranges) {
-                    ahead.cross(x, y, ranges);
+            for (first, past) in sweep.order.quadrant(quadrant) {
+                for chunk in &mut sweep.chunks[first..past] {
+                    ahead.cross(chunk);
                 }
             }
         }
@@ -242,9 +239,9 @@ fn step(from: usize, back: bool, by: usize) -> usize {
 impl<const COUNT: usize> Quadrant<COUNT> {
     /// Shortens the beams that lie in this quadrant.
     #[inline(always)]
-    fn cross(&self, x: &[f64; LANES], y: &[f64; LANES], ranges: &mut [f64; LANES]) {
+    fn cross(&self, chunk: &mut Chunk) {
         for lane in 0..LANES {
-            let (per_x, per_y) = (reciprocal(x[lane]), reciprocal(y[lane]));
+            let (per_x, per_y) = (reciprocal(chunk.x[lane]), reciprocal(chunk.y[lane]));
             let mut columns = [0.0; COUNT];
             let mut rows = [0.0; COUNT];
             let mut no_vertical = [0; COUNT];
@@ -266,15 +263,16 @@ impl<const COUNT: usize> Quadrant<COUNT> {
                     no_horizontal[row] ^= row_first & self.horizontal[row].changes[column];
                 }
             }
-            let mut nearest = ranges[lane];
+            let mut nearest = chunk.range[lane];
             for line in 0..COUNT {
                 let column = columns[line] + f64::from_bits(no_vertical[line]);
                 let row = rows[line] + f64::from_bits(no_horizontal[line]);
                 let first = if column < row { column } else { row };
                 nearest = if first < nearest { first } else { nearest };
             }
-            let inside = ((x[lane] < 0.0) == self.west) & ((y[lane] < 0.0) == self.south);
-            ranges[lane] = if inside { nearest } else { ranges[lane] };
+            let inside =
+                ((chunk.x[lane] < 0.0) == self.west) & ((chunk.y[lane] < 0.0) == self.south);
+            chunk.range[lane] = if inside { nearest } else { chunk.range[lane] };
         }
     }
 }

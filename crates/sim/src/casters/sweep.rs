@@ -23,18 +23,42 @@ pub(super) const LANES: usize = 4;
 /// sweep.aim(Pose::new(Point::new(1.0, 1.0), Heading::NORTH));
 /// sweep.meet_wall(&Wall::between(Point::new(3.0, 0.0), Point::new(3.0, 2.0)));
 /// // Beam 3 looks right, and right of north is east.
-/// assert!((sweep.ranges()[3] - 2.0).abs() < 1e-12);
-/// assert_eq!(sweep.ranges()[0], 5.0);
+/// assert!((sweep.range(3) - 2.0).abs() < 1e-12);
+/// assert_eq!(sweep.range(0), 5.0);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Sweep {
     ring: Ring,
-    /// Unit vectors in the robot's frame.
-    local: Directions,
-    /// Unit vectors in the world.
-    pub(super) world: Directions,
-    pub(super) ranges: Vec<f64>,
+    /// The beams in the robot's frame, at their full range.
+    local: Vec<Chunk>,
+    pub(super) chunks: Vec<Chunk>,
     pub(super) origin: Point,
+    pub(super) order: Order,
+}
+
+/// A few beams: unit vectors in the world, and how far each has got.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chunk {
+    pub(super) x: [f64; LANES],
+    pub(super) y: [f64; LANES],
+    pub(super) range: [f64; LANES],
+}
+
+impl Chunk {
+    /// Shortens the beams that meet a wall.
+    #[inline(always)]
+    fn meet(&mut self, seen: &Seen) {
+        for lane in 0..LANES {
+            let range = seen.range(self.x[lane], self.y[lane]);
+            let nearest = self.range[lane];
+            self.range[lane] = if range < nearest { range } else { nearest };
+        }
+    }
+}
+
+/// Which beams look where.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Order {
     /// Bearing of beam 0 in the world, rad.
     first: f64,
     /// Beams per radian; 0 for a single beam, which everything is tried on.
@@ -43,12 +67,51 @@ pub struct Sweep {
     circle: f64,
     /// How many beams the approximate bearings may be off.
     margin: f64,
+    /// How many chunks there are.
+    chunks: usize,
 }
 
-#[derive(Clone, Debug)]
-pub(super) struct Directions {
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
+impl Order {
+    /// The place among the beams, in [0, circle), of a bearing in the world, less the margin.
+    #[inline(always)]
+    pub(super) fn index(&self, bearing: f64) -> f64 {
+        let index = (bearing - self.first) * self.density - self.margin;
+        // Two bearings are less than two circles apart.
+        let index = index + if index < 0.0 { self.circle } else { 0.0 };
+        index + if index < 0.0 { self.circle } else { 0.0 }
+    }
+
+    /// The chunks of beams between the indices of a wall's ends, first and one past the last; twice,
+    /// for a wall that lies across the seam of the circle.
+    #[inline(always)]
+    pub(super) fn between(&self, from: f64, to: f64) -> [(usize, usize); 2] {
+        let span = to - from;
+        let span = if span < 0.0 { span + self.circle } else { span };
+        // A wall covers less than half a circle. More than that is a wall seen edge on, its ends in
+        // the wrong order by the error of the bearings.
+        let span = if span > 0.75 * self.circle { 0.0 } else { span };
+        self.over(from, span + 2.0 * self.margin)
+    }
+
+    /// The chunks of beams from index `from` over `span`.
+    #[inline(always)]
+    fn over(&self, from: f64, span: f64) -> [(usize, usize); 2] {
+        [from, from - self.circle].map(|from| {
+            // Beams before the span are tried in vain.
+            let first = from.max(0.0) as u32 as usize / LANES;
+            let past = (from + span + LANES as f64).max(0.0) as u32 as usize / LANES;
+            let past = past.min(self.chunks);
+            (first.min(past), past)
+        })
+    }
+
+    /// The chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise), and some
+    /// others.
+    #[inline(always)]
+    pub(super) fn quadrant(&self, quadrant: u32) -> [(usize, usize); 2] {
+        let from = self.index(f64::from(quadrant) * FRAC_PI_2 - PI);
+        self.over(from, FRAC_PI_2 * self.density + 2.0 * self.margin)
+    }
 }
 
 /// A wall as seen from the origin of a sweep: its ends counter-clockwise.
@@ -89,7 +152,8 @@ impl Seen {
         let left = x * self.left.y - y * self.left.x;
         let between = left - right;
         let range = self.area / between;
-        let meets = (right <= 0.0) & (left >= 0.0) & (between > 0.0);
+        // A beam through both ends meets them nowhere in particular: infinitely far, says the quotient.
+        let meets = (right <= 0.0) & (left >= 0.0);
         if meets { range } else { f64::INFINITY }
     }
 }
@@ -99,41 +163,47 @@ impl Sweep {
     #[must_use]
     pub fn new(ring: Ring) -> Self {
         let count = ring.beams as usize;
-        let units: Vec<Vector> = (0..count.next_multiple_of(LANES))
-            .map(|beam| Heading::from_radians(ring.bearing(beam.min(count - 1) as u32)).unit())
+        // The last beam once more for every lane that is left over.
+        let unit =
+            |beam: usize| Heading::from_radians(ring.bearing(beam.min(count - 1) as u32)).unit();
+        let local: Vec<Chunk> = (0..count.div_ceil(LANES))
+            .map(|chunk| Chunk {
+                x: core::array::from_fn(|lane| unit(chunk * LANES + lane).x),
+                y: core::array::from_fn(|lane| unit(chunk * LANES + lane).y),
+                range: [ring.max_range; LANES],
+            })
             .collect();
-        let local = Directions {
-            x: units.iter().map(|unit| unit.x).collect(),
-            y: units.iter().map(|unit| unit.y).collect(),
-        };
         let single = count == 1;
         let density = if single { 0.0 } else { ring.spacing.recip() };
-        Self {
-            ring,
-            world: local.clone(),
-            ranges: vec![ring.max_range; local.x.len()],
-            local,
-            origin: Point::origin(),
+        let order = Order {
             first: ring.first_bearing,
             density,
             circle: if single { 1.0 } else { TAU * density },
             margin: 0.01 + 2.0 * BEARING_ERROR * density,
+            chunks: local.len(),
+        };
+        Self {
+            ring,
+            chunks: local.clone(),
+            local,
+            origin: Point::origin(),
+            order,
         }
     }
 
     /// Points the beams from the origin of `pose`, turned to its heading, at their full range.
-    #[inline(always)]
     pub fn aim(&mut self, pose: Pose) {
         let ahead = pose.heading.unit();
         self.origin = pose.position;
-        self.first = pose.heading.turned(self.ring.first_bearing).radians();
-        let local = self.local.x.iter().zip(&self.local.y);
-        let world = self.world.x.iter_mut().zip(&mut self.world.y);
-        for ((x, y), (world_x, world_y)) in local.zip(world) {
-            *world_x = ahead.x * x - ahead.y * y;
-            *world_y = ahead.y * x + ahead.x * y;
+        self.order.first = pose.heading.turned(self.ring.first_bearing).radians();
+        for (local, chunk) in self.local.iter().zip(&mut self.chunks) {
+            for lane in 0..LANES {
+                let (x, y) = (local.x[lane], local.y[lane]);
+                chunk.x[lane] = ahead.x * x - ahead.y * y;
+                chunk.y[lane] = ahead.y * x + ahead.x * y;
+            }
+            chunk.range = local.range;
         }
-        self.ranges.fill(self.ring.max_range);
     }
 
     /// The point all beams start from.
@@ -157,57 +227,48 @@ impl Sweep {
     /// The unit vector of a beam in the world.
     #[must_use]
     pub fn direction(&self, beam: usize) -> Vector {
-        Vector::new(self.world.x[beam], self.world.y[beam])
+        let chunk = &self.chunks[beam / LANES];
+        Vector::new(chunk.x[beam % LANES], chunk.y[beam % LANES])
     }
 
     /// How far each beam has got, m.
-    #[must_use]
-    pub fn ranges(&self) -> &[f64] {
-        &self.ranges[..self.ring.beams as usize]
+    pub fn ranges(&self) -> impl Iterator<Item = f64> + '_ {
+        self.chunks
+            .iter()
+            .flat_map(|chunk| chunk.range)
+            .take(self.beams())
     }
 
     /// How far a beam has got, m.
     #[must_use]
     pub fn range(&self, beam: usize) -> f64 {
-        self.ranges[beam]
+        self.chunks[beam / LANES].range[beam % LANES]
     }
 
     /// Lets a beam end at `range` unless it ends before.
     pub fn shorten(&mut self, beam: usize, range: f64) {
-        let old = &mut self.ranges[beam];
+        let old = &mut self.chunks[beam / LANES].range[beam % LANES];
         *old = old.min(range);
     }
 
     /// Shortens the beams that meet `wall`.
     pub fn meet_wall(&mut self, wall: &Wall) {
-        let (start, end) = (wall.start - self.origin, wall.end - self.origin);
-        let seen = Seen::new(start, end);
+        let seen = Seen::new(wall.start - self.origin, wall.end - self.origin);
         if seen.area <= 0.0 {
             self.meet_edge_on(wall);
             return;
         }
-        let from = self.index(bearing(seen.right.x, seen.right.y));
-        let to = self.index(bearing(seen.left.x, seen.left.y));
+        let from = self.order.index(bearing(seen.right.x, seen.right.y));
+        let to = self.order.index(bearing(seen.left.x, seen.left.y));
         self.meet_seen(&seen, from, to);
     }
 
     /// Shortens the beams between two indices that meet `seen`.
     #[inline(always)]
     pub(super) fn meet_seen(&mut self, seen: &Seen, from: f64, to: f64) {
-        let span = self.span(from, to);
-        for (first, past) in self.chunks(from, span) {
-            let x = &self.world.x.as_chunks::<LANES>().0[first..past];
-            let y = &self.world.y.as_chunks::<LANES>().0[first..past];
-            let ranges = &mut self.ranges.as_chunks_mut::<LANES>().0[first..past];
-            for ((x, y), ranges) in x.iter().zip(y).zip(ranges) {
-                for lane in 0..LANES {
-                    let range = seen.range(x[lane], y[lane]);
-                    ranges[lane] = if range < ranges[lane] {
-                        range
-                    } else {
-                        ranges[lane]
-                    };
-                }
+        for (first, past) in self.order.between(from, to) {
+            for chunk in &mut self.chunks[first..past] {
+                chunk.meet(seen);
             }
         }
     }
@@ -216,11 +277,8 @@ impl Sweep {
     /// lies on it.
     #[cold]
     pub(super) fn meet_edge_on(&mut self, wall: &Wall) {
-        for beam in 0..self.ranges.len() {
-            let range = wall.ray(
-                self.origin,
-                Vector::new(self.world.x[beam], self.world.y[beam]),
-            );
+        for beam in 0..self.beams() {
+            let range = wall.ray(self.origin, self.direction(beam));
             self.shorten(beam, range);
         }
     }
@@ -233,68 +291,25 @@ impl Sweep {
         if square > farthest * farthest || square <= radius * radius {
             return;
         }
-        let distance = square.sqrt();
-        let share = radius / distance;
+        let share = radius / square.sqrt();
         // A bound from above of the arc sine: its series with all later terms in the cube.
         let half = share * (1.0 + (FRAC_PI_2 - 1.0) * share * share);
-        let middle = bearing(to_centre.x, to_centre.y);
-        let from = self.index(middle - half);
-        let span = 2.0 * half * self.density + 2.0 * self.margin;
-        let apart = distance * distance - radius * radius;
-        for (first, past) in self.chunks(from, span) {
-            for beam in first * LANES..past * LANES {
-                let (x, y) = (self.world.x[beam], self.world.y[beam]);
-                let ahead = x * to_centre.x + y * to_centre.y;
-                let square = ahead * ahead - apart;
-                if ahead > 0.0 && square >= 0.0 {
-                    // The nearer root, without cancellation.
-                    self.shorten(beam, apart / (ahead + square.sqrt()));
+        let from = self.order.index(bearing(to_centre.x, to_centre.y) - half);
+        let span = 2.0 * (half * self.order.density + self.order.margin);
+        let apart = square - radius * radius;
+        for (first, past) in self.order.over(from, span) {
+            for chunk in &mut self.chunks[first..past] {
+                for lane in 0..LANES {
+                    let ahead = chunk.x[lane] * to_centre.x + chunk.y[lane] * to_centre.y;
+                    let root = ahead * ahead - apart;
+                    if ahead > 0.0 && root >= 0.0 {
+                        // The nearer root, without cancellation.
+                        let range = apart / (ahead + root.sqrt());
+                        chunk.range[lane] = chunk.range[lane].min(range);
+                    }
                 }
             }
         }
-    }
-
-    /// The place among the beams, in [0, circle), of a bearing in the world, less the margin.
-    #[inline(always)]
-    pub(super) fn index(&self, bearing: f64) -> f64 {
-        let mut index = (bearing - self.first) * self.density - self.margin;
-        // Two bearings are less than two circles apart.
-        for _ in 0..2 {
-            index += if index < 0.0 { self.circle } else { 0.0 };
-        }
-        index
-    }
-
-    /// The chunks that hold all beams of a quadrant (0 south-west, then counter-clockwise), and some
-    /// others.
-    #[inline(always)]
-    pub(super) fn quadrant(&self, quadrant: u32) -> [(usize, usize); 2] {
-        let from = self.index(f64::from(quadrant) * FRAC_PI_2 - PI);
-        self.chunks(from, FRAC_PI_2 * self.density + 2.0 * self.margin)
-    }
-
-    /// How many beams lie between two indices, a margin on both sides included.
-    #[inline(always)]
-    fn span(&self, from: f64, to: f64) -> f64 {
-        let span = to - from;
-        let span = if span < 0.0 { span + self.circle } else { span };
-        // A wall covers less than half a circle. More than that is a wall seen edge on, its ends in
-        // the wrong order by the error of the bearings.
-        let span = if span > 0.75 * self.circle { 0.0 } else { span };
-        span + 2.0 * self.margin
-    }
-
-    /// The chunks of beams, first and one past the last, from index `from` over `span`; twice, for a span
-    /// that runs across the seam of the circle.
-    #[inline(always)]
-    fn chunks(&self, from: f64, span: f64) -> [(usize, usize); 2] {
-        let end = self.ranges.len() / LANES;
-        [from, from - self.circle].map(|from| {
-            // Beams before the span are tried in vain.
-            let first = from.max(0.0) as u32 as usize / LANES;
-            let past = ((from + span + LANES as f64).max(0.0) as u32 as usize / LANES).min(end);
-            (first.min(past), past)
-        })
     }
 }
 
@@ -306,12 +321,9 @@ const BEARING_ERROR: f64 = 2e-5;
 pub(super) fn bearing(x: f64, y: f64) -> f64 {
     let (across, along) = (x.abs(), y.abs());
     let steep = along > across;
-    let (small, large) = if steep {
-        (across, along)
-    } else {
-        (along, across)
-    };
-    let t = small / large.max(f64::MIN_POSITIVE);
+    let small = if steep { across } else { along };
+    let large = if steep { along } else { across };
+    let t = small / (large + f64::MIN_POSITIVE);
     let s = t * t;
     // Minimax polynomial of the arc tangent on [0, 1].
     let atan = t

@@ -2,16 +2,16 @@ use core::ops::Range;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{Seen, Sweep, bearing};
+use super::sweep::{LANES, Seen, Sweep, bearing};
 use super::{Caster, Kernels, Lanes};
 use crate::{Bounds, Wall};
 
 /// All walls by place: a loose grid on several levels.
 ///
-/// A wall lies in the one cell that holds its middle, on the level whose cells are just as large as
-/// the wall, so it reaches at most half a cell beyond its own. A look at a neighbourhood takes, on each
-/// level, the cells half a cell around it: no wall is found twice, and long walls cost no more memory
-/// than short ones.
+/// A wall lies in the one cell that holds its middle, on the level whose cells are about half as large
+/// as the wall, so it reaches at most a cell beyond its own. A look at a neighbourhood takes, on each
+/// level, the cells as far around it: no wall is found twice, and long walls cost no more memory than
+/// short ones.
 ///
 /// Built in O(n log n); a look costs as much as it finds plus a few cells on each level.
 #[derive(Clone, Debug)]
@@ -19,29 +19,32 @@ pub struct WallIndex {
     levels: Vec<Level>,
     /// Sorted by level, row and column.
     walls: Vec<Wall>,
-    /// The same walls for lanes.
-    ends: Ends,
+    /// What a scan needs of the same walls.
+    traces: Vec<Trace>,
     bounds: Bounds,
     kernels: Kernels,
 }
 
-/// The coordinates of many walls' ends.
-#[derive(Clone, Debug)]
-struct Ends {
-    start_x: Vec<f64>,
-    start_y: Vec<f64>,
-    end_x: Vec<f64>,
-    end_y: Vec<f64>,
+/// A wall stripped to its line.
+#[derive(Clone, Copy, Debug)]
+struct Trace {
+    start: Point,
+    end: Point,
+    /// One over the square of its length.
+    per_square: f64,
 }
 
 #[derive(Clone, Debug)]
 struct Level {
     corner: Point,
+    /// Size of a cell, m.
+    cell: f64,
     /// Cells per metre.
     per_metre: f64,
     columns: usize,
     rows: usize,
-    /// How far a wall of this level reaches from its middle, along either axis.
+    /// How far a wall of this level reaches from its middle, along either axis, and a little for
+    /// rounding.
     reach: f64,
     /// Where each cell's walls start in the list of all; one more than there are cells.
     starts: Vec<u32>,
@@ -53,10 +56,17 @@ impl WallIndex {
     pub fn new(walls: &[Wall], lanes: Lanes) -> Self {
         let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
         let count = walls.len().max(1) as f64;
-        // Cells of the lowest level: about one per wall, and not more than that along either axis.
+        // On the lowest level: most walls, but no more of them to a cell than one on average.
+        let mut extents: Vec<f64> = walls.iter().map(extent).collect();
+        extents.sort_by(f64::total_cmp);
+        let most = extents.get(walls.len() * 9 / 10).copied().unwrap_or(0.0);
         let area = bounds.width() * bounds.height();
         let longest = bounds.width().max(bounds.height());
-        let base = (area / count).sqrt().max(longest / count).max(1e-9);
+        let base = (area / count)
+            .sqrt()
+            .max(longest / count)
+            .max(most)
+            .max(1e-9);
         let level_of = |wall: &Wall| {
             let mut level = 0;
             let mut cell = base;
@@ -83,23 +93,23 @@ impl WallIndex {
             }
             cell *= 2.0;
         }
-        let ends = Ends {
-            start_x: sorted.iter().map(|wall| wall.start.x).collect(),
-            start_y: sorted.iter().map(|wall| wall.start.y).collect(),
-            end_x: sorted.iter().map(|wall| wall.end.x).collect(),
-            end_y: sorted.iter().map(|wall| wall.end.y).collect(),
+        let trace = |wall: &Wall| Trace {
+            start: wall.start,
+            end: wall.end,
+            per_square: (wall.end - wall.start).norm_squared().recip(),
         };
+        let traces = sorted.iter().map(trace).collect();
         Self {
             levels,
             walls: sorted,
-            ends,
+            traces,
             bounds,
             kernels: lanes.into(),
         }
     }
 
-    /// Calls `visit` with all walls that come within `reach` of `centre` along both axes, and some that
-    /// do not, in slices.
+    /// Calls `visit` with all walls that come within `reach` of `centre`, and some that do not, in
+    /// slices.
     pub(crate) fn near<'a>(&'a self, centre: Point, reach: f64, mut visit: impl FnMut(&'a [Wall])) {
         self.places(centre, reach, |places| visit(&self.walls[places]));
     }
@@ -108,20 +118,14 @@ impl WallIndex {
     #[inline(always)]
     fn places(&self, centre: Point, reach: f64, mut visit: impl FnMut(Range<usize>)) {
         for level in &self.levels {
-            let reach = reach + level.reach;
-            let (west, east) = span(
-                centre.x - level.corner.x,
-                reach,
-                level.per_metre,
-                level.columns,
-            );
-            let (south, north) = span(
-                centre.y - level.corner.y,
-                reach,
-                level.per_metre,
-                level.rows,
-            );
+            let (x, y) = (centre.x - level.corner.x, centre.y - level.corner.y);
+            let (south, north) = span(y, reach + level.reach, level.per_metre, level.rows);
             for row in south..north {
+                // How far the middles of this row's walls are from the centre at least.
+                let from_row = (row as f64 * level.cell - y).max(y - (row + 1) as f64 * level.cell);
+                let beyond = (from_row - level.reach).max(0.0);
+                let aside = (reach * reach - beyond * beyond).max(0.0).sqrt() + level.reach;
+                let (west, east) = span(x, aside, level.per_metre, level.columns);
                 let row = row * level.columns;
                 let from = level.starts[row + west] as usize;
                 let to = level.starts[row + east] as usize;
@@ -142,7 +146,7 @@ impl WallIndex {
         let outside = (self.bounds.min - point)
             .sup(&(point - self.bounds.max))
             .sup(&Vector::zeros());
-        let mut reach = outside.norm() + self.levels[0].per_metre.recip();
+        let mut reach = outside.norm() + self.levels[0].cell;
         loop {
             let mut nearest = f64::INFINITY;
             self.near(point, reach, |walls| {
@@ -161,8 +165,9 @@ impl WallIndex {
 }
 
 impl Level {
-    /// The level of `walls` with cells of this size; appends them to `sorted` in order of cells.
-    fn new(walls: Vec<Wall>, cell: f64, sorted: &mut Vec<Wall>) -> Self {
+    /// The level of `walls` that extend no further than `largest`; appends them to `sorted` in order of cells.
+    fn new(walls: Vec<Wall>, largest: f64, sorted: &mut Vec<Wall>) -> Self {
+        let cell = 0.5 * largest;
         let middles = Bounds::of(walls.iter().map(middle));
         let columns = (middles.width() / cell) as usize + 1;
         let rows = (middles.height() / cell) as usize + 1;
@@ -172,10 +177,7 @@ impl Level {
             let row = ((from_corner.y / cell) as usize).min(rows - 1);
             row * columns + column
         };
-        let reach = walls
-            .iter()
-            .map(|wall| 0.5 * extent(wall))
-            .fold(0.0, f64::max);
+        let reach = walls.iter().map(extent).fold(0.0, f64::max) * (0.5 + 1e-9) + 1e-9;
         let mut placed: Vec<(usize, Wall)> = walls
             .into_iter()
             .map(|wall| (cell_of(&wall), wall))
@@ -192,6 +194,7 @@ impl Level {
         starts.push(sorted.len() as u32);
         Self {
             corner: middles.min,
+            cell,
             per_metre: cell.recip(),
             columns,
             rows,
@@ -226,20 +229,20 @@ fn span(at: f64, reach: f64, per_metre: f64, count: usize) -> (usize, usize) {
 }
 
 /// How many walls are looked at together.
-const BLOCK: usize = 32;
+const BLOCK: usize = 64;
 
-/// A block of walls as seen from the origin of a sweep.
+/// Walls as seen from the origin of a sweep.
 struct Block {
-    right_x: [f64; BLOCK],
-    right_y: [f64; BLOCK],
-    left_x: [f64; BLOCK],
-    left_y: [f64; BLOCK],
+    count: usize,
+    places: [usize; BLOCK],
+    start_x: [f64; BLOCK],
+    start_y: [f64; BLOCK],
+    end_x: [f64; BLOCK],
+    end_y: [f64; BLOCK],
     area: [f64; BLOCK],
     /// The indices of the right and left ends among the beams.
     from: [f64; BLOCK],
     to: [f64; BLOCK],
-    /// The square of the distance from the origin.
-    square: [f64; BLOCK],
 }
 
 impl Caster for WallIndex {
@@ -249,7 +252,7 @@ impl Caster for WallIndex {
             return max_range;
         };
         let end = max_range.min(self.farthest(origin));
-        let half_piece = 2.0 / lowest.per_metre;
+        let half_piece = 4.0 * lowest.cell;
         let mut range = max_range;
         let mut from = 0.0;
         while from <= end {
@@ -289,79 +292,95 @@ impl WallIndex {
     #[inline(always)]
     fn draw(&self, sweep: &mut Sweep) {
         let max_range = sweep.ring().max_range;
+        let origin = sweep.origin;
         let nothing = [0.0; BLOCK];
         let mut block = Block {
-            right_x: nothing,
-            right_y: nothing,
-            left_x: nothing,
-            left_y: nothing,
+            count: 0,
+            places: [0; BLOCK],
+            start_x: nothing,
+            start_y: nothing,
+            end_x: nothing,
+            end_y: nothing,
             area: nothing,
             from: nothing,
             to: nothing,
-            square: nothing,
         };
-        let reach = max_range.min(self.farthest(sweep.origin));
         self.places(
-            sweep.origin,
-            reach,
+            origin,
+            max_range.min(self.farthest(origin)),
             #[inline(always)]
             |places| {
-                for from in places.clone().step_by(BLOCK) {
-                    let places = from..places.end.min(from + BLOCK);
-                    block.look(&self.ends, places.clone(), sweep);
-                    for (index, place) in places.enumerate() {
-                        if block.square[index] > max_range * max_range {
-                            continue;
-                        }
-                        if block.area[index] > 0.0 {
-                            let seen = block.seen(index);
-                            sweep.meet_seen(&seen, block.from[index], block.to[index]);
-                        } else {
-                            sweep.meet_edge_on(&self.walls[place]);
-                        }
+                for place in places {
+                    block.take_if_near(&self.traces[place], place, origin, max_range);
+                    if block.count == BLOCK {
+                        self.draw_block(&mut block, sweep);
                     }
                 }
             },
         );
+        self.draw_block(&mut block, sweep);
+    }
+
+    /// Draws the walls of a block, and empties it.
+    #[inline(always)]
+    fn draw_block(&self, block: &mut Block, sweep: &mut Sweep) {
+        block.look(sweep);
+        for index in 0..block.count.min(BLOCK) {
+            if block.area[index] > 0.0 {
+                let seen = block.seen(index);
+                sweep.meet_seen(&seen, block.from[index], block.to[index]);
+            } else {
+                sweep.meet_edge_on(&self.walls[block.places[index]]);
+            }
+        }
+        block.count = 0;
     }
 }
 
 impl Block {
-    /// Looks at a block of walls, in lanes over walls.
+    /// Takes a wall if it comes within `range` of `origin`. The block must not be full.
     #[inline(always)]
-    fn look(&mut self, ends: &Ends, places: Range<usize>, sweep: &Sweep) {
-        let (x, y) = (sweep.origin.x, sweep.origin.y);
-        let count = places.len().min(BLOCK);
-        let start_x = &ends.start_x[places.clone()][..count];
-        let start_y = &ends.start_y[places.clone()][..count];
-        let end_x = &ends.end_x[places.clone()][..count];
-        let end_y = &ends.end_y[places][..count];
-        for index in 0..count {
-            let start = Vector::new(start_x[index] - x, start_y[index] - y);
-            let end = Vector::new(end_x[index] - x, end_y[index] - y);
-            let along = end - start;
-            let share =
-                -(start.x * along.x + start.y * along.y) / (along.x * along.x + along.y * along.y);
-            let share = if share > 0.0 { share } else { 0.0 };
-            let share = if share < 1.0 { share } else { 1.0 };
-            let (near_x, near_y) = (start.x + along.x * share, start.y + along.y * share);
-            self.square[index] = near_x * near_x + near_y * near_y;
-            let seen = Seen::new(start, end);
-            self.right_x[index] = seen.right.x;
-            self.right_y[index] = seen.right.y;
-            self.left_x[index] = seen.left.x;
-            self.left_y[index] = seen.left.y;
+    fn take_if_near(&mut self, wall: &Trace, place: usize, origin: Point, range: f64) {
+        let (start, end) = (wall.start - origin, wall.end - origin);
+        let along = end - start;
+        let share = -(start.x * along.x + start.y * along.y) * wall.per_square;
+        let share = if share > 0.0 { share } else { 0.0 };
+        let share = if share < 1.0 { share } else { 1.0 };
+        let (near_x, near_y) = (start.x + along.x * share, start.y + along.y * share);
+        let is_near = near_x * near_x + near_y * near_y <= range * range;
+        // Written in any case, and kept by counting it: a branch here would be guessed wrong often.
+        let index = self.count % BLOCK;
+        self.places[index] = place;
+        self.start_x[index] = start.x;
+        self.start_y[index] = start.y;
+        self.end_x[index] = end.x;
+        self.end_y[index] = end.y;
+        self.count += usize::from(is_near);
+    }
+
+    /// Puts the ends of all walls in order and finds them among the beams, in lanes over walls.
+    #[inline(always)]
+    fn look(&mut self, sweep: &Sweep) {
+        let order = sweep.order;
+        // To a whole number of lanes: what lies beyond the count is left over and harmless.
+        for index in 0..self.count.next_multiple_of(LANES).min(BLOCK) {
+            let start = Vector::new(self.start_x[index], self.start_y[index]);
+            let seen = Seen::new(start, Vector::new(self.end_x[index], self.end_y[index]));
+            self.start_x[index] = seen.right.x;
+            self.start_y[index] = seen.right.y;
+            self.end_x[index] = seen.left.x;
+            self.end_y[index] = seen.left.y;
             self.area[index] = seen.area;
-            self.from[index] = sweep.index(bearing(seen.right.x, seen.right.y));
-            self.to[index] = sweep.index(bearing(seen.left.x, seen.left.y));
+            self.from[index] = order.index(bearing(seen.right.x, seen.right.y));
+            self.to[index] = order.index(bearing(seen.left.x, seen.left.y));
         }
     }
 
     #[inline(always)]
     fn seen(&self, index: usize) -> Seen {
         Seen {
-            right: Vector::new(self.right_x[index], self.right_y[index]),
-            left: Vector::new(self.left_x[index], self.left_y[index]),
+            right: Vector::new(self.start_x[index], self.start_y[index]),
+            left: Vector::new(self.end_x[index], self.end_y[index]),
             area: self.area[index],
         }
     }

@@ -54,7 +54,9 @@ impl Sensor for Laser {
         let scan = reading.get_or_insert_with(|| Scan::clear(self.ring()));
         self.sweep.aim(around.pose);
         around.scan(&mut self.sweep);
-        scan.ranges.copy_from_slice(self.sweep.ranges());
+        for (range, read) in scan.ranges.iter_mut().zip(self.sweep.ranges()) {
+            *range = read;
+        }
     }
 }
 

@@ -12,25 +12,55 @@ use crate::worlds;
 /// How closely casters agree, m.
 const CLOSE: f64 = 1e-9;
 
-/// Where a ray passes the free end of a wall this closely, a caster may see the end or what lies
-/// behind it: what is seen from either side.
-fn check(
-    reference: &ParryPolyline,
-    origin: Point,
-    direction: Vector,
-    max_range: f64,
-    range: f64,
-) -> Result<(), TestCaseError> {
-    let aside = Vector::new(-direction.y, direction.x) * CLOSE;
-    let seen = [Vector::zeros(), aside, -aside]
-        .map(|aside| reference.cast(origin + aside, direction, max_range));
-    let least = seen.into_iter().fold(f64::INFINITY, f64::min) - CLOSE;
-    let most = seen.into_iter().fold(0.0, f64::max) + CLOSE;
-    prop_assert!(
-        (least..=most).contains(&range),
-        "{origin} towards {direction}: {range}, parry {seen:?}"
-    );
-    Ok(())
+/// What rays may read in a world of walls, by parry2d.
+///
+/// Where a ray passes the end of a wall closely, a caster may see the end or what lies behind it: no
+/// less than if all walls were a little longer, and no more than if they were a little shorter. That
+/// no ray slips through where walls meet is a test of its own.
+struct Reference {
+    longer: ParryPolyline,
+    shorter: ParryPolyline,
+}
+
+impl Reference {
+    fn new(walls: &[Wall]) -> Self {
+        let by = |length: f64| {
+            let walls: Vec<Wall> = walls
+                .iter()
+                .map(|wall| {
+                    let along = (wall.end - wall.start).normalize() * length;
+                    Wall::between(wall.start - along, wall.end + along)
+                })
+                .collect();
+            ParryPolyline::new(&walls)
+        };
+        Self {
+            longer: by(2.0 * CLOSE),
+            shorter: by(-2.0 * CLOSE),
+        }
+    }
+
+    fn check(
+        &self,
+        origin: Point,
+        direction: Vector,
+        max_range: f64,
+        range: f64,
+    ) -> Result<(), TestCaseError> {
+        // Along a wall that is nearly parallel, a hair to the side is a long way.
+        let aside = Vector::new(-direction.y, direction.x) * CLOSE;
+        let origins = [origin, origin + aside, origin - aside];
+        let read = |caster: &ParryPolyline| {
+            origins.map(|origin| caster.cast(origin, direction, max_range))
+        };
+        let least = read(&self.longer).into_iter().fold(f64::INFINITY, f64::min) - CLOSE;
+        let most = read(&self.shorter).into_iter().fold(0.0, f64::max) + CLOSE;
+        prop_assert!(
+            (least..=most).contains(&range),
+            "{origin} towards {direction}: {range}, parry {least} to {most}"
+        );
+        Ok(())
+    }
 }
 
 fn heading() -> impl Strategy<Value = Heading> {
@@ -65,12 +95,12 @@ proptest! {
         heading in heading(),
         max_range in 0.1..20.0_f64,
     ) {
-        let reference = ParryPolyline::new(world.walls());
+        let reference = Reference::new(world.walls());
         let direction = heading.unit();
         let index = WallIndex::new(world.walls(), Lanes::Baseline);
         for caster in [world.caster(), &index] {
             let range = caster.cast(point, direction, max_range);
-            check(&reference, point, direction, max_range, range)?;
+            reference.check(point, direction, max_range, range)?;
         }
     }
 
@@ -80,14 +110,14 @@ proptest! {
         heading in heading(),
         ring in ring(),
     ) {
-        let reference = ParryPolyline::new(world.walls());
+        let reference = Reference::new(world.walls());
         let index = WallIndex::new(world.walls(), Lanes::Baseline);
         let mut sweep = Sweep::new(ring);
         for caster in [world.caster(), &index] {
             sweep.aim(Pose::new(point, heading));
             caster.scan(&mut sweep);
             for beam in 0..sweep.beams() {
-                check(&reference, point, sweep.direction(beam), ring.max_range, sweep.range(beam))?;
+                reference.check(point, sweep.direction(beam), ring.max_range, sweep.range(beam))?;
             }
         }
         // Walls drawn one by one, as doors are.
@@ -96,7 +126,7 @@ proptest! {
             sweep.meet_wall(wall);
         }
         for beam in 0..sweep.beams() {
-            check(&reference, point, sweep.direction(beam), ring.max_range, sweep.range(beam))?;
+            reference.check(point, sweep.direction(beam), ring.max_range, sweep.range(beam))?;
         }
     }
 
@@ -118,7 +148,7 @@ proptest! {
             let [baseline, widest] = pair.map(|caster| {
                 sweep.aim(Pose::new(point, heading));
                 caster.scan(&mut sweep);
-                sweep.ranges().iter().map(|range| range.to_bits()).collect::<Vec<_>>()
+                sweep.ranges().map(f64::to_bits).collect::<Vec<_>>()
             });
             prop_assert_eq!(baseline, widest);
         }
@@ -175,21 +205,29 @@ proptest! {
     }
 }
 
-#[test]
-fn a_ray_into_a_joint_does_not_leak() {
-    let corner = Point::new(3.0, 1.0);
-    let walls = [
-        Wall::between(Point::new(3.0, 0.0), corner),
-        Wall::between(corner, Point::new(2.0, 2.0)),
-    ];
-    let index = WallIndex::new(&walls, Lanes::Baseline);
-    for x in 0..200 {
-        let origin = Point::new(f64::from(x) * 0.013 - 0.1, 0.9 - f64::from(x) * 0.0041);
-        let direction = (corner - origin).normalize();
-        let range = index.cast(origin, direction, 10.0);
-        assert!(
-            (range - (corner - origin).norm()).abs() < 1e-9,
-            "{origin}: {range}"
-        );
+proptest! {
+    /// Two walls that meet on either side of a ray stop it, however exactly it is aimed at the joint.
+    #[test]
+    fn a_ray_into_a_joint_does_not_leak(
+        joint in worlds::point(),
+        origin in worlds::point(),
+        left in (0.01..3.1_f64, 0.01..4.0_f64),
+        right in (0.01..3.1_f64, 0.01..4.0_f64),
+        ring in ring(),
+    ) {
+        let to_joint = joint - origin;
+        prop_assume!(to_joint.norm() > 1e-3);
+        let ahead = Heading::of(to_joint);
+        let wall = |turn: f64, length: f64| {
+            Wall::between(joint, joint + ahead.turned(turn).unit() * length)
+        };
+        let walls = [wall(left.0, left.1), wall(-right.0, right.1)];
+        let index = WallIndex::new(&walls, Lanes::Baseline);
+        let range = index.cast(origin, to_joint.normalize(), 100.0);
+        prop_assert!(range <= to_joint.norm() + CLOSE, "{range} of {}", to_joint.norm());
+        let mut sweep = Sweep::new(Ring { first_bearing: 0.0, max_range: 100.0, ..ring });
+        sweep.aim(Pose::new(origin, ahead));
+        index.scan(&mut sweep);
+        prop_assert!(sweep.range(0) <= to_joint.norm() + CLOSE);
     }
 }

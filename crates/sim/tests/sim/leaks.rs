@@ -30,41 +30,61 @@ struct Ray {
     dy: i128,
 }
 
-/// The range of a ray that passes lattice points as if moved sideways by `aside`, in cells; none if
-/// it crosses 32 lines and meets nothing.
-fn exact(maze: &Maze, ray: Ray, aside: i128) -> Option<f64> {
-    let (mut column, mut row) = (ray.x.div_euclid(GRAIN), ray.y.div_euclid(GRAIN));
-    let east = ray.dx > 0;
-    let north = ray.dy > 0;
-    for _ in 0..32 {
-        let cell = Cell::new(u16::try_from(column).ok()?, u16::try_from(row).ok()?);
-        let (to_x, to_y) = (column + i128::from(east), row + i128::from(north));
-        // Distances to the next lines, in grains.
-        let (across, up) = ((to_x * GRAIN - ray.x).abs(), (to_y * GRAIN - ray.y).abs());
-        // across / |dx| against up / |dy|; the sideways shift moves the corner by itself.
-        let side = across * ray.dy.abs() - up * ray.dx.abs();
-        let column_first = ray.dy == 0 || (ray.dx != 0 && side < aside);
-        let direction = match (column_first, east, north) {
-            (true, true, _) => Direction::East,
-            (true, false, _) => Direction::West,
-            (false, _, true) => Direction::North,
-            (false, _, false) => Direction::South,
-        };
-        if !maze.is_open(cell, direction) {
-            let (grains, along) = if column_first {
-                (across, ray.dx)
+/// The ranges a ray may read, in cells; `f64::INFINITY` if it may meet nothing within 32 lines. One,
+/// unless it passes lattice points closely: then one for each side it may pass them on.
+fn exact(maze: &Maze, ray: Ray) -> Vec<f64> {
+    let (column, row) = (ray.x.div_euclid(GRAIN), ray.y.div_euclid(GRAIN));
+    let mut ranges = Vec::new();
+    follow(maze, ray, (column, row), 0, &mut ranges);
+    ranges
+}
+
+fn follow(maze: &Maze, ray: Ray, (column, row): (i128, i128), lines: u32, ranges: &mut Vec<f64>) {
+    let cell = match (u16::try_from(column), u16::try_from(row)) {
+        (Ok(x), Ok(y)) if lines < 32 => Cell::new(x, y),
+        _ => return ranges.push(f64::INFINITY),
+    };
+    let (east, north) = (ray.dx > 0, ray.dy > 0);
+    // Distances to the next lines, in grains.
+    let across = ((column + i128::from(east)) * GRAIN - ray.x).abs();
+    let up = ((row + i128::from(north)) * GRAIN - ray.y).abs();
+    // across / |dx| against up / |dy|.
+    let side = across * ray.dy.abs() - up * ray.dx.abs();
+    let directions = [
+        (
+            side <= ASIDE && ray.dx != 0,
+            if east {
+                Direction::East
             } else {
-                (up, ray.dy)
-            };
-            return Some(grains as f64 / GRAIN as f64 * (FINE / along.abs() as f64));
+                Direction::West
+            },
+        ),
+        (
+            side >= -ASIDE && ray.dy != 0,
+            if north {
+                Direction::North
+            } else {
+                Direction::South
+            },
+        ),
+    ];
+    for (possible, direction) in directions {
+        if !possible {
+            continue;
         }
-        if column_first {
-            column += if east { 1 } else { -1 };
+        let (x, y) = direction.step();
+        if maze.is_open(cell, direction) {
+            let next = (column + i128::from(x), row + i128::from(y));
+            follow(maze, ray, next, lines + 1, ranges);
         } else {
-            row += if north { 1 } else { -1 };
+            let (grains, along) = if x == 0 {
+                (up, ray.dy)
+            } else {
+                (across, ray.dx)
+            };
+            ranges.push(grains as f64 / GRAIN as f64 * (FINE / along.abs() as f64));
         }
     }
-    None
 }
 
 fn maze(side: u16, rng: &mut ChaCha8Rng) -> Maze {
@@ -126,15 +146,12 @@ fn fuzz(count: u64, seed: u64) -> u64 {
                         dx: (unit.x * FINE) as i128,
                         dy: (unit.y * FINE) as i128,
                     };
-                    let seen = [0, ASIDE, -ASIDE].map(|aside| {
-                        exact(&maze, ray, aside).map_or(max_range, |range| range.min(max_range))
-                    });
-                    let least = seen.into_iter().fold(f64::INFINITY, f64::min) - 1e-9;
-                    let most = seen.into_iter().fold(0.0, f64::max) + 1e-9;
-                    let range = sweep.range(beam);
+                    let (range, allowed) = (sweep.range(beam), exact(&maze, ray));
                     assert!(
-                        (least..=most).contains(&range),
-                        "from {origin} towards {unit}: {range} instead of {seen:?} in\n{maze}"
+                        allowed
+                            .iter()
+                            .any(|exact| (exact.min(max_range) - range).abs() < 1e-9),
+                        "from {origin} towards {unit}: {range} instead of {allowed:?} in\n{maze}"
                     );
                     cast += 1;
                 }
