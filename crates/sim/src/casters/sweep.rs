@@ -320,9 +320,8 @@ const BEARING_ERROR: f64 = 2e-5;
 #[inline(always)]
 pub(super) fn bearing(x: f64, y: f64) -> f64 {
     let (across, along) = (x.abs(), y.abs());
-    let steep = along > across;
-    let small = if steep { across } else { along };
-    let large = if steep { along } else { across };
+    let small = if along < across { along } else { across };
+    let large = if along < across { across } else { along };
     let t = small / (large + f64::MIN_POSITIVE);
     let s = t * t;
     // Minimax polynomial of the arc tangent on [0, 1].
@@ -330,9 +329,12 @@ pub(super) fn bearing(x: f64, y: f64) -> f64 {
         * (0.999_977_26
             + s * (-0.332_623_47
                 + s * (0.193_543_46 + s * (-0.116_432_87 + s * (0.052_653_32 - s * 0.011_721_2)))));
-    let octant = if steep { FRAC_PI_2 - atan } else { atan };
-    let half = if x < 0.0 { PI - octant } else { octant };
-    if y < 0.0 { -half } else { half }
+    // The other octants by reflection; choosing between constants leaves lanes together.
+    let steep = along > across;
+    let octant = if steep { FRAC_PI_2 } else { 0.0 } + if steep { -1.0 } else { 1.0 } * atan;
+    let behind = x < 0.0;
+    let half = if behind { PI } else { 0.0 } + if behind { -1.0 } else { 1.0 } * octant;
+    half.copysign(y)
 }
 
 #[cfg(test)]

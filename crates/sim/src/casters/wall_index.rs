@@ -2,7 +2,7 @@ use core::ops::Range;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{LANES, Seen, Sweep, bearing};
+use super::sweep::{LANES, Order, Seen, Sweep, bearing};
 use super::{Caster, Kernels, Lanes};
 use crate::{Bounds, Wall};
 
@@ -59,7 +59,7 @@ impl WallIndex {
         // On the lowest level: most walls, but no more of them to a cell than one on average.
         let mut extents: Vec<f64> = walls.iter().map(extent).collect();
         extents.sort_by(f64::total_cmp);
-        let most = extents.get(walls.len() * 9 / 10).copied().unwrap_or(0.0);
+        let most = 1.25 * extents.get(walls.len() * 9 / 10).copied().unwrap_or(0.0);
         let area = bounds.width() * bounds.height();
         let longest = bounds.width().max(bounds.height());
         let base = (area / count)
@@ -228,21 +228,26 @@ fn span(at: f64, reach: f64, per_metre: f64, count: usize) -> (usize, usize) {
     )
 }
 
-/// How many walls are looked at together.
-const BLOCK: usize = 64;
+/// How many walls are drawn together.
+const BLOCK: usize = 16 * LANES;
 
-/// Walls as seen from the origin of a sweep.
+/// Walls as seen from the origin of a sweep, in lanes.
 struct Block {
     count: usize,
     places: [usize; BLOCK],
-    start_x: [f64; BLOCK],
-    start_y: [f64; BLOCK],
-    end_x: [f64; BLOCK],
-    end_y: [f64; BLOCK],
-    area: [f64; BLOCK],
+    walls: [Walls; BLOCK / LANES],
+}
+
+#[derive(Clone, Copy)]
+struct Walls {
+    start_x: [f64; LANES],
+    start_y: [f64; LANES],
+    end_x: [f64; LANES],
+    end_y: [f64; LANES],
+    area: [f64; LANES],
     /// The indices of the right and left ends among the beams.
-    from: [f64; BLOCK],
-    to: [f64; BLOCK],
+    from: [f64; LANES],
+    to: [f64; LANES],
 }
 
 impl Caster for WallIndex {
@@ -293,18 +298,7 @@ impl WallIndex {
     fn draw(&self, sweep: &mut Sweep) {
         let max_range = sweep.ring().max_range;
         let origin = sweep.origin;
-        let nothing = [0.0; BLOCK];
-        let mut block = Block {
-            count: 0,
-            places: [0; BLOCK],
-            start_x: nothing,
-            start_y: nothing,
-            end_x: nothing,
-            end_y: nothing,
-            area: nothing,
-            from: nothing,
-            to: nothing,
-        };
+        let mut block = Block::empty();
         self.places(
             origin,
             max_range.min(self.farthest(origin)),
@@ -324,13 +318,19 @@ impl WallIndex {
     /// Draws the walls of a block, and empties it.
     #[inline(always)]
     fn draw_block(&self, block: &mut Block, sweep: &mut Sweep) {
-        block.look(sweep);
-        for index in 0..block.count.min(BLOCK) {
-            if block.area[index] > 0.0 {
-                let seen = block.seen(index);
-                sweep.meet_seen(&seen, block.from[index], block.to[index]);
+        let order = sweep.order;
+        let count = block.count.min(BLOCK);
+        for walls in &mut block.walls[..count.div_ceil(LANES)] {
+            // What lies beyond the count is left over and harmless.
+            walls.look(&order);
+        }
+        for (index, place) in block.places[..count].iter().enumerate() {
+            let (walls, lane) = (&block.walls[index / LANES], index % LANES);
+            let seen = walls.seen(lane);
+            if seen.area > 0.0 {
+                sweep.meet_seen(&seen, walls.from[lane], walls.to[lane]);
             } else {
-                sweep.meet_edge_on(&self.walls[block.places[index]]);
+                sweep.meet_edge_on(&self.walls[*place]);
             }
         }
         block.count = 0;
@@ -338,6 +338,24 @@ impl WallIndex {
 }
 
 impl Block {
+    fn empty() -> Self {
+        let nothing = [0.0; LANES];
+        let walls = Walls {
+            start_x: nothing,
+            start_y: nothing,
+            end_x: nothing,
+            end_y: nothing,
+            area: nothing,
+            from: nothing,
+            to: nothing,
+        };
+        Self {
+            count: 0,
+            places: [0; BLOCK],
+            walls: [walls; BLOCK / LANES],
+        }
+    }
+
     /// Takes a wall if it comes within `range` of `origin`. The block must not be full.
     #[inline(always)]
     fn take_if_near(&mut self, wall: &Trace, place: usize, origin: Point, range: f64) {
@@ -351,37 +369,47 @@ impl Block {
         // Written in any case, and kept by counting it: a branch here would be guessed wrong often.
         let index = self.count % BLOCK;
         self.places[index] = place;
-        self.start_x[index] = start.x;
-        self.start_y[index] = start.y;
-        self.end_x[index] = end.x;
-        self.end_y[index] = end.y;
+        let (walls, lane) = (&mut self.walls[index / LANES], index % LANES);
+        walls.start_x[lane] = start.x;
+        walls.start_y[lane] = start.y;
+        walls.end_x[lane] = end.x;
+        walls.end_y[lane] = end.y;
         self.count += usize::from(is_near);
     }
+}
 
-    /// Puts the ends of all walls in order and finds them among the beams, in lanes over walls.
+impl Walls {
+    /// Puts the ends of all walls in order and finds them among the beams.
     #[inline(always)]
-    fn look(&mut self, sweep: &Sweep) {
-        let order = sweep.order;
-        // To a whole number of lanes: what lies beyond the count is left over and harmless.
-        for index in 0..self.count.next_multiple_of(LANES).min(BLOCK) {
-            let start = Vector::new(self.start_x[index], self.start_y[index]);
-            let seen = Seen::new(start, Vector::new(self.end_x[index], self.end_y[index]));
-            self.start_x[index] = seen.right.x;
-            self.start_y[index] = seen.right.y;
-            self.end_x[index] = seen.left.x;
-            self.end_y[index] = seen.left.y;
-            self.area[index] = seen.area;
-            self.from[index] = order.index(bearing(seen.right.x, seen.right.y));
-            self.to[index] = order.index(bearing(seen.left.x, seen.left.y));
+    fn look(&mut self, order: &Order) {
+        for lane in 0..LANES {
+            let (start_x, start_y) = (self.start_x[lane], self.start_y[lane]);
+            let (end_x, end_y) = (self.end_x[lane], self.end_y[lane]);
+            let area = start_x * end_y - start_y * end_x;
+            let swap = area < 0.0;
+            let (right_x, left_x) = (pick(swap, end_x, start_x), pick(swap, start_x, end_x));
+            let (right_y, left_y) = (pick(swap, end_y, start_y), pick(swap, start_y, end_y));
+            self.start_x[lane] = right_x;
+            self.start_y[lane] = right_y;
+            self.end_x[lane] = left_x;
+            self.end_y[lane] = left_y;
+            self.area[lane] = area.abs();
+            self.from[lane] = order.index(bearing(right_x, right_y));
+            self.to[lane] = order.index(bearing(left_x, left_y));
         }
     }
 
     #[inline(always)]
-    fn seen(&self, index: usize) -> Seen {
+    fn seen(&self, lane: usize) -> Seen {
         Seen {
-            right: Vector::new(self.start_x[index], self.start_y[index]),
-            left: Vector::new(self.end_x[index], self.end_y[index]),
-            area: self.area[index],
+            right: Vector::new(self.start_x[lane], self.start_y[lane]),
+            left: Vector::new(self.end_x[lane], self.end_y[lane]),
+            area: self.area[lane],
         }
     }
+}
+
+#[inline(always)]
+fn pick(first: bool, yes: f64, no: f64) -> f64 {
+    if first { yes } else { no }
 }
