@@ -6,8 +6,6 @@
     reason = "a scenario that cannot be set up has failed"
 )]
 
-extern crate alloc;
-
 mod golden;
 mod mazes;
 mod physics;

@@ -5,7 +5,9 @@ use tolman::episode::{self, Trial, random_start};
 use tolman::pioneer::body;
 use tolman_geom::{Heading, Pose};
 
-use crate::support::{Cast, course, data_of_others, files, root, trial};
+use tolman::agents::{Agent, Cast};
+
+use crate::support::{course, data_of_others, files, mind, root, trial};
 
 /// Every random start is on the floor, clear of the walls and outside the destination.
 fn check_starts(course: &Course) {
@@ -60,7 +62,7 @@ fn an_oracle_crosses_a_competition_maze() {
         step_limit: 5000,
         ..trial(&course, 1)
     };
-    let mut oracle = Cast::on(&course).mind("Oracle");
+    let mut oracle = mind(&Cast::default(), Agent::Oracle, &course);
     let episode = episode::run(&trial, &mut oracle, |_, _| {}).unwrap();
     assert!(episode.reached, "{} steps", episode.steps);
 }

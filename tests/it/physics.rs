@@ -7,7 +7,9 @@ use tolman::pioneer::{body, calibrated, without_noise};
 use tolman_geom::{Point, Pose, Vector};
 use tolman_robot::Robot;
 
-use crate::support::{Cast, own_course, trial, trial_of};
+use tolman::agents::{Agent, Cast};
+
+use crate::support::{mind, own_course, trial, trial_of};
 
 const SEEDS: u64 = 5;
 
@@ -51,11 +53,12 @@ fn no_body_gets_into_or_through_a_wall() {
     let radius = body().radius();
     for maze in ["j.maze", "large.maze"] {
         let course = own_course(maze);
-        let cast = Cast::on(&course);
-        for name in Cast::NAMES {
+        let cast = Cast::default();
+        for agent in Agent::ALL {
+            let name = agent.name();
             for seed in 0..SEEDS {
                 let trial = trial(&course, seed);
-                let path = episode::run(&trial, &mut cast.mind(name), |_, _| {})
+                let path = episode::run(&trial, &mut mind(&cast, agent, &course), |_, _| {})
                     .unwrap()
                     .path;
                 for pair in path.windows(2) {
@@ -78,11 +81,13 @@ fn no_body_gets_into_or_through_a_wall() {
 #[test]
 fn a_run_ends_where_it_says() {
     let course = own_course("j.maze");
-    let cast = Cast::on(&course);
-    for name in Cast::NAMES {
+    let cast = Cast::default();
+    for agent in Agent::ALL {
+        let name = agent.name();
         for seed in 0..SEEDS {
             let trial = trial(&course, seed);
-            let episode = episode::run(&trial, &mut cast.mind(name), |_, _| {}).unwrap();
+            let episode =
+                episode::run(&trial, &mut mind(&cast, agent, &course), |_, _| {}).unwrap();
             let inside = |pose: &Pose| course.destination().contains(pose.position);
             let (last, before) = episode.path.split_last().unwrap();
             assert_eq!(inside(last), episode.reached, "{name}, seed {seed}");
@@ -102,7 +107,7 @@ fn a_laser_without_noise_measures_the_walls() {
     let robot = without_noise(&calibrated());
     for maze in ["j.maze", "large.maze"] {
         let course = own_course(maze);
-        let mut avoid = Cast::on(&course).mind("Avoid");
+        let mut avoid = mind(&Cast::default(), Agent::Avoid, &course);
         let mut beams = 0;
         episode::run(
             &trial_of(&course, robot.clone(), 3),

@@ -6,15 +6,24 @@ use tolman_robot::Robot;
 use tolman_sim::Solo;
 use tolman_sim::robots::LaserPioneer;
 
-use crate::support::{Cast, own_course, trial};
+use tolman::agents::{Agent, Cast};
+
+use crate::support::{mind, own_course, trial};
 
 #[test]
 fn a_run_is_its_seed() {
     let course = own_course("j.maze");
-    let cast = Cast::on(&course);
-    for name in Cast::NAMES {
-        let run =
-            |seed| episode::run(&trial(&course, seed), &mut cast.mind(name), |_, _| {}).unwrap();
+    let cast = Cast::default();
+    for agent in Agent::ALL {
+        let name = agent.name();
+        let run = |seed| {
+            episode::run(
+                &trial(&course, seed),
+                &mut mind(&cast, agent, &course),
+                |_, _| {},
+            )
+            .unwrap()
+        };
         assert_eq!(run(8), run(8), "{name}");
         assert_ne!(run(8), run(9), "{name}");
     }
@@ -25,12 +34,13 @@ fn a_run_is_its_seed() {
 #[test]
 fn the_commands_of_a_run_make_it_again() {
     let course = own_course("large.maze");
-    let cast = Cast::on(&course);
-    for name in Cast::NAMES {
+    let cast = Cast::default();
+    for agent in Agent::ALL {
+        let name = agent.name();
         let trial = trial(&course, 4);
         let mut commands = Vec::new();
         let mut sensed = Vec::new();
-        let episode = episode::run(&trial, &mut cast.mind(name), |command, solo| {
+        let episode = episode::run(&trial, &mut mind(&cast, agent, &course), |command, solo| {
             commands.push(*command);
             sensed.push(solo.sensing().clone());
         })

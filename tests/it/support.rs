@@ -1,12 +1,11 @@
 //! Courses, minds and episodes for the scenarios.
 
-use alloc::sync::Arc;
 use std::env;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use tolman::agents::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
+use tolman::agents::{Agent, Cast, Mind};
 use tolman::course::Course;
 use tolman::episode::{Trial, random_start};
 use tolman::pioneer::{body, calibrated};
@@ -55,33 +54,6 @@ pub(crate) fn own_course(name: &str) -> Course {
     course(&root().join("mazes").join(name))
 }
 
-/// Who can drive on a course.
-pub(crate) struct Cast {
-    /// What the oracle knows.
-    policy: Arc<Policy>,
-}
-
-impl Cast {
-    pub(crate) const NAMES: [&str; 4] = ["Avoid", "Wall-follow", "Random", "Oracle"];
-
-    pub(crate) fn on(course: &Course) -> Self {
-        Self {
-            policy: Arc::new(Policy::new(course, &calibrated()).unwrap()),
-        }
-    }
-
-    /// A fresh mind that remembers no run.
-    pub(crate) fn mind(&self, name: &str) -> Mind {
-        match name {
-            "Avoid" => Mind::Brain(Box::<Avoid>::default()),
-            "Wall-follow" => Mind::Brain(Box::<WallFollow>::default()),
-            "Random" => Mind::Brain(Box::new(Random)),
-            "Oracle" => Mind::Yardstick(Box::new(Oracle::new(Arc::clone(&self.policy)))),
-            _ => panic!("there is no {name}"),
-        }
-    }
-}
-
 /// A run of the calibrated robot from the random start of this seed.
 pub(crate) fn trial(course: &Course, seed: u64) -> Trial<'_> {
     trial_of(course, calibrated(), seed)
@@ -97,4 +69,9 @@ pub(crate) fn trial_of(course: &Course, robot: LaserPioneerConfig, seed: u64) ->
         step_limit: 500,
         seed,
     }
+}
+
+/// A fresh mind of an agent for the calibrated robot.
+pub(crate) fn mind(cast: &Cast, agent: Agent, course: &Course) -> Mind {
+    cast.mind(agent, course, &calibrated()).unwrap()
 }

@@ -3,15 +3,17 @@
 use tolman::course::Course;
 use tolman::episode;
 
-use crate::support::{Cast, own_course, trial};
+use tolman::agents::{Agent, Cast};
+
+use crate::support::{mind, own_course, trial};
 
 const RUNS: u32 = 40;
 
 /// Mean steps over the same starts for every mind; a run that does not arrive counts its limit.
-fn mean_steps(course: &Course, cast: &Cast, name: &str) -> f64 {
+fn mean_steps(course: &Course, cast: &Cast, agent: Agent) -> f64 {
     let run = |seed: u32| {
         let trial = trial(course, seed.into());
-        episode::run(&trial, &mut cast.mind(name), |_, _| {})
+        episode::run(&trial, &mut mind(cast, agent, course), |_, _| {})
             .unwrap()
             .steps
     };
@@ -22,10 +24,10 @@ fn mean_steps(course: &Course, cast: &Cast, name: &str) -> f64 {
 fn nobody_beats_the_oracle_and_nobody_is_worse_than_chance() {
     for maze in ["j.maze", "large.maze"] {
         let course = own_course(maze);
-        let cast = Cast::on(&course);
-        let means = Cast::NAMES.map(|name| mean_steps(&course, &cast, name));
+        let cast = Cast::default();
+        let means = Agent::ALL.map(|agent| mean_steps(&course, &cast, agent));
         let [.., random, oracle] = means;
-        for (name, steps) in Cast::NAMES.into_iter().zip(means) {
+        for (name, steps) in Agent::ALL.map(Agent::name).into_iter().zip(means) {
             assert!(
                 oracle <= steps && steps <= random,
                 "{maze}: {name} of {means:?}"

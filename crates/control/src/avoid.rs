@@ -22,7 +22,14 @@ pub struct Avoid {
     pub ahead: usize,
     /// Beams beyond those, on either side, that are watched. Paper: 4 of 72.
     pub beside: usize,
-    stepped: bool,
+    /// Whether this action has made a step ahead, and one back.
+    stepped: Steps,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Steps {
+    ahead: bool,
+    back: bool,
 }
 
 impl Avoid {
@@ -36,14 +43,14 @@ impl Avoid {
             turn: 0.05,
             ahead: share(1),
             beside: share(4),
-            stepped: false,
+            stepped: Steps::default(),
         }
     }
 }
 
 impl Layer for Avoid {
     fn begin(&mut self, _action: Direction) {
-        self.stepped = false;
+        self.stepped = Steps::default();
     }
 
     fn correct(
@@ -65,6 +72,12 @@ impl Layer for Avoid {
             (from..=to).map(side).fold(f64::INFINITY, f64::min)
         };
 
+        let stepped = if translate > 0.0 {
+            &mut self.stepped.ahead
+        } else {
+            &mut self.stepped.back
+        };
+
         let front = nearest(0, self.ahead, &left).min(nearest(0, self.ahead, &right));
         let beside_left = nearest(self.ahead + 1, self.ahead + self.beside, &left);
         let beside_right = nearest(self.ahead + 1, self.ahead + self.beside, &right);
@@ -72,7 +85,7 @@ impl Layer for Avoid {
 
         if front < self.buffer || beside < self.far_below {
             proposal.command.translate = 0.0;
-            proposal.ends = Some(if self.stepped {
+            proposal.ends = Some(if *stepped {
                 Outcome::CutShort
             } else {
                 Outcome::Failed
@@ -87,7 +100,7 @@ impl Layer for Avoid {
                 self.turn
             };
         }
-        self.stepped = true;
+        *stepped = true;
         proposal
     }
 }

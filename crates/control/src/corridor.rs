@@ -10,9 +10,11 @@ use crate::View;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RingError {
-    /// Opposite beams need an even number of them.
-    #[error("a ring of {beams} beams has no opposite pairs: use an even number, 8 or more")]
-    Uneven {
+    /// The detector looks at quarters of the ring, each of two beams or more.
+    #[error(
+        "a ring of {beams} beams has no quarters of two beams or more: use a multiple of 4, from 8"
+    )]
+    Quarters {
         /// How many beams the ring has.
         beams: u32,
     },
@@ -31,6 +33,12 @@ pub enum RingError {
     Width {
         /// The width given, m.
         width: f64,
+    },
+    /// The robot's diameter is no length.
+    #[error("a robot {robot_unit} m in diameter is none: give a finite diameter above 0 m")]
+    RobotUnit {
+        /// The diameter given, m.
+        robot_unit: f64,
     },
 }
 
@@ -53,6 +61,8 @@ pub struct Corridor {
 /// inside of a bend, whose two corners look like walls. O(beams).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorDetector {
+    /// The ring whose scans it reads.
+    ring: Ring,
     /// Opposite pairs in the ring.
     pairs: usize,
     /// A sum below this counts as two near walls, m.
@@ -70,10 +80,10 @@ impl CorridorDetector {
     /// A detector for `ring` in corridors `width` metres wide.
     ///
     /// # Errors
-    /// When the ring has no opposite beams or the width is no length.
+    /// [`RingError`] if the ring is no full circle of quarters or the width is no length.
     pub fn new(ring: Ring, width: f64) -> Result<Self, RingError> {
         if ring.beams < 8 || !ring.beams.is_multiple_of(4) {
-            return Err(RingError::Uneven { beams: ring.beams });
+            return Err(RingError::Quarters { beams: ring.beams });
         }
         let circle = ring.spacing * f64::from(ring.beams);
         let full = (circle - TAU).abs() < 1e-9 && ring.first_bearing.abs() < 1e-9;
@@ -88,26 +98,32 @@ impl CorridorDetector {
         }
         let pairs = ring.beams as usize / 2;
         Ok(Self {
+            ring,
             pairs,
-            near: Self::NEAR_WIDTHS * width,
+            // Two beams that met nothing are not near, however wide the corridor.
+            near: (Self::NEAR_WIDTHS * width).min(2.0 * ring.max_range),
             run: libm::ceil(Self::RUN_SHARE * pairs as f64) as usize,
         })
     }
 
-    /// How many beams a scan must have.
+    /// Whether a view can be read: a scan of the detector's ring with a number for every beam (infinity
+    /// is one: nothing met), and a heading.
     #[must_use]
-    pub const fn beams(&self) -> usize {
-        2 * self.pairs
+    pub fn reads(&self, view: View<'_>) -> bool {
+        view.heading.is_finite()
+            && view.scan.ring == self.ring
+            && view.scan.ranges.len() == 2 * self.pairs
+            && !view.scan.ranges.iter().any(|range| range.is_nan())
     }
 
     /// The corridor that is in view, or none where it looks like a junction, a bend or an open place
-    /// (or where the scan is of another ring).
+    /// (or where it does not [read](Self::reads) the view).
     #[must_use]
     pub fn detect(&self, view: View<'_>) -> Option<Corridor> {
-        let (front, back) = view.scan.ranges.split_at_checked(self.pairs)?;
-        if back.len() != self.pairs {
+        if !self.reads(view) {
             return None;
         }
+        let (front, back) = view.scan.ranges.split_at_checked(self.pairs)?;
         let sum = |pair: usize| front[pair % self.pairs] + back[pair % self.pairs];
         let mut narrowest = 0;
         let (mut run, mut longest) = (0, 0);
@@ -134,5 +150,5 @@ impl CorridorDetector {
 /// Whether an axis is nearer to north–south or east–west than to a diagonal.
 fn runs_along_the_compass(axis: Heading) -> bool {
     let quarters = axis.radians() / FRAC_PI_2;
-    libm::fabs(quarters - libm::round(quarters)) <= 0.25
+    (quarters - libm::round(quarters)).abs() <= 0.25
 }

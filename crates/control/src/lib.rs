@@ -15,24 +15,40 @@
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
 //!
 //! Each layer stands alone behind [`Layer`]; a stack is any list of them. Lengths are metres; the
-//! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which every `paper`
-//! constructor takes and converts once.
+//! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which [`Stack::paper`]
+//! takes and converts once.
+//!
+//! # On your own robot
+//!
+//! The gains are fractions of a full motor command, so the drive decides what they do. One full turn
+//! command must turn less than 108° in a time step: Move's 0.0105 and Orient's 0.008 a degree add up,
+//! and twice the error is where a swing no longer dies out (the calibrated robot turns 91°). Two steps
+//! at a translation of 0.25 should cover about one robot diameter.
 //!
 //! ```
 //! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
-//! use tolman_control::{Stack, View};
+//! use tolman_control::{Outcome, Stack, View};
 //! use tolman_geom::Heading;
 //! use tolman_maze::Direction;
 //! use tolman_robot::{Ring, Scan};
 //!
 //! let ring = Ring::full(72, 1.25);
 //! let mut stack = Stack::paper(ring, 0.5, 0.95)?;
-//! stack.begin(Direction::North);
-//! // Nothing in sight, looking east: the first thing to do is turn left.
+//! let mut rng = ChaCha8Rng::seed_from_u64(1);
+//! // A robot in the open that looks east and is told to go north.
 //! let scan = Scan::clear(ring);
-//! let view = View { scan: &scan, heading: Heading::EAST };
-//! let step = stack.correct(view, &mut ChaCha8Rng::seed_from_u64(1));
-//! assert!(step.command.turn > 0.0 && step.command.translate == 0.0);
+//! let mut heading = Heading::EAST;
+//! stack.begin(Direction::North);
+//! let outcome = loop {
+//!     let step = stack.correct(View { scan: &scan, heading }, &mut rng);
+//!     // Here the motors would run for one time step; this robot turns as it is told.
+//!     heading = heading.turned(step.command.turn * 91_f64.to_radians());
+//!     if let Some(outcome) = step.ends {
+//!         break outcome;
+//!     }
+//! };
+//! assert_eq!(outcome, Outcome::Completed);
+//! assert!(heading.turn_to(Heading::NORTH).abs() < 4_f64.to_radians());
 //! # Ok::<(), tolman_control::RingError>(())
 //! ```
 #![no_std]

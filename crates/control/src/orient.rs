@@ -59,7 +59,7 @@ impl Layer for Orient {
             return proposal;
         };
         if corridor.narrowest < self.corner_below {
-            proposal.command.translate += rng.random_range(-self.nudge..=self.nudge);
+            proposal.command.translate += self.nudge * rng.random_range(-1.0..=1.0);
             return proposal;
         }
         let misaligned = f64::from(corridor.misaligned_beams);

@@ -5,7 +5,7 @@ pub enum Outcome {
     Completed,
     /// A wall came close after at least one step of translation. MSLST does not record this as a failure.
     CutShort,
-    /// Not carried out: the robot has not moved from its place.
+    /// Not carried out: no step was made in the direction of travel.
     Failed,
 }
 

@@ -29,8 +29,11 @@ impl Stack {
     /// that sees through `ring`, in corridors `width` metres wide.
     ///
     /// # Errors
-    /// When the ring has no opposite beams or the width is no length.
+    /// [`RingError`] if the ring is no full circle of quarters or a length is none.
     pub fn paper(ring: Ring, robot_unit: f64, width: f64) -> Result<Self, RingError> {
+        if !(robot_unit.is_finite() && robot_unit > 0.0) {
+            return Err(RingError::RobotUnit { robot_unit });
+        }
         Ok(Self::new(
             CorridorDetector::new(ring, width)?,
             vec![
@@ -42,17 +45,19 @@ impl Stack {
         ))
     }
 
-    /// Starts a high-level action.
+    /// Starts a high-level action. Without it the stack goes north; an action that has ended and is not
+    /// followed by another starts anew.
     pub fn begin(&mut self, action: Direction) {
         for layer in &mut self.layers {
             layer.begin(action);
         }
     }
 
-    /// What to do in this time step, and whether the action ends with it. A scan of another ring than
-    /// the stack was made for fails the action with the robot at rest. O(beams).
+    /// What to do in this time step, and whether the action ends with it. A view that cannot be
+    /// [read](CorridorDetector::reads), such as a scan of another ring or a compass that says NaN, fails
+    /// the action with the robot at rest. O(beams).
     pub fn correct(&mut self, view: View<'_>, rng: &mut dyn Rng) -> Proposal {
-        if view.scan.ranges.len() != self.detector.beams() {
+        if !self.detector.reads(view) {
             return Proposal {
                 ends: Some(Outcome::Failed),
                 ..Proposal::default()

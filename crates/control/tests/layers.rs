@@ -86,7 +86,12 @@ mod detector {
 
     #[test]
     fn sees_none_in_the_open() {
-        assert_eq!(seen(&Scan::clear(RING()), Heading::NORTH), None);
+        let (scan, heading) = (&Scan::clear(RING()), Heading::NORTH);
+        // Also where a corridor is wider than the beams can see.
+        for width in [WIDTH, 1.6, 5.0] {
+            let detector = CorridorDetector::new(RING(), width).unwrap();
+            assert_eq!(detector.detect(View { scan, heading }), None, "{width} m");
+        }
     }
 
     #[test]
@@ -112,21 +117,16 @@ mod detector {
 
     #[test]
     fn other_rings_are_refused_with_a_reason() {
-        let odd = Ring::full(71, 1.25);
-        assert_eq!(
-            CorridorDetector::new(odd, WIDTH),
-            Err(RingError::Uneven { beams: 71 })
-        );
-        let fan = Ring::fan(72, 3.0, 1.25);
-        assert!(matches!(
-            CorridorDetector::new(fan, WIDTH),
-            Err(RingError::NotAFullCircle { .. })
-        ));
-        let width = f64::NAN;
-        assert!(matches!(
-            CorridorDetector::new(RING(), width),
-            Err(RingError::Width { .. })
-        ));
+        for beams in [0, 4, 6, 10, 71, 74] {
+            let refused = CorridorDetector::new(Ring::full(beams, 1.25), WIDTH);
+            assert_eq!(refused, Err(RingError::Quarters { beams }));
+        }
+        let refused = |ring, width| CorridorDetector::new(ring, width).unwrap_err();
+        let fan = refused(Ring::fan(72, 3.0, 1.25), WIDTH);
+        assert!(matches!(fan, RingError::NotAFullCircle { .. }));
+        for width in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+            assert!(matches!(refused(RING(), width), RingError::Width { .. }));
+        }
     }
 }
 
@@ -355,10 +355,10 @@ mod avoid {
         let wall_ahead = [(0, 0.3)];
         let mut layer = Avoid::paper(72, UNIT);
         assert_eq!(ahead(&wall_ahead, -0.25, &mut layer).ends, None);
-        assert_eq!(
-            ahead(&[(36, 0.3)], -0.25, &mut layer).ends,
-            Some(Outcome::CutShort)
-        );
+        let back = ahead(&[(36, 0.3)], -0.25, &mut layer).ends;
+        assert_eq!(back, Some(Outcome::CutShort), "a step back was made");
+        let front = ahead(&wall_ahead, 0.25, &mut layer).ends;
+        assert_eq!(front, Some(Outcome::Failed), "a step ahead was not");
     }
 
     #[test]
@@ -399,17 +399,40 @@ mod stack {
     use super::*;
 
     #[test]
-    fn a_scan_of_another_ring_fails_the_action_at_rest() {
+    fn a_view_that_cannot_be_read_fails_the_action_at_rest() {
         let mut stack = Stack::paper(RING(), UNIT, WIDTH).unwrap();
-        stack.begin(Direction::North);
-        let scan = Scan::clear(Ring::full(36, 1.25));
-        let view = View {
-            scan: &scan,
-            heading: Heading::NORTH,
-        };
-        let proposal = stack.correct(view, &mut rng());
-        assert_eq!(proposal.ends, Some(Outcome::Failed));
-        assert_eq!(proposal.command, TurnTranslate::STOP);
+        let clear = Scan::clear(RING());
+        let mut holed = clear.clone();
+        holed.ranges[0] = f64::NAN;
+        let mut short = clear.clone();
+        short.ranges.pop();
+        let unreadable = [
+            (Scan::clear(Ring::full(36, 1.25)), Heading::NORTH),
+            (Scan::clear(Ring::fan(72, 3.0, 1.25)), Heading::NORTH),
+            (short, Heading::NORTH),
+            (holed, Heading::NORTH),
+            (clear, Heading::from_radians(f64::NAN)),
+        ];
+        for (scan, heading) in &unreadable {
+            stack.begin(Direction::North);
+            let view = View {
+                scan,
+                heading: *heading,
+            };
+            let proposal = stack.correct(view, &mut rng());
+            assert_eq!(proposal.ends, Some(Outcome::Failed));
+            assert_eq!(proposal.command, TurnTranslate::STOP);
+        }
+    }
+
+    #[test]
+    fn lengths_that_are_none_are_refused() {
+        for robot_unit in [f64::NAN, 0.0, -0.5, f64::INFINITY] {
+            assert!(matches!(
+                Stack::paper(RING(), robot_unit, WIDTH),
+                Err(RingError::RobotUnit { .. })
+            ));
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::Vector;
 
 /// A direction in the plane, kept in (−π, π] radians: 0 is east (or ahead), counter-clockwise.
 ///
-/// Arithmetic wraps: `a - b` is the signed smallest turn that takes `b` to `a`.
+/// Arithmetic wraps: `b.turn_to(a)` is the signed smallest turn that takes `b` to `a`.
 ///
 /// A heading built from NaN or an infinity is NaN; [`Heading::is_finite`] tells.
 ///

@@ -56,7 +56,10 @@ impl Graph for Arcs {
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
         let node = node as usize;
-        for &(head, cost) in &self.arcs[self.first[node] as usize..self.first[node + 1] as usize] {
+        let (Some(from), Some(to)) = (self.first.get(node), self.first.get(node + 1)) else {
+            return;
+        };
+        for &(head, cost) in &self.arcs[*from as usize..*to as usize] {
             visit(head, cost);
         }
     }

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 use crate::Graph;
 
 /// For every node, the least number of arcs that lead to it from any of `sources`, or none where no way
-/// leads. Breadth-first search, O(nodes + arcs). Sources the graph does not have are passed over.
+/// leads. Breadth-first search, O(nodes + arcs). Nodes the graph does not have, as sources or at
+/// the end of an arc, are passed over.
 #[must_use]
 pub fn steps_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) -> Vec<Option<u32>> {
     let mut steps = vec![None; graph.node_count()];
@@ -21,8 +22,7 @@ pub fn steps_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) ->
         let mut next = Vec::new();
         for node in frontier {
             graph.for_each_arc(node, |head, _| {
-                let step = &mut steps[head as usize];
-                if step.is_none() {
+                if let Some(step @ None) = steps.get_mut(head as usize) {
                     *step = Some(depth);
                     next.push(head);
                 }

@@ -7,7 +7,8 @@ use crate::Graph;
 
 /// For every node, the least sum of arc costs on a way to it from any of `sources`, or none where no way
 /// leads. Dijkstra's algorithm with a binary heap, O(arcs · log nodes); ties go to the lower node id.
-/// Sums that would exceed `u32::MAX` count as no way. Sources the graph does not have are passed over.
+/// Sums that would exceed `u32::MAX` count as no way. Nodes the graph does not have,
+/// as sources or at the end of an arc, are passed over.
 #[must_use]
 pub fn costs_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) -> Vec<Option<u32>> {
     let mut costs: Vec<Option<u32>> = vec![None; graph.node_count()];
@@ -26,7 +27,9 @@ pub fn costs_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) ->
             let Some(reached) = cost.checked_add(step) else {
                 return;
             };
-            let best = &mut costs[head as usize];
+            let Some(best) = costs.get_mut(head as usize) else {
+                return;
+            };
             if best.is_none_or(|best| reached < best) {
                 *best = Some(reached);
                 frontier.push(Reverse((reached, head)));

@@ -3,7 +3,7 @@
 use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
-use tolman_planners::{Arcs, costs_from, steps_from};
+use tolman_planners::{Arcs, Graph, costs_from, steps_from};
 
 const NODES: u32 = 24;
 
@@ -58,4 +58,43 @@ proptest! {
             costs_from(&graph.reversed(), [to])[from as usize]
         );
     }
+}
+
+/// Someone's own graph, which need not keep its word.
+struct Wild;
+
+impl Graph for Wild {
+    fn node_count(&self) -> usize {
+        2
+    }
+
+    fn for_each_arc(&self, _node: u32, mut visit: impl FnMut(u32, u32)) {
+        visit(1, u32::MAX);
+        visit(7, 1);
+    }
+}
+
+#[test]
+fn what_a_graph_does_not_have_is_passed_over() {
+    assert_eq!(steps_from(&Wild, [0, 9]), [Some(0), Some(1)]);
+    assert_eq!(costs_from(&Wild, [0, 9]), [Some(0), Some(u32::MAX)]);
+    let arcs = Arcs::new(2, &[(0, 1, 3), (0, 2, 1), (5, 0, 1)]);
+    assert_eq!(costs_from(&arcs, [0]), [Some(0), Some(3)]);
+    arcs.for_each_arc(9, |_, _| panic!("node 9 has no arcs"));
+    assert!(steps_from(&Arcs::new(0, &[]), [0]).is_empty());
+}
+
+#[test]
+fn a_sum_beyond_all_numbers_is_no_way() {
+    let arcs = Arcs::new(3, &[(0, 1, u32::MAX), (1, 2, 1)]);
+    assert_eq!(costs_from(&arcs, [0]), [Some(0), Some(u32::MAX), None]);
+}
+
+#[test]
+fn every_source_counts() {
+    let arcs = Arcs::new(4, &[(0, 1, 5), (1, 2, 5), (3, 2, 1)]);
+    assert_eq!(
+        costs_from(&arcs, [0, 3]),
+        [Some(0), Some(5), Some(1), Some(0)]
+    );
 }

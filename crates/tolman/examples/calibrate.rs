@@ -7,7 +7,7 @@
 use std::io::{self, Write};
 
 use rayon::prelude::*;
-use tolman::agents::{Avoid, Mind, WallFollow};
+use tolman::agents::{Agent, Cast};
 use tolman::course::Course;
 use tolman::episode::{self, Trial};
 use tolman::pioneer;
@@ -109,10 +109,8 @@ fn line(
     runs: u64,
 ) -> Result<(), BoxError> {
     for (course, limit) in courses {
-        let avoid = row(robot, course, *limit, runs, || Box::new(Avoid::default()))?;
-        let wall_follow = row(robot, course, *limit, runs, || {
-            Box::new(WallFollow::default())
-        })?;
+        let avoid = row(robot, course, *limit, runs, Agent::Avoid)?;
+        let wall_follow = row(robot, course, *limit, runs, Agent::WallFollow)?;
         writeln!(
             out,
             "| {name} | {} | {avoid} | {wall_follow} |",
@@ -127,7 +125,7 @@ fn row(
     course: &Course,
     step_limit: u32,
     runs: u64,
-    brain: fn() -> Box<dyn tolman::agents::Brain>,
+    agent: Agent,
 ) -> Result<String, BoxError> {
     let episodes: Result<Vec<_>, _> = (0..runs)
         .into_par_iter()
@@ -140,7 +138,8 @@ fn row(
                 step_limit,
                 seed,
             };
-            episode::run(&trial, &mut Mind::Brain(brain()), |_, _| {})
+            let mut mind = Cast::default().mind(agent, course, robot)?;
+            episode::run(&trial, &mut mind, |_, _| {})
         })
         .collect();
     let episodes = episodes?;

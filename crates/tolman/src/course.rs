@@ -111,8 +111,8 @@ impl Course {
         &self.starts
     }
 
-    /// A random start: any of those cells with equal chance, any place in it where the body stands
-    /// clear of the walls, any heading.
+    /// A random start: any of those cells with equal chance, any place in its middle from which the
+    /// body would stand clear of walls on all four sides, any heading.
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let cell = self.starts[rng.random_range(0..self.starts.len() as u32) as usize];
         let play = (0.5 * self.corridor_width - body.radius()).max(0.0) * 0.99;

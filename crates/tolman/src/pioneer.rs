@@ -58,13 +58,14 @@ pub const fn body() -> Body {
 /// The same robot with perfect motors and sensors: what a planner reckons with.
 #[must_use]
 pub fn without_noise(robot: &LaserPioneerConfig) -> LaserPioneerConfig {
+    let perfect = LaserPioneerConfig::noiseless();
     LaserPioneerConfig {
-        radius: robot.radius,
-        ring: robot.ring,
-        turn_per_step: robot.turn_per_step,
-        translate_per_step: robot.translate_per_step,
-        contact: robot.contact,
-        step_us: robot.step_us,
-        ..LaserPioneerConfig::noiseless()
+        motor_noise: perfect.motor_noise,
+        scan_noise: perfect.scan_noise,
+        compass_noise: perfect.compass_noise,
+        odometry_distance_noise: perfect.odometry_distance_noise,
+        odometry_turn_noise: perfect.odometry_turn_noise,
+        faults: perfect.faults,
+        ..robot.clone()
     }
 }

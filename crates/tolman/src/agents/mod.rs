@@ -4,6 +4,7 @@
 //! competitor but the measure of one: the best that the same body and the same layers allow.
 
 mod avoid;
+mod cast;
 mod oracle;
 mod random;
 mod wall_follow;
@@ -18,6 +19,7 @@ use tolman_robot::Scan;
 use tolman_sim::Truth;
 
 pub use avoid::Avoid;
+pub use cast::{Agent, Cast};
 pub use oracle::{Oracle, Policy};
 pub use random::Random;
 pub use wall_follow::WallFollow;

@@ -6,7 +6,6 @@ use tolman_geom::Heading;
 use tolman_maze::Direction;
 
 use super::{Brain, Perception};
-use crate::pioneer::CORRIDOR_WIDTH;
 
 /// MSLST's Wall-follow brain: "always sticks to the wall on its right".
 ///
@@ -17,8 +16,9 @@ use crate::pioneer::CORRIDOR_WIDTH;
 /// The paper does not say that this brain looks at the laser, but its figures do: 2.1 time steps an action
 /// in both mazes is what actions cost that hardly ever fail, while a brain that feels for the wall by
 /// trying to turn into it fails every other action (1.7; see `docs/mslst.md`).
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct WallFollow {
+    corridor_width: f64,
     travelling: Option<Direction>,
     failed: Vec<Direction>,
 }
@@ -26,6 +26,30 @@ pub struct WallFollow {
 /// A wall is on the right if any beam within this angle of it is nearer than a corridor is wide: through
 /// an opening that the robot fits through it sees further.
 const WATCHED: f64 = PI / 12.0;
+
+impl WallFollow {
+    /// A wall follower in corridors `corridor_width` metres wide.
+    #[must_use]
+    pub const fn new(corridor_width: f64) -> Self {
+        Self {
+            corridor_width,
+            travelling: None,
+            failed: Vec::new(),
+        }
+    }
+
+    /// Whether the laser sees a wall beside the robot in the direction of `heading`. What it cannot see
+    /// it takes for an opening, and tries.
+    fn wall_towards(&self, heading: Heading, perception: &Perception<'_>) -> bool {
+        let (Some(scan), Some(robot)) = (perception.scan, perception.heading) else {
+            return false;
+        };
+        (0_u32..).zip(&scan.ranges).any(|(beam, range)| {
+            let beam_heading = robot.turned(scan.ring.bearing(beam));
+            beam_heading.turn_to(heading).abs() <= WATCHED && *range < self.corridor_width
+        })
+    }
+}
 
 impl Brain for WallFollow {
     fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
@@ -41,7 +65,7 @@ impl Brain for WallFollow {
             .travelling
             .get_or_insert_with(|| Direction::ALL[rng.random_range(0..4_u32) as usize]);
         let right = travelling.right();
-        if wall_towards(heading_of(right), perception) && !self.failed.contains(&right) {
+        if self.wall_towards(heading_of(right), perception) && !self.failed.contains(&right) {
             self.failed.push(right);
         }
         let order = [right, travelling, travelling.left(), travelling.opposite()];
@@ -53,16 +77,4 @@ impl Brain for WallFollow {
                 travelling
             })
     }
-}
-
-/// Whether the laser sees a wall beside the robot in the direction of `heading`. What it cannot see it
-/// takes for an opening, and tries.
-fn wall_towards(heading: Heading, perception: &Perception<'_>) -> bool {
-    let (Some(scan), Some(robot)) = (perception.scan, perception.heading) else {
-        return false;
-    };
-    (0_u32..).zip(&scan.ranges).any(|(beam, range)| {
-        let beam_heading = robot.turned(scan.ring.bearing(beam));
-        beam_heading.turn_to(heading).abs() <= WATCHED && *range < CORRIDOR_WIDTH
-    })
 }

@@ -11,6 +11,7 @@ use anyhow::Context;
 use brain::Brain;
 use serde_json::json;
 use start::Start;
+use tolman::agents::Cast;
 use tolman::course::Course;
 use tolman::episode::{self, Episode, EpisodeError, Trial};
 use tolman::pioneer::{body, calibrated};
@@ -70,7 +71,9 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         step_limit: arguments.steps,
         seed: arguments.seed,
     };
-    let mut mind = arguments.brain.mind(&course, &robot)?;
+    let mut mind = Cast::default()
+        .mind(arguments.brain.0, &course, &robot)
+        .map_err(classify)?;
     let episode = episode::run(&trial, &mut mind, |_, _| ()).map_err(classify)?;
     let told = arguments.told(&episode);
     if let Some(path) = &arguments.svg {
@@ -123,10 +126,10 @@ impl Arguments {
     }
 }
 
-/// A start that does not serve is the caller's to mend.
+/// A start or a corridor that does not serve is the caller's to mend.
 fn classify(error: EpisodeError) -> Failure {
     match error {
-        EpisodeError::Start(_) => Failure::BadInput(error.into()),
+        EpisodeError::Start(_) | EpisodeError::Layers(_) => Failure::BadInput(error.into()),
         _ => Failure::Failed(error.into()),
     }
 }

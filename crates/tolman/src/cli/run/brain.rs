@@ -1,52 +1,45 @@
-//! The brains by the names the command line has for them.
+//! The agents by the names the command line has for them.
 
-use alloc::sync::Arc;
 use core::fmt;
 
 use clap::ValueEnum;
-use tolman::agents::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
-use tolman::course::Course;
-use tolman::episode::EpisodeError;
-use tolman_sim::robots::LaserPioneerConfig;
+use clap::builder::PossibleValue;
+use tolman::agents::Agent;
 
 /// Who chooses the actions.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum Brain {
-    /// Any direction, each time anew: the floor
-    Random,
-    /// MSLST's random wanderer that does not turn back before a dead end
-    Avoid,
-    /// MSLST's follower of the wall on its right
-    WallFollow,
-    /// Knows the maze and where it is: the ceiling
-    Oracle,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Brain(pub(super) Agent);
+
+impl Brain {
+    const fn word(self) -> &'static str {
+        match self.0 {
+            Agent::Avoid => "avoid",
+            Agent::WallFollow => "wall-follow",
+            Agent::Random => "random",
+            Agent::Oracle => "oracle",
+        }
+    }
 }
 
 impl fmt::Display for Brain {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = self.to_possible_value();
-        formatter.write_str(value.as_ref().map_or("", |value| value.get_name()))
+        formatter.write_str(self.word())
     }
 }
 
-impl Brain {
-    /// A mind of this kind for a robot on a course.
-    ///
-    /// # Errors
-    /// If the oracle cannot plan there.
-    pub(super) fn mind(
-        self,
-        course: &Course,
-        robot: &LaserPioneerConfig,
-    ) -> Result<Mind, EpisodeError> {
-        Ok(match self {
-            Self::Random => Mind::Brain(Box::new(Random)),
-            Self::Avoid => Mind::Brain(Box::<Avoid>::default()),
-            Self::WallFollow => Mind::Brain(Box::<WallFollow>::default()),
-            Self::Oracle => {
-                let policy = Policy::new(course, robot)?;
-                Mind::Yardstick(Box::new(Oracle::new(Arc::new(policy))))
-            }
-        })
+impl ValueEnum for Brain {
+    fn value_variants<'a>() -> &'a [Self] {
+        const {
+            &[
+                Brain(Agent::ALL[0]),
+                Brain(Agent::ALL[1]),
+                Brain(Agent::ALL[2]),
+                Brain(Agent::ALL[3]),
+            ]
+        }
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.word()).help(self.0.description()))
     }
 }

@@ -15,7 +15,7 @@ use crate::experiment::{BoxError, Fields, Job, Metric, Row, Table};
 use crate::pioneer;
 
 /// The table's name in `summary.json`.
-const NAME: &str = "corridor detector";
+pub(super) const NAME: &str = "corridor detector";
 
 /// Random poses in one run.
 const POSES: u32 = 200;
@@ -60,15 +60,19 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let course = Course::new(job.row, &file, &pioneer::body())?;
     let detector = CorridorDetector::new(pioneer::ring(), course.corridor_width)?;
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
-    let play = 0.5 * (course.corridor_width - pioneer::ROBOT_UNIT) * 0.99;
-    let mut called = 0_u32;
-    for _ in 0..POSES {
+    let half = 0.5 * course.corridor_width;
+    let (mut poses, mut called) = (0_u32, 0_u32);
+    while poses < POSES {
         let offset = Vector::new(
-            rng.random_range(-play..=play),
-            rng.random_range(-play..=play),
+            rng.random_range(-half..=half),
+            rng.random_range(-half..=half),
         );
         let heading = Heading::from_degrees(rng.random_range(-180.0..180.0));
         let pose = Pose::new(course.world.cell_centre(centre) + offset, heading);
+        if !course.world.clear_for(&pioneer::body(), pose) {
+            continue;
+        }
+        poses += 1;
         let robot = LaserPioneer::new(pioneer::calibrated())?;
         let solo = Solo::new(course.world.clone(), robot, pose, job.seed)?;
         if let Some(scan) = &solo.sensing().scan {

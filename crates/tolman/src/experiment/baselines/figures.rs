@@ -2,7 +2,8 @@
 
 use tolman_geom::Point;
 
-use super::{Baselines, ROWS, Venue};
+use super::{Baselines, Venue};
+use crate::agents::Agent;
 use crate::draw::{Figure, Plan, Series};
 use crate::experiment::{BoxError, Field, Run};
 
@@ -15,7 +16,7 @@ const WIDTH: f64 = 420.0;
 pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (number, venue) in experiment.venues.iter().enumerate() {
-        for (series, row) in (0_u32..).zip(ROWS) {
+        for (series, row) in (0_u32..).zip(Agent::ALL.map(Agent::name)) {
             let of_row: Vec<&Run> = runs
                 .iter()
                 .filter(|run| run.table == venue.table && run.row == row)

@@ -8,32 +8,26 @@ mod detector;
 mod figures;
 mod worlds;
 
-use alloc::sync::Arc;
-use std::sync::OnceLock;
-
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::{
     BoxError, Comparison, Correction, Experiment, Fields, Job, Metric, Options, Row, Run, Table,
     Tolerance,
 };
-use crate::agents::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
+use crate::agents::{Agent, Cast};
 use crate::draw::Figure;
 use crate::episode::{self, Episode, EpisodeError, Trial};
 use crate::pioneer;
 
 use worlds::Venue;
 
-/// The brains, in the order of the paper's tables, then floor and ceiling.
-const ROWS: [&str; 4] = ["Avoid", "Wall-follow", "Random", "Oracle"];
-
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Baselines {
     robot: LaserPioneerConfig,
     venues: Vec<Venue>,
-    /// The oracle's policy of each venue, worked out when it is first asked for.
-    policies: Vec<OnceLock<Arc<Policy>>>,
+    /// The agents of each venue.
+    casts: Vec<Cast>,
     tables: Vec<Table>,
 }
 
@@ -48,11 +42,11 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         table.note = format!("{} {missing}", table.note);
     }
     tables.push(detector::table());
-    let policies = venues.iter().map(|_| OnceLock::new()).collect();
+    let casts = venues.iter().map(|_| Cast::default()).collect();
     Ok(Box::new(Baselines {
         robot: pioneer::calibrated(),
         venues,
-        policies,
+        casts,
         tables,
     }))
 }
@@ -71,7 +65,7 @@ fn table(venue: &Venue) -> Table {
                 .titled("steps / action")
                 .tolerance(Tolerance::Relative(0.2)),
         );
-    for name in ROWS {
+    for name in Agent::ALL.map(Agent::name) {
         let row = Row::new(name);
         table = table.row(match venue.paper.iter().find(|paper| paper.row == name) {
             Some(paper) => row
@@ -86,7 +80,7 @@ fn table(venue: &Venue) -> Table {
         table = table.paper_runs(25);
     }
     table.comparison = Some(Comparison {
-        reference: ROWS[0].into(),
+        reference: Agent::ALL[0].name().into(),
         correction: Correction::Bonferroni,
     });
     table.note(format!(
@@ -106,7 +100,8 @@ impl Baselines {
 
     /// Plays one run; also how figures play it again.
     fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
-        let Some((index, venue)) = self.venue(job.table) else {
+        let (Some((index, venue)), Some(agent)) = (self.venue(job.table), Agent::named(job.row))
+        else {
             return Ok(None);
         };
         let trial = Trial {
@@ -116,24 +111,8 @@ impl Baselines {
             step_limit: venue.step_limit,
             seed: job.seed,
         };
-        let mut mind = match job.row {
-            "Avoid" => Mind::Brain(Box::new(Avoid::default())),
-            "Wall-follow" => Mind::Brain(Box::new(WallFollow::default())),
-            "Random" => Mind::Brain(Box::new(Random)),
-            _ => Mind::Yardstick(Box::new(Oracle::new(self.policy(index)?))),
-        };
+        let mut mind = self.casts[index].mind(agent, &venue.course, &self.robot)?;
         episode::run(&trial, &mut mind, |_, _| {}).map(Some)
-    }
-
-    fn policy(&self, venue: usize) -> Result<Arc<Policy>, EpisodeError> {
-        if let Some(policy) = self.policies[venue].get() {
-            return Ok(Arc::clone(policy));
-        }
-        let policy = Policy::new(&self.venues[venue].course, &self.robot)?;
-        // Two threads may work it out at once; they get the same.
-        Ok(Arc::clone(
-            self.policies[venue].get_or_init(|| Arc::new(policy)),
-        ))
     }
 }
 
@@ -161,13 +140,15 @@ impl Experiment for Baselines {
     fn config(&self) -> Result<toml::Table, BoxError> {
         let mut config = toml::Table::new();
         config.insert("robot".into(), toml::Value::try_from(&self.robot)?);
+        let mut worlds = toml::Table::new();
         for venue in &self.venues {
             let mut world = toml::Table::new();
             world.insert("maze".into(), venue.course.maze.to_string().into());
             world.insert("corridor_width".into(), venue.course.corridor_width.into());
             world.insert("step_limit".into(), i64::from(venue.step_limit).into());
-            config.insert(venue.table.clone(), world.into());
+            worlds.insert(venue.table.clone(), world.into());
         }
+        config.insert("worlds".into(), worlds.into());
         Ok(config)
     }
 

@@ -145,15 +145,16 @@ fn from_file(path: &Path, steps_per_cell: f64) -> Result<Venue, BoxError> {
     })
 }
 
-/// Two files may bear one name; the later ones get a number.
+/// Two files may bear one name, or that of the detector's table; the later ones get a number.
 fn told_apart(mut venues: Vec<Venue>) -> Vec<Venue> {
-    for index in 1..venues.len() {
+    for index in 0..venues.len() {
         let name = venues[index].table.clone();
         let mut candidate = name.clone();
         let mut count = 1;
-        while venues[..index]
-            .iter()
-            .any(|before| before.table == candidate)
+        while candidate == super::detector::NAME
+            || venues[..index]
+                .iter()
+                .any(|before| before.table == candidate)
         {
             count += 1;
             candidate = format!("{name} ({count})");

@@ -1,0 +1,93 @@
+use alloc::sync::Arc;
+use std::sync::OnceLock;
+
+use tolman_sim::robots::LaserPioneerConfig;
+
+use super::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
+use crate::course::Course;
+use crate::episode::EpisodeError;
+
+/// The agents by name: who can be sent through a maze.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Agent {
+    /// [`Avoid`].
+    Avoid,
+    /// [`WallFollow`].
+    WallFollow,
+    /// [`Random`].
+    Random,
+    /// [`Oracle`].
+    Oracle,
+}
+
+impl Agent {
+    /// All of them: the paper's in its order, then floor and ceiling.
+    pub const ALL: [Self; 4] = [Self::Avoid, Self::WallFollow, Self::Random, Self::Oracle];
+
+    /// The name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Avoid => "Avoid",
+            Self::WallFollow => "Wall-follow",
+            Self::Random => "Random",
+            Self::Oracle => "Oracle",
+        }
+    }
+
+    /// What it is, in one line.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Avoid => "MSLST's random wanderer that does not turn back before a dead end",
+            Self::WallFollow => "MSLST's follower of the wall on its right",
+            Self::Random => "Any direction, each time anew: the floor",
+            Self::Oracle => "Knows the maze and where it is: the ceiling",
+        }
+    }
+
+    /// The agent of that name in tables.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|agent| agent.name() == name)
+    }
+}
+
+/// Makes the minds of all agents for one robot on one course, and works out only once what they share.
+#[derive(Debug, Default)]
+pub struct Cast {
+    policy: OnceLock<Arc<Policy>>,
+}
+
+impl Cast {
+    /// A fresh mind that remembers no run. `course` and `robot` must be the same at every call.
+    ///
+    /// # Errors
+    /// If the oracle cannot plan there.
+    pub fn mind(
+        &self,
+        agent: Agent,
+        course: &Course,
+        robot: &LaserPioneerConfig,
+    ) -> Result<Mind, EpisodeError> {
+        Ok(match agent {
+            Agent::Avoid => Mind::Brain(Box::<Avoid>::default()),
+            Agent::WallFollow => Mind::Brain(Box::new(WallFollow::new(course.corridor_width))),
+            Agent::Random => Mind::Brain(Box::new(Random)),
+            Agent::Oracle => Mind::Yardstick(Box::new(Oracle::new(self.policy(course, robot)?))),
+        })
+    }
+
+    fn policy(
+        &self,
+        course: &Course,
+        robot: &LaserPioneerConfig,
+    ) -> Result<Arc<Policy>, EpisodeError> {
+        if let Some(policy) = self.policy.get() {
+            return Ok(Arc::clone(policy));
+        }
+        let policy = Policy::new(course, robot)?;
+        // Two threads may work it out at once; they get the same.
+        Ok(Arc::clone(self.policy.get_or_init(|| Arc::new(policy))))
+    }
+}
