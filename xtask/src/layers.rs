@@ -55,11 +55,7 @@ const PAGE: &str = "docs/architecture.md";
 
 /// The workspace's packages as cargo sees them.
 fn packages() -> Result<Vec<Package>> {
-    let text = workspace::output(&mut workspace::cargo(
-        "metadata --format-version 1 --no-deps",
-    ))?;
-    let metadata: Value = serde_json::from_str(&text).context("`cargo metadata` is not JSON")?;
-    packages_of(&metadata).context("`cargo metadata` has another form than expected")
+    packages_of(&workspace::metadata()?).context("`cargo metadata` has another form than expected")
 }
 
 fn packages_of(metadata: &Value) -> Option<Vec<Package>> {

@@ -2,16 +2,25 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
 use crate::workspace;
 
-/// Runs `tolman maze check` over all files in `mazes/`.
+/// Builds the command and lets it check all files in `mazes/`.
 ///
 /// # Errors
 /// If there is none, or one of them is refused.
 pub(crate) fn run() -> Result<()> {
+    check_with(&mut workspace::cargo("run --quiet --package tolman --"))
+}
+
+/// Lets `tolman` check all files in `mazes/`.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn check_with(tolman: &mut Command) -> Result<()> {
     let folder = workspace::root().join("mazes");
     let mut files = Vec::<PathBuf>::new();
     for entry in
@@ -24,6 +33,5 @@ pub(crate) fn run() -> Result<()> {
     }
     files.sort();
     ensure!(!files.is_empty(), "no maze in {}", folder.display());
-    let mut check = workspace::cargo("run --quiet --package tolman -- maze check");
-    workspace::succeed(check.args(files))
+    workspace::succeed(tolman.args(["maze", "check"]).args(files))
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
+use serde_json::Value;
 
 /// The folder of the workspace's `Cargo.toml`.
 pub(crate) fn root() -> &'static Path {
@@ -24,6 +25,15 @@ pub(crate) fn cargo(arguments: &str) -> Command {
         .current_dir(root())
         .args(arguments.split_whitespace());
     command
+}
+
+/// What `cargo metadata` says of the workspace's members.
+///
+/// # Errors
+/// If cargo cannot read a manifest.
+pub(crate) fn metadata() -> Result<Value> {
+    let text = output(&mut cargo("metadata --format-version 1 --no-deps"))?;
+    serde_json::from_str(&text).context("`cargo metadata` is not JSON")
 }
 
 /// Runs a command to its end and asks for success.

@@ -3,10 +3,9 @@
 use std::process::Command;
 
 use anyhow::{Context, Result};
-use serde_json::Value;
 
 use super::Outcome;
-use crate::workspace::{cargo, output, root, succeed};
+use crate::workspace::{metadata, output, root, succeed};
 
 /// Passes if this run's rustc is the stated one; else builds with the stated one if rustup has it.
 pub(super) fn check() -> Result<Outcome> {
@@ -46,8 +45,7 @@ pub(super) fn check() -> Result<Outcome> {
 
 /// The `rust-version` all members inherit.
 fn stated() -> Result<String> {
-    let text = output(&mut cargo("metadata --format-version 1 --no-deps"))?;
-    let metadata: Value = serde_json::from_str(&text)?;
+    let metadata = metadata()?;
     let version = metadata["packages"][0]["rust_version"].as_str();
     Ok(version.context("no rust-version is stated")?.to_owned())
 }
