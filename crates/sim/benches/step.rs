@@ -70,7 +70,11 @@ fn main() {
                 .collect();
             let mut next = commands.iter().cycle();
             let mut step = || sim.step(next.next().unwrap_or(&commands[0]));
-            let group = format!("{robots} robots");
+            let group = if robots == 1 {
+                "1 robot".to_owned()
+            } else {
+                format!("{robots} robots")
+            };
             let column = format!("{}", (side + 1) * (side + 1));
             let label = format!("{group}, {column} walls, {name}");
             let per_second = measure::per_second(&mut criterion, &label, &mut step);

@@ -1,7 +1,28 @@
 //! The sensors, one file each.
 //!
-//! To add one: write a file with a type that implements [`Sensor`], and give the model of the robot
-//! that carries it a field for it.
+//! To add one: write a file with a type that implements [`Sensor`], and give the model of the robot that
+//! carries it a field, sensed in [`Model::sense`](crate::Model::sense). [`Surroundings`] answers what a
+//! sensor can ask; [`Faulty`](crate::noise::Faulty) makes it noisy.
+//!
+//! ```
+//! use tolman_geom::Point;
+//! use tolman_sim::sensors::Sensor;
+//! use tolman_sim::{Chance, Surroundings};
+//!
+//! /// Hears a beacon: the louder the nearer.
+//! struct Microphone {
+//!     beacon: Point,
+//! }
+//!
+//! impl Sensor for Microphone {
+//!     type Reading = f64;
+//!
+//!     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<f64>) {
+//!         let distance = (self.beacon - around.pose.position).norm();
+//!         *reading = Some(1.0 / (1.0 + distance * distance));
+//!     }
+//! }
+//! ```
 
 use crate::{Chance, Surroundings};
 

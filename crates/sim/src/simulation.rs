@@ -199,13 +199,14 @@ impl<M: Model> Simulation<M> {
     /// a kidnapping.
     ///
     /// # Errors
-    /// If it cannot stand there; it then stays where it is.
-    ///
-    /// # Panics
-    /// If `robot` is of another simulation.
+    /// If it cannot stand there, in which case it stays where it is, or there is no such robot.
     pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), PlaceError> {
         let index = robot.0 as usize;
-        let placed = Placed::new(self.robots[index].model.body().clone(), pose);
+        let body = match self.robots.get(index) {
+            Some(running) => running.model.body().clone(),
+            None => return Err(PlaceError::NoRobot { robot }),
+        };
+        let placed = Placed::new(body, pose);
         self.check_place(index, &placed)?;
         self.robots[index].truth.pose = pose;
         self.bodies[index] = placed;
@@ -462,6 +463,12 @@ pub enum PlaceError {
         step_us: u64,
         /// That of the robots before it, µs; 0 if it is the first.
         expected_us: u64,
+    },
+    /// There is no such robot.
+    #[error("there is no robot {}; name one that was added", robot.0)]
+    NoRobot {
+        /// The robot asked for.
+        robot: RobotId,
     },
     /// There are as many robots as can be told apart.
     #[error("the simulation holds 2^24 robots already; start another one")]

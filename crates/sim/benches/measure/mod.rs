@@ -19,7 +19,7 @@ pub(crate) fn per_second<R>(
     let mut samples: Vec<f64> = Vec::new();
     let mut group = criterion.benchmark_group("sim");
     group.warm_up_time(Duration::from_millis(200));
-    group.measurement_time(Duration::from_millis(1500));
+    group.measurement_time(Duration::from_millis(900));
     group.sample_size(10);
     group.sampling_mode(criterion::SamplingMode::Flat);
     group.bench_function(label, |bencher| {
@@ -82,7 +82,11 @@ impl Table {
 impl fmt::Display for Table {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let unit = self.unit;
-        writeln!(formatter, "| | | | {unit} | ratio to {} |", self.reference)?;
+        writeln!(
+            formatter,
+            "| world | caster | unit walls | {unit} | ratio to {} |",
+            self.reference
+        )?;
         writeln!(formatter, "| --- | --- | ---: | ---: | ---: |")?;
         for (group, row, column, figure) in &self.figures {
             let reference =

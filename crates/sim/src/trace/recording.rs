@@ -110,10 +110,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// Lifts a robot and sets it down, as [`Simulation::place`] does, and writes it down.
     ///
     /// # Errors
-    /// If it cannot stand there, or the line cannot be written.
-    ///
-    /// # Panics
-    /// If `robot` is of another simulation.
+    /// If it cannot stand there, there is no such robot, or the line cannot be written.
     pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), RecordError> {
         self.simulation.place(robot, pose)?;
         self.write(&Line::<M>::Place {

@@ -36,18 +36,12 @@ pub fn replay<M: Recordable>(trace: impl BufRead) -> Result<Simulation<M>, Repla
                 }
             }
             Line::Place { robot, pose } => {
-                let known = recording.simulation().robots().len();
-                if robot as usize >= known || !tick.is_empty() {
-                    let tick = recording.simulation().tick();
-                    return Err(ReplayError::Order {
-                        line,
-                        robot: known - 1,
-                        tick,
-                    });
+                if let Some((_, step)) = tick.first() {
+                    let (robot, tick) = (tick.len(), step.tick);
+                    return Err(ReplayError::Order { line, robot, tick });
                 }
-                recording
-                    .place(RobotId(robot), pose)
-                    .map_err(|source| refused(line, source))?;
+                let placed = recording.place(RobotId(robot), pose);
+                placed.map_err(|source| refused(line, source))?;
             }
             Line::Door { name, state } => {
                 recording

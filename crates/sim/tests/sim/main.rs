@@ -9,5 +9,6 @@ mod bodies;
 mod casters;
 mod leaks;
 mod noise;
+mod sensing;
 mod traces;
 mod worlds;
