@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 
 use rand::{Rng, RngExt};
 use thiserror::Error;
-use tolman_geom::{Heading, Pose, Vector};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Cell, Maze, MazeFile};
 use tolman_robot::Body;
 use tolman_sim::{CorridorSize, World, WorldError, Zone};
@@ -49,8 +49,17 @@ pub struct Course {
     /// From wall to wall, m.
     pub corridor_width: f64,
     starts: Vec<Cell>,
+    /// By cell index: whether a way leads from there to the destination.
+    leads_on: Vec<bool>,
     destination: Zone,
 }
+
+/// MSLST gives a robot 500 time steps in its Large maze, which has 63 cells to start from here, each
+/// [`CORRIDOR_WIDTH`] wide.
+const STEPS_PER_METRE: f64 = 500.0 / (63.0 * CORRIDOR_WIDTH);
+
+/// No course is so short that a robot need not turn round in it, time steps.
+const LEAST_STEPS: u32 = 100;
 
 impl Course {
     /// Makes the course of a maze file for a robot of this `body`. The file's corridor width counts,
@@ -95,8 +104,25 @@ impl Course {
             world: Arc::new(world),
             corridor_width,
             starts,
+            leads_on: steps.iter().map(Option::is_some).collect(),
             destination,
         })
+    }
+
+    /// Time steps after which a run has failed where nothing else is said: in proportion to the length
+    /// of the corridors, as many for each metre as MSLST gives in its Large maze.
+    #[must_use]
+    pub fn step_limit(&self) -> u32 {
+        let metres = self.starts.len() as f64 * self.corridor_width;
+        (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
+    }
+
+    /// Whether a way leads from a position to the destination: whether it lies in a cell that is not
+    /// walled off from it.
+    #[must_use]
+    pub fn leads_on(&self, position: Point) -> bool {
+        let cell = self.world.cell_at(position);
+        cell.is_some_and(|cell| self.leads_on[self.maze.grid().index(cell)])
     }
 
     /// Where the robot is to go.

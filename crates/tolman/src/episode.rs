@@ -26,6 +26,16 @@ pub enum EpisodeError {
     /// The layers do not fit the robot's ring.
     #[error("the layers do not fit the robot's ring")]
     Layers(#[from] RingError),
+    /// The course is too large for the oracle.
+    #[error(
+        "the oracle would have to plan on {nodes} nodes, and {most} are the most: choose a smaller maze"
+    )]
+    Policy {
+        /// How many nodes the course needs.
+        nodes: usize,
+        /// How many it may need.
+        most: usize,
+    },
     /// A step could not be made.
     #[error("step {step} could not be made")]
     Step {

@@ -1,15 +1,35 @@
 //! Files that are whole or not there.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
 /// Writes a file beside its place and moves it there, so that a reader sees the former file or the
 /// new one, never a part. The data are on the disk before the move.
 ///
+/// A link is followed, a file that may not be written is left as it is, and what is no file (a device, a
+/// pipe) is written to, not replaced.
+///
 /// # Errors
 /// What the system says; nothing new is then left behind.
 pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let Ok(there) = fs::canonicalize(path) else {
+        return move_into_place(path, contents);
+    };
+    let former = fs::metadata(&there)?;
+    if !former.is_file() {
+        return OpenOptions::new()
+            .write(true)
+            .open(&there)?
+            .write_all(contents);
+    }
+    if former.permissions().readonly() {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    move_into_place(&there, contents)
+}
+
+fn move_into_place(path: &Path, contents: &[u8]) -> io::Result<()> {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
     name.push(".tmp");
@@ -24,4 +44,42 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    use std::{env, process};
+
+    use super::*;
+
+    #[test]
+    fn links_are_followed_and_what_is_no_file_stays_what_it_is() {
+        let folder = env::temp_dir().join(format!("tolman-files-{}", process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (file, link) = (folder.join("file"), folder.join("link"));
+        fs::write(&file, "old").unwrap();
+        symlink(&file, &link).unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+
+        let mut permissions = fs::metadata(&file).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&file, permissions).unwrap();
+        let refused = write_whole(&file, b"newer").unwrap_err();
+        assert_eq!(refused.kind(), io::ErrorKind::PermissionDenied);
+
+        // A copy of the name, so that a mistake costs a link and not the machine's device.
+        let null = folder.join("null");
+        symlink("/dev/null", &null).unwrap();
+        write_whole(&null, b"gone").unwrap();
+        assert!(
+            fs::metadata("/dev/null")
+                .unwrap()
+                .file_type()
+                .is_char_device()
+        );
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }

@@ -78,17 +78,30 @@ pub struct Policy {
 /// Positions of the lattice per corridor width.
 const POSITIONS: f64 = 8.0;
 
+/// The furthest that positions may lie apart, m: half a robot's radius, so that every action leads to
+/// another one.
+const COARSEST: f64 = 0.125;
+
+/// What fits a few hundred megabytes and a minute.
+const MOST_NODES: usize = 2_000_000;
+
 /// An action that has not ended by then oscillates; the policy leaves it out.
 const LONGEST_ACTION: u32 = 40;
 
 impl Policy {
-    /// Works out the policy of a course, on eight positions per corridor width. Every node is simulated
-    /// four times: about 10 µs per node and action, and a node per axis and position.
+    /// Works out the policy of a course, on eight positions per corridor width or more. Every node is
+    /// simulated four times: about 10 µs per node and action, and a node per axis and position.
     ///
     /// # Errors
-    /// When the robot cannot be built for the course.
+    /// When the robot cannot be built for the course, or the course needs more than two million nodes.
     pub fn new(course: &Course, robot: &LaserPioneerConfig) -> Result<Self, EpisodeError> {
-        let lattice = Lattice::new(course, course.corridor_width / POSITIONS);
+        let lattice = Lattice::new(course, (course.corridor_width / POSITIONS).min(COARSEST));
+        if lattice.node_count() > MOST_NODES {
+            return Err(EpisodeError::Policy {
+                nodes: lattice.node_count(),
+                most: MOST_NODES,
+            });
+        }
         let model = LaserPioneer::new(without_noise(robot))?;
         let mut stack = Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)?;
         let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::EAST);
@@ -101,6 +114,9 @@ impl Policy {
             let pose = lattice.pose(node);
             if course.destination().contains(pose.position) {
                 goals.push(node);
+                continue;
+            }
+            if !course.leads_on(pose.position) {
                 continue;
             }
             for action in Direction::ALL {
@@ -195,7 +211,9 @@ impl Lattice {
     }
 
     const fn node_count(&self) -> usize {
-        self.columns as usize * self.rows as usize * AXES.len()
+        (self.columns as usize)
+            .saturating_mul(self.rows as usize)
+            .saturating_mul(AXES.len())
     }
 
     fn pose(&self, node: u32) -> Pose {

@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     /// The master seed: the same one gives the same results
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Runs of each row, instead of the paper's number
+    /// Runs of each row, 100000 at most, instead of the paper's number
     #[arg(long, value_name = "N")]
     runs: Option<u32>,
     /// Runs at a time, instead of one a core; results do not depend on it

@@ -23,7 +23,7 @@ use super::{Failure, file, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
-runs.jsonl and the default start, it is the run of that line.
+runs.jsonl, the default start and the line's step_limit as --steps, it is the run of that line.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
@@ -46,9 +46,10 @@ pub(super) struct Arguments {
         allow_hyphen_values = true
     )]
     start: Start,
-    /// Give up after so many time steps
-    #[arg(long, value_name = "LIMIT", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..))]
-    steps: u32,
+    /// Give up after so many time steps; if not given, in proportion to the length of the corridors, as
+    /// many for each metre as the Large maze's 500
+    #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
+    steps: Option<u32>,
     /// Draw its way over the maze
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -68,7 +69,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         course: &course,
         robot: robot.clone(),
         start,
-        step_limit: arguments.steps,
+        step_limit: arguments.steps.unwrap_or_else(|| course.step_limit()),
         seed: arguments.seed,
     };
     let mut mind = Cast::default()
@@ -126,10 +127,12 @@ impl Arguments {
     }
 }
 
-/// A start or a corridor that does not serve is the caller's to mend.
+/// A start or a maze that does not serve is the caller's to mend.
 fn classify(error: EpisodeError) -> Failure {
     match error {
-        EpisodeError::Start(_) | EpisodeError::Layers(_) => Failure::BadInput(error.into()),
+        EpisodeError::Start(_) | EpisodeError::Layers(_) | EpisodeError::Policy { .. } => {
+            Failure::BadInput(error.into())
+        }
         _ => Failure::Failed(error.into()),
     }
 }

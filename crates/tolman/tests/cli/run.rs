@@ -94,3 +94,17 @@ fn a_marked_start_has_to_be_marked() {
 fn a_run_of_no_steps_is_refused() {
     run(&["--steps", "0"]).refused(2, &["--steps"]);
 }
+
+#[test]
+fn a_start_that_leads_nowhere_is_bad_input() {
+    // In the solid inside of the J, outside of it, and in its south wall.
+    for (start, part) in [
+        ("5,8", "no way leads from"),
+        ("-3,1", "no way leads from"),
+        ("1.5,0.1", "does not fit"),
+    ] {
+        let maze = include_str!("../../../../mazes/j.maze");
+        let run = ["run", "avoid", "--maze", "-", "--start", start];
+        tolman_fed(maze, &run).refused(2, &[part]);
+    }
+}

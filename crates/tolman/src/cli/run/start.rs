@@ -25,7 +25,7 @@ impl Start {
     /// The pose on a course that this says.
     ///
     /// # Errors
-    /// If the maze was to mark the start and does not.
+    /// If the maze was to mark the start and does not, or no way leads on from there.
     pub(super) fn on(self, course: &Course, seed: u64) -> Result<Pose, Failure> {
         match self {
             Self::Random => Ok(random_start(course, &body(), seed)),
@@ -39,7 +39,13 @@ impl Start {
                 let heading = Heading::of(Vector::new(f64::from(east), f64::from(north)));
                 Ok(Pose::new(course.world.cell_centre(cell), heading))
             }
-            Self::At(pose) => Ok(pose),
+            Self::At(pose) if course.leads_on(pose.position) => Ok(pose),
+            Self::At(Pose { position, .. }) => Err(Failure::BadInput(anyhow!(
+                "no way leads from ({}, {}) m to the destination of {}; start in a corridor that leads there",
+                position.x,
+                position.y,
+                course.name
+            ))),
         }
     }
 }

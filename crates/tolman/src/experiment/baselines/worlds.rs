@@ -75,12 +75,9 @@ const COMPETITION: [&str; 2] = [
 /// The worlds for these files, or the default ones, and a remark on what is not there.
 pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
     let large = built_in("Large", include_str!("../../../../../mazes/large.maze"))?;
-    let steps_per_cell = f64::from(LARGE_STEPS) / large.starts().len() as f64;
     if !files.is_empty() {
-        let venues: Result<Vec<Venue>, BoxError> = files
-            .iter()
-            .map(|path| from_file(path, steps_per_cell))
-            .collect();
+        let venues: Result<Vec<Venue>, BoxError> =
+            files.iter().map(|path| from_file(path)).collect();
         return Ok((told_apart(venues?), None));
     }
     let mut venues = vec![
@@ -105,7 +102,7 @@ pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), 
     for file in COMPETITION {
         let path = folder.join(file);
         if path.exists() {
-            venues.push(from_file(&path, steps_per_cell)?);
+            venues.push(from_file(&path)?);
         }
     }
     Ok((venues, None))
@@ -119,7 +116,7 @@ fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
     )?)
 }
 
-fn from_file(path: &Path, steps_per_cell: f64) -> Result<Venue, BoxError> {
+fn from_file(path: &Path) -> Result<Venue, BoxError> {
     let in_file = |source: BoxError| -> BoxError {
         Box::new(InFile {
             path: path.to_owned(),
@@ -134,13 +131,11 @@ fn from_file(path: &Path, steps_per_cell: f64) -> Result<Venue, BoxError> {
     let name = file.name.clone().or(stem).unwrap_or_default();
     let course =
         Course::new(&name, &file, &pioneer::body()).map_err(|error| in_file(error.into()))?;
-    // Time in proportion to the floor, as much for each cell as the paper gives in the Large maze.
-    let step_limit = libm::ceil(steps_per_cell * course.starts().len() as f64) as u32;
     Ok(Venue {
         table: name.clone(),
         title: format!("The maze {name}"),
+        step_limit: course.step_limit(),
         course,
-        step_limit,
         paper: &[],
     })
 }
