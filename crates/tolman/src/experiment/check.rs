@@ -5,10 +5,17 @@ use alloc::collections::BTreeSet;
 use super::{BoxError, Error, Experiment, Field, Fields, Options, Statistic};
 use crate::draw::Figure;
 
-/// Refuses options that would run nothing or could not be written down.
-pub(super) fn options(options: &Options) -> Result<(), Error> {
-    if options.runs == Some(0) {
-        return Err(Error::Zero { option: "--runs" });
+/// Refuses options that would run nothing, more than there is room for, or could not be written down.
+pub(super) fn options(options: &Options, experiment: &dyn Experiment) -> Result<(), Error> {
+    match options.runs_of(experiment) {
+        0 => return Err(Error::Zero { option: "--runs" }),
+        1..=Options::MOST_RUNS => {}
+        runs => {
+            return Err(Error::TooManyRuns {
+                runs,
+                most: Options::MOST_RUNS,
+            });
+        }
     }
     if options.jobs == Some(0) {
         return Err(Error::Zero { option: "--jobs" });

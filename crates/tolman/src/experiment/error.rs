@@ -31,6 +31,14 @@ pub enum Error {
         /// The option.
         option: &'static str,
     },
+    /// More runs are asked for than there is room for.
+    #[error("{runs} runs of each row are too many; give --runs {most} or fewer")]
+    TooManyRuns {
+        /// How many were wanted.
+        runs: u32,
+        /// How many there may be.
+        most: u32,
+    },
     /// The master seed does not fit TOML's integers.
     #[error("seed {seed} is too large for config.toml; give one below 2^63")]
     Seed {
@@ -143,6 +151,7 @@ impl Error {
             Self::Unknown { .. }
                 | Self::Open { .. }
                 | Self::Zero { .. }
+                | Self::TooManyRuns { .. }
                 | Self::Seed { .. }
                 | Self::ForeignFolder { .. }
                 | Self::Busy { .. }

@@ -9,7 +9,7 @@ use super::Experiment;
 pub struct Options {
     /// The master seed, from which every run's seed is derived. Below 2^63, for TOML.
     pub seed: u64,
-    /// Runs of each row; `None` takes the experiment's own number.
+    /// Runs of each row, at most [`Self::MOST_RUNS`]; `None` takes the experiment's own number.
     pub runs: Option<u32>,
     /// Threads; `None` takes one for each core. Results do not depend on it.
     pub jobs: Option<u32>,
@@ -22,6 +22,10 @@ pub struct Options {
 }
 
 impl Options {
+    /// The most runs of each row: every run is kept in memory, about 1 kB each, until all are
+    /// summarized.
+    pub const MOST_RUNS: u32 = 100_000;
+
     /// Runs of each row: the caller's number, else the experiment's, quick or full.
     pub fn runs_of(&self, experiment: &dyn Experiment) -> u32 {
         self.runs.unwrap_or_else(|| match self.quick {

@@ -66,12 +66,9 @@ pub fn execute(
     build: &Build,
     progress: &dyn Progress,
 ) -> Result<Outcome, Error> {
-    check::options(options)?;
+    check::options(options, experiment)?;
     check::tables(experiment)?;
     let runs_per_row = options.runs_of(experiment);
-    if runs_per_row == 0 {
-        return Err(Error::Zero { option: "--runs" });
-    }
     let config = ConfigFile::new(experiment, options, build)?;
     let path = options.folder_of(experiment.name());
     let folder = Folder::open(&path, &config, progress)?;

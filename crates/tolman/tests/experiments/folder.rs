@@ -247,7 +247,7 @@ fn a_folder_is_open_only_once_at_a_time() {
 }
 
 #[test]
-fn options_that_run_nothing_are_refused_before_anything_is_written() {
+fn options_that_run_nothing_or_too_much_are_refused_before_anything_is_written() {
     let out = fresh("zero").join("out");
     for (options, option) in [
         (
@@ -256,6 +256,20 @@ fn options_that_run_nothing_are_refused_before_anything_is_written() {
                 ..options(&out)
             },
             "--runs",
+        ),
+        (
+            Options {
+                runs: Some(Options::MOST_RUNS + 1),
+                ..options(&out)
+            },
+            "--runs 100000 or fewer",
+        ),
+        (
+            Options {
+                runs: Some(u32::MAX),
+                ..options(&out)
+            },
+            "4294967295 runs",
         ),
         (
             Options {
