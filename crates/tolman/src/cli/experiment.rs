@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     /// Runs of each row, 100000 at most, instead of the paper's number
     #[arg(long, value_name = "N")]
     runs: Option<u32>,
-    /// Runs at a time, instead of one a core; results do not depend on it
+    /// Runs at a time, 256 at most, instead of one a core; results do not depend on it
     #[arg(long, value_name = "N")]
     jobs: Option<u32>,
     /// A maze file of any format in place of the experiment's own; may be given several times

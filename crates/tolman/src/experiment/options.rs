@@ -1,6 +1,7 @@
 //! What the caller chooses.
 
 use std::path::PathBuf;
+use std::thread;
 
 use super::Experiment;
 
@@ -11,7 +12,8 @@ pub struct Options {
     pub seed: u64,
     /// Runs of each row, at most [`Self::MOST_RUNS`]; `None` takes the experiment's own number.
     pub runs: Option<u32>,
-    /// Threads; `None` takes one for each core. Results do not depend on it.
+    /// Threads, never more than [`Self::MOST_JOBS`] nor than there are runs to play; `None` takes one
+    /// for each core. Results do not depend on it.
     pub jobs: Option<u32>,
     /// Maze files that take the place of the experiment's own worlds.
     pub mazes: Vec<PathBuf>,
@@ -26,12 +28,27 @@ impl Options {
     /// summarized.
     pub const MOST_RUNS: u32 = 100_000;
 
+    /// The most threads, whatever the caller asks for: no more help, and each takes memory.
+    pub const MOST_JOBS: u32 = 256;
+
     /// Runs of each row: the caller's number, else the experiment's, quick or full.
     pub fn runs_of(&self, experiment: &dyn Experiment) -> u32 {
         self.runs.unwrap_or_else(|| match self.quick {
             true => experiment.quick_runs(),
             false => experiment.default_runs(),
         })
+    }
+
+    /// The threads that play this many runs.
+    pub(super) fn threads_for(&self, runs: u64) -> u32 {
+        let wanted = self.jobs.unwrap_or_else(|| {
+            thread::available_parallelism()
+                .ok()
+                .and_then(|cores| u32::try_from(cores.get()).ok())
+                .unwrap_or(1)
+        });
+        let useful = u32::try_from(runs).unwrap_or(u32::MAX);
+        wanted.min(useful).clamp(1, Self::MOST_JOBS)
     }
 
     /// The folder the results of an experiment go to.
@@ -73,7 +90,27 @@ fn quoted(argument: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::quoted;
+    use super::{Options, quoted};
+
+    #[test]
+    fn threads_are_as_many_as_help() {
+        let threads = |jobs, runs| {
+            let options = Options {
+                jobs,
+                ..Options::default()
+            };
+            options.threads_for(runs)
+        };
+        for (jobs, runs, expect) in [
+            (2, 100, 2),
+            (100, 3, 3),
+            (100, 0, 1),
+            (u32::MAX, u64::MAX, Options::MOST_JOBS),
+        ] {
+            assert_eq!(threads(Some(jobs), runs), expect, "{jobs} for {runs}");
+        }
+        assert!((1..=Options::MOST_JOBS).contains(&threads(None, 1000)));
+    }
 
     #[test]
     fn arguments_survive_the_shell() {

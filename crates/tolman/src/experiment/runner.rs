@@ -84,11 +84,12 @@ pub fn execute(
         folder.discard("report.html")?;
     }
     progress.event(&Event::Started { total, reused });
+    let thread_count = options.threads_for(total - reused);
     let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.jobs.unwrap_or(0) as usize)
+        .num_threads(thread_count as usize)
         .build()
         .map_err(|source| Error::Threads {
-            jobs: options.jobs.unwrap_or(0),
+            jobs: thread_count,
             source: source.into(),
         })?;
     let played =
@@ -130,7 +131,7 @@ pub fn execute(
         command: config.command,
         seed: options.seed,
         runs_per_row,
-        jobs: u32::try_from(threads.current_num_threads()).unwrap_or(u32::MAX),
+        jobs: thread_count,
         played: played_count,
         elapsed,
         build: build.clone(),
