@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeSet;
 
-use super::{BoxError, Error, Experiment, Field, Fields, Options, Statistic};
+use super::{BoxError, Error, Experiment, Field, Fields, Options, Statistic, plots};
 use crate::draw::Figure;
 
 /// Refuses options that would run nothing, more than there is room for, or could not be written down.
@@ -90,6 +90,9 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
             }
         }
     }
+    if let Err(what) = figure_names(&plots::names(experiment)) {
+        return refuse(what);
+    }
     Ok(())
 }
 
@@ -115,23 +118,31 @@ pub(super) fn fields(fields: &Fields) -> Result<(), BoxError> {
 
 /// Refuses figures whose names do not serve as file names and ids.
 pub(super) fn figures(experiment: &dyn Experiment, figures: &[Figure]) -> Result<(), Error> {
-    let refuse = |what: String| {
-        Err(Error::Figures {
-            name: experiment.name().to_owned(),
-            source: what.into(),
-        })
-    };
-    if let Some(name) = repeated(figures.iter().map(|figure| &figure.name)) {
-        return refuse(format!("two figures are named {name:?}"));
+    let names: Vec<String> = figures.iter().map(|figure| figure.name.clone()).collect();
+    figure_names(&names).map_err(|what| Error::Figures {
+        name: experiment.name().to_owned(),
+        source: what.into(),
+    })
+}
+
+/// The longest name of a figure: file systems allow 255 bytes with the extension and what a temporary
+/// file adds, and nobody reads as many.
+const LONGEST_NAME: usize = 100;
+
+fn figure_names(names: &[String]) -> Result<(), String> {
+    if let Some(name) = repeated(names.iter()) {
+        return Err(format!("two figures are named {name:?}"));
     }
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    match figures.iter().find(|figure| {
-        !figure.name.starts_with(|c: char| c.is_ascii_lowercase())
-            || !figure.name.chars().all(plain)
-    }) {
-        Some(figure) => refuse(format!(
-            "{:?} is no name of a figure; use lower-case letters, digits and hyphens",
-            figure.name
+    let serves = |name: &String| {
+        name.starts_with(|c: char| c.is_ascii_lowercase())
+            && name.chars().all(plain)
+            && name.len() <= LONGEST_NAME
+    };
+    match names.iter().find(|name| !serves(name)) {
+        Some(name) => Err(format!(
+            "{name:?} is no name of a figure; use lower-case letters, digits and hyphens, at most \
+             {LONGEST_NAME}"
         )),
         None => Ok(()),
     }

@@ -5,18 +5,33 @@ use crate::draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
 /// One box plot for every metric that is a mean, in the order of tables and metrics.
 pub(super) fn box_plots(experiment: &dyn Experiment, runs: &[Run]) -> Vec<Figure> {
-    let mut figures = Vec::new();
-    for table in experiment.tables() {
-        for metric in &table.metrics {
-            if let Statistic::Mean { field } = &metric.statistic {
-                figures.push(box_plot(table, metric, field, runs));
-            }
-        }
-    }
-    figures
+    means(experiment)
+        .map(|(name, table, metric, field)| box_plot(name, table, metric, field, runs))
+        .collect()
 }
 
-fn box_plot(table: &Table, metric: &Metric, field: &str, runs: &[Run]) -> Figure {
+/// The names of the box plots, known before any run.
+pub(super) fn names(experiment: &dyn Experiment) -> Vec<String> {
+    means(experiment).map(|(name, ..)| name).collect()
+}
+
+/// What gets a box plot: its name, the table, the metric and the metric's field. Tables go by number,
+/// since their names may be any text of a maze file.
+fn means(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
+    (1_u32..)
+        .zip(experiment.tables())
+        .flat_map(|(number, table)| {
+            table.metrics.iter().filter_map(move |metric| {
+                let Statistic::Mean { field } = &metric.statistic else {
+                    return None;
+                };
+                let name = format!("box-{number}-{}", slug(&metric.name));
+                Some((name, table, metric, field.as_str()))
+            })
+        })
+}
+
+fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[Run]) -> Figure {
     let groups = (0..).zip(&table.rows).map(|(i, row)| {
         let runs = runs
             .iter()
@@ -49,7 +64,7 @@ fn box_plot(table: &Table, metric: &Metric, field: &str, runs: &[Run]) -> Figure
         groups: groups.collect(),
     };
     Figure::new(
-        format!("box-{}-{}", slug(&table.name), slug(&metric.name)),
+        name,
         format!("Table {}: {}", table.name, metric.title),
         plot.drawing(),
     )
@@ -75,7 +90,7 @@ mod tests {
 
     #[test]
     fn names_of_files() {
-        assert_eq!(slug("2 (J)"), "2-j");
+        assert_eq!(slug("Steps (of J)"), "steps-of-j");
         assert_eq!(slug("success_percent"), "success-percent");
     }
 }

@@ -3,8 +3,8 @@
 use std::fs;
 
 use tolman::experiment::{
-    BoxError, Build, Error, Event, Experiment, Fields, Job, Options, Progress, Silent, Table,
-    execute,
+    BoxError, Build, Error, Event, Experiment, Fields, Job, Metric, Options, Progress, Silent,
+    Table, execute,
 };
 
 use crate::darts::Darts;
@@ -299,7 +299,7 @@ fn options_that_run_nothing_or_too_much_are_refused_before_anything_is_written()
 fn tables_that_contradict_themselves_are_refused() {
     let out = fresh("unsound").join("out");
     type Spoil = fn(&mut Vec<Table>);
-    let spoil: [(Spoil, &str); 6] = [
+    let spoil: [(Spoil, &str); 8] = [
         (|tables| tables.clear(), "no table"),
         (|tables| tables[1].name = "1 (near)".into(), "two tables"),
         (
@@ -315,6 +315,14 @@ fn tables_that_contradict_themselves_are_refused() {
             "no metric",
         ),
         (|tables| tables[0].rows[1].name = "Expert".into(), "no row"),
+        (
+            |tables| tables[0].metrics.push(Metric::mean("MISS")),
+            "two figures",
+        ),
+        (
+            |tables| tables[0].metrics.push(Metric::mean("m".repeat(200))),
+            "no name of a figure",
+        ),
     ];
     for (spoil, what) in spoil {
         let mut darts = Darts::new();
@@ -324,6 +332,7 @@ fn tables_that_contradict_themselves_are_refused() {
             matches!(error, Error::Tables { .. }) && error.to_string().contains(what),
             "{error}"
         );
+        assert!(!out.exists(), "refused before the first run");
     }
 }
 

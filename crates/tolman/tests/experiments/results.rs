@@ -204,10 +204,10 @@ fn figures_are_xml_files_of_their_own() {
         .collect();
     names.sort_unstable();
     let expect = [
-        "box-1-near-miss",
-        "box-1-near-throws",
-        "box-2-far-miss",
-        "box-2-far-throws",
+        "box-1-miss",
+        "box-1-throws",
+        "box-2-miss",
+        "box-2-throws",
         "first-run",
     ];
     assert_eq!(names, expect.map(|name| format!("{name}.svg")));
@@ -227,5 +227,19 @@ fn figures_are_xml_files_of_their_own() {
                 .unwrap();
             assert!(!node.text().unwrap().is_empty());
         }
+    }
+}
+
+#[test]
+fn tables_of_any_name_have_figures() {
+    let names: [String; 4] = ["日本".into(), "…".into(), "1 NEAR".into(), "a".repeat(5000)];
+    for (i, name) in names.into_iter().enumerate() {
+        let out = fresh(&format!("any-name-{i}")).join("out");
+        let mut darts = Darts::new();
+        darts.tables.truncate(1);
+        darts.tables.push(darts.tables[0].clone());
+        darts.tables[1].name = name;
+        run(&darts, &options(&out)).0.unwrap();
+        assert_eq!(fs::read_dir(out.join("figures")).unwrap().count(), 5);
     }
 }

@@ -15,14 +15,14 @@ const WIDTH: f64 = 420.0;
 
 pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
-    for (number, venue) in experiment.venues.iter().enumerate() {
+    for (number, venue) in (1_u32..).zip(&experiment.venues) {
         for (series, row) in (0_u32..).zip(Agent::ALL.map(Agent::name)) {
             let of_row: Vec<&Run> = runs
                 .iter()
                 .filter(|run| run.table == venue.table && run.row == row)
                 .collect();
             if let Some(middle) = middle(&of_row) {
-                let name = format!("plan-{number}-{series}");
+                let name = format!("plan-{number}-{}", series + 1);
                 figures.push(plan(
                     experiment,
                     venue,
@@ -56,7 +56,7 @@ fn plan(
     middle: &Run,
     series: Series,
 ) -> Result<Figure, BoxError> {
-    let mut plan = Plan::of_world(&venue.course.world, WIDTH);
+    let mut plan = Plan::of_course(&venue.course, WIDTH);
     for run in runs.iter().take(SHOWN).filter(|run| run.run != middle.run) {
         plan.faint_trajectory(&way(experiment, run)?, series);
     }
