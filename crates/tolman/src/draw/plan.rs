@@ -3,8 +3,10 @@
 use core::fmt::Write;
 
 use maud::{Markup, html};
-use tolman_geom::Point;
-use tolman_sim::{Area, Bounds, World};
+use tolman_geom::{Point, Vector};
+use tolman_sim::{Area, Bounds};
+
+use crate::course::Course;
 
 use super::number::tenths;
 use super::{Drawing, Series};
@@ -19,6 +21,8 @@ pub enum Zone {
     Destination,
     /// A part of the floor that is told apart.
     Region,
+    /// No floor at all: walled off.
+    Solid,
 }
 
 /// A plan to which layers are added from the bottom up. World coordinates are metres, x to the
@@ -80,14 +84,25 @@ impl Plan {
         plan
     }
 
-    /// A plan that is `width` user units wide, with the walls of a world and its destination.
-    pub fn of_world(world: &World, width: f64) -> Self {
+    /// A plan of a course that is `width` user units wide, with its walls and its destination; what is
+    /// walled off is solid.
+    pub fn of_course(course: &Course, width: f64) -> Self {
+        let world = &course.world;
         let walls: Vec<[Point; 2]> = world
             .walls()
             .iter()
             .map(|wall| [wall.start, wall.end])
             .collect();
         let mut plan = Self::of_walls(&walls, width);
+        for cell in course.maze.grid().cells() {
+            let centre = world.cell_centre(cell);
+            if !course.leads_on(centre) {
+                let half = 0.5 * course.corridor_width;
+                let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+                let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
+                plan.zone(&corners, Zone::Solid);
+            }
+        }
         let destination = world.zone("destination");
         for area in destination.into_iter().flat_map(tolman_sim::Zone::areas) {
             if let Area::Rectangle(Bounds { min, max }) = *area {
@@ -103,6 +118,7 @@ impl Plan {
         let class = match zone {
             Zone::Destination => "destination",
             Zone::Region => "region",
+            Zone::Solid => "solid",
         };
         let path = self.path(corners);
         self.layers

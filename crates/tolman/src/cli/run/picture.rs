@@ -10,7 +10,7 @@ const WIDTH: f64 = 640.0;
 
 /// The SVG text of the maze with the robot's way through it; `told` says the outcome.
 pub(super) fn of(course: &Course, episode: &Episode, told: &str) -> String {
-    let mut plan = Plan::of_world(&course.world, WIDTH);
+    let mut plan = Plan::of_course(course, WIDTH);
     let positions: Vec<Point> = episode.path.iter().map(|pose| pose.position).collect();
     plan.trajectory(&positions, Series(0));
     Figure::new("run", &course.name, plan.drawing(told)).standalone()
