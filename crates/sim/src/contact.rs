@@ -7,7 +7,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::{Point, Pose, Vector};
 
-use crate::scene::{Placed, Scene};
+use crate::scene::{Crowd, Placed, Scene};
 use crate::{Motion, Wall, World};
 
 /// What happens where a body meets something.
@@ -104,13 +104,9 @@ impl Obstacles {
             self.walls.extend(walls.iter().filter(near));
         });
         self.walls.extend(scene.shut.iter().filter(near));
-        for other in scene.others(robot) {
-            let (centre, radius) = (other.pose().position, other.radius());
-            if (centre - position).norm_squared() > (reach + radius) * (reach + radius) {
-                continue;
-            }
+        for other in scene.bodies.near(robot, position, reach) {
             if other.corners().is_empty() {
-                self.discs.push((centre, radius));
+                self.discs.push((other.pose().position, other.radius()));
             } else {
                 self.walls.extend(other.sides());
             }
@@ -137,15 +133,14 @@ impl Obstacles {
 pub(crate) fn advance(
     world: &World,
     shut: &[Wall],
-    bodies: &mut [Placed],
+    bodies: &mut Crowd,
     robot: usize,
     motion: Motion,
     contact: Contact,
     obstacles: &mut Obstacles,
 ) -> bool {
-    let start = bodies[robot].pose();
-    let free = start.displaced(motion.distance, motion.turn);
-    let reach = bodies[robot].radius() + motion.distance.abs() + 2.0 * SKIN;
+    let start = bodies.body(robot).pose();
+    let reach = bodies.body(robot).radius() + motion.distance.abs() + 2.0 * SKIN;
     obstacles.gather(
         &Scene {
             world,
@@ -156,11 +151,19 @@ pub(crate) fn advance(
         start.position,
         reach,
     );
-    let body = &mut bodies[robot];
-    if obstacles.is_empty() {
-        body.move_to(free);
-        return false;
-    }
+    bodies.change(robot, |body| {
+        let free = start.displaced(motion.distance, motion.turn);
+        let bump = !obstacles.is_empty() && follow(body, obstacles, motion, contact) > CUT;
+        if !bump {
+            body.move_to(free);
+        }
+        bump
+    })
+}
+
+/// Moves a body along an arc as far as the obstacles let it; gives how much of the motion was cut, m.
+fn follow(body: &mut Placed, obstacles: &Obstacles, motion: Motion, contact: Contact) -> f64 {
+    let start = body.pose();
     let chords = (motion.turn.abs() / CHORD_TURN).ceil().max(1.0);
     let along = |chord: u32| {
         let share = f64::from(chord) / chords;
@@ -182,11 +185,7 @@ pub(crate) fn advance(
         }
         mover.turn(half_turn);
     }
-    let bump = mover.cut > CUT;
-    if !bump {
-        body.move_to(free);
-    }
-    bump
+    mover.cut
 }
 
 /// A touch: after what share of a displacement, and the unit normal away from what was touched.

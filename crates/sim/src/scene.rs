@@ -10,17 +10,74 @@ use crate::{Wall, World};
 pub(crate) struct Scene<'a> {
     pub(crate) world: &'a World,
     pub(crate) shut: &'a [Wall],
-    pub(crate) bodies: &'a [Placed],
+    pub(crate) bodies: &'a Crowd,
 }
 
-impl<'a> Scene<'a> {
-    /// The bodies of all robots but `robot`.
-    pub(crate) fn others(&self, robot: usize) -> impl Iterator<Item = &'a Placed> + use<'a> {
-        let (before, after) = (
-            &self.bodies[..robot],
-            self.bodies.get(robot + 1..).unwrap_or(&[]),
-        );
-        before.iter().chain(after)
+/// The bodies of all robots.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Crowd {
+    bodies: Vec<Placed>,
+    /// The disc round each: what tells in a line of memory who is out of reach.
+    discs: Vec<Disc>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Disc {
+    x: f64,
+    y: f64,
+    radius: f64,
+}
+
+impl Disc {
+    fn round(body: &Placed) -> Self {
+        Self {
+            x: body.pose.position.x,
+            y: body.pose.position.y,
+            radius: body.radius,
+        }
+    }
+}
+
+impl Crowd {
+    pub(crate) fn push(&mut self, body: Placed) {
+        self.discs.push(Disc::round(&body));
+        self.bodies.push(body);
+    }
+
+    /// All bodies in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Placed> {
+        self.bodies.iter()
+    }
+
+    pub(crate) fn body(&self, robot: usize) -> &Placed {
+        &self.bodies[robot]
+    }
+
+    /// Lets `change` move or replace a body.
+    pub(crate) fn change<R>(&mut self, robot: usize, change: impl FnOnce(&mut Placed) -> R) -> R {
+        let result = change(&mut self.bodies[robot]);
+        self.discs[robot] = Disc::round(&self.bodies[robot]);
+        result
+    }
+
+    /// The bodies of all robots but `robot` that come within `reach` of `centre`.
+    pub(crate) fn near(
+        &self,
+        robot: usize,
+        centre: Point,
+        reach: f64,
+    ) -> impl Iterator<Item = &Placed> {
+        let is_near = move |disc: &Disc| {
+            let (x, y, reach) = (disc.x - centre.x, disc.y - centre.y, disc.radius + reach);
+            x * x + y * y <= reach * reach
+        };
+        let near = self
+            .discs
+            .iter()
+            .enumerate()
+            .filter(move |(_, disc)| is_near(disc));
+        near.filter(move |(other, _)| *other != robot)
+            .map(|(other, _)| &self.bodies[other])
     }
 }
 
@@ -97,9 +154,7 @@ impl Placed {
     pub(crate) fn shorten(&self, sweep: &mut Sweep) {
         if self.corners.is_empty() {
             sweep.meet_disc(self.pose.position, self.radius);
-        } else if (self.pose.position - sweep.origin()).norm()
-            <= sweep.ring().max_range + self.radius
-        {
+        } else {
             for side in self.sides() {
                 sweep.meet_wall(&side);
             }

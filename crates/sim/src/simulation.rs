@@ -3,7 +3,7 @@ use alloc::sync::Arc;
 use thiserror::Error;
 use tolman_geom::Pose;
 
-use crate::scene::{Placed, Scene};
+use crate::scene::{Crowd, Placed, Scene};
 use crate::{
     BodyError, Chance, CommandError, DoorState, Model, Motion, Surroundings, Wall, World, body,
     contact,
@@ -41,7 +41,7 @@ pub struct Simulation<M: Model> {
     doors: Doors,
     robots: Vec<Running<M>>,
     /// The robots' bodies, in the same order.
-    bodies: Vec<Placed>,
+    bodies: Crowd,
     obstacles: contact::Obstacles,
 }
 
@@ -64,7 +64,7 @@ impl<M: Model> Simulation<M> {
             step_us: 0,
             doors,
             robots: Vec::new(),
-            bodies: Vec::new(),
+            bodies: Crowd::default(),
             obstacles: contact::Obstacles::default(),
         }
     }
@@ -154,7 +154,7 @@ impl<M: Model> Simulation<M> {
             running.model.contact(),
             &mut self.obstacles,
         );
-        let (before, pose) = (running.truth.pose, self.bodies[index].pose());
+        let (before, pose) = (running.truth.pose, self.bodies.body(index).pose());
         let motion = if bump {
             contact::motion_between(before, pose)
         } else {
@@ -209,7 +209,7 @@ impl<M: Model> Simulation<M> {
         let placed = Placed::new(body, pose);
         self.check_place(index, &placed)?;
         self.robots[index].truth.pose = pose;
-        self.bodies[index] = placed;
+        self.bodies.change(index, |body| *body = placed);
         Ok(())
     }
 
@@ -353,7 +353,7 @@ impl Doors {
             standing,
             shut: Vec::new(),
         };
-        doors.settle(&[]);
+        doors.settle(&Crowd::default());
         doors
     }
 
@@ -372,7 +372,7 @@ impl Doors {
     }
 
     /// Follows the schedules up to `time_us`.
-    fn advance(&mut self, time_us: u64, bodies: &[Placed]) {
+    fn advance(&mut self, time_us: u64, bodies: &Crowd) {
         for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
             while let Some(event) = door
                 .schedule
@@ -387,7 +387,7 @@ impl Doors {
     }
 
     /// Lets every door be as wanted, unless a body stands in it.
-    fn settle(&mut self, bodies: &[Placed]) {
+    fn settle(&mut self, bodies: &Crowd) {
         self.shut.clear();
         for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
             let wall = Wall {

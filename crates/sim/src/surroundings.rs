@@ -38,10 +38,8 @@ impl<'a> Surroundings<'a> {
             .shut
             .iter()
             .map(|wall| wall.ray(origin, direction));
-        let bodies = self
-            .scene
-            .others(self.robot)
-            .map(|other| other.ray(origin, direction));
+        let near = self.scene.bodies.near(self.robot, origin, range);
+        let bodies = near.map(|other| other.ray(origin, direction));
         doors.chain(bodies).fold(range, f64::min)
     }
 
@@ -51,7 +49,8 @@ impl<'a> Surroundings<'a> {
         for wall in self.scene.shut {
             sweep.meet_wall(wall);
         }
-        for other in self.scene.others(self.robot) {
+        let reach = sweep.ring().max_range;
+        for other in self.scene.bodies.near(self.robot, sweep.origin(), reach) {
             other.shorten(sweep);
         }
     }

@@ -100,9 +100,10 @@ impl fmt::Display for Table {
                 Some((.., reference)) => format!("{:.1}", figure / reference),
                 None => String::new(),
             };
+            let digits = if *figure < 1.0 { 3 } else { 1 };
             writeln!(
                 formatter,
-                "| {group} | {row} | {column} | {figure:.1} | {ratio} |"
+                "| {group} | {row} | {column} | {figure:.digits$} | {ratio} |"
             )?;
         }
         Ok(())
