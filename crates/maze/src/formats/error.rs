@@ -290,8 +290,8 @@ pub enum WriteError {
         /// The name.
         name: String,
     },
-    /// A corridor width that no corridor has.
-    #[error("the corridor width {width} m must be a number above 0")]
+    /// A corridor width outside [`MazeFile::CORRIDOR_WIDTHS`](crate::MazeFile::CORRIDOR_WIDTHS).
+    #[error("the corridor width {width} m must be from 0.001 to 1000 m")]
     CorridorWidth {
         /// The width, m.
         width: f64,

@@ -42,10 +42,17 @@ use crate::{Cell, Direction, Maze};
 pub struct MazeFile {
     /// What people call the maze.
     pub name: Option<String>,
-    /// The side of a cell, m; finite and above 0. `None` leaves it to the world that is built.
+    /// The side of a cell, m, within [`MazeFile::CORRIDOR_WIDTHS`]. `None` leaves it to the world
+    /// that is built.
     pub corridor_width: Option<f64>,
     /// The maze itself.
     pub maze: Maze,
+}
+
+impl MazeFile {
+    /// The narrowest and the widest corridor that is read or written, m: what no robot drives through
+    /// is a slip of the keyboard, and widths far beyond break the arithmetic of whoever builds a world.
+    pub const CORRIDOR_WIDTHS: (f64, f64) = (0.001, 1000.0);
 }
 
 impl From<Maze> for MazeFile {

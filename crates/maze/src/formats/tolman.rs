@@ -156,7 +156,7 @@ impl<'a> Entry<'a> {
 
     fn width(&self) -> Result<f64, MazeError> {
         let width = self.value.parse().ok().filter(|width| is_width(*width));
-        width.ok_or_else(|| self.expected("metres above 0, a plain number as in `0.5`"))
+        width.ok_or_else(|| self.expected("metres from 0.001 to 1000, a plain number as in `0.5`"))
     }
 
     fn mark_start(&self, maze: &mut Maze) -> Result<(), MazeError> {
@@ -223,7 +223,7 @@ fn is_comment(text: &str) -> bool {
 }
 
 fn is_width(width: f64) -> bool {
-    width.is_finite() && width > 0.0
+    (MazeFile::CORRIDOR_WIDTHS.0..=MazeFile::CORRIDOR_WIDTHS.1).contains(&width)
 }
 
 /// Numbers may be parted by blanks and commas, and cells bracketed, as people write coordinates.

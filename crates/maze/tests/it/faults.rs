@@ -294,14 +294,17 @@ fn headers() {
         "line 1, column 10: found `tolman maze 2` for `format`: expected `tolman maze 1`, the only \
          version so far",
     );
-    for width in ["0", "-0.5", "NaN", "inf", "1e999", "0,5", "0.5 m", ""] {
+    for width in [
+        "0", "-0.5", "NaN", "inf", "1e999", "1e300", "1000.1", "0.0009", "1e-320", "0,5", "0.5 m",
+        "",
+    ] {
         with(
             &format!("corridor_width = {width}")
                 .trim_end()
                 .replace("width =0", "width = 0"),
             &format!(
-                "line 1, column {}: found `{width}` for `corridor_width`: expected metres above 0, a \
-                 plain number as in `0.5`",
+                "line 1, column {}: found `{width}` for `corridor_width`: expected metres from \
+                 0.001 to 1000, a plain number as in `0.5`",
                 if width.is_empty() { 17 } else { 18 }
             ),
         );
