@@ -115,6 +115,11 @@ impl<'a> Entry<'a> {
             let found = excerpt(key);
             return Err(line.place_of(text).fault(Fault::UnknownKey { found }));
         };
+        // A name may hold any sign; no other value has a `#` in it.
+        let value = match value.split_once('#') {
+            Some((value, _)) if key != NAME => value.trim_end(),
+            _ => value,
+        };
         Ok(Self {
             key,
             value,

@@ -309,6 +309,11 @@ fn headers() {
             ),
         );
     }
+    with(
+        "corridor_width = # 0.5",
+        "line 1, column 18: found `` for `corridor_width`: expected metres from 0.001 to 1000, a plain \
+         number as in `0.5`",
+    );
     let start = "expected a column and a row, counted from 0 in the south-west corner, and the \
                  direction to look if it is not north, as in `0 0 east`";
     for value in [

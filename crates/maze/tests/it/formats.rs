@@ -127,6 +127,22 @@ fn a_header_tells_what_a_drawing_cannot() {
             ..plain()
         },
     );
+    check(
+        "corridor_width = 0.95 # metres",
+        MazeFile {
+            corridor_width: Some(0.95),
+            ..plain()
+        },
+    );
+    check(
+        "name = Cell #7",
+        MazeFile {
+            name: Some("Cell #7".to_owned()),
+            ..plain()
+        },
+    );
+    check("format = tolman maze 1 # by hand", plain());
+    check("start = 0 0 east # not north", facing(Direction::East));
     check("start = 0 0", plain());
     check("start = 0 0 North", plain());
     check("start = (0, 0), east", facing(Direction::East));
