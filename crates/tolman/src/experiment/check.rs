@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeSet;
 
-use super::{BoxError, Error, Experiment, Field, Fields, Options, Statistic, plots};
+use super::{BoxError, Error, Experiment, Field, Kind, Options, Presence, Run, Statistic, plots};
 use crate::draw::Figure;
 
 /// Refuses options that would run nothing, more than there is room for, or could not be written down.
@@ -75,17 +75,29 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 "{place} is compared with {reference:?}, which is no row"
             ));
         }
+        if let Some(name) = repeated(table.fields.iter().map(|field| &field.name)) {
+            return refuse(format!("{place} has two fields named {name:?}"));
+        }
+        let mut names = table.fields.iter().map(|field| &field.name);
+        if let Some(name) = names.find(|name| RESERVED.contains(&name.as_str())) {
+            return refuse(format!(
+                "{place} has a field {name:?}, which identifies a run"
+            ));
+        }
         for metric in &table.metrics {
-            let fields: &[&String] = match &metric.statistic {
-                Statistic::Percent { field } | Statistic::Mean { field } => &[field],
-                Statistic::Ratio { over, under } => &[over, under],
+            let (fields, kinds): (&[&String], &[Kind]) = match &metric.statistic {
+                Statistic::Percent { field } => (&[field], &[Kind::Flag]),
+                Statistic::Mean { field } => (&[field], NUMERIC),
+                Statistic::Ratio { over, under } => (&[over, under], NUMERIC),
             };
-            if let Some(field) = fields
-                .iter()
-                .find(|field| RESERVED.contains(&field.as_str()))
-            {
+            let measured = |name: &String| {
+                let mut fields = table.fields.iter();
+                fields.any(|field| field.name == *name && kinds.contains(&field.kind))
+            };
+            if let Some(name) = fields.iter().find(|name| !measured(name)) {
                 return refuse(format!(
-                    "{place} measures {field:?}, which identifies a run"
+                    "{place} has the metric {:?} of {name:?}, which is no field of kind {kinds:?}",
+                    metric.name
                 ));
             }
         }
@@ -97,23 +109,37 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
 }
 
 /// The names of a run's own parts in `runs.jsonl`.
-const RESERVED: [&str; 4] = ["table", "row", "run", "seed"];
+pub(super) const RESERVED: [&str; 4] = ["table", "row", "run", "seed"];
 
-/// Refuses fields that JSON cannot hold or that would hide a run's own parts.
-pub(super) fn fields(fields: &Fields) -> Result<(), BoxError> {
-    for (name, field) in fields.iter() {
-        if RESERVED.contains(&name) {
-            return Err(format!("field {name:?} bears a name that identifies the run").into());
+const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
+
+/// Refuses a run, just played or read back, whose fields are not those of its table, which JSON cannot
+/// hold, or which the experiment cannot have measured.
+pub(super) fn run(experiment: &dyn Experiment, run: &Run) -> Result<(), BoxError> {
+    let mut tables = experiment.tables().iter();
+    let expected = tables
+        .find(|table| table.name == run.table)
+        .map_or(&[][..], |table| &table.fields);
+    for (name, field) in run.fields.iter() {
+        let Some(measure) = expected.iter().find(|measure| measure.name == name) else {
+            return Err(format!("{name:?} is no field of the table's runs").into());
+        };
+        if field.kind() != measure.kind {
+            return Err(format!("{name} is {field:?} and not a {:?}", measure.kind).into());
         }
         if let Field::Number(value) = field
             && !value.is_finite()
         {
-            return Err(
-                format!("field {name:?} is {value}; measured values must be finite").into(),
-            );
+            return Err(format!("{name} is {value}; measured values must be finite").into());
         }
     }
-    Ok(())
+    let lacking = expected.iter().find(|measure| {
+        measure.presence == Presence::Always && run.fields.get(&measure.name).is_none()
+    });
+    match lacking {
+        Some(measure) => Err(format!("it has no field {:?}", measure.name).into()),
+        None => experiment.check(run),
+    }
 }
 
 /// Refuses figures whose names do not serve as file names and ids.

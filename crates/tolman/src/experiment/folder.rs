@@ -67,10 +67,8 @@ impl Folder {
         progress: &dyn Progress,
     ) -> Result<Runs, Error> {
         let (file, spare_file) = (self.path.join(RUNS), self.path.join(SPARE));
-        let mut known = Runs::new();
-        for path in [&file, &spare_file] {
-            runs_file::read(path, experiment, master_seed, progress, &mut known)?;
-        }
+        let files = [file.as_path(), &spare_file];
+        let known = runs_file::read(files, experiment, master_seed, runs, progress)?;
         let (kept, spare): (Runs, Runs) = known.into_iter().partition(|(key, _)| key.2 < runs);
         // Spare runs are safe before they leave the other file.
         if !spare.is_empty() {

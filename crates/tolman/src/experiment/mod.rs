@@ -37,12 +37,14 @@ pub use build::Build;
 pub use catalogue::{Entry, catalogue, open};
 pub use error::Error;
 pub use options::Options;
-pub use progress::{Event, Progress, Silent};
-pub use run::{Field, Fields, Job, Run};
+pub use progress::{Event, Progress, Remedy, Silent};
+pub use run::{Field, Fields, Job, Kind, Run};
 pub use runner::{Outcome, execute};
 pub use seed::run_seed;
 pub use summary::{Summary, SummaryRow};
-pub use table::{Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance};
+pub use table::{
+    Comparison, Correction, Measure, Metric, PaperValue, Presence, Row, Statistic, Table, Tolerance,
+};
 pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text};
 pub use verdict::{Basis, Verdict};
@@ -59,7 +61,7 @@ pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 /// One paper's tables and how to fill them.
 ///
 /// ```
-/// use tolman::experiment::{BoxError, Experiment, Fields, Job, Metric, Row, Table};
+/// use tolman::experiment::{BoxError, Experiment, Fields, Job, Kind, Metric, Row, Table};
 ///
 /// /// Tosses a coin until it shows heads.
 /// struct Coin {
@@ -87,9 +89,11 @@ pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 ///     }
 /// }
 ///
-/// let coin = Coin {
-///     tables: vec![Table::new("1", "A fair coin").metric(Metric::mean("tosses")).row(Row::new("fair"))],
-/// };
+/// let table = Table::new("1", "A fair coin")
+///     .field("tosses", Kind::Number)
+///     .metric(Metric::mean("tosses"))
+///     .row(Row::new("fair"));
+/// let coin = Coin { tables: vec![table] };
 /// let job = Job { table: "1", row: "fair", run: 0, seed: 8 };
 /// assert_eq!(coin.run(&job)?, Fields::new().number("tosses", 4.0));
 /// # Ok::<(), BoxError>(())
@@ -131,6 +135,17 @@ pub trait Experiment: Sync {
     /// # Errors
     /// If the run cannot be played at all. That a robot does not arrive is a result, not an error.
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError>;
+
+    /// Refuses a run whose fields are of the right kinds but cannot be what [`Self::run`] measures.
+    /// Results that lie in a folder are reused only if they pass; a run just played that does not is
+    /// an error.
+    ///
+    /// # Errors
+    /// What is wrong with the run.
+    fn check(&self, run: &Run) -> Result<(), BoxError> {
+        let _ = run;
+        Ok(())
+    }
 
     /// Pictures beside the box plots that every experiment gets. `runs` is complete and sorted by
     /// table, row and index; a run can be played again from its [`Run::job`].

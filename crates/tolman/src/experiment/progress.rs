@@ -16,7 +16,7 @@ pub enum Event<'a> {
         /// What differs.
         reason: &'a str,
     },
-    /// A line of a file of runs cannot be used and its run is played again.
+    /// A line of a file of runs cannot be used.
     BrokenLine {
         /// The file.
         file: &'a Path,
@@ -24,6 +24,8 @@ pub enum Event<'a> {
         line: u64,
         /// What is wrong with it.
         what: &'a str,
+        /// What becomes of its run.
+        remedy: Remedy,
     },
     /// The runs begin.
     Started {
@@ -41,6 +43,17 @@ pub enum Event<'a> {
         /// How long that took.
         elapsed: Duration,
     },
+}
+
+/// What becomes of the run of a line that cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// The run is played again.
+    PlayedAgain,
+    /// The run is there from another line, or is none that was asked for.
+    Ignored,
+    /// The line does not say which run it was; whichever runs are missing are played.
+    MissingPlayed,
 }
 
 /// Where the runner's messages go; the runner itself prints nothing.

@@ -112,7 +112,30 @@ pub enum Field {
     Text(String),
 }
 
+/// What a field holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// [`Field::Flag`].
+    Flag,
+    /// [`Field::Count`].
+    Count,
+    /// [`Field::Number`].
+    Number,
+    /// [`Field::Text`].
+    Text,
+}
+
 impl Field {
+    /// What it holds.
+    pub const fn kind(&self) -> Kind {
+        match self {
+            Self::Flag(_) => Kind::Flag,
+            Self::Count(_) => Kind::Count,
+            Self::Number(_) => Kind::Number,
+            Self::Text(_) => Kind::Text,
+        }
+    }
+
     /// The number of a count or a number.
     #[expect(
         clippy::cast_precision_loss,

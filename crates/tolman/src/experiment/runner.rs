@@ -193,31 +193,22 @@ fn play(
 }
 
 fn play_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Run, Error> {
-    let fields = experiment.run(job).and_then(|fields| {
-        check::fields(&fields)?;
-        Ok(fields)
-    });
-    let Job {
-        table,
-        row,
-        run,
-        seed,
-    } = *job;
-    let (table, row) = (table.to_owned(), row.to_owned());
-    match fields {
-        Ok(fields) => Ok(Run {
-            table,
-            row,
-            run,
-            seed,
+    let played = experiment.run(job).and_then(|fields| {
+        let run = Run {
+            table: job.table.to_owned(),
+            row: job.row.to_owned(),
+            run: job.run,
+            seed: job.seed,
             fields,
-        }),
-        Err(source) => Err(Error::Run {
-            table,
-            row,
-            run,
-            seed,
-            source,
-        }),
-    }
+        };
+        check::run(experiment, &run)?;
+        Ok(run)
+    });
+    played.map_err(|source| Error::Run {
+        table: job.table.to_owned(),
+        row: job.row.to_owned(),
+        run: job.run,
+        seed: job.seed,
+        source,
+    })
 }

@@ -1,13 +1,14 @@
 //! `runs.jsonl`: one line a run, appended as runs finish, sorted at the end.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::btree_map::Entry;
+use alloc::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::files::{at, write_whole};
-use super::{Error, Event, Experiment, Progress, Run, run_seed};
+use super::{Error, Event, Experiment, Progress, Remedy, Run, check, run_seed};
 
 /// The places of a run's table and row, and its index: the order of the finished file.
 pub(super) type Key = (usize, usize, u32);
@@ -15,60 +16,132 @@ pub(super) type Key = (usize, usize, u32);
 /// The runs of a folder by key.
 pub(super) type Runs = BTreeMap<Key, Run>;
 
-/// Reads the usable runs of a file into `runs`; tells of every line that is not usable. A file that
-/// is not there has no runs.
-pub(super) fn read(
-    path: &Path,
-    experiment: &dyn Experiment,
-    master_seed: u64,
-    progress: &dyn Progress,
-    runs: &mut Runs,
-) -> Result<(), Error> {
-    let bytes = match fs::read(path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-        result => at("read", path, result)?,
-    };
-    for (line, text) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
-        if text.is_empty() {
-            continue;
-        }
-        let result =
-            parse(text, experiment, master_seed).and_then(|(key, run)| match runs.get(&key) {
-                Some(known) if *known != run => Err("it contradicts an earlier line".to_owned()),
-                _ => Ok((key, run)),
-            });
-        match result {
-            Ok((key, run)) => {
-                runs.insert(key, run);
-            }
-            Err(what) => progress.event(&Event::BrokenLine {
-                file: path,
-                line,
-                what: &what,
-            }),
-        }
-    }
-    Ok(())
+/// A line that cannot be used.
+struct Broken<'a> {
+    file: &'a Path,
+    line: u64,
+    what: String,
+    /// Its run, if it says so.
+    key: Option<Key>,
 }
 
-fn parse(line: &[u8], experiment: &dyn Experiment, master: u64) -> Result<(Key, Run), String> {
+/// Reads the usable runs of files; tells of every line that is not usable and of what becomes of its
+/// run when `wanted` runs of each row are. A file that is not there has no runs.
+///
+/// Of two lines that contradict each other none is used: nothing says which one is right.
+pub(super) fn read<'a>(
+    files: impl IntoIterator<Item = &'a Path>,
+    experiment: &dyn Experiment,
+    master_seed: u64,
+    wanted: u32,
+    progress: &dyn Progress,
+) -> Result<Runs, Error> {
+    let mut runs = Runs::new();
+    let mut disputed = BTreeSet::new();
+    let mut broken = Vec::new();
+    for file in files {
+        let bytes = match fs::read(file) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            result => at("read", file, result)?,
+        };
+        for (line, text) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
+            if text.is_empty() {
+                continue;
+            }
+            let (what, key) = match parse(text, experiment, master_seed) {
+                Ok((key, run)) => match runs.entry(key) {
+                    Entry::Vacant(entry) => {
+                        entry.insert(run);
+                        continue;
+                    }
+                    Entry::Occupied(entry) if *entry.get() == run => continue,
+                    Entry::Occupied(_) => {
+                        disputed.insert(key);
+                        ("it contradicts an earlier line".to_owned(), Some(key))
+                    }
+                },
+                Err(refused) => refused,
+            };
+            broken.push(Broken {
+                file,
+                line,
+                what,
+                key,
+            });
+        }
+    }
+    runs.retain(|key, _| !disputed.contains(key));
+    tell(&broken, &runs, experiment, wanted, progress);
+    Ok(runs)
+}
+
+fn tell(
+    broken: &[Broken<'_>],
+    runs: &Runs,
+    experiment: &dyn Experiment,
+    wanted: u32,
+    progress: &dyn Progress,
+) {
+    let rows: usize = experiment.tables().iter().map(|t| t.rows.len()).sum();
+    let there = runs.keys().filter(|key| key.2 < wanted).count();
+    let complete = there as u64 == rows as u64 * u64::from(wanted);
+    for Broken {
+        file,
+        line,
+        what,
+        key,
+    } in broken
+    {
+        let remedy = match key {
+            Some(key) if key.2 < wanted && !runs.contains_key(key) => Remedy::PlayedAgain,
+            None if !complete => Remedy::MissingPlayed,
+            _ => Remedy::Ignored,
+        };
+        progress.event(&Event::BrokenLine {
+            file,
+            line: *line,
+            what,
+            remedy,
+        });
+    }
+}
+
+/// The run of a line; or what is wrong with the line, and which run it was if it says so.
+fn parse(
+    line: &[u8],
+    experiment: &dyn Experiment,
+    master: u64,
+) -> Result<(Key, Run), (String, Option<Key>)> {
     let run: Run = serde_json::from_slice(line).map_err(|error| {
         // It was given one line, so the line it names is not that of the file.
         let what = error.to_string();
         let what = what.split(" at line ").next().unwrap_or_default();
-        format!("{what} at column {}", error.column())
+        (
+            format!("{what} at column {}", error.column()),
+            identity(line, experiment),
+        )
     })?;
-    let key = key_of(experiment, &run)
-        .ok_or_else(|| format!("there is no row {:?} in a table {:?}", run.row, run.table))?;
+    let key = key_of(experiment, &run).ok_or_else(|| {
+        let what = format!("there is no row {:?} in a table {:?}", run.row, run.table);
+        (what, None)
+    })?;
     let seed = run_seed(master, &run.table, run.run);
-    if run.seed == seed {
-        Ok((key, run))
-    } else {
-        Err(format!(
-            "run {} has seed {} where {seed} belongs",
-            run.run, run.seed
-        ))
+    if run.seed != seed {
+        let what = format!("run {} has seed {} where {seed} belongs", run.run, run.seed);
+        return Err((what, Some(key)));
     }
+    match check::run(experiment, &run) {
+        Ok(()) => Ok((key, run)),
+        Err(error) => Err((error.to_string(), Some(key))),
+    }
+}
+
+/// Which run a line is of whose fields hold what no field can.
+fn identity(line: &[u8], experiment: &dyn Experiment) -> Option<Key> {
+    let mut line: serde_json::Value = serde_json::from_slice(line).ok()?;
+    line.as_object_mut()?
+        .retain(|name, _| check::RESERVED.contains(&name.as_str()));
+    key_of(experiment, &serde_json::from_value(line).ok()?)
 }
 
 fn key_of(experiment: &dyn Experiment, run: &Run) -> Option<Key> {

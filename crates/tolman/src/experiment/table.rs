@@ -1,5 +1,6 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
+use super::Kind;
 use crate::stats::{self, PValue};
 
 /// One table of a paper.
@@ -11,6 +12,8 @@ pub struct Table {
     pub title: String,
     /// The rows, in the order they are shown.
     pub rows: Vec<Row>,
+    /// What its runs measure. A run with other fields is no run of this table.
+    pub fields: Vec<Measure>,
     /// What is measured of every row, in the order it is shown.
     pub metrics: Vec<Metric>,
     /// How many runs each of the paper's rows has, where it says so.
@@ -29,6 +32,7 @@ impl Table {
             name: name.into(),
             title: title.into(),
             rows: Vec::new(),
+            fields: Vec::new(),
             metrics: Vec::new(),
             paper_runs: None,
             comparison: None,
@@ -43,7 +47,29 @@ impl Table {
         self
     }
 
-    /// Adds a metric.
+    /// Says that every run has this field.
+    #[must_use]
+    pub fn field(mut self, name: impl Into<String>, kind: Kind) -> Self {
+        self.fields.push(Measure {
+            name: name.into(),
+            kind,
+            presence: Presence::Always,
+        });
+        self
+    }
+
+    /// Says that a run may have this field.
+    #[must_use]
+    pub fn optional_field(mut self, name: impl Into<String>, kind: Kind) -> Self {
+        self.fields.push(Measure {
+            name: name.into(),
+            kind,
+            presence: Presence::Sometimes,
+        });
+        self
+    }
+
+    /// Adds a metric, which summarizes fields of the table.
     #[must_use]
     pub fn metric(mut self, metric: Metric) -> Self {
         self.metrics.push(metric);
@@ -73,6 +99,26 @@ impl Table {
         });
         self
     }
+}
+
+/// A field of a table's runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Measure {
+    /// The name of the field.
+    pub name: String,
+    /// What it holds.
+    pub kind: Kind,
+    /// Whether every run has it.
+    pub presence: Presence,
+}
+
+/// Whether every run has a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// Every run has it.
+    Always,
+    /// Some runs have it.
+    Sometimes,
 }
 
 /// How the rows of a table are compared.

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use super::{Event, Progress};
+use super::{Event, Progress, Remedy};
 
 /// Progress on standard error: a bar with rate and time left on a terminal, nothing elsewhere.
 /// Folders set aside and broken lines are told in both cases.
@@ -52,9 +52,20 @@ impl Progress for Terminal {
                 folder.display(),
                 moved_to.display()
             )),
-            Event::BrokenLine { file, line, what } => self.line(&format!(
-                "{}:{line}: {what}; the run is played again",
-                file.display()
+            Event::BrokenLine {
+                file,
+                line,
+                what,
+                remedy,
+            } => self.line(&format!(
+                "{}:{line}: {what}; {}",
+                file.display(),
+                match remedy {
+                    Remedy::PlayedAgain => "the run is played again",
+                    Remedy::Ignored => "the line is ignored",
+                    Remedy::MissingPlayed =>
+                        "the line is ignored and what runs are missing are played again",
+                }
             )),
             Event::Started { total, reused } => {
                 if *reused > 0 {

@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman::draw::{Figure, Plan, Series, Zone};
 use tolman::experiment::{
-    BoxError, Correction, Experiment, Fields, Job, Metric, Row, Run, Table, Tolerance,
+    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Row, Run, Table, Tolerance,
 };
 use tolman_geom::Point;
 
@@ -22,6 +22,10 @@ impl Darts {
     pub(crate) fn new() -> Self {
         let table = |name: &str, title: &str| {
             Table::new(name, title)
+                .field("success", Kind::Flag)
+                .field("throws", Kind::Count)
+                .optional_field("outcome", Kind::Text)
+                .optional_field("miss", Kind::Number)
                 .metric(
                     Metric::percent("success_percent", "success")
                         .tolerance(Tolerance::Absolute(15.0)),
@@ -128,6 +132,13 @@ impl Experiment for Darts {
             .text("outcome", if hit { "Hit" } else { "OutOfDarts" })
             .count("throws", throws.len() as u64)
             .number("miss", last.map_or(0.0, |throw| throw.coords.norm())))
+    }
+
+    fn check(&self, run: &Run) -> Result<(), BoxError> {
+        match run.fields.get("throws") {
+            Some(Field::Count(throws)) if (1..=u64::from(DARTS)).contains(throws) => Ok(()),
+            throws => Err(format!("{throws:?} throws of {DARTS} darts").into()),
+        }
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

@@ -102,7 +102,7 @@ fn broken_lines_are_told_and_played_again() {
     lines.push(
         String::from_utf8(lines[0].clone())
             .unwrap()
-            .replace("\"throws\":", "\"throws\":9")
+            .replace("\"miss\":0", "\"miss\":1")
             .into(),
     );
     // As after a process that died within a line.
@@ -110,24 +110,68 @@ fn broken_lines_are_told_and_played_again() {
     fs::write(out.join("runs.jsonl"), lines.join(&b'\n')).unwrap();
 
     let (outcome, listener) = run(&Darts::new(), &options(&out));
-    assert_eq!(outcome.unwrap().played, 4);
+    assert_eq!(outcome.unwrap().played, 5);
     let messages = listener.messages();
     let expect = [
-        ("runs.jsonl:3: ", "EOF"),
-        ("runs.jsonl:6: ", ""),
-        ("runs.jsonl:10: ", "no row \"Nobody\""),
-        ("runs.jsonl:12: ", "seed"),
-        ("runs.jsonl:241: ", "contradicts"),
-        ("runs.jsonl:242: ", "EOF"),
+        ("runs.jsonl:3: ", "EOF", "MissingPlayed"),
+        ("runs.jsonl:6: ", "", "MissingPlayed"),
+        ("runs.jsonl:10: ", "no row \"Nobody\"", "MissingPlayed"),
+        ("runs.jsonl:12: ", "seed", "PlayedAgain"),
+        ("runs.jsonl:241: ", "contradicts", "PlayedAgain"),
+        ("runs.jsonl:242: ", "EOF", "MissingPlayed"),
     ];
     assert_eq!(messages.len(), expect.len() + 1, "{messages:?}");
-    for (message, (place, what)) in messages.iter().zip(expect) {
+    for (message, (place, what, remedy)) in messages.iter().zip(expect) {
         assert!(
-            message.starts_with(place) && message.contains(what),
+            message.starts_with(place) && message.contains(what) && message.ends_with(remedy),
             "{message}"
         );
     }
     assert_eq!(read(&out, "runs.jsonl"), whole);
+}
+
+#[test]
+fn lines_of_what_no_run_measures_are_told_and_played_again() {
+    let out = fresh("wrong").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let whole = read(&out, "runs.jsonl");
+    let first = whole.lines().next().unwrap();
+    let throws = first.find("\"throws\":").unwrap();
+    let end = throws + first[throws..].find(['}', ',']).unwrap();
+    let with = |value: &str| format!("{}\"throws\":{value}{}", &first[..throws], &first[end..]);
+    for wrong in [
+        with("\"many\""),
+        with("-5"),
+        with("1.5"),
+        with("1e300"),
+        with("true"),
+        with("null"),
+        with("[3]"),
+        with("0"),
+        with("11"),
+        with("3,\"luck\":1"),
+        first.replace("\"throws\"", "\"thrown\""),
+        first
+            .replace("\"success\":", "\"success\":1")
+            .replace("1true", "\"yes\"")
+            .replace("1false", "\"no\""),
+    ] {
+        fs::write(out.join("runs.jsonl"), whole.replacen(first, &wrong, 1)).unwrap();
+        let (outcome, listener) = run(&Darts::new(), &options(&out));
+        assert_eq!(outcome.unwrap().played, 1, "{wrong}");
+        let told = &listener.messages()[0];
+        assert!(
+            told.starts_with("runs.jsonl:1: ") && told.ends_with("; PlayedAgain"),
+            "{wrong}: {told}"
+        );
+        assert_eq!(read(&out, "runs.jsonl"), whole);
+
+        // Beside the good line, or of a run nobody asks for, it does no harm.
+        fs::write(out.join("runs.jsonl"), format!("{whole}{wrong}\n")).unwrap();
+        let (outcome, listener) = run(&Darts::new(), &options(&out));
+        assert_eq!(outcome.unwrap().played, 0, "{wrong}");
+        assert!(listener.messages()[0].ends_with("; Ignored"), "{wrong}");
+    }
 }
 
 #[test]
@@ -299,7 +343,7 @@ fn options_that_run_nothing_or_too_much_are_refused_before_anything_is_written()
 fn tables_that_contradict_themselves_are_refused() {
     let out = fresh("unsound").join("out");
     type Spoil = fn(&mut Vec<Table>);
-    let spoil: [(Spoil, &str); 8] = [
+    let spoil: [(Spoil, &str); 12] = [
         (|tables| tables.clear(), "no table"),
         (|tables| tables[1].name = "1 (near)".into(), "two tables"),
         (
@@ -316,12 +360,28 @@ fn tables_that_contradict_themselves_are_refused() {
         ),
         (|tables| tables[0].rows[1].name = "Expert".into(), "no row"),
         (
-            |tables| tables[0].metrics.push(Metric::mean("MISS")),
+            |tables| tables[1].metrics[2].name = "THROWS".into(),
             "two figures",
         ),
         (
-            |tables| tables[0].metrics.push(Metric::mean("m".repeat(200))),
+            |tables| tables[1].metrics[2].name = "m".repeat(200),
             "no name of a figure",
+        ),
+        (
+            |tables| tables[0].metrics.push(Metric::mean("luck")),
+            "no field",
+        ),
+        (
+            |tables| tables[0].metrics.push(Metric::mean("success")),
+            "no field of kind [Count, Number]",
+        ),
+        (
+            |tables| tables[0].fields[0].name = "throws".into(),
+            "two fields",
+        ),
+        (
+            |tables| tables[0].fields[2].name = "run".into(),
+            "identifies a run",
         ),
     ];
     for (spoil, what) in spoil {

@@ -74,8 +74,14 @@ impl Progress for Listener {
             } => {
                 format!("{} has {reason}", moved_to.file_name().unwrap().display())
             }
-            Event::BrokenLine { file, line, what } => {
-                format!("{}:{line}: {what}", file.file_name().unwrap().display())
+            Event::BrokenLine {
+                file,
+                line,
+                what,
+                remedy,
+            } => {
+                let file = file.file_name().unwrap().display();
+                format!("{file}:{line}: {what}; {remedy:?}")
             }
             Event::Started { total, reused } => format!("{reused} of {total}"),
             _ => return,

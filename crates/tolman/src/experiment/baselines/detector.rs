@@ -11,11 +11,14 @@ use tolman_sim::Solo;
 use tolman_sim::robots::LaserPioneer;
 
 use crate::course::Course;
-use crate::experiment::{BoxError, Fields, Job, Metric, Row, Table};
+use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 use crate::pioneer;
 
 /// The table's name in `summary.json`.
 pub(super) const NAME: &str = "corridor detector";
+
+/// The one field of a run, and its metric.
+const CALLED: &str = "called_corridor_percent";
 
 /// Random poses in one run.
 const POSES: u32 = 200;
@@ -36,11 +39,9 @@ const PLACES: [(&str, &[Direction]); 5] = [
 ];
 
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NAME, "What the corridor detector takes for a corridor").metric(
-        Metric::mean("called_corridor_percent")
-            .titled("called corridor")
-            .unit("%"),
-    );
+    let mut table = Table::new(NAME, "What the corridor detector takes for a corridor")
+        .field(CALLED, Kind::Number)
+        .metric(Metric::mean(CALLED).titled("called corridor").unit("%"));
     for (name, _) in PLACES {
         table = table.row(Row::new(name));
     }
@@ -80,7 +81,17 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
         }
     }
     let percent = 100.0 * f64::from(called) / f64::from(POSES);
-    Ok(Fields::new().number("called_corridor_percent", percent))
+    Ok(Fields::new().number(CALLED, percent))
+}
+
+/// Refuses what is no percentage.
+pub(super) fn check(run: &Run) -> Result<(), BoxError> {
+    match run.fields.get(CALLED).and_then(Field::as_number) {
+        Some(percent) if !(0.0..=100.0).contains(&percent) => {
+            Err(format!("{CALLED} is {percent}").into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A place with straight arms in the directions it is open in; the goal lies at the end of one.

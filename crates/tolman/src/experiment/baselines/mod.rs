@@ -11,8 +11,8 @@ mod worlds;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::{
-    BoxError, Comparison, Correction, Experiment, Fields, Job, Metric, Options, Row, Run, Table,
-    Tolerance,
+    BoxError, Comparison, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row,
+    Run, Table, Tolerance,
 };
 use crate::agents::{Agent, Cast};
 use crate::draw::Figure;
@@ -53,6 +53,12 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
 
 fn table(venue: &Venue) -> Table {
     let mut table = Table::new(&venue.table, &venue.title)
+        .field("reached", Kind::Flag)
+        .field("outcome", Kind::Text)
+        .field("actions", Kind::Count)
+        .field("failed_actions", Kind::Count)
+        .field("steps", Kind::Count)
+        .field("bumps", Kind::Count)
         .metric(
             Metric::percent("success_percent", "reached")
                 .titled("success")
@@ -88,6 +94,11 @@ fn table(venue: &Venue) -> Table {
          then count as its steps.",
         venue.step_limit
     ))
+}
+
+/// How a run ended, in words.
+const fn outcome(reached: bool) -> &'static str {
+    if reached { "reached" } else { "timed out" }
 }
 
 impl Baselines {
@@ -158,18 +169,37 @@ impl Experiment for Baselines {
         };
         Ok(Fields::new()
             .flag("reached", episode.reached)
-            .text(
-                "outcome",
-                if episode.reached {
-                    "reached"
-                } else {
-                    "timed out"
-                },
-            )
+            .text("outcome", outcome(episode.reached))
             .count("actions", u64::from(episode.actions))
             .count("failed_actions", u64::from(episode.failed_actions))
             .count("steps", u64::from(episode.steps))
             .count("bumps", u64::from(episode.bumps)))
+    }
+
+    fn check(&self, run: &Run) -> Result<(), BoxError> {
+        let Some((_, venue)) = self.venue(&run.table) else {
+            return detector::check(run);
+        };
+        let count = |name: &str| match run.fields.get(name) {
+            Some(Field::Count(count)) => *count,
+            _ => 0,
+        };
+        let reached = run.fields.get("reached").and_then(Field::as_flag);
+        let (actions, steps) = (count("actions"), count("steps"));
+        let told = run.fields.get("outcome").and_then(Field::as_text);
+        if told != reached.map(outcome) {
+            return Err("outcome and reached contradict each other".into());
+        }
+        if steps > u64::from(venue.step_limit) {
+            return Err(format!("steps is {steps}, the limit {}", venue.step_limit).into());
+        }
+        if !(1..=steps).contains(&actions) {
+            return Err(format!("actions is {actions} in {steps} steps").into());
+        }
+        if count("failed_actions") > actions || count("bumps") > steps {
+            return Err("more failed actions or bumps than actions or steps".into());
+        }
+        Ok(())
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
