@@ -123,14 +123,49 @@ impl Maze {
         self.neighbours(cell).count()
     }
 
-    /// The cells open to one side only, in the order of [`Grid::index`].
+    /// The cells open to one side only, also where no way leads to a goal, in the order of
+    /// [`Grid::index`].
     pub fn dead_ends(&self) -> impl Iterator<Item = Cell> + '_ {
         self.grid.cells().filter(|cell| self.degree(*cell) == 1)
     }
 
-    /// The cells open to three or four sides, in the order of [`Grid::index`].
+    /// The cells open to three or four sides, also where no way leads to a goal, in the order of
+    /// [`Grid::index`].
     pub fn junctions(&self) -> impl Iterator<Item = Cell> + '_ {
         self.grid.cells().filter(|cell| self.degree(*cell) >= 3)
+    }
+
+    /// The cells a way leads from to a goal, the goals among them, in the order of [`Grid::index`]:
+    /// what a robot sees of the maze. O(cells).
+    ///
+    /// ```
+    /// let text = "\
+    /// o---o---o---o
+    /// |     G |   |
+    /// o   o---o   o
+    /// | S |       |
+    /// o---o---o---o
+    /// ";
+    /// let maze = tolman_maze::read(text)?.maze;
+    /// assert_eq!(maze.reachable().count(), 3);
+    /// assert_eq!(maze.reachable().filter(|cell| maze.degree(*cell) == 1).count(), 2);
+    /// assert_eq!(maze.sealed().count(), 3);
+    /// # Ok::<(), tolman_maze::MazeError>(())
+    /// ```
+    pub fn reachable(&self) -> impl Iterator<Item = Cell> + '_ {
+        let steps = self.steps_to_goal();
+        self.grid
+            .cells()
+            .filter(move |cell| steps[self.grid.index(*cell)].is_some())
+    }
+
+    /// The cells that are open to some side but to no goal: drawn as if one could be there, though
+    /// nobody gets there. In the order of [`Grid::index`]. O(cells).
+    pub fn sealed(&self) -> impl Iterator<Item = Cell> + '_ {
+        let steps = self.steps_to_goal();
+        self.grid
+            .cells()
+            .filter(move |cell| steps[self.grid.index(*cell)].is_none() && self.degree(*cell) > 0)
     }
 
     /// How many inner edges no wall stands on. A maze is perfect (every two cells are joined by
@@ -378,6 +413,17 @@ mod tests {
         let dead_ends = [Cell::new(0, 0), Cell::new(2, 0), Cell::new(2, 1)];
         assert_eq!(maze.dead_ends().collect::<Vec<_>>(), dead_ends);
         assert_eq!(maze.junctions().collect::<Vec<_>>(), [Cell::new(1, 1)]);
+    }
+
+    #[test]
+    fn solid_cells_are_neither_reachable_nor_sealed() {
+        // A cell walled in on four sides, two joined ones sealed off, and the goal.
+        let mut maze = Maze::solid(Grid::new(4, 1));
+        maze.set_wall(Cell::new(1, 0), Direction::East, false);
+        maze.set_goals(vec![Cell::new(3, 0), Cell::new(9, 9)]);
+        assert_eq!(maze.reachable().collect::<Vec<_>>(), [Cell::new(3, 0)]);
+        let sealed = [Cell::new(1, 0), Cell::new(2, 0)];
+        assert_eq!(maze.sealed().collect::<Vec<_>>(), sealed);
     }
 
     #[test]

@@ -46,3 +46,18 @@ fn the_keys_of_the_table_are_the_keys_that_are_read() {
     }
     read(&format!("{header}\n{unmarked}")).unwrap();
 }
+
+/// What is drawn inside the walled-off area is none of the maze.
+#[test]
+fn the_j_maze_is_one_corridor_and_the_rest_is_solid() {
+    let maze = read(include_str!("../../../../mazes/j.maze")).unwrap().maze;
+    let count = |degrees: &[usize]| {
+        let of_degree = |cell: &Cell| degrees.contains(&maze.degree(*cell));
+        maze.reachable().filter(of_degree).count()
+    };
+    assert_eq!((count(&[1]), count(&[2]), count(&[3, 4])), (2, 39, 0));
+    assert_eq!(
+        maze.reachable().count() + maze.sealed().count(),
+        maze.grid().cell_count()
+    );
+}
