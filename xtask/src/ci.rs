@@ -38,6 +38,12 @@ const STEPS: &[Step] = &[
     ("plain build", || passes("check --workspace --quiet")),
     ("api docs", || passed(docs::api())),
     ("bare metal", bare_metal::check),
+    // Running them takes a nightly compiler; that they still build takes a C++ one.
+    ("fuzz", || {
+        if_installed("c++", || {
+            passes("check --quiet --manifest-path fuzz/Cargo.toml")
+        })
+    }),
     ("msrv", msrv::check),
     ("licences", || {
         if_installed("cargo-deny", || passes("deny --all-features check"))
