@@ -11,6 +11,8 @@ pub use error::GenerateError;
 pub use perfect::Perfect;
 pub use rooms::Rooms;
 
+use alloc::vec::Vec;
+
 use crate::{Cell, Direction, Grid, Maze};
 
 /// The grid of a size that mazes can be generated in.
@@ -24,6 +26,9 @@ fn grid(width: u16, height: u16) -> Result<Grid, GenerateError> {
 
 /// Start and goal where classic competitions have them: the south-west cell, looking through its
 /// first opening clockwise from north; and the middle.
+///
+/// Where the middle of a small maze holds the start, the run would be over before it began: there the
+/// goal is the one cell farthest from the start, of several the last by [`Grid::index`].
 fn mark(maze: &mut Maze) {
     let start = Cell::new(0, 0);
     let heading = maze
@@ -31,5 +36,16 @@ fn mark(maze: &mut Maze) {
         .next()
         .map_or(Direction::North, |(heading, _)| heading);
     maze.set_start(Some((start, heading)));
-    maze.set_goals(maze.grid().middle().collect());
+    let mut goals: Vec<Cell> = maze.grid().middle().collect();
+    if goals.contains(&start) {
+        let steps = maze.steps_to(&[start]);
+        let farthest = |cell: &Cell| steps[maze.grid().index(*cell)];
+        goals = maze
+            .grid()
+            .cells()
+            .max_by_key(farthest)
+            .into_iter()
+            .collect();
+    }
+    maze.set_goals(goals);
 }

@@ -10,7 +10,8 @@ use crate::{Cell, Direction, Maze};
 ///
 /// Made by the recursive backtracker (a depth-first walk that carves into a random unvisited
 /// neighbour and turns back where there is none): long winding corridors, few short dead ends.
-/// Start in the south-west, open to one side; goal in the middle. O(cells).
+/// Start in the south-west, open to one side; goal in the middle, of at most 2 × 2 cells the one
+/// farthest from the start. O(cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Perfect {
     /// Columns.

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_maze::{Braided, Direction, GenerateError, Maze, Perfect, Rooms};
+use tolman_maze::{Braided, Cell, Direction, GenerateError, Maze, Perfect, Rooms};
 
 fn rng(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
@@ -18,11 +18,14 @@ fn holds_together(maze: &Maze) -> Result<(), TestCaseError> {
     );
     let (start, heading) = maze.start().expect("every generator marks the start");
     prop_assert!(maze.is_open(start, heading));
-    prop_assert!(
-        maze.grid()
-            .middle()
-            .all(|cell| maze.goals().contains(&cell))
-    );
+    prop_assert!(!maze.goals().contains(&start), "there is a way to go");
+    if maze.grid().middle().all(|cell| cell != start) {
+        prop_assert!(
+            maze.grid()
+                .middle()
+                .all(|cell| maze.goals().contains(&cell))
+        );
+    }
     Ok(())
 }
 
@@ -81,6 +84,26 @@ proptest! {
         let loops = doors.opening_count() - maze.opening_count();
         prop_assert_eq!(loops, if placed { 3 } else { 0 });
     }
+}
+
+/// Their middle holds the start, so the goal is the cell farthest from it.
+#[test]
+fn the_smallest_mazes_have_a_way_to_go() {
+    let check = |width, height, goal, steps| {
+        let perfect = Perfect { width, height };
+        let maze = perfect.generate(&mut rng(1)).unwrap();
+        let braided = Braided {
+            width,
+            height,
+            share: 1.0,
+        };
+        assert_eq!(braided.generate(&mut rng(1)).unwrap(), maze);
+        assert_eq!(maze.goals(), [goal], "\n{maze}");
+        assert_eq!(maze.steps_to_goal()[0], Some(steps), "\n{maze}");
+    };
+    check(1, 2, Cell::new(0, 1), 1);
+    check(2, 1, Cell::new(1, 0), 1);
+    check(2, 2, Cell::new(1, 0), 3);
 }
 
 #[test]

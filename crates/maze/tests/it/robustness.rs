@@ -39,7 +39,8 @@ fn survives(text: &str) -> Result<(), TestCaseError> {
 
 /// A valid file of any format.
 fn valid() -> impl Strategy<Value = String> {
-    (1_u16..=5, 0_usize..4, any::<u64>()).prop_map(|(half, format, seed)| {
+    // From 4 × 4 on the goals are the classic middle, which every format holds.
+    (2_u16..=5, 0_usize..4, any::<u64>()).prop_map(|(half, format, seed)| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let braided = Braided {
             width: 2 * half,
