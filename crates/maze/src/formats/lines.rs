@@ -74,7 +74,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The lines of a text: LF or CR LF ends them, and a byte order mark before them is dropped.
+/// The lines of a text: LF or CR LF ends them, CR in a text without any LF, and a byte order mark before them is dropped.
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: core::str::Split<'a, char>,
@@ -83,8 +83,9 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn of(text: &'a str) -> Self {
+        let end = if text.contains('\n') { '\n' } else { '\r' };
         Self {
-            rest: text.strip_prefix('\u{feff}').unwrap_or(text).split('\n'),
+            rest: text.strip_prefix('\u{feff}').unwrap_or(text).split(end),
             read: 0,
         }
     }

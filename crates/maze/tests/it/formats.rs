@@ -59,6 +59,8 @@ fn all_formats_tell_the_same_maze() {
             file,
             "{format} with CR LF and a byte order mark"
         );
+        let old = text.replace('\n', "\r");
+        assert_eq!(read(&old).unwrap(), file, "{format} with CR alone");
     }
     assert_eq!(write(&file, Format::Numbers).unwrap(), NUMBERS);
     let num = write(&file, Format::Num).unwrap();

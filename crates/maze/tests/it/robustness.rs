@@ -29,7 +29,7 @@ fn survives(text: &str) -> Result<(), TestCaseError> {
             }
             Err(error) => {
                 prop_assert!(error.line >= 1 && error.column >= 1);
-                prop_assert!(error.line <= text.split('\n').count());
+                prop_assert!(error.line <= text.split(['\n', '\r']).count());
                 prop_assert_eq!(read_as(text, format).unwrap_err(), error.clone());
             }
         }
