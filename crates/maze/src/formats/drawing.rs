@@ -11,10 +11,11 @@ use crate::{Cell, CheckError, Direction, Grid, Maze};
 /// Characters from one post to the next.
 const PITCH: usize = 4;
 
-/// Whether a drawing begins with this line, which has no blanks before it.
+/// Whether a drawing begins with this line, which has no blanks before it. Double borders are no walls,
+/// but meant as a drawing.
 pub(super) fn begins(line: &str) -> bool {
     let mut chars = line.chars();
-    chars.next().is_some_and(is_post) && chars.next().is_none_or(|c| matches!(c, '-' | ' '))
+    chars.next().is_some_and(is_post) && chars.next().is_none_or(|c| matches!(c, '-' | ' ' | '='))
 }
 
 const fn is_post(c: char) -> bool {
@@ -65,7 +66,9 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     reader.posts(first, grid.height() - 1, Direction::North)?;
     for (pair, y) in rows_of_cells {
         if let [cells, posts] = pair {
+            cells.reaches(width)?;
             reader.cells(cells, y)?;
+            posts.reaches(width)?;
             reader.posts(posts, y, Direction::South)?;
         }
     }
@@ -73,7 +76,10 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         .maze
         .set_start(reader.start.map(|cell| (cell, Direction::North)));
     reader.maze.set_goals(reader.goals);
-    Ok(Parsed::new(reader.maze, reader.places))
+    Ok(Parsed {
+        begin: first.place(0),
+        ..Parsed::new(reader.maze, reader.places)
+    })
 }
 
 /// What was read of a drawing so far.
@@ -239,6 +245,9 @@ fn width(first: &Row<'_>) -> usize {
 
 const POST: &str = "a post, `o` or `+`, at every corner of a cell";
 
+const HORIZONTAL: &str =
+    "`---` or three blanks between two posts, since a cell is three characters wide";
+
 impl Row<'_> {
     /// The character at `offset`; lines go on with blanks after their end.
     fn char(&self, offset: usize) -> char {
@@ -294,7 +303,7 @@ impl Row<'_> {
         let drawn = if stands { '-' } else { ' ' };
         match offsets.find(|offset| self.char(*offset) != drawn) {
             None => Ok(stands),
-            Some(offset) => Err(self.unexpected(offset, "`---` or three blanks between two posts")),
+            Some(offset) => Err(self.unexpected(offset, HORIZONTAL)),
         }
     }
 
@@ -305,6 +314,17 @@ impl Row<'_> {
             ' ' => Ok(false),
             _ => Err(self.unexpected(post(column), "`|` or a blank between two cells")),
         }
+    }
+
+    /// The border is closed, so no line may end before it.
+    fn reaches(&self, width: usize) -> Result<(), MazeError> {
+        let drawn = self.line.text.get(self.indent..).unwrap_or_default();
+        let found = drawn.chars().count();
+        // A tab fakes a short line, and is found later.
+        if found > width * PITCH || drawn.contains('\t') {
+            return Ok(());
+        }
+        Err(self.fault(found, Fault::TooShort { found, width }))
     }
 
     /// Beyond the east border remarks may stand, but no walls: those belong to a wider maze.

@@ -54,10 +54,22 @@ pub enum Fault {
     /// A tab, whose width nobody knows.
     #[error("found a tab: draw with blanks")]
     Tab,
+    /// A line that ends before the east border.
+    #[error(
+        "the line is too short, {found} characters: the first line of the drawing has posts for {width} \
+         columns, so expected {} (one every 4 characters, and the last)",
+        width * 4 + 1
+    )]
+    TooShort {
+        /// Characters of the line.
+        found: usize,
+        /// Columns of the first line.
+        width: usize,
+    },
     /// A line that goes on beyond the east border.
     #[error(
         "the drawing goes on beyond the east border: its first line has posts for {width} columns \
-         (one every 4 characters); make all lines equally long"
+         (one every 4 characters); make all lines {} characters long", width * 4 + 1
     )]
     BeyondBorder {
         /// Columns of the first line.
@@ -147,7 +159,8 @@ pub enum Fault {
 
     /// A header and nothing below it.
     #[error(
-        "the drawing is missing: draw the maze below the header, with posts and walls as in `+---+`"
+        "the drawing is missing: draw the maze below the header, with posts and walls as in `+---+` \
+         and `|`; lines that start with `#` are comments, not walls"
     )]
     NoDrawing,
     /// A line before the drawing that is no `key = value`.

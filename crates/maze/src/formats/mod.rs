@@ -249,6 +249,8 @@ struct Parsed {
     file: MazeFile,
     /// By [`Grid::index`](crate::Grid::index).
     places: Vec<Place>,
+    /// Where the cells begin.
+    begin: Place,
 }
 
 impl Parsed {
@@ -256,6 +258,7 @@ impl Parsed {
         Self {
             file: maze.into(),
             places,
+            begin: Place::default(),
         }
     }
 
@@ -267,7 +270,10 @@ impl Parsed {
         let place = error
             .cell()
             .and_then(|cell| self.places.get(grid.index(cell)));
-        Err(place.copied().unwrap_or_default().fault(Fault::Maze(error)))
+        Err(place
+            .copied()
+            .unwrap_or(self.begin)
+            .fault(Fault::Maze(error)))
     }
 }
 

@@ -37,7 +37,8 @@ fn drawings() {
     );
     check(
         "o---o---o\n| S   G\no---o---o\n",
-        "line 2, column 9: the border of cell (1, 0) is open to the east: close it with a wall",
+        "line 2, column 8: the line is too short, 7 characters: the first line of the drawing has posts \
+         for 2 columns, so expected 9 (one every 4 characters, and the last)",
     );
     check(
         "o---o---o\n  S   G |\no---o---o\n",
@@ -81,7 +82,8 @@ fn drawings() {
     );
     check(
         "o---o---o\n| S   G |\no-- o---o\n",
-        "line 3, column 4: found ' ': expected `---` or three blanks between two posts",
+        "line 3, column 4: found ' ': expected `---` or three blanks between two posts, since a cell \
+         is three characters wide",
     );
     check(
         "o---o---o\n| S   S |\no---o---o\n",
@@ -98,20 +100,45 @@ fn drawings() {
     check(
         "o---o---o\n| S   G |   |\no---o---o\n",
         "line 2, column 10: the drawing goes on beyond the east border: its first line has posts for 2 \
-         columns (one every 4 characters); make all lines equally long",
+         columns (one every 4 characters); make all lines 9 characters long",
     );
     check(
         "o---o---o\n| S   G |\no---o---o---o\n",
         "line 3, column 10: the drawing goes on beyond the east border: its first line has posts for 2 \
-         columns (one every 4 characters); make all lines equally long",
+         columns (one every 4 characters); make all lines 9 characters long",
     );
     check(
         "o---o---o---o\n| S   G |\no---o---o---o\n",
-        "line 2, column 13: the border of cell (2, 0) is open to the east: close it with a wall",
+        "line 2, column 10: the line is too short, 9 characters: the first line of the drawing has posts \
+         for 3 columns, so expected 13 (one every 4 characters, and the last)",
+    );
+    check(
+        "o---o---o\n| S   G  \no---o---o\n",
+        "line 2, column 9: the border of cell (1, 0) is open to the east: close it with a wall",
+    );
+    check(
+        "+===+===+\n| S   G |\n+===+===+\n",
+        "line 1, column 2: found '=': expected `---` or three blanks between two posts, since a \
+         cell is three characters wide",
+    );
+    check(
+        "+-+-+\n|S G|\n+-+-+\n",
+        "line 1, column 3: found '+': expected `---` or three blanks between two posts, since a \
+         cell is three characters wide",
+    );
+    check(
+        "# Blocks\n#########\n#S     G#\n#########",
+        "line 4, column 1: the drawing is missing: draw the maze below the header, with posts and walls \
+         as in `+---+` and `|`; lines that start with `#` are comments, not walls",
+    );
+    check(
+        "# No goal\n\n  +---+\n  | S |\n  +---+\n",
+        "line 3, column 3: the maze has no goal: mark at least one cell as the destination",
     );
     check(
         "o--o--o\n|S  G |\no--o--o\n",
-        "line 1, column 4: found 'o': expected `---` or three blanks between two posts",
+        "line 1, column 4: found 'o': expected `---` or three blanks between two posts, since a cell \
+         is three characters wide",
     );
     check(
         &format!("{}o\n", "o---".repeat(1025)),
@@ -358,7 +385,7 @@ fn headers() {
     check(
         "name = J\n",
         "line 2, column 1: the drawing is missing: draw the maze below the header, with posts and \
-         walls as in `+---+`",
+         walls as in `+---+` and `|`; lines that start with `#` are comments, not walls",
     );
     check(
         "name = J\n+---+\n| G |\n+---+\nstart = 0 0\n",
