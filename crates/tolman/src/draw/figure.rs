@@ -91,7 +91,7 @@ impl Figure {
             format!("{}-title", self.name),
             format!("{}-description", self.name),
         );
-        html! {
+        let element = html! {
             svg xmlns=[namespace] class="drawing" id=(self.name)
                 viewBox={ "0 0 " (tenths(*width)) " " (tenths(*height)) }
                 width=(tenths(*width)) height=(tenths(*height))
@@ -102,6 +102,30 @@ impl Figure {
                 (backdrop)
                 (body)
             }
-        }
+        };
+        PreEscaped(element.into_string().replace(forbidden_in_xml, "\u{fffd}"))
+    }
+}
+
+/// What no XML document may hold, not even escaped.
+const fn forbidden_in_xml(c: char) -> bool {
+    matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_text_makes_xml() {
+        let all: String = ('\0'..='\u{ffff}').collect();
+        let drawing = Drawing {
+            width: 1.0,
+            height: 1.0,
+            description: all.clone(),
+            body: html! { text data-row=(all) { (all) } },
+        };
+        let svg = Figure::new("all", all, drawing).standalone();
+        assert!(roxmltree::Document::parse(&svg).is_ok());
     }
 }

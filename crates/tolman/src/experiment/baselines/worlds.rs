@@ -125,9 +125,10 @@ fn from_file(path: &Path) -> Result<Venue, BoxError> {
     };
     let text = fs::read_to_string(path).map_err(|error| in_file(error.into()))?;
     let file: MazeFile = tolman_maze::read(&text).map_err(|error| in_file(error.into()))?;
+    // A maze's own name has no control characters; that of its file may, and terminals obey them.
     let stem = path
         .file_stem()
-        .map(|stem| stem.to_string_lossy().into_owned());
+        .map(|stem| stem.to_string_lossy().replace(char::is_control, "\u{fffd}"));
     let name = file.name.clone().or(stem).unwrap_or_default();
     let course =
         Course::new(&name, &file, &pioneer::body()).map_err(|error| in_file(error.into()))?;
@@ -161,7 +162,7 @@ fn told_apart(mut venues: Vec<Venue>) -> Vec<Venue> {
 
 /// An error with the file it happened in.
 #[derive(Debug, thiserror::Error)]
-#[error("the maze file {} cannot be used", path.display())]
+#[error("the maze file {path:?} cannot be used")]
 struct InFile {
     path: PathBuf,
     source: BoxError,
