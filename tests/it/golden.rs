@@ -21,7 +21,7 @@ fn runs(jobs: u32) -> String {
             .map(|name| root().join("mazes").join(name))
             .into(),
         out: Some(out.clone()),
-        quick: false,
+        ..Options::default()
     };
     let experiment = open("baselines", &options).unwrap();
     if out.exists() {

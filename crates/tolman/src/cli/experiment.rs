@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use tolman::experiment::{
-    Build, Disagreement, Error, Ink, Options, Terminal, catalogue, execute, open, tables_as_text,
+    Build, Disagreement, Error, Ink, Options, Program, Terminal, catalogue, execute, open,
+    tables_as_text,
 };
 
 use super::Failure;
@@ -96,6 +97,7 @@ impl Arguments {
             mazes: self.mazes.clone(),
             out: self.out.clone(),
             quick: self.quick,
+            program: Program::current(),
         };
         if let Some(name) = &self.name {
             return vec![(name, options)];

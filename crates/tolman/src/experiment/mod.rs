@@ -36,7 +36,7 @@ pub use analysis::{Analysis, Contrast, Disagreement, Measured, MetricAnalysis, T
 pub use build::Build;
 pub use catalogue::{Entry, catalogue, open};
 pub use error::Error;
-pub use options::Options;
+pub use options::{Options, Program};
 pub use progress::{Event, Progress, Remedy, Silent};
 pub use run::{Field, Fields, Job, Kind, Run};
 pub use runner::{Outcome, execute};

@@ -1,9 +1,37 @@
 //! What the caller chooses.
 
+use std::env;
 use std::path::PathBuf;
 use std::thread;
 
 use super::Experiment;
+
+/// What the caller calls experiments with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Program {
+    /// The installed program, `tolman`.
+    #[default]
+    Tolman,
+    /// `cargo xtask`, in the project's own folder.
+    Xtask,
+}
+
+impl Program {
+    /// The one that runs now. Cargo names itself to the programs it starts in the variable `CARGO`.
+    pub fn current() -> Self {
+        match env::var_os("CARGO") {
+            Some(_) => Self::Xtask,
+            None => Self::Tolman,
+        }
+    }
+
+    const fn command(self) -> &'static str {
+        match self {
+            Self::Tolman => "tolman",
+            Self::Xtask => "cargo xtask",
+        }
+    }
+}
 
 /// How an experiment is run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,6 +49,8 @@ pub struct Options {
     pub out: Option<PathBuf>,
     /// Few runs, for a first look.
     pub quick: bool,
+    /// What the command that makes the results again begins with.
+    pub program: Program,
 }
 
 impl Options {
@@ -61,7 +91,8 @@ impl Options {
     /// The command that makes the same results again.
     pub fn command_of(&self, name: &str, experiment: &dyn Experiment) -> String {
         let mut command = format!(
-            "cargo xtask experiment {name} --seed {} --runs {}",
+            "{} experiment {name} --seed {} --runs {}",
+            self.program.command(),
             self.seed,
             self.runs_of(experiment)
         );
@@ -78,11 +109,22 @@ impl Options {
     }
 }
 
-/// An argument as a shell takes it: in single quotes if it holds anything unusual.
+/// An argument as a shell takes it: in single quotes if it holds anything unusual, in `$'…'` if it holds
+/// what a terminal would obey.
 fn quoted(argument: &str) -> String {
     let usual = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
     if !argument.is_empty() && argument.chars().all(usual) {
         argument.to_owned()
+    } else if argument.contains(char::is_control) {
+        let escaped = |c: char| match c {
+            '\'' | '\\' => format!("\\{c}"),
+            c if c.is_control() => {
+                let bytes = c.to_string().into_bytes();
+                bytes.iter().map(|byte| format!("\\x{byte:02x}")).collect()
+            }
+            c => c.to_string(),
+        };
+        format!("$'{}'", argument.chars().map(escaped).collect::<String>())
     } else {
         format!("'{}'", argument.replace('\'', r"'\''"))
     }
@@ -119,6 +161,7 @@ mod tests {
             ("my maze", "'my maze'"),
             ("it's", r"'it'\''s'"),
             ("", "''"),
+            ("it's \u{1b}[31m\u{85}", r"$'it\'s \x1b[31m\xc2\x85'"),
         ] {
             assert_eq!(quoted(argument), expect);
         }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use tolman::experiment::{Ink, Options, Run, tables_as_text};
+use tolman::experiment::{Ink, Options, Program, Run, open, tables_as_text};
 
 use crate::darts::Darts;
 use crate::support::{fresh, options, read, run};
@@ -76,6 +76,7 @@ fn config_toml_holds_all_that_is_needed_to_run_again() {
     let out = fresh("config").join("my out");
     let options = Options {
         mazes: vec!["a maze.txt".into()],
+        program: Program::Xtask,
         ..options(&out)
     };
     run(&Darts::new(), &options).0.unwrap();
@@ -227,6 +228,34 @@ fn figures_are_xml_files_of_their_own() {
                 .unwrap();
             assert!(!node.text().unwrap().is_empty());
         }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn control_characters_in_the_name_of_a_maze_file_reach_nothing() {
+    let folder = fresh("escape");
+    let maze = folder.join("\u{1b}[31mred.maze");
+    let text = include_str!("../../../../mazes/j.maze");
+    let nameless = text.lines().filter(|line| !line.starts_with("name"));
+    fs::write(&maze, nameless.collect::<Vec<_>>().join("\n")).unwrap();
+    let out = folder.join("out");
+    let options = Options {
+        runs: Some(1),
+        mazes: vec![maze],
+        ..options(&out)
+    };
+    let experiment = open("baselines", &options).unwrap();
+    let outcome = run(&*experiment, &options).0.unwrap();
+    assert_eq!(outcome.runs[0].table, "\u{fffd}[31mred");
+    let shown = tables_as_text(&outcome.analysis, Ink::Plain);
+    for text in [
+        shown,
+        read(&out, "report.html"),
+        read(&out, "config.toml"),
+        outcome.command,
+    ] {
+        assert!(!text.contains('\u{1b}'));
     }
 }
 
