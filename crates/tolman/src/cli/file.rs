@@ -12,7 +12,15 @@ use super::Failure;
 /// # Errors
 /// A failure that names the file and a repair.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    Ok(files::write_whole(path, text.as_bytes()).with_context(|| {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes `bytes` to the file at `path`, whole or not at all.
+///
+/// # Errors
+/// A failure that names the file and a repair.
+pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    Ok(files::write_whole(path, bytes).with_context(|| {
         format!(
             "cannot write {}: give a path in a folder that can be written to",
             path.display()

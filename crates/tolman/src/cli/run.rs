@@ -3,6 +3,7 @@
 mod brain;
 mod picture;
 mod start;
+mod trace;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -23,7 +24,8 @@ use super::{Failure, file, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
-runs.jsonl, the default start and the line's step_limit as --steps, it is the run of that line.
+runs.jsonl, the default start and the step_limit of its world in config.toml as --steps, it is the run of
+that line.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
@@ -53,6 +55,10 @@ pub(super) struct Arguments {
     /// Draw its way over the maze
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Write the run down step by step, as JSON lines: world, robot, and every command, true pose, bump and
+    /// scan
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
     /// Write the outcome as JSON
     #[arg(long)]
     json: bool,
@@ -75,8 +81,13 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let mut mind = Cast::default()
         .mind(arguments.brain.0, &course, &robot)
         .map_err(classify)?;
-    let episode = episode::run(&trial, &mut mind, |_, _| ()).map_err(classify)?;
+    let mut commands = Vec::new();
+    let episode =
+        episode::run(&trial, &mut mind, |command, _| commands.push(*command)).map_err(classify)?;
     let told = arguments.told(&episode);
+    if let Some(path) = &arguments.trace {
+        file::write_bytes(path, &trace::of(&trial, &commands)?)?;
+    }
     if let Some(path) = &arguments.svg {
         file::write(path, &picture::of(&course, &episode, &told))?;
     }
@@ -94,7 +105,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             "actions": episode.actions,
             "failed_actions": episode.failed_actions,
             "steps": episode.steps,
-            "step_limit": arguments.steps,
+            "step_limit": trial.step_limit,
             "bumps": episode.bumps,
         });
         writeln!(out, "{json:#}")?;

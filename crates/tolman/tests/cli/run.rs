@@ -1,5 +1,7 @@
 use std::fs;
 
+use tolman_sim::robots::LaserPioneer;
+
 use crate::{CORRIDOR, folder, tolman, tolman_fed, tolman_in};
 
 /// Runs a brain in the corridor with these further options.
@@ -107,4 +109,16 @@ fn a_start_that_leads_nowhere_is_bad_input() {
         let run = ["run", "avoid", "--maze", "-", "--start", start];
         tolman_fed(maze, &run).refused(2, &[part]);
     }
+}
+
+#[test]
+fn a_trace_replays_to_the_bit() {
+    let folder = folder("trace");
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let run = ["run", "avoid", "--maze", "corridor.maze", "--json"];
+    let told = tolman_in(&folder, &[&run[..], &["--trace", "run.jsonl"]].concat()).done();
+    let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let trace = fs::read(folder.join("run.jsonl")).unwrap();
+    let again = tolman_sim::trace::replay::<LaserPioneer>(trace.as_slice()).unwrap();
+    assert_eq!(told["steps"], again.tick());
 }
