@@ -17,6 +17,8 @@ pub(super) struct Summary {
     goals: Vec<[u16; 2]>,
     dead_ends: usize,
     junctions: usize,
+    /// Cells with an opening that no way leads from to a goal.
+    sealed: usize,
     /// Cells from the start to the nearest goal; none if there is no start or no way.
     shortest_way: Option<u32>,
 }
@@ -32,6 +34,10 @@ impl Summary {
         let maze = &read.maze;
         let grid = maze.grid();
         let steps = maze.steps_to_goal();
+        let of_degree = |wanted: fn(usize) -> bool| {
+            let in_use = maze.reachable();
+            in_use.filter(|cell| wanted(maze.degree(*cell))).count()
+        };
         let pair = |cell: Cell| [cell.x, cell.y];
         Self {
             file,
@@ -44,8 +50,9 @@ impl Summary {
                 heading: heading.to_string(),
             }),
             goals: maze.goals().iter().copied().map(pair).collect(),
-            dead_ends: maze.dead_ends().count(),
-            junctions: maze.junctions().count(),
+            dead_ends: of_degree(|ways| ways == 1),
+            junctions: of_degree(|ways| ways > 2),
+            sealed: maze.sealed().count(),
             shortest_way: maze.start().and_then(|(start, _)| steps[grid.index(start)]),
         }
     }
@@ -75,6 +82,9 @@ impl fmt::Display for Summary {
             formatter,
             ", {goals} goal cells, {dead_ends} dead ends, {junctions} junctions"
         )?;
+        if self.sealed > 0 {
+            write!(formatter, ", {} cells sealed off", self.sealed)?;
+        }
         match self.shortest_way {
             Some(steps) => write!(formatter, ", shortest way {steps} cells"),
             None => Ok(()),
