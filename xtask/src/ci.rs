@@ -38,12 +38,7 @@ const STEPS: &[Step] = &[
     ("plain build", || passes("check --workspace --quiet")),
     ("api docs", || passed(docs::api())),
     ("bare metal", bare_metal::check),
-    // Running them takes a nightly compiler; that they still build takes a C++ one.
-    ("fuzz", || {
-        if_installed("c++", || {
-            passes("check --quiet --manifest-path fuzz/Cargo.toml")
-        })
-    }),
+    ("fuzz", fuzz_targets),
     ("msrv", msrv::check),
     ("licences", || {
         if_installed("cargo-deny", || passes("deny --all-features check"))
@@ -111,6 +106,15 @@ fn built(name: &str) -> Result<Command> {
     let mut command = Command::new(Path::new(folder).join("debug").join(name));
     command.current_dir(workspace::root());
     Ok(command)
+}
+
+/// Running the fuzz targets takes a nightly compiler; that they still build takes none.
+fn fuzz_targets() -> Result<Outcome> {
+    let mut check = cargo("check --quiet --manifest-path fuzz/Cargo.toml");
+    // Nothing is linked, so the C++ library need not be there, nor a compiler for it.
+    passed(succeed(
+        check.env("CUSTOM_LIBFUZZER_PATH", "/nowhere/libfuzzer.a"),
+    ))
 }
 
 fn typos() -> Command {
