@@ -121,6 +121,22 @@ fn a_format_that_cannot_hold_the_maze_is_refused() {
 }
 
 #[test]
+fn what_a_format_cannot_hold_is_named_on_stderr() {
+    let converted = tolman_fed(CORRIDOR, &["maze", "convert", "-", "--to", "mazefiles"]);
+    assert_eq!(converted.code, Some(0));
+    assert!(converted.out.starts_with("o---o"), "{}", converted.out);
+    for part in ["`mazefiles`", "name", "width"] {
+        assert!(converted.err.contains(part), "{}", converted.err);
+    }
+    // A drawing alone loses nothing.
+    tolman_fed(
+        &converted.out,
+        &["maze", "convert", "-", "--to", "mazefiles"],
+    )
+    .done();
+}
+
+#[test]
 fn a_file_is_written_whole_or_not_at_all() {
     let folder = folder("written");
     std::fs::write(folder.join("in.maze"), CORRIDOR).unwrap();

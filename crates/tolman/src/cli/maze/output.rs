@@ -27,9 +27,32 @@ impl Output {
         let text = write(maze, self.to)
             .context("cannot write the maze")
             .or_bad_input()?;
+        if let Some(lost) = self.lost(maze) {
+            // Nobody is left to be told that stderr cannot be written.
+            let _ = writeln!(
+                anstream::stderr(),
+                "note: the format `{}` has no room for {lost}; `tolman` has",
+                self.to.name()
+            );
+        }
         match &self.out {
             Some(path) => file::write(path, &text),
             None => Ok(out.write_all(text.as_bytes())?),
+        }
+    }
+}
+
+impl Output {
+    /// What the maze file says beside its maze and the format cannot hold, in words.
+    fn lost(&self, maze: &MazeFile) -> Option<&'static str> {
+        if self.to == Format::Tolman {
+            return None;
+        }
+        match (&maze.name, maze.corridor_width) {
+            (Some(_), Some(_)) => Some("the maze's name and the corridors' width"),
+            (Some(_), None) => Some("the maze's name"),
+            (None, Some(_)) => Some("the corridors' width"),
+            (None, None) => None,
         }
     }
 }
