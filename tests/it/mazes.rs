@@ -63,6 +63,6 @@ fn an_oracle_crosses_a_competition_maze() {
         ..trial(&course, 1)
     };
     let mut oracle = mind(&Cast::default(), Agent::Oracle, &course);
-    let episode = episode::run(&trial, &mut oracle, |_, _| {}).unwrap();
+    let episode = episode::run(&trial, &mut oracle, |_| {}).unwrap();
     assert!(episode.reached, "{} steps", episode.steps);
 }

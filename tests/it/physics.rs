@@ -58,7 +58,7 @@ fn no_body_gets_into_or_through_a_wall() {
             let name = agent.name();
             for seed in 0..SEEDS {
                 let trial = trial(&course, seed);
-                let path = episode::run(&trial, &mut mind(&cast, agent, &course), |_, _| {})
+                let path = episode::run(&trial, &mut mind(&cast, agent, &course), |_| {})
                     .unwrap()
                     .path;
                 for pair in path.windows(2) {
@@ -86,8 +86,7 @@ fn a_run_ends_where_it_says() {
         let name = agent.name();
         for seed in 0..SEEDS {
             let trial = trial(&course, seed);
-            let episode =
-                episode::run(&trial, &mut mind(&cast, agent, &course), |_, _| {}).unwrap();
+            let episode = episode::run(&trial, &mut mind(&cast, agent, &course), |_| {}).unwrap();
             let inside = |pose: &Pose| course.destination().contains(pose.position);
             let (last, before) = episode.path.split_last().unwrap();
             assert_eq!(inside(last), episode.reached, "{name}, seed {seed}");
@@ -109,23 +108,19 @@ fn a_laser_without_noise_measures_the_walls() {
         let course = own_course(maze);
         let mut avoid = mind(&Cast::default(), Agent::Avoid, &course);
         let mut beams = 0;
-        episode::run(
-            &trial_of(&course, robot.clone(), 3),
-            &mut avoid,
-            |_, solo| {
-                let (pose, scan) = (solo.truth().pose, solo.sensing().scan.as_ref().unwrap());
-                for (beam, measured) in (0..).zip(&scan.ranges) {
-                    let direction = pose.heading.turned(scan.ring.bearing(beam)).unit();
-                    let expected =
-                        range(&course, pose.position, direction).min(scan.ring.max_range);
-                    assert!(
-                        (measured - expected).abs() < 1e-9,
-                        "{pose:?}, beam {beam}: {measured}"
-                    );
-                    beams += 1;
-                }
-            },
-        )
+        episode::run(&trial_of(&course, robot.clone(), 3), &mut avoid, |step| {
+            let solo = step.robot;
+            let (pose, scan) = (solo.truth().pose, solo.sensing().scan.as_ref().unwrap());
+            for (beam, measured) in (0..).zip(&scan.ranges) {
+                let direction = pose.heading.turned(scan.ring.bearing(beam)).unit();
+                let expected = range(&course, pose.position, direction).min(scan.ring.max_range);
+                assert!(
+                    (measured - expected).abs() < 1e-9,
+                    "{pose:?}, beam {beam}: {measured}"
+                );
+                beams += 1;
+            }
+        })
         .unwrap();
         assert!(beams > 1000);
     }

@@ -20,7 +20,7 @@ fn a_run_is_its_seed() {
             episode::run(
                 &trial(&course, seed),
                 &mut mind(&cast, agent, &course),
-                |_, _| {},
+                |_| {},
             )
             .unwrap()
         };
@@ -40,9 +40,9 @@ fn the_commands_of_a_run_make_it_again() {
         let trial = trial(&course, 4);
         let mut commands = Vec::new();
         let mut sensed = Vec::new();
-        let episode = episode::run(&trial, &mut mind(&cast, agent, &course), |command, solo| {
-            commands.push(*command);
-            sensed.push(solo.sensing().clone());
+        let episode = episode::run(&trial, &mut mind(&cast, agent, &course), |step| {
+            commands.push(step.command);
+            sensed.push(step.robot.sensing().clone());
         })
         .unwrap();
 

@@ -13,7 +13,7 @@ const RUNS: u32 = 40;
 fn mean_steps(course: &Course, cast: &Cast, agent: Agent) -> f64 {
     let run = |seed: u32| {
         let trial = trial(course, seed.into());
-        episode::run(&trial, &mut mind(cast, agent, course), |_, _| {})
+        episode::run(&trial, &mut mind(cast, agent, course), |_| {})
             .unwrap()
             .steps
     };

@@ -139,7 +139,7 @@ fn row(
                 seed,
             };
             let mut mind = Cast::default().mind(agent, course, robot)?;
-            episode::run(&trial, &mut mind, |_, _| {})
+            episode::run(&trial, &mut mind, |_| {})
         })
         .collect();
     let episodes = episodes?;

@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use thiserror::Error;
-use tolman_control::{Outcome, RingError, Stack, View};
+use tolman_control::{Outcome, Proposal, RingError, Stack, View};
 use tolman_geom::Pose;
 use tolman_maze::Direction;
 use tolman_robot::{Body, Robot, TurnTranslate};
@@ -78,6 +78,19 @@ pub struct Episode {
     pub path: Vec<Pose>,
 }
 
+/// One time step of a run, as it has just been made.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// The action it belongs to.
+    pub action: Direction,
+    /// What the motors were told.
+    pub command: TurnTranslate,
+    /// How the action ended with this step; none while it goes on.
+    pub ends: Option<Outcome>,
+    /// The robot as it is now.
+    pub robot: &'a Solo<LaserPioneer>,
+}
+
 /// The streams that one run's seed is split into, beside the simulation's own.
 const LAYERS_STREAM: u64 = 1;
 const MIND_STREAM: u64 = 2;
@@ -97,14 +110,14 @@ fn stream(seed: u64, stream: u64) -> ChaCha8Rng {
 
 /// Lets `mind` drive until its robot reaches the destination or the trial's time is up.
 ///
-/// `watch` is shown the robot after every step.
+/// `watch` is shown every step once it is made; nothing of the run depends on it.
 ///
 /// # Errors
 /// [`EpisodeError`] if the robot cannot be built or placed.
 pub fn run(
     trial: &Trial<'_>,
     mind: &mut Mind,
-    mut watch: impl FnMut(&TurnTranslate, &Solo<LaserPioneer>),
+    mut watch: impl FnMut(&Step<'_>),
 ) -> Result<Episode, EpisodeError> {
     let robot = LaserPioneer::new(trial.robot.clone())?;
     let mut solo = Solo::new(trial.course.world.clone(), robot, trial.start, trial.seed)?;
@@ -131,15 +144,15 @@ pub fn run(
         stack.begin(action);
         episode.actions += 1;
         while episode.steps < trial.step_limit && !episode.reached {
-            let ends = step(
-                &mut solo,
-                &mut stack,
-                &mut layers_rng,
-                &mut episode,
-                &mut watch,
-            )?;
+            let proposal = step(&mut solo, &mut stack, &mut layers_rng, &mut episode)?;
             episode.reached = is_in(destination, &solo);
-            if let Some(outcome) = ends {
+            watch(&Step {
+                action,
+                command: proposal.command,
+                ends: proposal.ends,
+                robot: &solo,
+            });
+            if let Some(outcome) = proposal.ends {
                 episode.failed_actions += u32::from(!outcome.moved());
                 last = Some((action, outcome));
                 break;
@@ -169,19 +182,18 @@ fn choose(
     }
 }
 
-/// One time step of the action under way; how the action ends, if it does.
+/// One time step of the action under way: what the layers proposed and the robot did.
 fn step(
     solo: &mut Solo<LaserPioneer>,
     stack: &mut Stack,
     rng: &mut ChaCha8Rng,
     episode: &mut Episode,
-    watch: &mut impl FnMut(&TurnTranslate, &Solo<LaserPioneer>),
-) -> Result<Option<Outcome>, EpisodeError> {
+) -> Result<Proposal, EpisodeError> {
     let sensing = solo.sensing();
     let proposal = match (&sensing.scan, sensing.compass) {
         (Some(scan), Some(heading)) => stack.correct(View { scan, heading }, rng),
         // Blind for a moment: stand still until the sensors are back.
-        _ => tolman_control::Proposal::default(),
+        _ => Proposal::default(),
     };
     solo.step(&proposal.command)
         .map_err(|source| EpisodeError::Step {
@@ -191,8 +203,7 @@ fn step(
     episode.steps += 1;
     episode.bumps += u32::from(solo.truth().bump);
     episode.path.push(solo.truth().pose);
-    watch(&proposal.command, solo);
-    Ok(proposal.ends)
+    Ok(proposal)
 }
 
 fn is_in(zone: &Zone, solo: &Solo<LaserPioneer>) -> bool {

@@ -83,7 +83,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         .map_err(classify)?;
     let mut commands = Vec::new();
     let episode =
-        episode::run(&trial, &mut mind, |command, _| commands.push(*command)).map_err(classify)?;
+        episode::run(&trial, &mut mind, |step| commands.push(step.command)).map_err(classify)?;
     let told = arguments.told(&episode);
     if let Some(path) = &arguments.trace {
         file::write_bytes(path, &trace::of(&trial, &commands)?)?;

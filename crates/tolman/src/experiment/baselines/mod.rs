@@ -123,7 +123,7 @@ impl Baselines {
             seed: job.seed,
         };
         let mut mind = self.casts[index].mind(agent, &venue.course, &self.robot)?;
-        episode::run(&trial, &mut mind, |_, _| {}).map(Some)
+        episode::run(&trial, &mut mind, |_| {}).map(Some)
     }
 }
 
