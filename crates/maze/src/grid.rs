@@ -100,6 +100,43 @@ impl Grid {
         Wall(id as u32)
     }
 
+    /// The cell that `wall` is a side of, and which: the inverse of [`Grid::wall`]. Of two such cells it is
+    /// the one in the west or south. None for a number that no wall of this grid has.
+    ///
+    /// ```
+    /// use tolman_maze::{Cell, Direction, Grid, Wall};
+    ///
+    /// let grid = Grid::new(3, 3);
+    /// let wall = grid.wall(Cell::new(1, 1), Direction::West);
+    /// assert_eq!(grid.side(wall), Some((Cell::new(0, 1), Direction::East)));
+    /// assert_eq!(grid.side(Wall(999)), None);
+    /// ```
+    #[must_use]
+    pub const fn side(self, wall: Wall) -> Option<(Cell, Direction)> {
+        let (id, vertical) = (wall.0 as usize, self.vertical_count());
+        if id >= self.wall_count() {
+            return None;
+        }
+        let (columns, first) = if id < vertical {
+            (self.width as usize + 1, 0)
+        } else {
+            (self.width as usize, vertical)
+        };
+        let (x, y) = ((id - first) % columns, (id - first) / columns);
+        let (x, y) = (x as u16, y as u16);
+        Some(if id < vertical {
+            match x.checked_sub(1) {
+                Some(west) => (Cell::new(west, y), Direction::East),
+                None => (Cell::new(x, y), Direction::West),
+            }
+        } else {
+            match y.checked_sub(1) {
+                Some(south) => (Cell::new(x, south), Direction::North),
+                None => (Cell::new(x, y), Direction::South),
+            }
+        })
+    }
+
     /// The cell beyond the `direction` edge of `cell`, or none outside the grid.
     #[must_use]
     pub fn neighbour(self, cell: Cell, direction: Direction) -> Option<Cell> {
@@ -178,6 +215,12 @@ mod tests {
             }
             assert!(seen[..grid.wall_count()].iter().all(|seen| *seen));
             assert!(!seen[grid.wall_count()..].iter().any(|seen| *seen));
+            for id in 0..grid.wall_count() as u32 {
+                let (cell, direction) = grid.side(Wall(id)).unwrap();
+                assert!(grid.contains(cell));
+                assert_eq!(grid.wall(cell, direction), Wall(id));
+            }
+            assert_eq!(grid.side(Wall(grid.wall_count() as u32)), None);
         }
     }
 

@@ -45,8 +45,11 @@
 //! [`Maze::neighbours`], [`Maze::steps_to_goal`]; it displays as a drawing; and [`write()`] turns it
 //! into the text of any format that can hold it.
 //!
-//! Without the feature `alloc` only cells, directions and the numbering of walls are left: what
-//! firmware builds its own map on.
+//! What a robot has learned of a maze so far is any type that is [`Walls`]: of each wall it has some
+//! [`Knowledge`]. Planners and searches ask no more of a map than that.
+//!
+//! Without the feature `alloc` only cells, directions, the numbering of walls and the vocabulary of partial
+//! knowledge are left: what firmware builds its own map on.
 #![no_std]
 
 #[cfg(feature = "alloc")]
@@ -61,6 +64,7 @@ mod formats;
 #[cfg(feature = "alloc")]
 mod generators;
 mod grid;
+mod knowledge;
 #[cfg(feature = "alloc")]
 mod maze;
 
@@ -76,5 +80,6 @@ pub use formats::{
 #[cfg(feature = "alloc")]
 pub use generators::{Braided, GenerateError, Perfect, Rooms};
 pub use grid::{Grid, Wall};
+pub use knowledge::{Knowledge, Walls};
 #[cfg(feature = "alloc")]
 pub use maze::Maze;

@@ -1,0 +1,10 @@
+//! What a robot has learned of its surroundings, one module per kind of map.
+//!
+//! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
+//!
+//! A map takes in what is observed and answers what is known. What to do next is the business of planners,
+//! which see no map type: they ask a trait of their own crate or of the vocabulary below them, such as
+//! [`tolman_maze::Walls`].
+#![no_std]
+
+pub mod wall_map;

@@ -1,0 +1,60 @@
+use tolman_maze::Wall;
+
+/// The walls learned last, so that they can be forgotten again: a ring of at most `LOG` walls. When it is
+/// full the oldest entries give way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Log<const LOG: usize> {
+    entries: [Entry; LOG],
+    /// Where the next entry goes.
+    next: usize,
+    len: usize,
+}
+
+/// One wall that an observation told of. Walls of a map of at most 32 × 32 have numbers below 2112.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Entry {
+    wall: u16,
+    /// How many walls of the same observation come before it.
+    place: u16,
+}
+
+impl<const LOG: usize> Log<LOG> {
+    pub(super) const fn new() -> Self {
+        Self {
+            entries: [Entry { wall: 0, place: 0 }; LOG],
+            next: 0,
+            len: 0,
+        }
+    }
+
+    /// Adds the wall that `place` others of the same observation precede.
+    pub(super) fn push(&mut self, wall: Wall, place: u16) {
+        let wall = u16::try_from(wall.0).unwrap_or(u16::MAX);
+        if let Some(entry) = self.entries.get_mut(self.next) {
+            *entry = Entry { wall, place };
+            self.next = (self.next + 1) % LOG;
+            self.len = (self.len + 1).min(LOG);
+        }
+    }
+
+    /// Whether the last observation is still there as a whole.
+    pub(super) fn holds_last(&self) -> bool {
+        self.last()
+            .is_some_and(|last| usize::from(last.place) < self.len)
+    }
+
+    /// Takes out the last wall: it, and whether it was the first of its observation.
+    pub(super) fn pop(&mut self) -> Option<(Wall, bool)> {
+        let last = self.last()?;
+        self.next = (self.next + LOG - 1) % LOG;
+        self.len -= 1;
+        Some((Wall(u32::from(last.wall)), last.place == 0))
+    }
+
+    fn last(&self) -> Option<Entry> {
+        if self.len == 0 {
+            return None;
+        }
+        self.entries.get((self.next + LOG - 1) % LOG).copied()
+    }
+}

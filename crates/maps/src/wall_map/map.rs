@@ -1,0 +1,386 @@
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Wall, Walls};
+
+use super::log::Log;
+use super::{CellSet, Ray, RayEnd};
+
+/// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been.
+///
+/// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are walled in.
+///
+/// ```
+/// use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+/// use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+///
+/// let mut map: WallMap<16> = WallMap::new(Grid::new(16, 16), ClosedCells::Possible)?;
+/// let start = Cell::new(0, 0);
+/// let rays = [
+///     Ray::to_wall(Direction::West, 0),
+///     Ray::to_wall(Direction::North, 11),
+///     Ray::to_wall(Direction::East, 0),
+/// ];
+/// assert_eq!(map.observe(start, &rays)?, 13, "the wall in the west is the border: that was known");
+/// assert_eq!(map.knowledge(Cell::new(0, 10), Direction::North), Knowledge::Open);
+/// assert_eq!(map.knowledge(Cell::new(0, 11), Direction::North), Knowledge::Wall);
+///
+/// assert_eq!(map.uncertainty(Cell::new(0, 11)), 1);
+/// assert!(map.is_dead_end(start));
+/// assert_eq!(map.undo(1), 1);
+/// assert_eq!(map.uncertainty(Cell::new(0, 11)), 3);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WallMap<const N: usize, const LOG: usize = 64> {
+    grid: Grid,
+    closed_cells: ClosedCells,
+    /// Walls between a cell and its eastern neighbour.
+    east: Plane<N>,
+    /// Walls between a cell and its northern neighbour.
+    north: Plane<N>,
+    log: Log<LOG>,
+    /// By y, then x; stays at the greatest number.
+    visits: [[u8; N]; N],
+}
+
+/// What is known of the walls on one side of every cell: two bits each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Plane<const N: usize> {
+    /// By y; bit x is set where the wall is known.
+    known: [u32; N],
+    /// By y; bit x is set where it is known to stand.
+    standing: [u32; N],
+}
+
+/// Whether the maze's rules allow cells with four walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClosedCells {
+    /// Some cell may be walled in: nothing is known that was not seen.
+    Possible,
+    /// No cell is walled in: where three walls are known to stand, the fourth does not.
+    Impossible,
+}
+
+/// The maze does not fit into the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the maze is {} × {} cells and the map holds {side} × {side}: use a larger map",
+    grid.width(), grid.height()
+)]
+pub struct TooLarge {
+    /// The size of the maze.
+    pub grid: Grid,
+    /// The most columns and rows.
+    pub side: usize,
+}
+
+/// An observation that cannot be true; the map is as before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ObserveError {
+    /// The observer stands outside the maze.
+    #[error(
+        "nothing can be observed from {cell}, which is not in the maze of {} × {} cells",
+        grid.width(), grid.height()
+    )]
+    Outside {
+        /// Where it would stand.
+        cell: Cell,
+        /// The size of the maze.
+        grid: Grid,
+    },
+    /// It says the contrary of what is known.
+    #[error(
+        "the {direction} side of {cell} is known to be {}: the mouse is elsewhere, or an observation was \
+         wrong and has to be undone",
+        if *known == Knowledge::Wall { "a wall" } else { "open" }
+    )]
+    Contradiction {
+        /// The cell.
+        cell: Cell,
+        /// The side of it.
+        direction: Direction,
+        /// What is known of it.
+        known: Knowledge,
+    },
+}
+
+impl<const N: usize> Plane<N> {
+    const UNKNOWN: Self = Self {
+        known: [0; N],
+        standing: [0; N],
+    };
+
+    fn knowledge(&self, cell: Cell) -> Knowledge {
+        let (x, y) = (u32::from(cell.x), usize::from(cell.y));
+        let bit = |rows: &[u32; N]| rows.get(y).is_some_and(|row| row >> (x & 31) & 1 == 1);
+        if bit(&self.known) {
+            Knowledge::of_standing(bit(&self.standing))
+        } else {
+            Knowledge::Unknown
+        }
+    }
+
+    fn set(&mut self, cell: Cell, knowledge: Knowledge) {
+        let (bit, y) = (1 << (u32::from(cell.x) & 31), usize::from(cell.y));
+        if let (Some(known), Some(standing)) = (self.known.get_mut(y), self.standing.get_mut(y)) {
+            match knowledge {
+                Knowledge::Unknown => *known &= !bit,
+                Knowledge::Open | Knowledge::Wall => *known |= bit,
+            }
+            match knowledge {
+                Knowledge::Unknown | Knowledge::Open => *standing &= !bit,
+                Knowledge::Wall => *standing |= bit,
+            }
+        }
+    }
+
+    fn count(&self) -> u32 {
+        self.known.iter().map(|row| row.count_ones()).sum()
+    }
+}
+
+impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
+    /// A map of a maze nobody has seen: nothing is known but the border.
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub const fn new(grid: Grid, closed_cells: ClosedCells) -> Result<Self, TooLarge> {
+        const { assert!(N <= 32, "a row of a map is 32 bits wide") };
+        if grid.width() as usize > N || grid.height() as usize > N {
+            return Err(TooLarge { grid, side: N });
+        }
+        Ok(Self {
+            grid,
+            closed_cells,
+            east: Plane::UNKNOWN,
+            north: Plane::UNKNOWN,
+            log: Log::new(),
+            visits: [[0; N]; N],
+        })
+    }
+
+    /// What is known of a wall; beyond the grid every wall stands.
+    #[must_use]
+    pub fn wall(&self, wall: Wall) -> Knowledge {
+        let side = self.grid.side(wall);
+        side.map_or(Knowledge::Wall, |(cell, direction)| {
+            self.knowledge(cell, direction)
+        })
+    }
+
+    /// Takes in what is seen from `cell` at one moment, every ray along its whole length, and tells how many
+    /// walls that were unknown are known now. Of two rays in one direction the first counts.
+    /// O(cells along the rays).
+    ///
+    /// # Errors
+    /// If a ray says the contrary of what is known, or leaves the maze; then nothing is taken in.
+    pub fn observe(&mut self, cell: Cell, rays: &[Ray]) -> Result<u16, ObserveError> {
+        let grid = self.grid;
+        if !grid.contains(cell) {
+            return Err(ObserveError::Outside { cell, grid });
+        }
+        for ray in rays {
+            self.check(cell, *ray)?;
+        }
+        let mut learned = 0;
+        for ray in rays {
+            let mut at = cell;
+            for _ in 0..ray.open {
+                self.learn(at, ray.direction, Knowledge::Open, &mut learned);
+                at = grid.neighbour(at, ray.direction).unwrap_or(at);
+            }
+            if ray.end == RayEnd::Wall {
+                self.learn(at, ray.direction, Knowledge::Wall, &mut learned);
+                self.infer(at, &mut learned);
+                if let Some(beyond) = grid.neighbour(at, ray.direction) {
+                    self.infer(beyond, &mut learned);
+                }
+            }
+        }
+        Ok(learned)
+    }
+
+    /// Forgets what the last `observations` that told anything new have told, inferences included, and says
+    /// of how many: fewer where the map no longer remembers. Visits stay.
+    pub fn undo(&mut self, observations: usize) -> usize {
+        for undone in 0..observations {
+            if !self.log.holds_last() {
+                return undone;
+            }
+            while let Some((wall, first)) = self.log.pop() {
+                if let Some((cell, direction)) = self.grid.side(wall) {
+                    self.set(cell, direction, Knowledge::Unknown);
+                }
+                if first {
+                    break;
+                }
+            }
+        }
+        observations
+    }
+
+    /// Counts a visit.
+    pub fn visit(&mut self, cell: Cell) {
+        let row = self.visits.get_mut(usize::from(cell.y));
+        if let Some(visits) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
+            *visits = visits.saturating_add(1);
+        }
+    }
+
+    /// How many times a cell was visited; 255 stands for all greater numbers.
+    #[must_use]
+    pub fn visits(&self, cell: Cell) -> u8 {
+        let row = self.visits.get(usize::from(cell.y));
+        let visits = row.and_then(|row| row.get(usize::from(cell.x)));
+        visits.copied().unwrap_or(0)
+    }
+
+    /// How many cells were visited.
+    #[must_use]
+    pub fn visited_count(&self) -> usize {
+        self.visits
+            .iter()
+            .flatten()
+            .filter(|visits| **visits > 0)
+            .count()
+    }
+
+    /// How many sides of a cell nobody has looked at, 0 to 4.
+    #[must_use]
+    pub fn uncertainty(&self, cell: Cell) -> u8 {
+        self.count(cell, Knowledge::Unknown)
+    }
+
+    /// How many walls nobody has looked at.
+    #[must_use]
+    pub fn unknown_count(&self) -> u32 {
+        let (width, height) = (u32::from(self.grid.width()), u32::from(self.grid.height()));
+        if width == 0 || height == 0 {
+            return 0;
+        }
+        let inner = (width - 1) * height + width * (height - 1);
+        inner - self.east.count() - self.north.count()
+    }
+
+    /// Whether three sides of a cell are known to be walls: there is no way out but back.
+    #[must_use]
+    pub fn is_dead_end(&self, cell: Cell) -> bool {
+        self.count(cell, Knowledge::Wall) >= 3
+    }
+
+    /// The cells that lead nowhere but to dead ends, of which only `kept` cells are none: those whose open or
+    /// unknown sides, except one, all lead to such cells. O(cells²) at worst, O(cells) on the whole.
+    #[must_use]
+    pub fn blind_alleys(&self, kept: &CellSet<N>) -> CellSet<N> {
+        let mut blind = CellSet::default();
+        for cell in self.grid.cells() {
+            // Filling one cell may make the next one of its corridor a dead end.
+            let mut at = cell;
+            while let Some(next) = self.only_way(at, kept, &blind) {
+                blind.insert(at);
+                match next {
+                    Some(next) => at = next,
+                    None => break,
+                }
+            }
+        }
+        blind
+    }
+
+    /// Where the only way out of a cell leads, if it has at most one and is neither kept nor filled.
+    fn only_way(&self, cell: Cell, kept: &CellSet<N>, blind: &CellSet<N>) -> Option<Option<Cell>> {
+        if kept.contains(cell) || blind.contains(cell) {
+            return None;
+        }
+        let mut ways = Direction::ALL.into_iter().filter_map(|direction| {
+            let beyond = self.grid.neighbour(cell, direction)?;
+            let passable = self.knowledge(cell, direction) != Knowledge::Wall;
+            (passable && !blind.contains(beyond)).then_some(beyond)
+        });
+        let way = ways.next();
+        ways.next().is_none().then_some(way)
+    }
+
+    fn count(&self, cell: Cell, what: Knowledge) -> u8 {
+        Direction::ALL
+            .into_iter()
+            .map(|direction| u8::from(self.knowledge(cell, direction) == what))
+            .sum()
+    }
+
+    /// Whether the ray can be true.
+    fn check(&self, cell: Cell, ray: Ray) -> Result<(), ObserveError> {
+        let direction = ray.direction;
+        let refuse = |cell, known| {
+            Err(ObserveError::Contradiction {
+                cell,
+                direction,
+                known,
+            })
+        };
+        let mut at = cell;
+        for _ in 0..ray.open {
+            match (
+                self.knowledge(at, direction),
+                self.grid.neighbour(at, direction),
+            ) {
+                (Knowledge::Wall, _) | (_, None) => return refuse(at, Knowledge::Wall),
+                (_, Some(beyond)) => at = beyond,
+            }
+        }
+        match (ray.end, self.knowledge(at, direction)) {
+            (RayEnd::Wall, Knowledge::Open) => refuse(at, Knowledge::Open),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes down a wall that was unknown.
+    fn learn(&mut self, cell: Cell, direction: Direction, what: Knowledge, learned: &mut u16) {
+        if self.knowledge(cell, direction) == Knowledge::Unknown {
+            self.set(cell, direction, what);
+            self.log.push(self.grid.wall(cell, direction), *learned);
+            *learned += 1;
+        }
+    }
+
+    /// Three walls known → the fourth open, where the maze's rules allow it.
+    fn infer(&mut self, cell: Cell, learned: &mut u16) {
+        if self.closed_cells == ClosedCells::Impossible && self.is_dead_end(cell) {
+            for direction in Direction::ALL {
+                self.learn(cell, direction, Knowledge::Open, learned);
+            }
+        }
+    }
+
+    fn set(&mut self, cell: Cell, direction: Direction, knowledge: Knowledge) {
+        let Some(beyond) = self.grid.neighbour(cell, direction) else {
+            return;
+        };
+        match direction {
+            Direction::East => self.east.set(cell, knowledge),
+            Direction::West => self.east.set(beyond, knowledge),
+            Direction::North => self.north.set(cell, knowledge),
+            Direction::South => self.north.set(beyond, knowledge),
+        }
+    }
+}
+
+impl<const N: usize, const LOG: usize> Walls for WallMap<N, LOG> {
+    fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
+        if !self.grid.contains(cell) {
+            return Knowledge::Wall;
+        }
+        let Some(beyond) = self.grid.neighbour(cell, direction) else {
+            return Knowledge::Wall;
+        };
+        match direction {
+            Direction::East => self.east.knowledge(cell),
+            Direction::West => self.east.knowledge(beyond),
+            Direction::North => self.north.knowledge(cell),
+            Direction::South => self.north.knowledge(beyond),
+        }
+    }
+}
