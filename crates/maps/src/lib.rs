@@ -1,10 +1,16 @@
 //! What a robot has learned of its surroundings, one module per kind of map.
 //!
 //! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
+//! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
 //! A map takes in what is observed and answers what is known. What to do next is the business of planners,
 //! which see no map type: they ask a trait of their own crate or of the vocabulary below them, such as
 //! [`tolman_maze::Walls`].
 #![no_std]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+#[cfg(feature = "alloc")]
+pub mod mslst_graph;
 pub mod wall_map;

@@ -2,7 +2,8 @@
 //!
 //! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know nothing of
 //! maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`] sums their costs
-//! (Dijkstra). To ask how far every node is *from a goal's point of view*, search the graph turned round:
+//! (Dijkstra), [`path_to`] lists the nodes of a shortest path. [`compressed`] takes detours out of the actions
+//! along one. To ask how far every node is *from a goal's point of view*, search the graph turned round:
 //! [`Arcs::reversed`].
 //!
 //! ```
@@ -25,13 +26,21 @@ mod arcs;
 #[cfg(feature = "alloc")]
 mod breadth_first;
 #[cfg(feature = "alloc")]
+mod compression;
+#[cfg(feature = "alloc")]
 mod dijkstra;
 mod graph;
+#[cfg(feature = "alloc")]
+mod path;
 
 #[cfg(feature = "alloc")]
 pub use arcs::Arcs;
 #[cfg(feature = "alloc")]
 pub use breadth_first::steps_from;
 #[cfg(feature = "alloc")]
+pub use compression::compressed;
+#[cfg(feature = "alloc")]
 pub use dijkstra::costs_from;
 pub use graph::Graph;
+#[cfg(feature = "alloc")]
+pub use path::path_to;

@@ -3,7 +3,7 @@
 use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
-use tolman_planners::{Arcs, Graph, costs_from, steps_from};
+use tolman_planners::{Arcs, Graph, costs_from, path_to, steps_from};
 
 const NODES: u32 = 24;
 
@@ -45,6 +45,20 @@ proptest! {
     }
 
     #[test]
+    fn a_path_is_a_walk_of_as_many_arcs_as_there_must_be(list in arcs(), from in 0..NODES, to in 0..NODES) {
+        let graph = Arcs::new(NODES as usize, &list);
+        let path = path_to(&graph, from, |node| node == to);
+        let arcs = path.as_ref().map(|path| path.len() as u32 - 1);
+        prop_assert_eq!(arcs, theirs(&list, from, |_| 1)[to as usize]);
+        if let Some(path) = path {
+            prop_assert_eq!((path.first(), path.last()), (Some(&from), Some(&to)));
+            for hop in path.windows(2) {
+                prop_assert!(list.iter().any(|arc| [arc.0, arc.1] == hop));
+            }
+        }
+    }
+
+    #[test]
     fn turning_a_graph_round_twice_changes_no_cost(list in arcs(), source in 0..NODES) {
         let graph = Arcs::new(NODES as usize, &list);
         prop_assert_eq!(costs_from(&graph.reversed().reversed(), [source]), costs_from(&graph, [source]));
@@ -78,6 +92,8 @@ impl Graph for Wild {
 fn what_a_graph_does_not_have_is_passed_over() {
     assert_eq!(steps_from(&Wild, [0, 9]), [Some(0), Some(1)]);
     assert_eq!(costs_from(&Wild, [0, 9]), [Some(0), Some(u32::MAX)]);
+    assert_eq!(path_to(&Wild, 0, |node| node == 1), Some(vec![0, 1]));
+    assert_eq!(path_to(&Wild, 9, |_| true), None);
     let arcs = Arcs::new(2, &[(0, 1, 3), (0, 2, 1), (5, 0, 1)]);
     assert_eq!(costs_from(&arcs, [0]), [Some(0), Some(3)]);
     arcs.for_each_arc(9, |_, _| panic!("node 9 has no arcs"));

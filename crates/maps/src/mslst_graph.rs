@@ -1,0 +1,44 @@
+//! MSLST's map: a graph of sensory states and the actions that lead from one to the next.
+//!
+//! Tingle, Ball, Augat: "Maze Solving by Learning State Topologies", Phase II (*Mapping the Topology Into a
+//! Graph*) and, of Phase III, *Localization* and the search of *Path-Finding*.
+//!
+//! A [`Mapper`] builds the [`MslstGraph`] while the robot wanders; [`localize`] finds the node that fits what
+//! the robot has sensed and done of late; [`MslstGraph::path_to_destination`] says how to go on from there.
+//!
+//! ```
+//! use tolman_maps::mslst_graph::{Mapper, Memory, Zone, localize};
+//! use tolman_maze::Direction::{East, North, West};
+//!
+//! // A corridor (state 7) to the east, whose bend (state 3) leads north to the destination (state 5).
+//! let mut mapper = Mapper::new(7, Zone::Elsewhere);
+//! mapper.failed(North);
+//! mapper.succeeded(East, 7, Zone::Elsewhere);
+//! mapper.succeeded(East, 3, Zone::Elsewhere);
+//! mapper.succeeded(West, 7, Zone::Elsewhere); // back where it was: no node is added
+//! mapper.succeeded(East, 3, Zone::Elsewhere);
+//! mapper.succeeded(North, 5, Zone::Destination);
+//! let graph = mapper.finish();
+//! assert_eq!(graph.len(), 4);
+//! assert_eq!(graph.distance(0), Some(3));
+//!
+//! // Somewhere in state 7. Both nodes with that state fit; the nearer to the destination is taken.
+//! let mut memory = Memory::new(8);
+//! memory.start(7);
+//! assert_eq!(localize(&graph, &memory).node, Some(1));
+//! // Once the robot has gone east from 7 to 7 there is one node left.
+//! memory.moved(East, 7);
+//! let found = localize(&graph, &memory);
+//! assert_eq!(found.candidates, [1]);
+//! assert_eq!(graph.path_to_destination(1, &[]), Some(vec![East, North]));
+//! ```
+
+mod graph;
+mod localize;
+mod mapper;
+mod memory;
+
+pub use graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
+pub use localize::{Localization, localize};
+pub use mapper::Mapper;
+pub use memory::{Experience, Memory};

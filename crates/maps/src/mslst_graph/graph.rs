@@ -1,0 +1,288 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+use tolman_maze::Direction;
+use tolman_planners::{Graph, path_to, steps_from};
+
+/// The dummy node, where the edges of failed actions lead ("Nodes can also have connections to a dummy
+/// node, which represent failed actions").
+///
+/// It has no state and no edges, it is no node of any list, and no search passes through it.
+pub const DUMMY: u32 = u32::MAX;
+
+/// Where a node was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Zone {
+    /// While the robot was in the destination zone: a destination node.
+    Destination,
+    /// Anywhere else.
+    Elsewhere,
+}
+
+/// One node: a state met at some place. The same state at another place is another node.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Node {
+    /// The number of the quantizer's state.
+    pub state: u32,
+    /// Whether it is a destination node.
+    pub zone: Zone,
+    /// In the order they were entered. Several may bear one action.
+    pub edges: Vec<Edge>,
+}
+
+/// "If node A has an east connection to node B …, then node B also has a west connection to node A."
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// The action that leads along it.
+    pub action: Direction,
+    /// The node it leads to, or [`DUMMY`] where the action failed.
+    pub head: u32,
+}
+
+/// Why a list of nodes is no graph of MSLST.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum GraphError {
+    /// There are no nodes.
+    #[error("the graph has no nodes: learn one first")]
+    Empty,
+    /// More nodes than ids.
+    #[error("the graph has {count} nodes, more than there are ids: learn a shorter one")]
+    TooMany {
+        /// How many.
+        count: usize,
+    },
+    /// An edge leads to a node that is not there.
+    #[error("node {node}: its {action} edge leads to node {head}, and there are only {count}")]
+    NoSuchNode {
+        /// The node.
+        node: u32,
+        /// The edge's action.
+        action: Direction,
+        /// Where it leads.
+        head: u32,
+        /// How many nodes there are.
+        count: u32,
+    },
+    /// An edge is not entered both ways.
+    #[error(
+        "node {node}: its {action} edge leads to node {head}, which has no {} edge back",
+        action.opposite()
+    )]
+    OneWay {
+        /// The node.
+        node: u32,
+        /// The edge's action.
+        action: Direction,
+        /// Where it leads.
+        head: u32,
+    },
+    /// Two edges of a node cannot be told apart.
+    #[error(
+        "node {node}: two {action} edges lead to the same, a node of one state or the dummy node; remove one"
+    )]
+    Ambiguous {
+        /// The node.
+        node: u32,
+        /// The edges' action.
+        action: Direction,
+    },
+}
+
+/// The finished graph of Phase II. Nodes are numbered from 0 in the order they were made.
+///
+/// Every edge between nodes is entered both ways with opposite actions. Two edges of a node that bear one
+/// action lead to nodes of different states, so that an action and the state it led to name at most one
+/// edge.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MslstGraph {
+    nodes: Vec<Node>,
+    distances: Vec<Option<u32>>,
+}
+
+impl MslstGraph {
+    /// A graph of nodes that were learned before. O(nodes · degree²).
+    ///
+    /// # Errors
+    /// [`GraphError`] if they are none, or not as [`MslstGraph`] promises.
+    pub fn from_nodes(nodes: Vec<Node>) -> Result<Self, GraphError> {
+        check(&nodes)?;
+        Ok(Self::finished(nodes))
+    }
+
+    /// "When the graph-building is complete, we calculate the length of the path from each node to the
+    /// nearest destination node … and store it."
+    pub(super) fn finished(nodes: Vec<Node>) -> Self {
+        let mut graph = Self {
+            nodes,
+            distances: Vec::new(),
+        };
+        // Edges lead both ways, so the way there is as long as the way back.
+        let destinations: Vec<u32> = graph.ids().filter(|id| graph.is_destination(*id)).collect();
+        graph.distances = steps_from(&graph, destinations);
+        graph
+    }
+
+    /// All nodes, by id.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The ids of all nodes.
+    pub fn ids(&self) -> impl Iterator<Item = u32> + use<> {
+        0..self.nodes.len() as u32
+    }
+
+    /// How many nodes there are. The dummy node is none of them.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there are none; never of a graph that was learned.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The node of an id; none for [`DUMMY`] and ids the graph does not have.
+    #[must_use]
+    pub fn node(&self, id: u32) -> Option<&Node> {
+        self.nodes.get(id as usize)
+    }
+
+    /// Whether the node was made in the destination zone.
+    #[must_use]
+    pub fn is_destination(&self, id: u32) -> bool {
+        self.node(id)
+            .is_some_and(|node| node.zone == Zone::Destination)
+    }
+
+    /// Actions from a node to the nearest destination node; none where the graph has no destination.
+    #[must_use]
+    pub fn distance(&self, id: u32) -> Option<u32> {
+        self.distances.get(id as usize).copied().flatten()
+    }
+
+    /// The node that `action` leads to from `id` if the robot then finds itself in `state`.
+    #[must_use]
+    pub fn follow(&self, id: u32, action: Direction, state: u32) -> Option<u32> {
+        follow(&self.nodes, id, action, state)
+    }
+
+    /// "A simple breadth first search along the graph, then … a list of the values of the edges connecting
+    /// the source node to the destination node": the actions of a shortest path from a node to the
+    /// nearest destination node, empty at one. Ties go to edges that were entered earlier.
+    ///
+    /// The path begins with none of the actions that just `failed` ("not allowing the first action to be
+    /// equal to the one that failed (this results in a longer path)"); none if there is no such path.
+    /// O(nodes + edges).
+    #[must_use]
+    pub fn path_to_destination(&self, id: u32, failed: &[Direction]) -> Option<Vec<Direction>> {
+        let view = Without {
+            graph: self,
+            source: id,
+            failed,
+        };
+        let way = path_to(&view, id, |node| self.is_destination(node))?;
+        let hops = way.iter().zip(way.iter().skip(1));
+        hops.map(|(&tail, &head)| {
+            let mut edges = self.node(tail)?.edges.iter();
+            let edge = edges.find(|edge| edge.head == head && view.allows(tail, edge));
+            Some(edge?.action)
+        })
+        .collect()
+    }
+}
+
+impl Graph for MslstGraph {
+    fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let edges = self.node(node).map_or(&[][..], |node| &node.edges);
+        for edge in edges.iter().filter(|edge| edge.head != DUMMY) {
+            visit(edge.head, 1);
+        }
+    }
+}
+
+/// The graph without those edges of one node that bear actions which just failed there.
+struct Without<'a> {
+    graph: &'a MslstGraph,
+    source: u32,
+    failed: &'a [Direction],
+}
+
+impl Without<'_> {
+    fn allows(&self, tail: u32, edge: &Edge) -> bool {
+        tail != self.source || !self.failed.contains(&edge.action)
+    }
+}
+
+impl Graph for Without<'_> {
+    fn node_count(&self) -> usize {
+        self.graph.node_count()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let edges = self.graph.node(node).map_or(&[][..], |node| &node.edges);
+        for edge in edges.iter().filter(|edge| self.allows(node, edge)) {
+            // Arcs to the dummy node reach no node of the graph, and searches pass them over.
+            visit(edge.head, 1);
+        }
+    }
+}
+
+pub(super) fn follow(nodes: &[Node], id: u32, action: Direction, state: u32) -> Option<u32> {
+    let edges = &nodes.get(id as usize)?.edges;
+    edges
+        .iter()
+        .filter(|edge| edge.action == action)
+        .find(|edge| {
+            let head = nodes.get(edge.head as usize);
+            head.is_some_and(|head| head.state == state)
+        })
+        .map(|edge| edge.head)
+}
+
+fn check(nodes: &[Node]) -> Result<(), GraphError> {
+    let count = match u32::try_from(nodes.len()) {
+        Ok(0) => return Err(GraphError::Empty),
+        Ok(count) if count < DUMMY => count,
+        _ => return Err(GraphError::TooMany { count: nodes.len() }),
+    };
+    let state = |head: u32| nodes.get(head as usize).map(|node| node.state);
+    for (id, node) in (0..count).zip(nodes) {
+        for (place, &Edge { action, head }) in node.edges.iter().enumerate() {
+            if head != DUMMY {
+                let Some(there) = nodes.get(head as usize) else {
+                    return Err(GraphError::NoSuchNode {
+                        node: id,
+                        action,
+                        head,
+                        count,
+                    });
+                };
+                let back = Edge {
+                    action: action.opposite(),
+                    head: id,
+                };
+                if !there.edges.contains(&back) {
+                    return Err(GraphError::OneWay {
+                        node: id,
+                        action,
+                        head,
+                    });
+                }
+            }
+            let alike = |other: &Edge| other.action == action && state(other.head) == state(head);
+            if node.edges[..place].iter().any(alike) {
+                return Err(GraphError::Ambiguous { node: id, action });
+            }
+        }
+    }
+    Ok(())
+}

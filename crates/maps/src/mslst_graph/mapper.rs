@@ -1,0 +1,95 @@
+use alloc::vec;
+use alloc::vec::Vec;
+
+use tolman_maze::Direction;
+
+use super::graph::{DUMMY, Edge, MslstGraph, Node, Zone, follow};
+
+/// Builds the graph while the robot wanders (Phase II).
+#[derive(Clone, Debug)]
+pub struct Mapper {
+    nodes: Vec<Node>,
+    at: u32,
+}
+
+impl Mapper {
+    /// Begins with the node of the state that the robot starts in.
+    #[must_use]
+    pub fn new(state: u32, zone: Zone) -> Self {
+        let first = Node {
+            state,
+            zone,
+            edges: Vec::new(),
+        };
+        Self {
+            nodes: vec![first],
+            at: 0,
+        }
+    }
+
+    /// An action succeeded and led to `state`. Returns the node the robot is at now.
+    ///
+    /// "If the last high-level action succeeded, then normally it adds a node to the graph with the current
+    /// state, and connects it to the previous one with the action that it just completed … When it reverses
+    /// an action or string of actions and ends up in the same state it was in before, instead of adding a
+    /// new node it traces the graph back to the old node and when it eventually reaches a new state it adds
+    /// on from there."
+    ///
+    /// Since edges are entered both ways, whoever reverses an action finds the edge back. An edge of this
+    /// action to a node of this state is therefore all there is to look for; and as a new node hangs on one
+    /// edge, only the exact reverse of the actions that led away from a node leads back to it.
+    /// O(degree of the node).
+    pub fn succeeded(&mut self, action: Direction, state: u32, zone: Zone) -> u32 {
+        if let Some(known) = follow(&self.nodes, self.at, action, state) {
+            self.at = known;
+            return known;
+        }
+        let new = self.nodes.len() as u32;
+        let back = Edge {
+            action: action.opposite(),
+            head: self.at,
+        };
+        self.nodes.push(Node {
+            state,
+            zone,
+            edges: vec![back],
+        });
+        self.enter(Edge { action, head: new });
+        self.at = new;
+        new
+    }
+
+    /// "If the last action failed, then it adds a connection from the previous node to the dummy node."
+    /// One that is there already is not added again.
+    pub fn failed(&mut self, action: Direction) {
+        let failure = Edge {
+            action,
+            head: DUMMY,
+        };
+        if !self.nodes[self.at as usize].edges.contains(&failure) {
+            self.enter(failure);
+        }
+    }
+
+    fn enter(&mut self, edge: Edge) {
+        self.nodes[self.at as usize].edges.push(edge);
+    }
+
+    /// The node the robot is at.
+    #[must_use]
+    pub const fn at(&self) -> u32 {
+        self.at
+    }
+
+    /// The graph as far as it has grown, by id.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The graph, with every node's distance to the nearest destination node. O(nodes + edges).
+    #[must_use]
+    pub fn finish(self) -> MslstGraph {
+        MslstGraph::finished(self.nodes)
+    }
+}
