@@ -38,9 +38,11 @@ pub struct Measured {
     pub n: u64,
     /// The value, in the metric's unit.
     pub value: f64,
-    /// The standard deviation, for means of two runs or more.
+    /// The standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
-    /// The median, for means.
+    /// The mean, for means and medians.
+    pub mean: Option<f64>,
+    /// The median, for means and medians.
     pub median: Option<f64>,
     /// The 95 % interval of the value.
     pub interval: Option<Interval>,
@@ -151,6 +153,7 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
                 n: sample.len() as u64,
                 value,
                 sd: sample.sd(),
+                mean: sample.mean(),
                 median: sample.median(),
                 interval: sample.interval(run_seed(master_seed, &stream, 0)),
                 paper: paper.cloned(),

@@ -2,7 +2,10 @@
 
 use alloc::collections::BTreeSet;
 
-use super::{BoxError, Error, Experiment, Field, Kind, Options, Presence, Run, Statistic, plots};
+use super::{
+    BoxError, Error, Experiment, Field, Kind, Metric, Options, Presence, Run, Statistic, Tolerance,
+    plots,
+};
 use crate::draw::Figure;
 
 /// Refuses options that would run nothing, more than there is room for, or could not be written down.
@@ -85,9 +88,14 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
             ));
         }
         for metric in &table.metrics {
+            if let Some(what) = unsound(metric) {
+                return refuse(format!("{place} has the metric {:?} {what}", metric.name));
+            }
             let (fields, kinds): (&[&String], &[Kind]) = match &metric.statistic {
-                Statistic::Percent { field } => (&[field], &[Kind::Flag]),
-                Statistic::Mean { field } => (&[field], NUMERIC),
+                Statistic::Percent { field } | Statistic::Count { field, .. } => {
+                    (&[field], &[Kind::Flag])
+                }
+                Statistic::Mean { field } | Statistic::Median { field } => (&[field], NUMERIC),
                 Statistic::Ratio { over, under } => (&[over, under], NUMERIC),
             };
             let measured = |name: &String| {
@@ -106,6 +114,22 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
         return refuse(what);
     }
     Ok(())
+}
+
+/// What no value can be measured or judged by.
+fn unsound(metric: &Metric) -> Option<String> {
+    let reaches = |size: f64, least: f64| size.is_finite() && size >= least;
+    match metric.tolerance {
+        Some(Tolerance::Absolute(size) | Tolerance::Relative(size)) if !reaches(size, 0.0) => {
+            return Some(format!("within {size} of the paper's; give 0 or more"));
+        }
+        Some(Tolerance::Factor(factor)) if !reaches(factor, 1.0) => {
+            return Some(format!("within the factor {factor}; give 1 or more"));
+        }
+        _ => {}
+    }
+    matches!(metric.statistic, Statistic::Count { whole: 0, .. })
+        .then(|| "counted in 0 runs; give 1 or more".to_owned())
 }
 
 /// The names of a run's own parts in `runs.jsonl`.

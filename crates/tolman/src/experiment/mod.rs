@@ -51,7 +51,7 @@ pub use verdict::{Basis, Verdict};
 
 pub(crate) use sample::RESAMPLES;
 pub(crate) use terminal::duration;
-pub(crate) use text::{decimals, heading, value_with_spread};
+pub(crate) use text::{heading, ours, value_with_spread};
 
 use crate::draw::Figure;
 

@@ -3,28 +3,36 @@
 use super::{Experiment, Field, Metric, Run, Statistic, Table};
 use crate::draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
-/// One box plot for every metric that is a mean, in the order of tables and metrics.
+/// One box plot for every field of which a metric is the mean or the median, in the order of tables and
+/// metrics.
 pub(super) fn box_plots(experiment: &dyn Experiment, runs: &[Run]) -> Vec<Figure> {
-    means(experiment)
+    plotted(experiment)
         .map(|(name, table, metric, field)| box_plot(name, table, metric, field, runs))
         .collect()
 }
 
 /// The names of the box plots, known before any run.
 pub(super) fn names(experiment: &dyn Experiment) -> Vec<String> {
-    means(experiment).map(|(name, ..)| name).collect()
+    plotted(experiment).map(|(name, ..)| name).collect()
 }
 
 /// What gets a box plot: its name, the table, the metric and the metric's field. Tables go by number,
 /// since their names may be any text of a maze file.
-fn means(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
+fn plotted(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
     (1_u32..)
         .zip(experiment.tables())
         .flat_map(|(number, table)| {
+            let mut seen: Vec<&str> = Vec::new();
             table.metrics.iter().filter_map(move |metric| {
-                let Statistic::Mean { field } = &metric.statistic else {
+                let (Statistic::Mean { field } | Statistic::Median { field }) = &metric.statistic
+                else {
                     return None;
                 };
+                // The mean and the median of one field share a plot.
+                if seen.contains(&field.as_str()) {
+                    return None;
+                }
+                seen.push(field);
                 let name = format!("box-{number}-{}", slug(&metric.name));
                 Some((name, table, metric, field.as_str()))
             })

@@ -14,27 +14,41 @@ pub(crate) const LEVEL: f64 = 0.95;
 /// The measured values of one metric in one row. Never empty.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Sample {
-    /// Whether each run succeeded.
-    Flags(Vec<bool>),
+    /// Whether each run succeeded; the value is `whole` × the share of those that did.
+    Flags { flags: Vec<bool>, whole: f64 },
     /// One number for each run.
-    Numbers(Vec<f64>),
+    Numbers { numbers: Vec<f64>, centre: Centre },
     /// A numerator and a denominator for each run.
     Pairs(Vec<(f64, f64)>),
+}
+
+/// How numbers become one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Centre {
+    Mean,
+    Median,
 }
 
 impl Sample {
     /// What a statistic measures of runs; `None` if no run has the field.
     pub(super) fn of(statistic: &Statistic, runs: &[&Run]) -> Option<Self> {
         let number = |run: &Run, field: &str| run.fields.get(field).and_then(Field::as_number);
+        let flags = |field: &str, whole: f64| Self::Flags {
+            flags: runs
+                .iter()
+                .filter_map(|run| run.fields.get(field)?.as_flag())
+                .collect(),
+            whole,
+        };
+        let numbers = |field: &str, centre: Centre| Self::Numbers {
+            numbers: runs.iter().filter_map(|run| number(run, field)).collect(),
+            centre,
+        };
         let sample = match statistic {
-            Statistic::Percent { field } => Self::Flags(
-                runs.iter()
-                    .filter_map(|run| run.fields.get(field)?.as_flag())
-                    .collect(),
-            ),
-            Statistic::Mean { field } => {
-                Self::Numbers(runs.iter().filter_map(|run| number(run, field)).collect())
-            }
+            Statistic::Percent { field } => flags(field, 100.0),
+            Statistic::Count { field, whole } => flags(field, f64::from(*whole)),
+            Statistic::Mean { field } => numbers(field, Centre::Mean),
+            Statistic::Median { field } => numbers(field, Centre::Median),
             Statistic::Ratio { over, under } => Self::Pairs(
                 runs.iter()
                     .filter_map(|run| Some((number(run, over)?, number(run, under)?)))
@@ -47,47 +61,63 @@ impl Sample {
     /// How many runs were measured.
     pub(super) fn len(&self) -> usize {
         match self {
-            Self::Flags(flags) => flags.len(),
-            Self::Numbers(numbers) => numbers.len(),
+            Self::Flags { flags, .. } => flags.len(),
+            Self::Numbers { numbers, .. } => numbers.len(),
             Self::Pairs(pairs) => pairs.len(),
         }
     }
 
-    /// The value: percentage, mean, or ratio of sums.
+    /// The value: part of a whole, mean, median, or ratio of sums.
     pub(super) fn value(&self) -> f64 {
         match self {
-            Self::Flags(flags) => 100.0 * mean(&zeros_and_ones(flags)),
-            Self::Numbers(numbers) => mean(numbers),
+            Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
+            Self::Numbers { numbers, centre } => match centre {
+                Centre::Mean => mean(numbers),
+                // A sample is neither empty nor infinite: the runner refuses such runs.
+                Centre::Median => stats::quantile(numbers, 0.5).unwrap_or(f64::NAN),
+            },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
         }
     }
 
-    /// The standard deviation, where the value is a mean of two runs or more.
+    /// The standard deviation of two numbers or more.
     pub(super) fn sd(&self) -> Option<f64> {
         match self {
-            Self::Numbers(numbers) => stats::standard_deviation(numbers).ok(),
-            Self::Flags(_) | Self::Pairs(_) => None,
+            Self::Numbers { numbers, .. } => stats::standard_deviation(numbers).ok(),
+            Self::Flags { .. } | Self::Pairs(_) => None,
         }
     }
 
-    /// The median, where the value is a mean.
+    /// The mean of numbers.
+    pub(super) fn mean(&self) -> Option<f64> {
+        match self {
+            Self::Numbers { numbers, .. } => stats::mean(numbers).ok(),
+            Self::Flags { .. } | Self::Pairs(_) => None,
+        }
+    }
+
+    /// The median of numbers.
     pub(super) fn median(&self) -> Option<f64> {
         match self {
-            Self::Numbers(numbers) => stats::quantile(numbers, 0.5).ok(),
-            Self::Flags(_) | Self::Pairs(_) => None,
+            Self::Numbers { numbers, .. } => stats::quantile(numbers, 0.5).ok(),
+            Self::Flags { .. } | Self::Pairs(_) => None,
         }
     }
 
-    /// The 95 % interval of the value: exact binomial for a percentage, BCa bootstrap otherwise.
+    /// The 95 % interval of the value: exact binomial for a share, that of order statistics for a
+    /// median, BCa bootstrap otherwise. `None` where there are too few runs for one.
     pub(super) fn interval(&self, seed: u64) -> Option<Interval> {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         match self {
-            Self::Flags(flags) => {
+            Self::Flags { flags, whole } => {
                 let successes = flags.iter().filter(|flag| **flag).count() as u64;
                 stats::exact_binomial_interval(successes, flags.len() as u64, LEVEL)
-                    .map(|interval| interval.scaled(100.0))
+                    .map(|interval| interval.scaled(*whole))
             }
-            Self::Numbers(numbers) => stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
+            Self::Numbers { numbers, centre } => match centre {
+                Centre::Mean => stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
+                Centre::Median => stats::median_interval(numbers, LEVEL),
+            },
             Self::Pairs(pairs) => stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng),
         }
         .ok()
@@ -96,8 +126,8 @@ impl Sample {
     /// One number for each run, for rank tests.
     pub(super) fn numbers(&self) -> Vec<f64> {
         match self {
-            Self::Flags(flags) => zeros_and_ones(flags),
-            Self::Numbers(numbers) => numbers.clone(),
+            Self::Flags { flags, .. } => zeros_and_ones(flags),
+            Self::Numbers { numbers, .. } => numbers.clone(),
             // A run without denominator says nothing of the ratio.
             Self::Pairs(pairs) => pairs
                 .iter()

@@ -28,7 +28,7 @@ pub struct SummaryRow {
     pub metric: String,
     /// The value: the mean unless the metric says otherwise. `null` if it is not a number.
     pub value: f64,
-    /// The standard deviation, for means of two runs or more.
+    /// The standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
     /// How many runs were measured.
     pub n: u64,

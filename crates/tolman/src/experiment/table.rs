@@ -175,7 +175,7 @@ impl Row {
         }
     }
 
-    /// Adds a value of the paper that stands without a spread.
+    /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.
     #[must_use]
     pub fn paper(mut self, metric: impl Into<String>, value: f64) -> Self {
         self.paper.push(PaperValue {
@@ -225,35 +225,62 @@ pub struct Metric {
     pub unit: String,
     /// How the runs are summarized.
     pub statistic: Statistic,
+    /// How many decimals its values are shown with.
+    pub decimals: u8,
     /// How far our value may lie from the paper's and still match.
     pub tolerance: Option<Tolerance>,
 }
 
 impl Metric {
-    /// The mean of the numeric field that bears the metric's name.
-    pub fn mean(name: impl Into<String>) -> Self {
+    fn new(name: impl Into<String>, decimals: u8, statistic: Statistic) -> Self {
         let name = name.into();
         Self {
             title: name.clone(),
-            unit: String::new(),
-            statistic: Statistic::Mean {
-                field: name.clone(),
-            },
-            tolerance: None,
             name,
+            unit: String::new(),
+            statistic,
+            decimals,
+            tolerance: None,
         }
+    }
+
+    /// The mean of the numeric field that bears the metric's name.
+    pub fn mean(name: impl Into<String>) -> Self {
+        let name = name.into();
+        let field = name.clone();
+        Self::new(name, 2, Statistic::Mean { field })
+    }
+
+    /// The median of a numeric field, by definition R-7; its interval is that of order statistics.
+    pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
+        let field = field.into();
+        Self::new(name, 2, Statistic::Median { field })
     }
 
     /// The percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
         let field = field.into();
-        Self {
-            name: name.into(),
-            title: field.clone(),
-            unit: "%".into(),
-            statistic: Statistic::Percent { field },
-            tolerance: None,
-        }
+        let title = field.clone();
+        let metric = Self::new(name, 1, Statistic::Percent { field });
+        metric.titled(title).unit("%")
+    }
+
+    /// In how many of `whole` runs the flag named `field` is set, as a paper that made that many
+    /// counts them: `whole` × the share of our runs.
+    ///
+    /// ```
+    /// use tolman::experiment::{Metric, Statistic};
+    ///
+    /// // The paper converged in 20 of 20 runs; of our 1000, 990 make 19.8 of 20.
+    /// let metric = Metric::count_of("five_of_twenty", "found_five", 20).titled("five found");
+    /// assert_eq!(metric.unit, "of 20");
+    /// # assert!(matches!(metric.statistic, Statistic::Count { whole: 20, .. }));
+    /// ```
+    pub fn count_of(name: impl Into<String>, field: impl Into<String>, whole: u32) -> Self {
+        let field = field.into();
+        let title = field.clone();
+        let metric = Self::new(name, 1, Statistic::Count { field, whole });
+        metric.titled(title).unit(format!("of {whole}"))
     }
 
     /// The sum of one numeric field over all runs divided by the sum of another.
@@ -262,17 +289,8 @@ impl Metric {
         over: impl Into<String>,
         under: impl Into<String>,
     ) -> Self {
-        let name = name.into();
-        Self {
-            title: name.clone(),
-            unit: String::new(),
-            statistic: Statistic::Ratio {
-                over: over.into(),
-                under: under.into(),
-            },
-            tolerance: None,
-            name,
-        }
+        let (over, under) = (over.into(), under.into());
+        Self::new(name, 2, Statistic::Ratio { over, under })
     }
 
     /// Sets the name shown on a page.
@@ -286,6 +304,13 @@ impl Metric {
     #[must_use]
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();
+        self
+    }
+
+    /// Sets how many decimals values are shown with.
+    #[must_use]
+    pub const fn decimals(mut self, decimals: u8) -> Self {
+        self.decimals = decimals;
         self
     }
 
@@ -311,6 +336,18 @@ pub enum Statistic {
         /// A numeric field.
         field: String,
     },
+    /// The median of a field.
+    Median {
+        /// A numeric field.
+        field: String,
+    },
+    /// `whole` × the share of runs whose flag is set.
+    Count {
+        /// A field of [`Field::Flag`](crate::experiment::Field::Flag).
+        field: String,
+        /// How many runs the paper counts in.
+        whole: u32,
+    },
     /// The ratio of two sums.
     Ratio {
         /// The numeric field of the numerator.
@@ -327,4 +364,7 @@ pub enum Tolerance {
     Absolute(f64),
     /// By this share of the paper's value: 0.35 is ± 35 %.
     Relative(f64),
+    /// By this factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half of
+    /// it.
+    Factor(f64),
 }

@@ -28,25 +28,27 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
 
 /// A value in the form of papers: `73.16 ± 70.23`, `68.0`.
 pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) -> String {
-    let decimals = decimals(metric);
+    let decimals = usize::from(metric.decimals);
     match sd {
         Some(sd) => format!("{value:.decimals$} ± {sd:.decimals$}"),
         None => format!("{value:.decimals$}"),
     }
 }
 
-/// Decimals of a metric: success rates of a thousand runs have one.
-pub(crate) const fn decimals(metric: &Metric) -> usize {
-    match metric.statistic {
-        Statistic::Percent { .. } => 1,
-        Statistic::Mean { .. } | Statistic::Ratio { .. } => 2,
-    }
+/// Our value: a mean with its spread, anything else alone.
+pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
+    let sd = match metric.statistic {
+        Statistic::Mean { .. } => measured.sd,
+        _ => None,
+    };
+    value_with_spread(metric, measured.value, sd)
 }
 
 /// A metric's title and unit.
 pub(crate) fn heading(metric: &Metric) -> String {
     match metric.unit.as_str() {
         "" => metric.title.clone(),
+        unit if unit.starts_with("of ") => format!("{} {unit}", metric.title),
         "%" => format!("{} %", metric.title),
         unit => format!("{} ({unit})", metric.title),
     }
@@ -72,10 +74,13 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     let mut heads = " ".repeat(names);
     let mut subheads = heads.clone();
     for column in &columns {
-        let width = column.paper + column.ours + 4;
+        let width = column.paper.map_or(0, |paper| paper + 2) + column.ours + 2;
         let _ = write!(heads, "   {:<width$}", column.heading);
-        let _ = write!(subheads, "   {:>1$}", "paper", column.paper);
-        let _ = write!(subheads, "  {:>1$}  ", "ours", column.ours);
+        let _ = match column.paper {
+            Some(paper) => write!(subheads, "   {:>paper$}  ", "paper"),
+            None => write!(subheads, "   "),
+        };
+        let _ = write!(subheads, "{:>1$}  ", "ours", column.ours);
     }
     let _ = writeln!(text, "{}\n{}", heads.trim_end(), subheads.trim_end());
 
@@ -89,8 +94,11 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
                 .find(|measured| measured.row == row.name);
             let (paper, ours) =
                 measured.map_or_else(Default::default, |m| cells(&column.metric.metric, m));
-            let _ = write!(line, "   {paper:>0$}", column.paper);
-            let _ = write!(line, "  {ours:>0$} ", column.ours);
+            let _ = match column.paper {
+                Some(width) => write!(line, "   {paper:>width$}  "),
+                None => write!(line, "   "),
+            };
+            let _ = write!(line, "{ours:>0$} ", column.ours);
             line += &mark(measured, ink);
         }
         let _ = writeln!(text, "{}", line.trim_end());
@@ -102,7 +110,8 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
 struct Column<'a> {
     metric: &'a MetricAnalysis,
     heading: String,
-    paper: usize,
+    /// The width of the paper's values, if there are any.
+    paper: Option<usize>,
     ours: usize,
 }
 
@@ -115,14 +124,17 @@ impl<'a> Column<'a> {
             .map(|row| cells(&metric.metric, row))
             .collect();
         let widest = |texts: Vec<&String>| texts.iter().map(|text| text.chars().count()).max();
-        let paper = widest(cells.iter().map(|cell| &cell.0).collect())
-            .unwrap_or(0)
-            .max(5);
+        let of_paper = metric.rows.iter().any(|row| row.paper.is_some());
+        let paper = of_paper.then(|| {
+            let widest = widest(cells.iter().map(|cell| &cell.0).collect());
+            widest.unwrap_or(0).max("paper".len())
+        });
         let ours = widest(cells.iter().map(|cell| &cell.1).collect())
             .unwrap_or(0)
             .max(4);
-        // A long heading widens the second column.
-        let ours = ours.max(heading.chars().count().saturating_sub(paper + 4));
+        // A long heading widens the last column.
+        let before = paper.map_or(0, |paper| paper + 2);
+        let ours = ours.max(heading.chars().count().saturating_sub(before + 2));
         Self {
             metric,
             heading,
@@ -139,7 +151,7 @@ fn cells(metric: &Metric, measured: &Measured) -> (String, String) {
             || "–".into(),
             |paper| value_with_spread(metric, paper.value, paper.sd),
         ),
-        value_with_spread(metric, measured.value, measured.sd),
+        ours(metric, measured),
     )
 }
 

@@ -20,8 +20,8 @@ pub struct Verdict {
 pub enum Basis {
     /// It lies within the metric's stated tolerance.
     Tolerance,
-    /// It lies within the paper's own 95 % interval: exact binomial for a percentage, mean ± 1.96
-    /// standard errors for a mean.
+    /// It lies within the paper's own 95 % interval: exact binomial for a percentage or a count, mean
+    /// ± 1.96 standard errors for a mean.
     PaperInterval,
 }
 
@@ -43,13 +43,25 @@ impl Verdict {
             Some(Tolerance::Relative(share)) => {
                 (around(share * paper.value.abs()), Basis::Tolerance)
             }
+            Some(Tolerance::Factor(factor)) => {
+                let (one, other) = (paper.value / factor, paper.value * factor);
+                let accepted = Interval {
+                    low: one.min(other),
+                    high: one.max(other),
+                };
+                (accepted, Basis::Tolerance)
+            }
             None => {
-                let runs = paper_runs?;
                 let own = match metric.statistic {
-                    Statistic::Percent { .. } => own_binomial(paper.value, runs)?,
-                    Statistic::Mean { .. } | Statistic::Ratio { .. } => {
-                        around(1.96 * paper.sd? / f64::from(runs).sqrt())
+                    Statistic::Percent { .. } => own_binomial(paper.value, 100.0, paper_runs?)?,
+                    Statistic::Count { whole, .. } => {
+                        own_binomial(paper.value, f64::from(whole), whole)?
                     }
+                    Statistic::Mean { .. } | Statistic::Ratio { .. } => {
+                        around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
+                    }
+                    // A spread says nothing of a median's error.
+                    Statistic::Median { .. } => return None,
                 };
                 (own, Basis::PaperInterval)
             }
@@ -67,10 +79,10 @@ impl Verdict {
     clippy::cast_sign_loss,
     reason = "the cast saturates"
 )]
-fn own_binomial(percent: f64, runs: u32) -> Option<Interval> {
-    let successes = (percent / 100.0 * f64::from(runs)).round() as u64;
+fn own_binomial(value: f64, whole: f64, runs: u32) -> Option<Interval> {
+    let successes = (value / whole * f64::from(runs)).round() as u64;
     let rate = exact_binomial_interval(successes, u64::from(runs), LEVEL).ok()?;
-    Some(rate.scaled(100.0))
+    Some(rate.scaled(whole))
 }
 
 #[cfg(test)]
@@ -101,6 +113,26 @@ mod tests {
                 "{ours}"
             );
         }
+    }
+
+    #[test]
+    fn a_factor_reaches_as_far_down_as_up() {
+        let factor = Metric::median("error", "error").tolerance(Tolerance::Factor(1.5));
+        for (ours, expect) in [(4.0, true), (9.0, true), (3.99, false), (9.01, false)] {
+            assert_eq!(judge(ours, &factor, 6.0, None), Some(expect), "{ours}");
+        }
+        assert_eq!(judge(-3.0, &factor, -2.0, None), Some(true));
+    }
+
+    #[test]
+    fn a_count_is_judged_by_the_runs_it_counts_in_and_a_median_by_nothing() {
+        // 19 of 20: 15.02 to 19.97.
+        let count = Metric::count_of("five_of_twenty", "five", 20);
+        for (ours, expect) in [(15.1, true), (19.9, true), (15.0, false), (20.0, false)] {
+            assert_eq!(judge(ours, &count, 19.0, None), Some(expect), "{ours}");
+        }
+        let median = Metric::median("steps", "steps");
+        assert_eq!(judge(100.0, &median, 100.0, Some(10.0)), None);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::experiment::{
-    Basis, Metric, Outcome, RESAMPLES, Statistic, Tolerance, Verdict, decimals, heading,
+    Basis, Metric, Outcome, RESAMPLES, Statistic, Tolerance, Verdict, heading,
 };
 
 /// The notes below everything, only about what the page shows.
@@ -15,7 +15,14 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
         .flat_map(|table| table.metrics.iter().map(|metric| &metric.metric))
         .collect();
     let has = |wanted: fn(&Statistic) -> bool| metrics.iter().any(|m| wanted(&m.statistic));
-    let percent = has(|statistic| matches!(statistic, Statistic::Percent { .. }));
+    let share = has(|statistic| {
+        matches!(
+            statistic,
+            Statistic::Percent { .. } | Statistic::Count { .. }
+        )
+    });
+    let count = has(|statistic| matches!(statistic, Statistic::Count { .. }));
+    let median = has(|statistic| matches!(statistic, Statistic::Median { .. }));
     let mean = has(|statistic| matches!(statistic, Statistic::Mean { .. }));
     let ratio = has(|statistic| matches!(statistic, Statistic::Ratio { .. }));
     let compared = analysis
@@ -37,17 +44,20 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
                     li { b { "Verdict. " } (tolerances(&metrics))
                         @if by_interval {
                             "Where no tolerance is stated, our value matches if it lies within the 95 % \
-                             interval of the paper's own sample: exact binomial for a percentage, mean \
+                             interval of the paper's own sample: exact binomial for a share, mean \
                              ± 1.96 standard errors for a mean. "
                         }
                         "The accepted values show when the pointer rests on a verdict."
                     }
                 }
                 li { b { "95 % interval. " }
-                    @if percent { "Percentages: exact binomial (Clopper–Pearson). " }
+                    @if share { "Percentages and counts: exact binomial (Clopper–Pearson). " }
+                    @if median { "Medians: the order statistics that hold it with at least that probability, whatever the distribution; six runs or more. " }
                     @if mean || ratio { "Means and ratios: BCa bootstrap, " (RESAMPLES) " resamples. " }
                 }
-                @if mean { li { b { "Ours. " } "Mean ± standard deviation (n − 1), as the paper has it." } }
+                @if mean { li { b { "Means " } "stand with the standard deviation (n − 1)." } }
+                @if median { li { b { "Medians " } "are R-7 quantiles, as in R and NumPy." } }
+                @if count { li { b { "Counts " } "of a few runs, such as 19 of 20, are the share of all our runs times that few." } }
                 @if ratio { li { b { "Ratios " } "are sums over all runs divided by sums over all runs." } }
                 @if compared {
                     li { b { "p. " } "Mann–Whitney U, two-sided, against the reference row, corrected for the \
@@ -56,9 +66,9 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
                          reference row; 0.5 is no difference."
                     }
                 }
-                @if mean {
+                @if mean || median {
                     li { b { "Box plots. " } "Box: R-7 quartiles and median. Whiskers: the last datum within \
-                         1.5 interquartile ranges. Dots: every run. Diamond and bar: the paper's mean ± \
+                         1.5 interquartile ranges. Dots: every run. Diamond and bar: the paper's value and \
                          standard deviation." }
                 }
                 li { b { "Seeds. " } "The seed of a run comes from the master seed, the table and the index of \
@@ -78,7 +88,7 @@ fn tolerances(metrics: &[&Metric]) -> String {
         let Some(tolerance) = metric.tolerance else {
             continue;
         };
-        let decimals = decimals(metric);
+        let decimals = usize::from(metric.decimals);
         let text = match (tolerance, &metric.statistic) {
             (Tolerance::Absolute(points), Statistic::Percent { .. }) => {
                 format!("{} within ± {points:.0} percentage points", metric.title)
@@ -86,6 +96,9 @@ fn tolerances(metrics: &[&Metric]) -> String {
             (Tolerance::Absolute(by), _) => format!("{} within ± {by:.decimals$}", heading(metric)),
             (Tolerance::Relative(share), _) => {
                 format!("{} within ± {:.0} %", metric.title, 100.0 * share)
+            }
+            (Tolerance::Factor(factor), _) => {
+                format!("{} within a factor of {factor}", metric.title)
             }
         };
         if !told.contains(&text) {

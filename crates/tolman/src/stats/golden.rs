@@ -11,6 +11,7 @@ struct Golden {
     normal_quantile: Vec<[f64; 2]>,
     beta: Vec<[f64; 4]>,
     bca: Vec<Bca>,
+    medians: Vec<Median>,
     proportions: Vec<Proportion>,
     corrections: Vec<Corrections>,
 }
@@ -44,6 +45,13 @@ struct Bca {
     jackknife: Vec<f64>,
     low: f64,
     high: f64,
+}
+
+#[derive(Deserialize)]
+struct Median {
+    data: Vec<f64>,
+    level: f64,
+    interval: Option<[f64; 2]>,
 }
 
 #[derive(Deserialize)]
@@ -153,6 +161,29 @@ fn success_intervals_are_scipys() {
             assert!((ours.high - theirs[1]).abs() < 1e-12, "{ours:?} {theirs:?}");
         }
     }
+}
+
+#[test]
+fn intervals_of_medians_are_scipys() {
+    for case in golden().medians {
+        let ours = median_interval(&case.data, case.level);
+        match case.interval {
+            Some([low, high]) => {
+                let ours = ours.unwrap();
+                close(ours.low, low, 0.0);
+                close(ours.high, high, 0.0);
+            }
+            None => assert!(
+                matches!(ours, Err(SampleError::TooSmall { .. })),
+                "{ours:?}"
+            ),
+        }
+    }
+    // 6 values hold the median in 1 - 2/64 of all samples.
+    let needed = |level| median_interval(&[1.0], level).unwrap_err();
+    let count = 1;
+    assert_eq!(needed(0.95), SampleError::TooSmall { count, needed: 6 });
+    assert_eq!(needed(0.75), SampleError::TooSmall { count, needed: 3 });
 }
 
 #[test]

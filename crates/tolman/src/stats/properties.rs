@@ -135,4 +135,13 @@ proptest! {
         let (least, most) = (quantile(&sample, 0.0).unwrap(), quantile(&sample, 1.0).unwrap());
         prop_assert!(least <= interval.low && interval.low <= interval.high && interval.high <= most);
     }
+
+    #[test]
+    fn median_intervals_hold_the_median_and_grow_with_the_level(sample in tied(80)) {
+        prop_assume!(sample.len() > 7);
+        let median = quantile(&sample, 0.5).unwrap();
+        let [narrow, wide] = [0.9, 0.99].map(|level| median_interval(&sample, level).unwrap());
+        prop_assert!(narrow.contains(median));
+        prop_assert!(wide.low <= narrow.low && narrow.high <= wide.high);
+    }
 }

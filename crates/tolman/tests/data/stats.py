@@ -11,6 +11,8 @@ import scipy
 from scipy import special, stats
 
 rng = np.random.default_rng(1948)
+# A stream of its own, so that the values above and below stay what they were.
+median_rng = np.random.default_rng(1999)
 
 
 def samples():
@@ -73,6 +75,13 @@ def bca(data, statistic):
     }
 
 
+def median(data, level):
+    """None where even the extremes do not reach the level, as SciPy's NaN says."""
+    interval = stats.quantile_test(data, q=0, p=0.5).confidence_interval(level)
+    ends = [float(interval.low), float(interval.high)]
+    return {"data": data, "level": level, "interval": None if np.isnan(ends).any() else ends}
+
+
 def proportion(k, n, level):
     test = stats.binomtest(k, n)
     exact = test.proportion_ci(level, "exact")
@@ -110,6 +119,18 @@ golden = {
         bca(np.round(rng.exponential(70, 40), 2), np.mean),
         bca(np.round(rng.normal(100, 20, 25), 2), np.mean),
         bca(np.round(rng.exponential(10, 31), 2), np.median),
+    ],
+    "medians": [
+        median(data, level)
+        for level in (0.5, 0.95, 0.99)
+        for data in (
+            [1.0],
+            [3.0, 1.0, 2.0, 5.0, 4.0],
+            [3.0, 1.0, 2.0, 5.0, 4.0, 6.0],
+            np.round(median_rng.normal(0, 1, 25), 3).tolist(),
+            median_rng.integers(0, 5, 60).astype(float).tolist(),
+            np.round(median_rng.exponential(70, 201), 2).tolist(),
+        )
     ],
     "proportions": [
         proportion(k, n, level)

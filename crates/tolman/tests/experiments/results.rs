@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use tolman::experiment::{Ink, Options, Program, Run, open, tables_as_text};
+use tolman::experiment::{
+    Error, Ink, Metric, Options, Program, Row, Run, Tolerance, open, tables_as_text,
+};
 
 use crate::darts::Darts;
 use crate::support::{fresh, options, read, run};
@@ -54,6 +56,95 @@ fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
         .map(|run| run.fields.get("miss").unwrap().as_number().unwrap())
         .sum();
     assert!((rows[3]["value"].as_f64().unwrap() - miss / (40.0 * mean)).abs() < 1e-12);
+}
+
+#[test]
+fn medians_and_counts_are_those_of_the_runs() {
+    let out = fresh("medians").join("out");
+    let mut darts = Darts::new();
+    let table = darts.tables.swap_remove(0);
+    let table = table
+        .metric(Metric::median("median_throws", "throws").tolerance(Tolerance::Factor(1.5)))
+        .metric(Metric::count_of("hits_of_twenty", "success", 20).titled("hits"));
+    darts.tables = vec![table];
+    darts.tables[0].rows[0] = Row::new("Novice")
+        .paper("median_throws", 1000.0)
+        .paper("hits_of_twenty", 12.0);
+    let outcome = run(&darts, &options(&out)).0.unwrap();
+    let novice = |metric: &str| {
+        let mut values = outcome.analysis.values();
+        let found = values.find(|(_, of, measured)| of.name == metric && measured.row == "Novice");
+        found.unwrap().2.clone()
+    };
+    let mut throws: Vec<f64> = outcome.runs[..40]
+        .iter()
+        .map(|run| run.fields.get("throws").unwrap().as_number().unwrap())
+        .collect();
+    throws.sort_by(f64::total_cmp);
+
+    let median = novice("median_throws");
+    assert!((median.value - f64::midpoint(throws[19], throws[20])).abs() < 1e-12);
+    assert_eq!(
+        (median.sd, median.mean),
+        (novice("throws").sd, novice("throws").mean)
+    );
+    // Fewer than 14 of 40 coins show heads with probability 0.019, fewer than 15 with 0.040.
+    let interval = median.interval.unwrap();
+    assert!((interval.low - throws[13]).abs() < 1e-12);
+    assert!((interval.high - throws[26]).abs() < 1e-12);
+    assert!(!median.verdict.unwrap().matches);
+
+    let (count, percent) = (novice("hits_of_twenty"), novice("success_percent"));
+    assert!((5.0 * count.value - percent.value).abs() < 1e-12);
+    assert!((5.0 * count.interval.unwrap().high - percent.interval.unwrap().high).abs() < 1e-9);
+    let page = read(&out, "report.html");
+    let text = tables_as_text(&outcome.analysis, Ink::Plain);
+    assert!(page.contains("hits of 20") && text.contains("hits of 20"));
+    // The mean and the median of throws share one plot.
+    assert_eq!(outcome.figures.len(), 3);
+}
+
+#[test]
+fn tables_without_values_of_a_paper_speak_of_none() {
+    let out = fresh("no-paper").join("out");
+    let mut darts = Darts::new();
+    for row in darts.tables.iter_mut().flat_map(|table| &mut table.rows) {
+        row.paper.clear();
+    }
+    let outcome = run(&darts, &options(&out)).0.unwrap();
+    let text = tables_as_text(&outcome.analysis, Ink::Plain);
+    assert!(!text.contains("paper") && text.contains("ours"));
+    let page = read(&out, "report.html");
+    for column in ["<th>paper</th>", "<th>verdict</th>"] {
+        assert!(!page.contains(column), "{column}");
+    }
+}
+
+#[test]
+fn metrics_that_judge_or_count_by_nothing_are_refused() {
+    for (metric, what) in [
+        (Metric::count_of("hits", "success", 0), "0 runs"),
+        (
+            Metric::mean("throws").tolerance(Tolerance::Factor(0.5)),
+            "factor 0.5",
+        ),
+        (
+            Metric::mean("throws").tolerance(Tolerance::Relative(f64::NAN)),
+            "NaN",
+        ),
+    ] {
+        let out = fresh("unsound-metric").join("out");
+        let mut darts = Darts::new();
+        darts.tables[0].metrics = vec![metric];
+        darts.tables[0]
+            .rows
+            .iter_mut()
+            .for_each(|row| row.paper.clear());
+        let error = run(&darts, &options(&out)).0.unwrap_err();
+        assert!(matches!(error, Error::Tables { .. }));
+        assert!(error.to_string().contains(what), "{error}");
+        assert!(!out.exists());
+    }
 }
 
 #[test]
