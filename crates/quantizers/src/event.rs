@@ -1,0 +1,59 @@
+//! What happens to the graph, for those who built something on it.
+
+use alloc::vec::Vec;
+
+use crate::UnitId;
+
+/// A change of the graph. Replayed in order onto an empty graph, the events since the network was
+/// empty give the network's graph; how units move is not told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Event {
+    /// A unit came, without edges so far.
+    Inserted {
+        /// The unit.
+        id: UnitId,
+        /// The two units it was put between, if it was not made of an input.
+        between: Option<(UnitId, UnitId)>,
+    },
+    /// A unit went. Its edges went just before.
+    Removed {
+        /// The unit.
+        id: UnitId,
+    },
+    /// A unit became part of another. Its edges were taken away or taken over just before.
+    Merged {
+        /// The unit that went.
+        gone: UnitId,
+        /// The unit that stands for both.
+        into: UnitId,
+    },
+    /// An edge came. (To be renewed is no event.)
+    Linked(UnitId, UnitId),
+    /// An edge went.
+    Unlinked(UnitId, UnitId),
+}
+
+/// Keeps events if somebody listens.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct EventLog {
+    listening: bool,
+    events: Vec<Event>,
+}
+
+impl EventLog {
+    pub(crate) fn listen(&mut self) {
+        self.listening = true;
+    }
+
+    #[inline]
+    pub(crate) fn push(&mut self, event: Event) {
+        if self.listening {
+            self.events.push(event);
+        }
+    }
+
+    pub(crate) fn drain(&mut self) -> impl Iterator<Item = Event> + '_ {
+        self.events.drain(..)
+    }
+}

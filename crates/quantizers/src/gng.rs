@@ -1,0 +1,380 @@
+//! Growing neural gas: Fritzke's, the equilibrium GNG of SODA and MSLST, and GNG-U.
+
+mod config;
+mod decay;
+
+use alloc::vec::Vec;
+
+use decay::Decay;
+
+pub use config::{ErrorKind, GngConfig, GrowthGate, StepOrder, Utility};
+
+use crate::network::{Best, Candidate};
+use crate::{
+    ConfigError, InputError, Network, Observation, Quantizer, Scalar, UnitId, UnknownUnit,
+};
+
+/// A growing neural gas.
+///
+/// It begins empty. The first input and the first one that differs from it become the first two units, joined by an
+/// edge; inputs until then are not counted as steps.
+///
+/// ```
+/// use tolman_quantizers::{Gng, GngConfig, Quantizer};
+///
+/// let mut gng = Gng::<f32>::new(2, GngConfig { max_units: 20, ..GngConfig::default() })?;
+/// for step in 0..3000_u16 {
+///     let angle = f32::from(step) * 2.4;
+///     gng.observe(&[angle.cos(), angle.sin()])?;
+/// }
+/// assert_eq!(gng.network().len(), 20);
+/// assert!(gng.nearest(&[1.0, 0.0])?.distance() < 0.3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Gng<S> {
+    config: GngConfig,
+    network: Network<S>,
+    /// By slot.
+    sums: Vec<Sums>,
+    decay: Decay,
+    steps: u64,
+}
+
+/// What is summed over the inputs a unit wins, as [`Decay`] keeps it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    error: f64,
+    utility: f64,
+}
+
+impl<S: Scalar> Gng<S> {
+    /// An empty network for inputs of `dimension` features.
+    ///
+    /// # Errors
+    /// If the dimension is 0 or a field of `config` is outside its range.
+    pub fn new(dimension: usize, config: GngConfig) -> Result<Self, ConfigError> {
+        Self::around(Network::new(dimension)?, config)
+    }
+
+    /// An empty network whose squared distance is Σ w (x − p)², with one weight w a feature.
+    ///
+    /// # Errors
+    /// If there are no weights, one is negative or not finite, none is above zero, or a field of `config` is outside
+    /// its range.
+    pub fn weighted(weights: &[S], config: GngConfig) -> Result<Self, ConfigError> {
+        Self::around(Network::weighted(weights)?, config)
+    }
+
+    fn around(network: Network<S>, config: GngConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            config,
+            network,
+            sums: Vec::new(),
+            decay: Decay::none_yet(),
+            steps: 0,
+        })
+    }
+
+    /// Puts units where the caller wants them before the first input, each joined to the one before it.
+    ///
+    /// # Errors
+    /// If there are fewer than two units, one is no valid input, or the network is not empty.
+    pub fn begin_with<P: AsRef<[S]>>(&mut self, prototypes: &[P]) -> Result<(), ConfigError> {
+        if prototypes.len() < 2 || !self.network.is_empty() {
+            return Err(ConfigError::TooFewUnits {
+                found: prototypes.len(),
+            });
+        }
+        for (unit, prototype) in prototypes.iter().enumerate() {
+            self.network
+                .check(prototype.as_ref())
+                .map_err(|source| ConfigError::BadUnit { unit, source })?;
+        }
+        for prototype in prototypes {
+            self.seed(prototype.as_ref());
+        }
+        Ok(())
+    }
+
+    /// What was chosen.
+    pub fn config(&self) -> &GngConfig {
+        &self.config
+    }
+
+    /// How many inputs were learnt, not counting those before there were two units.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Makes one unit part of another, for a caller who found out that both mean the same. The unit that stays
+    /// keeps its prototype, takes over the edges with their ages, and adds the other's error and utility to its own.
+    /// If they had only each other, it is joined to the unit nearest to it. To merge a unit with itself does nothing.
+    ///
+    /// # Errors
+    /// If one of the units is not there.
+    pub fn merge(&mut self, gone: UnitId, into: UnitId) -> Result<(), UnknownUnit> {
+        let (from, to) = (self.network.slot(gone)?, self.network.slot(into)?);
+        if from == to {
+            return Ok(());
+        }
+        self.network.merge(from, to);
+        let sums = self.sums[from];
+        self.sums[to].error += sums.error;
+        self.sums[to].utility += sums.utility;
+        if self.network.links().degree(to) == 0
+            && let Some(other) = self.network.nearest_other(to)
+        {
+            self.network.link(to, other, 0);
+        }
+        self.network.tidy(&mut self.sums);
+        Ok(())
+    }
+
+    /// The error a unit has gathered, decayed; squared units of the features for squared errors.
+    ///
+    /// # Errors
+    /// If there is no such unit.
+    pub fn error(&self, id: UnitId) -> Result<f64, UnknownUnit> {
+        let slot = self.network.slot(id)?;
+        Ok(self.decay.value(self.sums[slot].error))
+    }
+
+    /// The utility a unit has gathered, decayed as errors are; 0 unless [`GngConfig::utility`] is chosen.
+    ///
+    /// # Errors
+    /// If there is no such unit.
+    pub fn utility(&self, id: UnitId) -> Result<f64, UnknownUnit> {
+        let slot = self.network.slot(id)?;
+        Ok(self.decay.value(self.sums[slot].utility))
+    }
+
+    /// The mean of all units' errors, which the [`GrowthGate`] looks at; 0 if there are no units.
+    ///
+    /// # Complexity
+    /// Units.
+    pub fn mean_error(&self) -> f64 {
+        let sum: f64 = self.network.slots().map(|slot| self.sums[slot].error).sum();
+        self.decay.value(sum) / self.network.len().max(1) as f64
+    }
+
+    /// A unit joined to the one before it.
+    fn seed(&mut self, prototype: &[S]) -> usize {
+        let slot = self.network.insert(prototype);
+        self.sums.push(Sums::default());
+        if slot > 0 {
+            self.network.link(slot - 1, slot, 0);
+        }
+        slot
+    }
+
+    /// What to do while there are fewer than two units.
+    #[cold]
+    fn begin(&mut self, input: &[S], best: Best<S>) -> Observation<S> {
+        let met = self.network.found(best.first);
+        if let Some(met) = met.filter(|met| met.squared_distance <= S::ZERO) {
+            // Still the one point.
+            return Observation {
+                winner: met,
+                second: None,
+            };
+        }
+        let slot = self.seed(input);
+        Observation {
+            winner: self.network.at(slot),
+            second: met,
+        }
+    }
+
+    /// One step with the two nearest units.
+    fn step(&mut self, input: &[S], best: Best<S>) {
+        let (first, second) = (best.first.slot as usize, best.second.slot as usize);
+        self.steps += 1;
+        match self.config.order {
+            StepOrder::Fritzke => {
+                self.network.age_edges(first);
+                self.charge(input, best);
+                self.adapt(first, input);
+                self.network.link(first, second, 0);
+                self.network.drop_old_edges(first, self.config.max_age);
+                self.grow_if_due();
+                self.decay_sums();
+            }
+            StepOrder::Mslst => {
+                self.network.link(first, second, 0);
+                self.network.age_edges(first);
+                self.charge(input, best);
+                self.adapt(first, input);
+                self.network.drop_old_edges(first, self.config.max_age);
+                self.decay_sums();
+                self.grow_if_due();
+            }
+        }
+        if let Some(utility) = self.config.utility {
+            self.drop_useless(utility);
+        }
+        self.network.tidy(&mut self.sums);
+    }
+
+    /// Adds to the winner's error and utility.
+    fn charge(&mut self, input: &[S], best: Best<S>) {
+        let error = |candidate: Candidate<S>| {
+            let squared = candidate.squared_distance.to_f64();
+            match self.config.error {
+                ErrorKind::Squared => squared,
+                ErrorKind::Absolute => libm::sqrt(squared),
+                ErrorKind::Relative => relative_error(squared, self.network.squared_length(input)),
+            }
+        };
+        let own = error(best.first);
+        let sums = &mut self.sums[best.first.slot as usize];
+        sums.error += self.decay.kept(own);
+        if self.config.utility.is_some() {
+            sums.utility += self.decay.kept(error(best.second) - own);
+        }
+    }
+
+    /// Moves the winner and its neighbours towards the input.
+    fn adapt(&mut self, winner: usize, input: &[S]) {
+        let rate = S::from_f64(self.config.neighbour_rate);
+        self.network
+            .approach(winner, input, S::from_f64(self.config.winner_rate));
+        self.network.approach_neighbours(winner, input, rate);
+    }
+
+    fn decay_sums(&mut self) {
+        if let Some(due) = self.decay.decay(self.config.decay) {
+            for sums in &mut self.sums {
+                sums.error *= due;
+                sums.utility *= due;
+            }
+        }
+    }
+
+    fn grow_if_due(&mut self) {
+        let due = self.steps.is_multiple_of(self.config.growth_period.into());
+        if due
+            && self.network.len() < self.config.max_units
+            && self.network.has_ids_left()
+            && self.gate_is_open()
+        {
+            self.grow();
+        }
+    }
+
+    fn gate_is_open(&self) -> bool {
+        match self.config.gate {
+            GrowthGate::Open => true,
+            GrowthGate::MeanError { threshold } => self.mean_error() > threshold,
+            GrowthGate::Rate { threshold } => {
+                self.mean_error() * (1.0 - self.config.decay) > threshold
+            }
+        }
+    }
+
+    /// Puts a unit half-way between the unit of largest error and its neighbour of largest error.
+    fn grow(&mut self) {
+        let worst = |slots: &mut dyn Iterator<Item = usize>| {
+            let mut worst: Option<(usize, f64)> = None;
+            for slot in slots {
+                let error = self.sums[slot].error;
+                // The first of equals, which has the smallest id.
+                if worst.is_none_or(|(_, most)| error > most) {
+                    worst = Some((slot, error));
+                }
+            }
+            worst.map(|(slot, _)| slot)
+        };
+        let Some(q) = worst(&mut self.network.slots()) else {
+            return;
+        };
+        let Some(f) = worst(&mut self.network.links().neighbours(q)) else {
+            return;
+        };
+        let r = self.network.insert_between(q, f);
+        self.network.cut(q, f);
+        self.network.link(q, r, 0);
+        self.network.link(r, f, 0);
+        self.sums[q].error *= self.config.split_factor;
+        self.sums[f].error *= self.config.split_factor;
+        self.sums.push(Sums {
+            error: self.sums[q].error,
+            utility: 0.5 * (self.sums[q].utility + self.sums[f].utility),
+        });
+    }
+
+    /// GNG-U: takes the unit of least utility away if the largest error is many times that.
+    fn drop_useless(&mut self, utility: Utility) {
+        let mut most_error = 0.0_f64;
+        let mut least: Option<(usize, f64)> = None;
+        for slot in self.network.slots() {
+            let sums = self.sums[slot];
+            most_error = most_error.max(sums.error);
+            if least.is_none_or(|(_, utility)| sums.utility < utility) {
+                least = Some((slot, sums.utility));
+            }
+        }
+        if let Some((slot, least)) = least
+            && most_error > utility.threshold * least
+        {
+            self.remove_slot(slot);
+        }
+    }
+
+    /// Takes a unit away, with the neighbours it leaves alone, unless fewer than two units would be left.
+    fn remove_slot(&mut self, slot: usize) {
+        let links = self.network.links();
+        let alone = links
+            .neighbours(slot)
+            .filter(|other| links.degree(*other) == 1)
+            .count();
+        if self.network.len() < alone + 3 {
+            return;
+        }
+        while let Some((other, _)) = self.network.links().last(slot) {
+            self.network.cut(slot, other);
+            if self.network.links().degree(other) == 0 {
+                self.network.remove(other);
+            }
+        }
+        self.network.remove(slot);
+    }
+}
+
+/// ‖x − w‖ / ‖x‖ of squares.
+fn relative_error(squared_distance: f64, squared_length: f64) -> f64 {
+    if squared_distance <= 0.0 {
+        0.0
+    } else if squared_length <= 0.0 {
+        1.0
+    } else {
+        libm::sqrt(squared_distance) / libm::sqrt(squared_length)
+    }
+}
+
+impl<S: Scalar> Quantizer<S> for Gng<S> {
+    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError> {
+        self.network.check(input)?;
+        let best = self.network.search(input);
+        let (Some(winner), Some(second)) = (
+            self.network.found(best.first),
+            self.network.found(best.second),
+        ) else {
+            return Ok(self.begin(input, best));
+        };
+        self.step(input, best);
+        Ok(Observation {
+            winner,
+            second: Some(second),
+        })
+    }
+
+    fn network(&self) -> &Network<S> {
+        &self.network
+    }
+
+    fn network_mut(&mut self) -> &mut Network<S> {
+        &mut self.network
+    }
+}

@@ -1,0 +1,220 @@
+//! What can be chosen about a growing neural gas.
+
+use crate::ConfigError;
+
+/// The parameters of a growing neural gas. Its `Default` is [`fritzke`](Self::fritzke).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GngConfig {
+    /// ε_b: the part of the way to the input that the nearest unit moves; 0 to 1.
+    pub winner_rate: f64,
+    /// ε_n: the part of the way that its neighbours move; 0 to 1.
+    pub neighbour_rate: f64,
+    /// a_max: edges older than that go; in inputs won by one of the edge's ends, at least 1.
+    pub max_age: u32,
+    /// λ: the network may grow at every λ-th input; at least 1.
+    pub growth_period: u32,
+    /// α: what is left of the errors of the two units between which a unit is put; 0 to 1.
+    pub split_factor: f64,
+    /// d: what is left of all errors after each input; above 0, at most 1.
+    pub decay: f64,
+    /// The network does not grow beyond so many units; at least 2. `usize::MAX` for no bound.
+    pub max_units: usize,
+    /// In which order a step does its parts.
+    pub order: StepOrder,
+    /// What is added to the error of the nearest unit.
+    pub error: ErrorKind,
+    /// Which condition has to hold besides for the network to grow.
+    pub gate: GrowthGate,
+    /// Whether units that are of little use are taken away (GNG-U).
+    pub utility: Option<Utility>,
+}
+
+/// The order of the parts of a step. The sources agree on the parts, not on their order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StepOrder {
+    /// "A growing neural gas network learns topologies" (Fritzke 1995), section 2: age the winner's edges, add to
+    /// its error, move, **then** link the two nearest, drop old edges, **grow, then decay** all errors. The input
+    /// does not move a second unit it has just linked, and a new edge ends the step with age 0.
+    #[default]
+    Fritzke,
+    /// "Maze Solving by Learning State Topologies" (Tingle, Ball, Augat), related work, steps 1 to 6: **first** link the
+    /// two nearest with age 0, then age the winner's edges, add to its error, move, drop old edges, **decay all
+    /// errors, then grow**. The second unit moves as a neighbour, and the new edge ends the step with age 1.
+    Mslst,
+}
+
+/// What the nearest unit w of an input x is charged with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// ‖x − w‖² (Fritzke 1995, equation 4): units come where they lower the mean squared error most.
+    #[default]
+    Squared,
+    /// ‖x − w‖ (the GNG of the Python library MDP): less pull towards outliers.
+    Absolute,
+    /// ‖x − w‖ / ‖x‖ (Provost's code for SODA): the same ratio counts the same near and far. An input of length 0 that is
+    /// not met exactly counts as 1.
+    Relative,
+}
+
+/// When an equilibrium GNG may grow. E is the vector of all errors as they are kept, decayed; N is the number of units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum GrowthGate {
+    /// Always, as long as there is room (Fritzke 1995).
+    #[default]
+    Open,
+    /// mean(E) > threshold (the likely reading of MSLST's "error threshold"). In equilibrium the sum of E is the mean error of an input
+    /// / (1 − d), so growth ends where MSE(N) = N · threshold · (1 − d).
+    MeanError {
+        /// In units of the error: squared units of the features for squared errors. Not negative.
+        threshold: f64,
+    },
+    /// mean(E) · (1 − d) > threshold (Provost's code for SODA, where 1 − d is called β). Growth ends where
+    /// the mean error of an input is N · threshold, whatever the decay.
+    Rate {
+        /// In units of the error per unit of the network. Not negative.
+        threshold: f64,
+    },
+}
+
+/// GNG-U, "A self-organizing network that can follow non-stationary distributions" (Fritzke 1997): the utility of a unit is
+/// how much the error of its inputs would be larger without it, summed and decayed as errors are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Utility {
+    /// k: after each input, the unit of least utility U goes if max(E) > k · U. Small values forget quickly. Above 0.
+    pub threshold: f64,
+}
+
+impl GngConfig {
+    /// The growing neural gas of Fritzke 1995 with the values of its section 4: ε_b 0.2, ε_n 0.006, a_max 50, λ 100, α 0.5, d 0.995.
+    pub fn fritzke() -> Self {
+        Self {
+            winner_rate: 0.2,
+            neighbour_rate: 0.006,
+            max_age: 50,
+            growth_period: 100,
+            split_factor: 0.5,
+            decay: 0.995,
+            max_units: usize::MAX,
+            order: StepOrder::Fritzke,
+            error: ErrorKind::Squared,
+            gate: GrowthGate::Open,
+            utility: None,
+        }
+    }
+
+    /// The equilibrium GNG of MSLST with an error threshold of its table 1, in squared robot units for scans in robot
+    /// units. The paper gives no rates; these are Fritzke's.
+    pub fn mslst(threshold: f64) -> Self {
+        Self {
+            order: StepOrder::Mslst,
+            gate: GrowthGate::MeanError { threshold },
+            ..Self::fritzke()
+        }
+    }
+
+    /// The equilibrium GNG of Provost's code for SODA: ε_b 0.05, ε_n 0.0006, a_max 100, λ 200, d 1 − 0.0005, relative
+    /// errors, and the rate as the gate.
+    pub fn provost(threshold: f64) -> Self {
+        Self {
+            winner_rate: 0.05,
+            neighbour_rate: 0.0006,
+            max_age: 100,
+            growth_period: 200,
+            decay: 1.0 - 0.0005,
+            error: ErrorKind::Relative,
+            gate: GrowthGate::Rate { threshold },
+            ..Self::fritzke()
+        }
+    }
+
+    /// # Errors
+    /// If a field is outside its range.
+    pub(super) fn check(&self) -> Result<(), ConfigError> {
+        let in_unit = "between 0 and 1";
+        let unit = 0.0..=1.0;
+        within(
+            "winner_rate",
+            self.winner_rate,
+            unit.contains(&self.winner_rate),
+            in_unit,
+        )?;
+        within(
+            "neighbour_rate",
+            self.neighbour_rate,
+            unit.contains(&self.neighbour_rate),
+            in_unit,
+        )?;
+        within(
+            "max_age",
+            self.max_age.into(),
+            self.max_age >= 1,
+            "at least 1",
+        )?;
+        within(
+            "growth_period",
+            self.growth_period.into(),
+            self.growth_period >= 1,
+            "at least 1",
+        )?;
+        within(
+            "split_factor",
+            self.split_factor,
+            unit.contains(&self.split_factor),
+            in_unit,
+        )?;
+        within(
+            "decay",
+            self.decay,
+            self.decay > 0.0 && self.decay <= 1.0,
+            "above 0 and at most 1",
+        )?;
+        within(
+            "max_units",
+            self.max_units as f64,
+            self.max_units >= 2,
+            "at least 2",
+        )?;
+        if let GrowthGate::MeanError { threshold } | GrowthGate::Rate { threshold } = self.gate {
+            within(
+                "gate.threshold",
+                threshold,
+                threshold >= 0.0 && threshold.is_finite(),
+                "finite and not negative",
+            )?;
+        }
+        if let Some(Utility { threshold }) = self.utility {
+            within(
+                "utility.threshold",
+                threshold,
+                threshold > 0.0 && threshold.is_finite(),
+                "finite and above 0",
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Default for GngConfig {
+    fn default() -> Self {
+        Self::fritzke()
+    }
+}
+
+fn within(
+    field: &'static str,
+    value: f64,
+    holds: bool,
+    range: &'static str,
+) -> Result<(), ConfigError> {
+    if holds {
+        return Ok(());
+    }
+    Err(ConfigError::OutOfRange {
+        field,
+        value,
+        range,
+    })
+}

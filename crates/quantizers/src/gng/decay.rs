@@ -1,0 +1,43 @@
+//! The errors of all units decay at once.
+
+/// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is kept of a sum is the
+/// sum divided by the factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Decay {
+    factor: f64,
+}
+
+/// Below it the factor is made 1 again: long before numbers lose precision, and so seldom that it costs nothing.
+const SMALLEST: f64 = 1.0 / (1_u64 << 63) as f64;
+
+impl Decay {
+    pub(super) fn none_yet() -> Self {
+        Self { factor: 1.0 }
+    }
+
+    /// What is to be kept for `value`.
+    #[inline]
+    pub(super) fn kept(self, value: f64) -> f64 {
+        value / self.factor
+    }
+
+    /// What the number that was kept stands for.
+    #[inline]
+    pub(super) fn value(self, kept: f64) -> f64 {
+        kept * self.factor
+    }
+
+    /// Multiplies all values by `rate`. If the factor has become too small for that, every kept number has to be
+    /// multiplied by the number that comes back.
+    #[inline]
+    #[must_use]
+    pub(super) fn decay(&mut self, rate: f64) -> Option<f64> {
+        self.factor *= rate;
+        if self.factor >= SMALLEST {
+            return None;
+        }
+        let due = self.factor;
+        self.factor = 1.0;
+        Some(due)
+    }
+}

@@ -1,0 +1,55 @@
+//! Streaming vectors in, a growing graph of prototypes out.
+//!
+//! A quantizer watches one input after the other, each a slice of `f32` or `f64`, and grows a graph: its *units* each hold
+//! a *prototype* near the inputs it stands for, its *edges* join units whose inputs are neighbours. In the order data flows:
+//!
+//! - [`Scalar`]: what an input is made of;
+//! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says;
+//! - the [`Observation`] names the units that it met;
+//! - the [`Network`] has the units, their edges and [`Clusters`], answers which unit is nearest to
+//!   something, and measures the [`QuantizationError`];
+//! - [`Event`]s tell what came and went, for maps that stand on the units.
+//!
+//! ```
+//! use tolman_quantizers::{Gng, GngConfig, Quantizer};
+//!
+//! // Points on two rings, one after the other around each.
+//! let config = GngConfig { max_units: 40, ..GngConfig::default() };
+//! let mut gng = Gng::<f64>::new(2, config)?;
+//! for step in 0..20_000_u32 {
+//!     let angle = f64::from(step) * 0.7;
+//!     let centre = if step % 2 == 0 { -2.0 } else { 2.0 };
+//!     gng.observe(&[centre + angle.cos(), angle.sin()])?;
+//! }
+//! // The graph has found that there are two.
+//! let clusters = gng.network().clusters();
+//! assert_eq!(clusters.count(), 2);
+//! let left = gng.nearest(&[-3.0, 0.0])?.id;
+//! let right = gng.nearest(&[3.0, 0.0])?.id;
+//! assert_ne!(clusters.label(left)?, clusters.label(right)?);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Everything is deterministic: ties go to the smaller id, and nothing here draws random numbers unasked. What is
+//! invalid (NaN, infinities, the wrong size, values whose squares overflow) is refused with a typed error and not learnt.
+#![no_std]
+
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+mod error;
+mod event;
+mod gng;
+mod network;
+mod quantizer;
+mod scalar;
+mod unit;
+
+pub use error::{ConfigError, InputError, UnknownUnit};
+pub use event::Event;
+pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, StepOrder, Utility};
+pub use network::{Clusters, Edge, Network, QuantizationError};
+pub use quantizer::{Observation, Quantizer};
+pub use scalar::Scalar;
+pub use unit::{Nearest, NearestTwo, UnitId};

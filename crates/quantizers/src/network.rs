@@ -1,0 +1,436 @@
+//! Units, their prototypes and their edges: the graph that all quantizers grow.
+
+mod clusters;
+mod links;
+mod measure;
+mod metric;
+mod prototypes;
+mod search;
+
+use alloc::vec::Vec;
+
+use links::Links;
+use metric::Metric;
+use prototypes::Prototypes;
+use search::{Masked, Plain, Weighted, scan};
+
+use crate::event::EventLog;
+use crate::{ConfigError, Event, InputError, Nearest, NearestTwo, Scalar, UnitId, UnknownUnit};
+
+pub use clusters::Clusters;
+pub use measure::QuantizationError;
+pub(crate) use search::{Best, Candidate};
+
+/// The units of a quantizer, their prototypes and the edges between them.
+///
+/// Between calls that learn, the graph has no unit twice, no edge from a unit to itself, and each edge
+/// both ways. Ids are ascending in the order in which units came.
+///
+/// # For those who write a quantizer
+/// Inside this crate units are addressed by *slots*. Slots ascend with ids and stay what they are until
+/// `tidy`, which closes the gaps that removed units leave.
+#[derive(Clone, Debug)]
+pub struct Network<S> {
+    metric: Metric<S>,
+    prototypes: Prototypes<S>,
+    links: Links,
+    /// The id of each slot, ascending.
+    ids: Vec<UnitId>,
+    /// Whether the unit of the slot is still there.
+    live: Vec<bool>,
+    len: usize,
+    next_id: u32,
+    log: EventLog,
+    /// The new numbers of slots while gaps are closed; kept so as not to allocate.
+    renumbered: Vec<u32>,
+}
+
+impl<S: Scalar> Network<S> {
+    /// An empty network for inputs of `dimension` features.
+    pub(crate) fn new(dimension: usize) -> Result<Self, ConfigError> {
+        Ok(Self::with_metric(Metric::uniform(dimension)?))
+    }
+
+    /// An empty network whose distance is Σ w (x − p)².
+    pub(crate) fn weighted(weights: &[S]) -> Result<Self, ConfigError> {
+        Ok(Self::with_metric(Metric::weighted(weights)?))
+    }
+
+    fn with_metric(metric: Metric<S>) -> Self {
+        Self {
+            prototypes: Prototypes::new(metric.dimension()),
+            metric,
+            links: Links::new(),
+            ids: Vec::new(),
+            live: Vec::new(),
+            len: 0,
+            next_id: 0,
+            log: EventLog::default(),
+            renumbered: Vec::new(),
+        }
+    }
+
+    /// How many features an input has.
+    pub fn dimension(&self) -> usize {
+        self.prototypes.dimension()
+    }
+
+    /// The weights of the features in the squared distance; none if all are 1.
+    pub fn weights(&self) -> Option<&[S]> {
+        self.metric.weights()
+    }
+
+    /// How many units there are.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no units, which is so until the first input.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Whether the unit is there.
+    pub fn contains(&self, id: UnitId) -> bool {
+        self.slot(id).is_ok()
+    }
+
+    /// The ids of all units, ascending.
+    pub fn ids(&self) -> impl Iterator<Item = UnitId> + '_ {
+        self.slots().map(|slot| self.ids[slot])
+    }
+
+    /// The features of a unit's prototype, in order.
+    ///
+    /// # Errors
+    /// If there is no such unit.
+    pub fn prototype(
+        &self,
+        id: UnitId,
+    ) -> Result<impl ExactSizeIterator<Item = S> + Clone + '_, UnknownUnit> {
+        Ok(self.values(self.slot(id)?))
+    }
+
+    /// The units that share an edge with a unit, ascending.
+    ///
+    /// # Errors
+    /// If there is no such unit.
+    pub fn neighbours(&self, id: UnitId) -> Result<impl Iterator<Item = UnitId> + '_, UnknownUnit> {
+        let slot = self.slot(id)?;
+        Ok(self.links.neighbours(slot).map(|other| self.ids[other]))
+    }
+
+    /// All edges, each once with the smaller id first, in ascending order.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
+        self.slots().flat_map(move |slot| {
+            self.links
+                .ages(slot)
+                .filter(move |(other, _)| slot < *other)
+                .map(move |(other, age)| Edge {
+                    ends: (self.ids[slot], self.ids[other]),
+                    age,
+                })
+        })
+    }
+
+    /// The unit nearest to `input`, the one with the smaller id of equally near ones.
+    ///
+    /// # Errors
+    /// If the input is invalid or there are no units.
+    ///
+    /// # Complexity
+    /// Units × features.
+    pub fn nearest(&self, input: &[S]) -> Result<Nearest<S>, InputError> {
+        Ok(self.nearest_two(input)?.first)
+    }
+
+    /// The two units nearest to `input`; ties go to the smaller id.
+    ///
+    /// # Errors
+    /// As [`nearest`](Self::nearest).
+    pub fn nearest_two(&self, input: &[S]) -> Result<NearestTwo<S>, InputError> {
+        self.metric.check(input)?;
+        self.named(self.search(input))
+    }
+
+    /// The two units nearest to `input` in the features whose `mask` is true. The others of `input` are not
+    /// read, and may be anything. Weights hold as ever.
+    ///
+    /// # Errors
+    /// As [`nearest`](Self::nearest), or if the mask has the wrong size or leaves nothing to compare.
+    pub fn nearest_two_masked(
+        &self,
+        input: &[S],
+        mask: &[bool],
+    ) -> Result<NearestTwo<S>, InputError> {
+        self.metric.check_masked(input, mask)?;
+        let mut best = Best::none();
+        let blocks = self.prototypes.blocks();
+        match self.metric.weights() {
+            None => scan(blocks, input, Masked(Plain, mask), &mut best),
+            Some(weights) => scan(blocks, input, Masked(Weighted(weights), mask), &mut best),
+        }
+        self.named(best)
+    }
+
+    /// Begins to keep events. Without it, none are kept.
+    pub fn listen(&mut self) {
+        self.log.listen();
+    }
+
+    /// The events since [`listen`](Self::listen) or the last call, oldest first.
+    pub fn drain_events(&mut self) -> impl Iterator<Item = Event> + '_ {
+        self.log.drain()
+    }
+
+    /// Where the unit is until gaps are closed.
+    pub(crate) fn slot(&self, id: UnitId) -> Result<usize, UnknownUnit> {
+        match self.ids.binary_search(&id) {
+            Ok(slot) if self.live[slot] => Ok(slot),
+            _ => Err(UnknownUnit(id)),
+        }
+    }
+
+    fn named(&self, best: Best<S>) -> Result<NearestTwo<S>, InputError> {
+        Ok(NearestTwo {
+            first: self.found(best.first).ok_or(InputError::NoUnits)?,
+            second: self.found(best.second),
+        })
+    }
+}
+
+/// What quantizers do to the graph.
+impl<S: Scalar> Network<S> {
+    pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
+        self.metric.check(input)
+    }
+
+    /// The two nearest slots to a valid input.
+    pub(crate) fn search(&self, input: &[S]) -> Best<S> {
+        let mut best = Best::none();
+        let blocks = self.prototypes.blocks();
+        match self.metric.weights() {
+            None => scan(blocks, input, Plain, &mut best),
+            Some(weights) => scan(blocks, input, Weighted(weights), &mut best),
+        }
+        best
+    }
+
+    /// The unit nearest to another unit, if there are two.
+    pub(crate) fn nearest_other(&self, slot: usize) -> Option<usize> {
+        let prototype: Vec<S> = self.values(slot).collect();
+        let best = self.search(&prototype);
+        let candidates = [best.first, best.second];
+        let mut slots = candidates.iter().map(|candidate| candidate.slot as usize);
+        slots.find(|other| *other != slot && *other < self.ids.len())
+    }
+
+    /// A candidate by name, if there was one.
+    pub(crate) fn found(&self, candidate: Candidate<S>) -> Option<Nearest<S>> {
+        let id = self.ids.get(candidate.slot as usize)?;
+        Some(Nearest {
+            id: *id,
+            squared_distance: candidate.squared_distance,
+        })
+    }
+
+    /// A unit at distance 0: the one that was made of the input.
+    pub(crate) fn at(&self, slot: usize) -> Nearest<S> {
+        Nearest {
+            id: self.ids[slot],
+            squared_distance: S::ZERO,
+        }
+    }
+
+    /// ‖x‖² of an input, as the distance measures it.
+    pub(crate) fn squared_length(&self, input: &[S]) -> f64 {
+        let squares = input.iter().enumerate().map(|(feature, value)| {
+            let weight = self
+                .weights()
+                .map_or(1.0, |weights| weights[feature].to_f64());
+            weight * (value.to_f64() * value.to_f64())
+        });
+        squares.sum()
+    }
+
+    /// The slots of all units, ascending.
+    pub(crate) fn slots(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        self.live
+            .iter()
+            .enumerate()
+            .filter(|(_, live)| **live)
+            .map(|(slot, _)| slot)
+    }
+
+    pub(crate) fn links(&self) -> &Links {
+        &self.links
+    }
+
+    pub(crate) fn values(&self, slot: usize) -> impl ExactSizeIterator<Item = S> + Clone + '_ {
+        self.prototypes.values(slot)
+    }
+
+    /// Whether another unit can be named. After 2³² − 1 there are no more ids.
+    pub(crate) fn has_ids_left(&self) -> bool {
+        self.next_id < u32::MAX
+    }
+
+    /// A new unit at `prototype`, without edges; its slot is the last.
+    pub(crate) fn insert(&mut self, prototype: &[S]) -> usize {
+        let slot = self.prototypes.push();
+        for (feature, value) in prototype.iter().enumerate() {
+            self.prototypes.put(slot, feature, *value);
+        }
+        self.enter(None)
+    }
+
+    /// A new unit half-way between two, without edges; its slot is the last.
+    pub(crate) fn insert_between(&mut self, a: usize, b: usize) -> usize {
+        let half = S::from_f64(0.5);
+        let slot = self.prototypes.push();
+        for feature in 0..self.dimension() {
+            let middle = half * (self.prototypes.at(a, feature) + self.prototypes.at(b, feature));
+            self.prototypes.put(slot, feature, middle);
+        }
+        self.enter(Some((self.ids[a], self.ids[b])))
+    }
+
+    fn enter(&mut self, between: Option<(UnitId, UnitId)>) -> usize {
+        let id = UnitId(self.next_id);
+        self.next_id += 1;
+        self.links.push();
+        self.ids.push(id);
+        self.live.push(true);
+        self.len += 1;
+        self.log.push(Event::Inserted { id, between });
+        self.ids.len() - 1
+    }
+
+    /// Takes a unit and its edges away.
+    pub(crate) fn remove(&mut self, slot: usize) {
+        while let Some((other, _)) = self.links.last(slot) {
+            self.cut(slot, other);
+        }
+        self.leave(slot);
+        self.log.push(Event::Removed { id: self.ids[slot] });
+    }
+
+    /// Makes one unit part of another, which takes over its edges with their ages, the younger one
+    /// where both had one.
+    pub(crate) fn merge(&mut self, gone: usize, into: usize) {
+        while let Some((other, age)) = self.links.last(gone) {
+            self.cut(gone, other);
+            if other != into {
+                let own = self.links.ages(into).find(|(end, _)| *end == other);
+                self.link(into, other, own.map_or(age, |(_, own)| own.min(age)));
+            }
+        }
+        self.leave(gone);
+        self.log.push(Event::Merged {
+            gone: self.ids[gone],
+            into: self.ids[into],
+        });
+    }
+
+    fn leave(&mut self, slot: usize) {
+        self.prototypes.vacate(slot);
+        self.live[slot] = false;
+        self.len -= 1;
+    }
+
+    /// An edge of the given age between two units, new or not.
+    #[inline]
+    pub(crate) fn link(&mut self, a: usize, b: usize, age: u32) {
+        if self.links.renew(a, b, age) {
+            let (low, high) = (self.ids[a.min(b)], self.ids[a.max(b)]);
+            self.log.push(Event::Linked(low, high));
+        }
+    }
+
+    /// Takes an edge away, if there is one.
+    pub(crate) fn cut(&mut self, a: usize, b: usize) {
+        if self.links.cut(a, b) {
+            let (low, high) = (self.ids[a.min(b)], self.ids[a.max(b)]);
+            self.log.push(Event::Unlinked(low, high));
+        }
+    }
+
+    /// Ages the edges of a unit by one.
+    #[inline]
+    pub(crate) fn age_edges(&mut self, slot: usize) {
+        self.links.age(slot);
+    }
+
+    /// Takes away the edges of a unit that are older than `max_age`, then its former neighbours
+    /// that have no edge left.
+    #[inline]
+    pub(crate) fn drop_old_edges(&mut self, slot: usize, max_age: u32) {
+        for place in (0..self.links.degree(slot)).rev() {
+            let (other, age) = self.links.at(slot, place);
+            if age > max_age {
+                self.cut(slot, other);
+                if self.links.degree(other) == 0 {
+                    self.remove(other);
+                }
+            }
+        }
+    }
+
+    /// Moves a unit by `rate` of the way to `target`.
+    #[inline]
+    pub(crate) fn approach(&mut self, slot: usize, target: &[S], rate: S) {
+        self.prototypes.approach(slot, target, rate);
+    }
+
+    /// Moves the neighbours of a unit by `rate` of the way to `target`.
+    #[inline]
+    pub(crate) fn approach_neighbours(&mut self, slot: usize, target: &[S], rate: S) {
+        for other in self.links.neighbours(slot) {
+            self.prototypes.approach(other, target, rate);
+        }
+    }
+
+    /// Closes the gaps that removed units left if it is worthwhile, in `per_unit` as well, which has one item
+    /// a slot. Slots known from before are void.
+    #[inline]
+    pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
+        let blocks = |units: usize| units.div_ceil(prototypes::LANES);
+        let used = blocks(self.ids.len());
+        // An eighth of the blocks, so that a gap costs little per removal and little per search.
+        if blocks(self.len) + (used / 8).max(1) <= used {
+            self.close_gaps(per_unit);
+        }
+    }
+
+    #[cold]
+    fn close_gaps<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
+        self.renumbered.clear();
+        let mut to = 0;
+        for from in 0..self.ids.len() {
+            if !self.live[from] {
+                self.renumbered.push(u32::MAX);
+                continue;
+            }
+            self.renumbered.push(to as u32);
+            self.prototypes.copy(from, to);
+            self.ids[to] = self.ids[from];
+            per_unit[to] = per_unit[from];
+            to += 1;
+        }
+        self.prototypes.truncate(to);
+        self.links.renumber(&self.renumbered);
+        self.ids.truncate(to);
+        self.live.clear();
+        self.live.resize(to, true);
+        per_unit.truncate(to);
+    }
+}
+
+/// An edge and how often its ends have won since it was made or renewed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// The units it joins, the smaller id first.
+    pub ends: (UnitId, UnitId),
+    /// In inputs that one of its ends has won.
+    pub age: u32,
+}

@@ -1,0 +1,50 @@
+//! How well the prototypes stand for a set of inputs.
+
+use super::Network;
+use crate::{InputError, Scalar};
+
+/// How far inputs are from their nearest units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QuantizationError {
+    /// The mean of the squared distances (MSE).
+    pub mean_squared: f64,
+    /// The mean of the distances.
+    pub mean: f64,
+    /// The largest distance.
+    pub largest: f64,
+    /// How many inputs were measured.
+    pub inputs: usize,
+}
+
+impl<S: Scalar> Network<S> {
+    /// The quantization error over a set of inputs, in the distance of the network.
+    ///
+    /// # Errors
+    /// If an input is invalid, there are none, or the network has no units.
+    ///
+    /// # Complexity
+    /// A search of the nearest unit for each input.
+    pub fn quantization_error<I>(&self, inputs: I) -> Result<QuantizationError, InputError>
+    where
+        I: IntoIterator<Item: AsRef<[S]>>,
+    {
+        let (mut squares, mut distances, mut largest, mut count) = (0.0, 0.0, 0.0_f64, 0_usize);
+        for input in inputs {
+            let squared = self.nearest(input.as_ref())?.squared_distance.to_f64();
+            let distance = libm::sqrt(squared);
+            squares += squared;
+            distances += distance;
+            largest = largest.max(distance);
+            count += 1;
+        }
+        if count == 0 {
+            return Err(InputError::NoInputs);
+        }
+        Ok(QuantizationError {
+            mean_squared: squares / count as f64,
+            mean: distances / count as f64,
+            largest,
+            inputs: count,
+        })
+    }
+}

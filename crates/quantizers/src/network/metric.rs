@@ -1,0 +1,138 @@
+//! What a valid input is, and how far two of them are apart.
+
+use alloc::boxed::Box;
+
+use crate::{ConfigError, InputError, Scalar};
+
+/// Σ w (x − p)² over the features of inputs of one size.
+#[derive(Clone, Debug)]
+pub(crate) struct Metric<S> {
+    dimension: usize,
+    /// One weight a feature, or none if all are 1.
+    weights: Option<Box<[S]>>,
+    /// No feature may be larger, so that no squared distance overflows.
+    limit: S,
+}
+
+impl<S: Scalar> Metric<S> {
+    /// All weights 1.
+    pub(crate) fn uniform(dimension: usize) -> Result<Self, ConfigError> {
+        if dimension == 0 {
+            return Err(ConfigError::NoFeatures);
+        }
+        Ok(Self {
+            dimension,
+            weights: None,
+            limit: limit::<S>(dimension as f64),
+        })
+    }
+
+    /// The weights of the squares, one a feature.
+    pub(crate) fn weighted(weights: &[S]) -> Result<Self, ConfigError> {
+        let mut total = 0.0;
+        for (feature, weight) in weights.iter().enumerate() {
+            if !weight.is_finite() || *weight < S::ZERO {
+                let value = weight.to_f64();
+                return Err(ConfigError::BadWeight { feature, value });
+            }
+            total += weight.to_f64();
+        }
+        if weights.is_empty() {
+            return Err(ConfigError::NoFeatures);
+        }
+        if total <= 0.0 {
+            return Err(ConfigError::NoWeight);
+        }
+        Ok(Self {
+            dimension: weights.len(),
+            weights: Some(weights.into()),
+            // The unweighted distance must not overflow either: relative errors ask for it.
+            limit: limit::<S>(total.max(weights.len() as f64)),
+        })
+    }
+
+    pub(crate) fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    pub(crate) fn weights(&self) -> Option<&[S]> {
+        self.weights.as_deref()
+    }
+
+    /// Whether `input` can be learnt or asked for.
+    #[inline]
+    pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
+        if input.len() != self.dimension {
+            return Err(InputError::WrongDimension {
+                expected: self.dimension,
+                found: input.len(),
+            });
+        }
+        // A comparison with NaN is false, so this catches it as well.
+        if input.iter().all(|value| self.allows(*value)) {
+            return Ok(());
+        }
+        let bad = input.iter().position(|value| !self.allows(*value));
+        bad.map_or(
+            Ok(()),
+            |feature| Err(self.complain(feature, input[feature])),
+        )
+    }
+
+    /// Whether `input` can be asked for where `mask` is true.
+    pub(crate) fn check_masked(&self, input: &[S], mask: &[bool]) -> Result<(), InputError> {
+        if input.len() != self.dimension {
+            return Err(InputError::WrongDimension {
+                expected: self.dimension,
+                found: input.len(),
+            });
+        }
+        if mask.len() != self.dimension {
+            return Err(InputError::WrongMask {
+                expected: self.dimension,
+                found: mask.len(),
+            });
+        }
+        let mut counts = false;
+        for (feature, (value, compared)) in input.iter().zip(mask).enumerate() {
+            if *compared {
+                if !self.allows(*value) {
+                    return Err(self.complain(feature, *value));
+                }
+                counts |= self
+                    .weights()
+                    .is_none_or(|weights| weights[feature] > S::ZERO);
+            }
+        }
+        if counts {
+            Ok(())
+        } else {
+            Err(InputError::NothingCompared)
+        }
+    }
+
+    #[inline(always)]
+    fn allows(&self, value: S) -> bool {
+        value <= self.limit && S::ZERO - value <= self.limit
+    }
+
+    #[cold]
+    fn complain(&self, feature: usize, value: S) -> InputError {
+        let value = value.to_f64();
+        if value.is_finite() {
+            let limit = self.limit.to_f64();
+            InputError::TooLarge {
+                feature,
+                value,
+                limit,
+            }
+        } else {
+            InputError::NotFinite { feature, value }
+        }
+    }
+}
+
+/// Two values within ± limit are at most 2 limits apart; prototypes may miss the limit by a rounding, so 4.
+fn limit<S: Scalar>(total_weight: f64) -> S {
+    S::from_f64(libm::sqrt(S::MAX_SQUARED_DISTANCE / total_weight) / 4.0)
+}
