@@ -15,6 +15,7 @@ pub mod draw;
 pub mod episode;
 pub mod experiment;
 pub mod files;
+pub mod mms;
 pub mod pioneer;
 pub mod report;
 pub mod stats;

@@ -9,6 +9,7 @@ mod failure;
 mod file;
 mod man;
 mod maze;
+mod mms_host;
 mod run;
 mod stdout;
 
@@ -41,6 +42,7 @@ enum Verb {
     Run(run::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
+    MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
@@ -70,6 +72,7 @@ impl Verb {
         match self {
             Self::Run(arguments) => run::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),
+            Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(&arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),
             Self::Man(arguments) => man::carry_out(&arguments, out),

@@ -8,6 +8,8 @@
 mod experiment;
 mod help;
 mod maze;
+#[cfg(unix)]
+mod mms_host;
 mod run;
 
 use std::io::Write;

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use tolman_maze::MazeFile;
@@ -30,6 +30,33 @@ pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
     tolman_maze::parse(&text)
         .with_context(|| name(path))
         .or_bad_input()
+}
+
+/// The maze files that a path names: itself, or what lies in the folder, by name, without hidden files.
+///
+/// # Errors
+/// If the folder cannot be read or holds no file.
+pub(in crate::cli) fn files(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let listed = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+    let mut files: Vec<PathBuf> = listed
+        .with_context(|| format!("cannot list {}", path.display()))
+        .or_bad_input()?
+        .iter()
+        .filter(|entry| !entry.file_name().as_encoded_bytes().starts_with(b"."))
+        .map(fs::DirEntry::path)
+        .filter(|path| path.is_file())
+        .collect();
+    files.sort();
+    if files.is_empty() {
+        return Err(Failure::BadInput(anyhow!(
+            "{} holds no file: name a folder of mazes",
+            path.display()
+        )));
+    }
+    Ok(files)
 }
 
 /// What messages call a file.

@@ -13,7 +13,7 @@ use std::io::Write;
 use clap::Subcommand;
 
 use super::failure::Failure;
-pub(super) use input::{name, read};
+pub(super) use input::{files, name, read};
 
 /// Looks at mazes, checks, converts and makes them
 #[derive(Subcommand)]
