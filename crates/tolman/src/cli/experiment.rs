@@ -1,17 +1,16 @@
 //! `tolman experiment`: runs papers' tables and shows them beside the papers'.
 
 use alloc::sync::Arc;
-use core::sync::atomic::{AtomicBool, Ordering};
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
 use tolman::experiment::{
-    Build, Disagreement, Error, Ink, Options, Program, Terminal, catalogue, execute, open,
+    Build, Disagreement, Error, Options, Program, Terminal, catalogue, execute, open,
     tables_as_text,
 };
 
-use super::Failure;
+use super::{Failure, ink, interrupt};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results
 #[derive(clap::Args)]
@@ -63,7 +62,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Ok(());
     }
     let build = Build::current();
-    let stop = stop_on_ctrl_c()?;
+    // The first Ctrl-C lets the runs that are being played finish.
+    let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();
     for (name, options) in arguments.chosen() {
         let experiment = open(name, &options).map_err(classify)?;
@@ -138,25 +138,3 @@ fn told(disagreement: &Disagreement) -> String {
         accepted.low, accepted.high
     )
 }
-
-fn ink() -> Ink {
-    match anstream::AutoStream::choice(&io::stdout()) {
-        anstream::ColorChoice::Never => Ink::Plain,
-        _ => Ink::Coloured,
-    }
-}
-
-/// The first Ctrl-C lets the runs that are being played finish, the second ends the program.
-fn stop_on_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let asked = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if asked.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED);
-        }
-    })?;
-    Ok(stop)
-}
-
-/// The exit code by which shells know a program that Ctrl-C ended.
-const INTERRUPTED: i32 = 130;

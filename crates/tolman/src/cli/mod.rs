@@ -7,6 +7,7 @@ mod completions;
 mod experiment;
 mod failure;
 mod file;
+mod interrupt;
 mod man;
 mod maze;
 mod mms_host;
@@ -18,7 +19,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
-use stdout::Stdout;
+use stdout::{Stdout, ink};
 
 /// Robots with laser rings in mazes: runs them, measures them, and sets them beside the papers.
 #[derive(Parser)]

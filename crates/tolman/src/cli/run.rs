@@ -1,6 +1,7 @@
 //! `tolman run`: one robot, one maze, one seed.
 
 mod brain;
+mod live;
 mod picture;
 mod start;
 mod trace;
@@ -10,6 +11,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use brain::Brain;
+use live::Live;
 use serde_json::json;
 use start::Start;
 use tolman::agents::Cast;
@@ -29,6 +31,7 @@ that line.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
+  tolman run wall-follow --maze mazes/large.maze --live
   tolman run avoid --maze taiwan2016f.txt --start marked --steps 20000")]
 pub(super) struct Arguments {
     /// Who chooses the actions
@@ -52,6 +55,9 @@ pub(super) struct Arguments {
     /// many for each metre as the Large maze's 500
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
+    /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops looking
+    #[arg(long)]
+    live: bool,
     /// Draw its way over the maze
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -81,10 +87,22 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let mut mind = Cast::default()
         .mind(arguments.brain.0, &course, &robot)
         .map_err(classify)?;
+    let mut live = match arguments.live {
+        true => Some(Live::open(&trial, &arguments.brain.to_string())?),
+        false => None,
+    };
     let mut commands = Vec::new();
-    let episode =
-        episode::run(&trial, &mut mind, |step| commands.push(step.command)).map_err(classify)?;
+    let episode = episode::run(&trial, &mut mind, |step| {
+        commands.push(step.command);
+        if let Some(live) = &mut live {
+            live.watch(step);
+        }
+    })
+    .map_err(classify)?;
     let told = arguments.told(&episode);
+    if let Some(live) = live {
+        live.close(&told).context("the terminal has gone")?;
+    }
     if let Some(path) = &arguments.trace {
         file::write_bytes(path, &trace::of(&trial, &commands)?)?;
     }

@@ -2,6 +2,8 @@
 
 use std::io::{self, BufWriter, StdoutLock, Write};
 
+use tolman::experiment::Ink;
+
 /// Where results go. Unlike `println!` it does not panic when nobody reads on.
 pub(super) struct Stdout(BufWriter<StdoutLock<'static>>);
 
@@ -26,4 +28,12 @@ fn named(error: &io::Error) -> io::Error {
         error.kind(),
         format!("cannot write to standard output: {error}"),
     )
+}
+
+/// Whether colours are wanted there.
+pub(super) fn ink() -> Ink {
+    match anstream::AutoStream::choice(&io::stdout()) {
+        anstream::ColorChoice::Never => Ink::Plain,
+        _ => Ink::Coloured,
+    }
 }

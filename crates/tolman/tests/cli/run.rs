@@ -59,6 +59,14 @@ fn a_picture_is_drawn() {
 }
 
 #[test]
+fn a_run_that_is_watched_where_there_is_no_terminal_is_the_same_run() {
+    for json in [&[][..], &["--json"][..]] {
+        let told = run(json).done();
+        assert_eq!(run(&[json, &["--live"][..]].concat()).done(), told);
+    }
+}
+
+#[test]
 fn an_unknown_brain_is_refused_with_those_there_are() {
     tolman(&["run", "genius", "--maze", "x"]).refused(2, &["genius", "wall-follow", "oracle"]);
 }

@@ -1,0 +1,119 @@
+//! A run shown as it goes: on the terminal, or as one line where there is none to draw on.
+//!
+//! Nothing of the run depends on who looks: it is made step by step as ever, and each step waits until it has
+//! been shown.
+
+mod pace;
+mod palette;
+mod picture;
+mod screen;
+mod view;
+mod window;
+mod wish;
+
+use std::io::{self, IsTerminal};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use ratatui::crossterm::terminal;
+use screen::{Attention, Screen};
+use tolman::episode::{Step, Trial};
+use view::{LEAST_COLUMNS, LEAST_ROWS, View};
+
+use crate::cli::{Failure, ink, interrupt};
+
+/// Somebody's view of a run.
+#[derive(Debug)]
+pub(super) struct Live<'a> {
+    seen: Seen<'a>,
+}
+
+#[derive(Debug)]
+enum Seen<'a> {
+    /// On the whole terminal, at the pace of who looks.
+    Screen(Box<Screen<'a>>),
+    /// As a line on stderr, as fast as it goes.
+    Line(ProgressBar),
+    /// No more: who looked has seen enough, or the terminal has gone.
+    Closed(io::Result<()>),
+}
+
+impl<'a> Live<'a> {
+    /// A view of the run that is about to be made of `trial`.
+    pub(super) fn open(trial: &'a Trial<'a>, brain: &str) -> Result<Self, Failure> {
+        if on_terminal() {
+            let view = View::new(trial, brain, ink());
+            // A terminal that cannot be drawn on, as without a keyboard, gets the line.
+            if let Ok(screen) = Screen::open(view, interrupt::flag()?) {
+                let mut live = Self {
+                    seen: Seen::Screen(Box::new(screen)),
+                };
+                live.wait();
+                return Ok(live);
+            }
+        }
+        let line = ProgressBar::with_draw_target(
+            Some(u64::from(trial.step_limit)),
+            ProgressDrawTarget::stderr(),
+        );
+        Ok(Self {
+            seen: Seen::Line(line.with_style(style())),
+        })
+    }
+
+    /// Shows one more step until the next is due.
+    pub(super) fn watch(&mut self, step: &Step<'_>) {
+        match &mut self.seen {
+            Seen::Screen(screen) => {
+                screen.view().take(step);
+                self.wait();
+            }
+            Seen::Line(line) => {
+                let position = step.robot.truth().pose.position;
+                line.set_message(format!("{:.2}, {:.2} m", position.x, position.y));
+                line.inc(1);
+            }
+            Seen::Closed(_) => {}
+        }
+    }
+
+    fn wait(&mut self) {
+        if let Seen::Screen(screen) = &mut self.seen {
+            match screen.until_next_step() {
+                Ok(Attention::Stays) => {}
+                Ok(Attention::Goes) => self.seen = Seen::Closed(Ok(())),
+                Err(error) => self.seen = Seen::Closed(Err(error)),
+            }
+        }
+    }
+
+    /// Shows the outcome until who looks has seen enough.
+    ///
+    /// # Errors
+    /// If the terminal has gone meanwhile.
+    pub(super) fn close(self, told: &str) -> io::Result<()> {
+        match self.seen {
+            Seen::Screen(mut screen) => {
+                screen.view().told = Some(told.to_owned());
+                screen.until_closed()
+            }
+            Seen::Line(line) => {
+                line.finish_and_clear();
+                Ok(())
+            }
+            Seen::Closed(done) => done,
+        }
+    }
+}
+
+/// Whether stdout is a terminal large and able enough to draw on.
+fn on_terminal() -> bool {
+    // Unix names its terminals; one without a name can do as little as a dumb one.
+    let able = std::env::var_os("TERM").map_or(cfg!(windows), |terminal| terminal != "dumb");
+    let large = |(columns, rows)| columns >= LEAST_COLUMNS && rows >= LEAST_ROWS;
+    able && io::stdout().is_terminal() && terminal::size().is_ok_and(large)
+}
+
+fn style() -> ProgressStyle {
+    ProgressStyle::with_template("{bar:30} step {pos} of {len}, at {msg}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+}

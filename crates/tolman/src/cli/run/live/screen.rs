@@ -1,0 +1,174 @@
+//! A run on a terminal of its own: draws it, keeps its pace, listens to the keys.
+
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
+use std::io;
+use std::time::Instant;
+
+use ratatui::DefaultTerminal;
+use ratatui::crossterm::event::{self, Event};
+
+use super::pace::{Motion, Pace};
+use super::view::View;
+use super::wish::Wish;
+use crate::cli::interrupt::INTERRUPTED;
+
+/// Between two frames at least.
+const FRAME: Duration = Duration::from_millis(33);
+
+/// So often it is looked whether the program is to end, if nothing else happens.
+const GLANCE: Duration = Duration::from_millis(100);
+
+/// A run on the terminal, which is given back when this is dropped.
+#[derive(Debug)]
+pub(super) struct Screen<'a> {
+    terminal: DefaultTerminal,
+    view: View<'a>,
+    pace: Pace,
+    /// When the next step is due.
+    due: Instant,
+    /// When the last frame was drawn, and whether it is out of date.
+    drawn: Instant,
+    stale: bool,
+    interrupted: Arc<AtomicBool>,
+}
+
+/// Whether somebody still looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Attention {
+    Stays,
+    Goes,
+}
+
+impl<'a> Screen<'a> {
+    /// Takes the terminal and shows the run before its first step. A panic gives the terminal back too.
+    ///
+    /// # Errors
+    /// If there is no terminal that can be drawn on; it is then as it was.
+    pub(super) fn open(view: View<'a>, interrupted: Arc<AtomicBool>) -> io::Result<Self> {
+        let terminal = ratatui::try_init().inspect_err(|_| give_back())?;
+        let now = Instant::now();
+        Ok(Self {
+            terminal,
+            view,
+            pace: Pace::default(),
+            due: now,
+            drawn: now,
+            stale: true,
+            interrupted,
+        })
+    }
+
+    pub(super) const fn view(&mut self) -> &mut View<'a> {
+        self.stale = true;
+        &mut self.view
+    }
+
+    /// Shows what there is until the next step is due.
+    ///
+    /// # Errors
+    /// If the terminal has gone.
+    pub(super) fn until_next_step(&mut self) -> io::Result<Attention> {
+        let now = Instant::now();
+        // Behind by more than a moment, as after a pause: nothing to catch up with.
+        let late = now.saturating_duration_since(self.due) > GLANCE;
+        self.due = if late { now } else { self.due } + self.pace.period();
+        loop {
+            let now = Instant::now();
+            let left = match self.pace.motion {
+                Motion::Running => self.due.saturating_duration_since(now),
+                Motion::Paused => GLANCE,
+            };
+            let wish = self.wish(left)?;
+            match wish {
+                Some(Wish::Step) => {
+                    self.pace.motion = Motion::Paused;
+                    self.stale = true;
+                    return Ok(Attention::Stays);
+                }
+                Some(Wish::Close) => return Ok(Attention::Goes),
+                Some(wish) => self.grant(wish),
+                None if left.is_zero() => return Ok(Attention::Stays),
+                None => {}
+            }
+        }
+    }
+
+    /// Shows what there is until somebody has seen enough.
+    ///
+    /// # Errors
+    /// If the terminal has gone.
+    pub(super) fn until_closed(&mut self) -> io::Result<()> {
+        loop {
+            match self.wish(GLANCE)? {
+                Some(Wish::Close) => return Ok(()),
+                Some(wish) => self.grant(wish),
+                None => {}
+            }
+        }
+    }
+
+    fn grant(&mut self, wish: Wish) {
+        self.stale = true;
+        match wish {
+            Wish::PauseOrGoOn => {
+                self.pace.pause_or_go_on();
+                self.due = Instant::now();
+            }
+            Wish::Faster => {
+                self.pace.faster();
+                self.due = self.due.min(Instant::now() + self.pace.period());
+            }
+            Wish::Slower => self.pace.slower(),
+            Wish::Beams => self.view.show_or_hide_beams(),
+            Wish::Interrupt => {
+                give_back();
+                std::process::exit(INTERRUPTED);
+            }
+            Wish::Step | Wish::Close => {}
+        }
+    }
+
+    /// Draws what is stale and waits for a key, `at_most` so long.
+    fn wish(&mut self, at_most: Duration) -> io::Result<Option<Wish>> {
+        if self.interrupted.load(Ordering::Relaxed) {
+            return Ok(Some(Wish::Interrupt));
+        }
+        let mut wait = at_most.min(GLANCE);
+        if self.stale {
+            let age = self.drawn.elapsed();
+            if age >= FRAME {
+                let Self { view, pace, .. } = self;
+                self.terminal.draw(|frame| view.draw(frame, *pace))?;
+                self.drawn = Instant::now();
+                self.stale = false;
+            } else {
+                wait = wait.min(FRAME - age);
+            }
+        }
+        if !event::poll(wait)? {
+            return Ok(None);
+        }
+        match event::read()? {
+            Event::Key(key) => Ok(Wish::of(&key)),
+            _ => {
+                self.stale = true;
+                Ok(None)
+            }
+        }
+    }
+}
+
+impl Drop for Screen<'_> {
+    fn drop(&mut self) {
+        give_back();
+        // Nobody asks any more: from here on the first Ctrl-C ends the program.
+        self.interrupted.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Makes the terminal what it was. One that has gone needs nothing.
+fn give_back() {
+    let _ = ratatui::try_restore();
+}

@@ -1,0 +1,333 @@
+//! What is known of the run so far, and the frame that shows it.
+
+use alloc::collections::VecDeque;
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Style, Stylize};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Borders, Padding, Paragraph, Wrap};
+use tolman::episode::{Step, Trial};
+use tolman::experiment::Ink;
+use tolman_control::Outcome;
+use tolman_geom::{Point, Pose};
+use tolman_maze::Direction;
+use tolman_robot::{Robot, Scan};
+
+use super::pace::{Motion, Pace};
+use super::palette::Palette;
+use super::picture;
+use super::wish::Wish;
+
+/// The smallest terminal in which something is to be seen.
+pub(super) const LEAST_COLUMNS: u16 = 50;
+pub(super) const LEAST_ROWS: u16 = 16;
+
+/// The panel with the numbers, columns.
+const PANEL: u16 = 27;
+
+/// So many steps back the trail goes.
+const TRAIL: usize = 2000;
+
+/// A run so far.
+#[derive(Debug)]
+pub(super) struct View<'a> {
+    pub(super) trial: &'a Trial<'a>,
+    /// Who chooses the actions.
+    brain: String,
+    pub(super) palette: Palette,
+    /// Steps made.
+    step: u32,
+    time_us: u64,
+    bumps: u32,
+    pub(super) pose: Pose,
+    /// Whether the last step ended at a wall.
+    pub(super) bump: bool,
+    /// The action under way, or just ended.
+    action: Option<Direction>,
+    /// How the last one that ended did.
+    ended: Option<(Direction, Outcome)>,
+    pub(super) scan: Option<Scan>,
+    pub(super) trail: VecDeque<Point>,
+    pub(super) beams: Beams,
+    /// The outcome, once the run is over.
+    pub(super) told: Option<String>,
+}
+
+/// Whether the laser's beams are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Beams {
+    Shown,
+    Hidden,
+}
+
+impl<'a> View<'a> {
+    /// A run that has not begun.
+    pub(super) fn new(trial: &'a Trial<'a>, brain: &str, ink: Ink) -> Self {
+        Self {
+            trial,
+            brain: brain.to_owned(),
+            palette: Palette::of(ink),
+            step: 0,
+            time_us: 0,
+            bumps: 0,
+            pose: trial.start,
+            bump: false,
+            action: None,
+            ended: None,
+            scan: None,
+            trail: VecDeque::from([trial.start.position]),
+            beams: Beams::Hidden,
+            told: None,
+        }
+    }
+
+    /// Takes in one more step.
+    pub(super) fn take(&mut self, step: &Step<'_>) {
+        let truth = step.robot.truth();
+        self.step += 1;
+        self.time_us = truth.time_us;
+        self.bumps += u32::from(truth.bump);
+        self.bump = truth.bump;
+        self.pose = truth.pose;
+        self.action = Some(step.action);
+        if let Some(outcome) = step.ends {
+            self.ended = Some((step.action, outcome));
+        }
+        self.scan.clone_from(&step.robot.sensing().scan);
+        if self.trail.len() > TRAIL {
+            self.trail.pop_front();
+        }
+        self.trail.push_back(truth.pose.position);
+    }
+
+    pub(super) fn show_or_hide_beams(&mut self) {
+        self.beams = match self.beams {
+            Beams::Shown => Beams::Hidden,
+            Beams::Hidden => Beams::Shown,
+        };
+    }
+
+    /// Draws everything: the maze to the left, the panel to the right.
+    pub(super) fn draw(&self, frame: &mut Frame<'_>, pace: Pace) {
+        let area = frame.area();
+        if area.width < LEAST_COLUMNS || area.height < LEAST_ROWS {
+            let needed = format!("needs {LEAST_COLUMNS} × {LEAST_ROWS} characters");
+            frame.render_widget(Paragraph::new(needed).wrap(Wrap { trim: true }), area);
+            return;
+        }
+        let [maze, panel] =
+            Layout::horizontal([Constraint::Fill(1), Constraint::Length(PANEL)]).areas(area);
+        picture::draw(self, frame, maze);
+        self.draw_panel(frame, panel, pace);
+    }
+
+    fn draw_panel(&self, frame: &mut Frame<'_>, area: Rect, pace: Pace) {
+        let rim = Block::new()
+            .borders(Borders::LEFT)
+            .border_style(Palette::label());
+        let inside = rim.inner(area);
+        frame.render_widget(rim, area);
+        let [above, below] = Layout::vertical([
+            Constraint::Fill(1),
+            Constraint::Length(Wish::KEYS.len() as u16),
+        ])
+        .areas(inside);
+        let numbers = self.numbers(pace);
+        let [numbers_area, told_area] = Layout::vertical([
+            Constraint::Length(numbers.len() as u16 + 1),
+            Constraint::Fill(1),
+        ])
+        .areas(above);
+        frame.render_widget(Paragraph::new(numbers), numbers_area);
+        if let Some(told) = &self.told {
+            let told = Paragraph::new(Line::from(told.as_str()).bold()).wrap(Wrap { trim: true });
+            frame.render_widget(
+                told.block(Block::new().padding(Padding::left(1))),
+                told_area,
+            );
+        }
+        let keys = Wish::KEYS.map(|keys| Line::styled(format!(" {keys}"), Palette::label()));
+        frame.render_widget(Paragraph::new(Vec::from(keys)), below);
+    }
+
+    fn numbers(&self, pace: Pace) -> Vec<Line<'static>> {
+        let Point { coords: at, .. } = self.pose.position;
+        let bumps = if self.bump {
+            Style::new().fg(self.palette.bump).bold()
+        } else {
+            Style::new()
+        };
+        let speed = match (&self.told, pace.motion) {
+            (Some(_), _) => "the run is over".to_owned(),
+            (None, Motion::Paused) => "paused".to_owned(),
+            (None, Motion::Running) => format!("{} steps/s", pace.steps_per_second()),
+        };
+        let line = |label: &str, value: String| field(label, Span::raw(value));
+        vec![
+            Line::from(format!(" {}", tail(&self.trial.course.name))).bold(),
+            Line::from(format!(" {}, seed {}", self.brain, self.trial.seed)),
+            line(
+                "step",
+                format!("{} of {}", self.step, self.trial.step_limit),
+            ),
+            line("time", format!("{:.1} s", self.time_us as f64 / 1e6)),
+            line(
+                "action",
+                self.action.map_or_else(none, |action| action.to_string()),
+            ),
+            line("last", self.ended.map_or_else(none, ended)),
+            line("pose", format!("{:.2}, {:.2} m", at.x, at.y)),
+            line("heading", format!("{:.0}°", self.pose.heading.degrees())),
+            field("bumps", Span::styled(self.bumps.to_string(), bumps)),
+            line("speed", speed),
+        ]
+    }
+}
+
+fn field(label: &str, value: Span<'static>) -> Line<'static> {
+    Line::from(vec![
+        Span::styled(format!(" {label:<8}"), Palette::label()),
+        value,
+    ])
+}
+
+/// The end of a name that is too long for the panel: of a path the file.
+fn tail(name: &str) -> String {
+    let most = usize::from(PANEL) - 3;
+    let characters = name.chars().count();
+    if characters <= most {
+        return name.to_owned();
+    }
+    let kept: String = name.chars().skip(characters - most + 1).collect();
+    format!("…{kept}")
+}
+
+/// What stands where there is nothing yet.
+fn none() -> String {
+    "–".to_owned()
+}
+
+fn ended((action, outcome): (Direction, Outcome)) -> String {
+    let outcome = match outcome {
+        Outcome::Completed => "done",
+        Outcome::CutShort => "cut short",
+        Outcome::Failed => "failed",
+    };
+    format!("{action}: {outcome}")
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+    use ratatui::style::Color;
+    use tolman::agents::{Agent, Cast};
+    use tolman::course::Course;
+    use tolman::episode;
+    use tolman::pioneer::{body, calibrated};
+    use tolman_geom::Heading;
+
+    use super::*;
+
+    const MAZE: &str = "\
+name = Hook
+
+o---o---o
+| S     |
+o---o   o
+| G     |
+o---o---o
+";
+
+    fn course() -> Course {
+        let file = tolman_maze::read(MAZE).unwrap();
+        Course::new("hook.maze", &file, &body()).unwrap()
+    }
+
+    fn trial(course: &Course) -> Trial<'_> {
+        let start = Pose::new(Point::new(0.5, 1.4), Heading::NORTH);
+        Trial {
+            course,
+            robot: calibrated(),
+            start,
+            step_limit: 100,
+            seed: 4,
+        }
+    }
+
+    /// What a terminal of this size shows at the end of a run of the trial.
+    fn seen(trial: &Trial<'_>, ink: Ink, columns: u16, rows: u16) -> Terminal<TestBackend> {
+        let mut mind = Cast::default()
+            .mind(Agent::WallFollow, trial.course, &trial.robot)
+            .unwrap();
+        let mut view = View::new(trial, "wall-follow", ink);
+        episode::run(trial, &mut mind, |step| view.take(step)).unwrap();
+        view.told = Some("wall-follow reached the destination".to_owned());
+        let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
+        terminal
+            .draw(|frame| view.draw(frame, Pace::default()))
+            .unwrap();
+        terminal
+    }
+
+    const FRAME: &str = "\
+⢀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀│ hook.maze
+⢸                               ⢸│ wall-follow, seed 4
+⢸                               ⢸│ step    17 of 100
+⢸                               ⢸│ time    1.7 s
+⢸                               ⢸│ action  west
+⢸        ⠁⠁⠁⠁⠁⠁⠁⠁⠁⠂⠂⠂⠂⠢         ⢸│ last    west: done
+⢸                     ⠨         ⢸│ pose    0.74, 0.68 m
+⢸                     ⠨         ⢸│ heading 179°
+⢸⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀     ⠨         ⢸│ bumps   3
+⢸⢈ ⡁⢈⢈ ⡁⢈⢠⡕⢋⠉⡉⢉⠳⣅     ⠨         ⢸│ speed   the run is over
+⢸⠠ ⠄⠠⠠ ⠄⢠⡏⠄⠠←⠄⠠ ⢜⣆⢀⢀⠠⠠⠘         ⢸│
+⢸⠐ ⠂⠐⠐ ⠂⠘⡆⠂⠐ ⠊⠘⠈⢂⡇              ⢸│ wall-follow reached the
+⢸⢈ ⡁⢈⢈ ⡁⢈⠙⣅⣈ ⡁⢈⣠⡟               ⢸│ destination
+⢸⠠ ⠄⠠⠠ ⠄⠠ ⠄⠩⠉⠍⠩ ⠄               ⢸│
+⢸⠐ ⠂⠐⠐ ⠂⠐ ⠂⠐ ⠂⠐ ⠂               ⢸│
+⢸⢈ ⡁⢈⢈ ⡁⢈ ⡁⢈ ⡁⢈ ⡁               ⢸│ space pause   → step
+⢸⣠⣀⣄⣠⣠⣀⣄⣠⣀⣄⣠⣀⣄⣠⣀⣄⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣀⣸│ +/- speed   b beams
+                                 │ q quit
+";
+
+    #[test]
+    fn a_frame() {
+        let course = course();
+        let shown = seen(&trial(&course), Ink::Plain, 60, 18);
+        // The backend writes a terminal's rows in quotes.
+        let shown = shown.backend().to_string().replace('"', "");
+        let rows: Vec<_> = shown.lines().map(str::trim_end).collect();
+        assert_eq!(rows.join("\n"), FRAME.trim_end());
+    }
+
+    #[test]
+    fn without_colours_there_are_none() {
+        let course = course();
+        let colours = |ink| {
+            let terminal = seen(&trial(&course), ink, 60, 18);
+            let cells = terminal.backend().buffer().content().iter();
+            cells.filter(|cell| cell.fg != Color::Reset).count()
+        };
+        assert_eq!(colours(Ink::Plain), 0);
+        assert!(colours(Ink::Coloured) > 10);
+    }
+
+    #[test]
+    fn a_terminal_that_has_shrunk_says_what_is_needed() {
+        let course = course();
+        for (columns, rows) in [(49, 16), (50, 15), (30, 2), (1, 1)] {
+            let shown = seen(&trial(&course), Ink::Plain, columns, rows);
+            let shown = shown.backend().to_string();
+            assert!(!shown.contains("seed") && (columns < 30 || shown.contains("50 × 16")));
+        }
+    }
+
+    #[test]
+    fn of_a_long_path_the_end_is_kept() {
+        assert_eq!(tail("mazes/j.maze"), "mazes/j.maze");
+        let long = "competitions/all-japan/2016/hard.maze";
+        assert_eq!(tail(long), "…ll-japan/2016/hard.maze");
+    }
+}

@@ -1,0 +1,82 @@
+//! What part of the world a grid of dots shows.
+
+use tolman_geom::Point;
+use tolman_sim::Bounds;
+
+/// Below so many dots a corridor is no longer made out.
+const LEAST_DOTS: f64 = 4.0;
+
+/// A piece of the world on a grid of dots. Lines of the world that lie whole cells apart lie whole dots
+/// apart on it, so that all walls look alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Window {
+    /// From the leftmost to the rightmost dot, m.
+    pub(super) x: [f64; 2],
+    /// From the lowest to the uppermost dot, m.
+    pub(super) y: [f64; 2],
+    /// From one dot to the next, m.
+    pub(super) metres_per_dot: f64,
+}
+
+impl Window {
+    /// The window of `columns` by `rows` dots on a world whose cells are `pitch` metres wide: all of it,
+    /// or, where its corridors would be too narrow to see, what surrounds `robot`.
+    pub(super) fn on(bounds: Bounds, pitch: f64, robot: Point, columns: u32, rows: u32) -> Self {
+        let (across, up) = (f64::from(columns) - 1.0, f64::from(rows) - 1.0);
+        let metres = (bounds.width() / across).max(bounds.height() / up);
+        let dots = (pitch / metres).floor().max(LEAST_DOTS);
+        let metres_per_dot = pitch / dots;
+        let side = |least: f64, most: f64, robot: f64, dots: f64| {
+            let extent = (most - least) / metres_per_dot;
+            let before = if extent <= dots + 0.5 {
+                -((dots - extent) / 2.0)
+            } else {
+                // Half a window ahead of the robot, but not beyond the world.
+                ((robot - least) / metres_per_dot - dots / 2.0).clamp(0.0, extent - dots)
+            };
+            let first = least + before.round() * metres_per_dot;
+            [first, first + dots * metres_per_dot]
+        };
+        Self {
+            x: side(bounds.min.x, bounds.max.x, robot.x, across),
+            y: side(bounds.min.y, bounds.max.y, robot.y, up),
+            metres_per_dot,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(side: f64) -> Bounds {
+        Bounds {
+            min: Point::origin(),
+            max: Point::new(side, side),
+        }
+    }
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-9
+    }
+
+    #[test]
+    fn a_small_world_is_seen_whole_and_in_the_middle() {
+        let window = Window::on(square(4.0), 1.0, Point::new(3.5, 0.5), 101, 45);
+        assert!(near(window.metres_per_dot, 1.0 / 11.0));
+        assert!(near(window.x[0], -28.0 / 11.0) && near(window.x[1], 72.0 / 11.0));
+        assert!(near(window.y[0], 0.0) && near(window.y[1], 4.0));
+    }
+
+    #[test]
+    fn of_a_large_world_the_robot_is_seen_and_nothing_beyond_the_rim() {
+        let at = |x, y| Window::on(square(100.0), 1.0, Point::new(x, y), 81, 41);
+        for (x, left) in [(0.5, 0.0), (50.0, 40.0), (99.5, 80.0)] {
+            let window = at(x, 50.0);
+            assert!(near(window.metres_per_dot, 0.25));
+            assert!(near(window.x[0], left), "{window:?}");
+            assert!(near(window.x[1] - window.x[0], 20.0));
+            assert!(near(window.y[0], 45.0) && near(window.y[1], 55.0));
+        }
+    }
+}

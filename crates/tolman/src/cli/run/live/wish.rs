@@ -1,0 +1,63 @@
+//! What a key means.
+
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+
+/// What the person at the keys wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wish {
+    PauseOrGoOn,
+    /// One step, and then pause.
+    Step,
+    Faster,
+    Slower,
+    /// Show or hide the laser's beams.
+    Beams,
+    /// See no more of it.
+    Close,
+    /// End the program.
+    Interrupt,
+}
+
+impl Wish {
+    /// The keys, as the panel names them.
+    pub(super) const KEYS: [&str; 3] = ["space pause   → step", "+/- speed   b beams", "q quit"];
+
+    /// What this key asks for, if anything.
+    pub(super) fn of(key: &KeyEvent) -> Option<Self> {
+        if key.kind == KeyEventKind::Release {
+            return None;
+        }
+        if key.modifiers.contains(KeyModifiers::CONTROL) {
+            return (key.code == KeyCode::Char('c')).then_some(Self::Interrupt);
+        }
+        match key.code {
+            KeyCode::Char(' ') => Some(Self::PauseOrGoOn),
+            KeyCode::Right => Some(Self::Step),
+            // `=` is `+` without shift.
+            KeyCode::Char('+' | '=') => Some(Self::Faster),
+            KeyCode::Char('-') => Some(Self::Slower),
+            KeyCode::Char('b') => Some(Self::Beams),
+            KeyCode::Char('q') | KeyCode::Esc => Some(Self::Close),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_and_what_they_mean() {
+        let key = |code, modifiers| Wish::of(&KeyEvent::new(code, modifiers));
+        let plain = |code| key(code, KeyModifiers::NONE);
+        assert_eq!(plain(KeyCode::Char(' ')), Some(Wish::PauseOrGoOn));
+        assert_eq!(plain(KeyCode::Right), Some(Wish::Step));
+        assert_eq!(plain(KeyCode::Char('=')), plain(KeyCode::Char('+')));
+        assert_eq!(plain(KeyCode::Char('c')), None);
+        assert_eq!(plain(KeyCode::Left), None);
+        let control = |letter| key(KeyCode::Char(letter), KeyModifiers::CONTROL);
+        assert_eq!(control('c'), Some(Wish::Interrupt));
+        assert_eq!(control('q'), None);
+    }
+}
