@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::number::tenths;
 use super::scale::Scale;
+use super::words;
 use super::{Drawing, Series};
 use crate::stats::{FiveNumbers, five_numbers};
 
@@ -12,6 +13,8 @@ const LEFT: f64 = 52.0;
 const TOP: f64 = 30.0;
 const PLOT_HEIGHT: f64 = 260.0;
 const BOTTOM: f64 = 34.0;
+/// Characters of a row's name in one line below its box.
+const NAME: usize = 18;
 const SLOT: f64 = 128.0;
 const BOX: f64 = 38.0;
 /// Room for the dots beside a box.
@@ -55,7 +58,7 @@ pub struct BoxGroup {
 /// A box plot: R-7 quartiles, whiskers to the last datum within 1.5 interquartile ranges, every run
 /// a dot beside its box, and a diamond with a bar for the paper's mean ± standard deviation.
 ///
-/// The value axis begins at 0.
+/// The value axis begins at 0, or below the least value if that is negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxPlot {
     /// The table it shows, kept with the dots as `data-table`.
@@ -71,21 +74,34 @@ impl BoxPlot {
     #[expect(clippy::cast_precision_loss, reason = "a plot has few groups")]
     pub fn drawing(&self) -> Drawing {
         let width = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
-        let height = TOP + PLOT_HEIGHT + BOTTOM;
+        let names = self
+            .groups
+            .iter()
+            .map(|group| words::lines(&group.row, NAME));
+        let lines = names.map(|lines| lines.len()).max().unwrap_or(1).max(1);
+        let height = TOP + PLOT_HEIGHT + BOTTOM + words::LINE * (lines - 1) as f64;
         let values = self.groups.iter().flat_map(|group| {
             let reach = group
                 .paper
                 .map(|paper| paper.mean + paper.sd.unwrap_or(0.0));
             group.dots.iter().map(|dot| dot.value).chain(reach)
         });
-        let scale = Scale::up_to(values.filter(|v| v.is_finite()).fold(0.0, f64::max), 5.0);
-        let y = |value: f64| TOP + PLOT_HEIGHT * (1.0 - value / scale.top);
+        let (low, high) = values
+            .filter(|value| value.is_finite())
+            .fold((0.0_f64, 0.0_f64), |(low, high), v| {
+                (low.min(v), high.max(v))
+            });
+        let scale = match low < 0.0 {
+            true => Scale::linear(1.04 * low, 1.04 * high, 5.0),
+            false => Scale::up_to(high, 5.0),
+        };
+        let y = |value: f64| TOP + PLOT_HEIGHT * (1.0 - scale.share(value));
         let body = html! {
             text class="quiet" x="0" y="12" { (self.axis) }
-            @for tick in scale.ticks() {
-                path class="grid" d={ "M" (tenths(LEFT)) " " (tenths(y(tick))) "H" (tenths(width)) } {}
-                text class="quiet" x=(tenths(LEFT - 6.0)) y=(tenths(y(tick)))
-                    text-anchor="end" dominant-baseline="central" { (tick_label(tick, scale.step)) }
+            @for tick in &scale.ticks {
+                path class="grid" d={ "M" (tenths(LEFT)) " " (tenths(y(tick.value))) "H" (tenths(width)) } {}
+                text class="quiet" x=(tenths(LEFT - 6.0)) y=(tenths(y(tick.value)))
+                    text-anchor="end" dominant-baseline="central" { (tick.label) }
             }
             @for (i, group) in self.groups.iter().enumerate() {
                 (self.group(group, LEFT + SLOT * i as f64, &y))
@@ -105,8 +121,7 @@ impl BoxPlot {
         let values: Vec<f64> = dots.iter().map(|dot| dot.value).collect();
         html! {
             g class=(group.series.class()) data-table=(self.table) data-row=(group.row) {
-                text x=(tenths(left + SLOT / 2.0)) y=(tenths(TOP + PLOT_HEIGHT + 20.0))
-                    text-anchor="middle" { (group.row) }
+                (words::centred(&words::lines(&group.row, NAME), left + SLOT / 2.0, TOP + PLOT_HEIGHT + 20.0))
                 @if let Some(paper) = group.paper { (paper_mark(paper, left + 12.0, y)) }
                 @if let Ok(five) = five_numbers(&values) { (box_and_whiskers(&five, middle, y)) }
                 g class="dots" {
@@ -152,25 +167,6 @@ fn finite(dots: &[Dot]) -> Vec<Dot> {
         .collect()
 }
 
-fn tick_label(tick: f64, step: f64) -> String {
-    if step >= 1.0 {
-        format!("{tick:.0}")
-    } else {
-        tenths_or_finer(tick, step)
-    }
-}
-
-/// As many decimals as the step needs.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between 1 and 12"
-)]
-fn tenths_or_finer(tick: f64, step: f64) -> String {
-    let decimals = (-libm::log10(step).floor()).clamp(1.0, 12.0) as usize;
-    format!("{tick:.decimals$}")
-}
-
 fn box_and_whiskers(five: &FiveNumbers, middle: f64, y: &impl Fn(f64) -> f64) -> Markup {
     let (left, right) = (middle - BOX / 2.0, middle + BOX / 2.0);
     let (top, bottom) = (y(five.upper_quartile), y(five.lower_quartile));
@@ -192,7 +188,7 @@ fn paper_mark(paper: PaperMark, x: f64, y: &impl Fn(f64) -> f64) -> Markup {
         @if let Some(sd) = paper.sd {
             path class="paper" d={
                 "M" (tenths(x)) " " (tenths(y(paper.mean + sd)))
-                "V" (tenths(y((paper.mean - sd).max(0.0))))
+                "V" (tenths(y(paper.mean - sd).min(TOP + PLOT_HEIGHT)))
             } {}
         }
         path class="paper" d={ "M" (tenths(x)) " " (tenths(middle - 5.0)) "l5 5l-5 5l-5 -5Z" } {}
@@ -254,6 +250,22 @@ mod tests {
         for run in 0..5 {
             assert!(svg.contains(&format!("data-run=\"{run}\" data-seed=\"{}\"", 100 + run)));
         }
+    }
+
+    #[test]
+    fn the_axis_takes_in_what_is_negative() {
+        let svg = plot(&[-4.0, -2.0, 3.0]).drawing().body.into_string();
+        let places = svg
+            .split("cy=\"")
+            .skip(1)
+            .map(|rest| rest.split('"').next());
+        let places: Vec<f64> = places
+            .map(|place| place.unwrap().parse().unwrap())
+            .collect();
+        assert!(
+            places.iter().all(|y| (TOP..=TOP + PLOT_HEIGHT).contains(y)),
+            "{places:?}"
+        );
     }
 
     #[test]

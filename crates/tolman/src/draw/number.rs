@@ -1,4 +1,4 @@
-//! Coordinates as short text.
+//! Coordinates and labels as short text.
 
 /// A coordinate rounded to a tenth of a unit, without a needless `.0`. Coordinates that are not
 /// finite are drawn at 0.
@@ -16,9 +16,66 @@ pub(super) fn tenths(value: f64) -> String {
     }
 }
 
+/// The label of a value on an axis with this distance between labels: as many decimals as that needs,
+/// digits in groups of three, powers of ten where there would be too many.
+pub(super) fn tick_label(value: f64, step: f64) -> String {
+    let exponent = libm::log10(step.abs()).floor();
+    if exponent >= 5.0 && value.abs() > 0.0 {
+        return power_of_ten(value, libm::log10(value.abs()).floor());
+    }
+    if exponent < -4.0 {
+        return power_of_ten(value, exponent);
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and 4"
+    )]
+    let decimals = (-exponent).clamp(0.0, 4.0) as usize;
+    grouped(&format!("{value:.decimals$}"))
+}
+
+/// `2·10⁵`, `10⁻⁶`, `0`.
+pub(super) fn power_of_ten(value: f64, exponent: f64) -> String {
+    let factor = value / libm::pow(10.0, exponent);
+    let digits = exponent.abs().to_string();
+    let superscript = digits.chars().map(|digit| match digit {
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        // The others follow each other.
+        digit => char::from_u32(0x2070 + u32::from(digit) - u32::from('0')).unwrap_or(digit),
+    });
+    let sign = if exponent < 0.0 { "⁻" } else { "" };
+    let power = format!("10{sign}{}", superscript.collect::<String>());
+    match factor {
+        factor if factor.abs() < 1e-9 => "0".to_owned(),
+        factor if (factor - 1.0).abs() < 1e-9 => power,
+        factor => format!("{}·{power}", tenths(factor)),
+    }
+}
+
+/// Thin spaces between the groups of three digits of a long whole part.
+fn grouped(number: &str) -> String {
+    let whole = number.find('.').unwrap_or(number.len());
+    let digits = number[..whole].trim_start_matches('-').len();
+    if digits < 5 {
+        return number.to_owned();
+    }
+    let mut text = String::new();
+    for (i, c) in number.char_indices() {
+        let left = whole.saturating_sub(i);
+        if i > whole - digits && left > 0 && left.is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(c);
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
-    use super::tenths;
+    use super::*;
 
     #[test]
     fn short_and_without_negative_zero() {
@@ -32,6 +89,24 @@ mod tests {
             (f64::NAN, "0"),
         ] {
             assert_eq!(tenths(value), expect);
+        }
+    }
+
+    #[test]
+    fn labels_have_the_decimals_of_their_step() {
+        for (value, step, expect) in [
+            (150.0, 50.0, "150"),
+            (0.25, 0.05, "0.25"),
+            (1.0, 0.2, "1.0"),
+            (-0.2, 0.2, "-0.2"),
+            (20000.0, 5000.0, "20\u{202f}000"),
+            (-1_500_000.0, 50_000.0, "-1\u{202f}500\u{202f}000"),
+            (2e6, 1e6, "2·10⁶"),
+            (0.0, 1e6, "0"),
+            (3e-6, 1e-6, "3·10⁻⁶"),
+            (1e12, 1e12, "10¹²"),
+        ] {
+            assert_eq!(tick_label(value, step), expect);
         }
     }
 }

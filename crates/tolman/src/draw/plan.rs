@@ -9,7 +9,8 @@ use tolman_sim::{Area, Bounds};
 use crate::course::Course;
 
 use super::number::tenths;
-use super::{Drawing, Series};
+use super::words;
+use super::{Drawing, Graph, Region, Series, Shade};
 
 /// Free space around the outermost walls, in user units.
 const MARGIN: f64 = 8.0;
@@ -37,28 +38,30 @@ pub struct Plan {
     height: f64,
     layers: Vec<Markup>,
     walls: Markup,
+    /// What the colours of cells mean.
+    legend: Option<Shade>,
 }
 
 impl Plan {
-    /// A plan that is `width` user units wide and holds all walls. Walls lie above every layer.
-    /// Without a wall of some extent the plan shows one square metre around it.
-    pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
-        let (mut min, mut max) = (
-            Point::new(f64::MAX, f64::MAX),
-            Point::new(f64::MIN, f64::MIN),
+    /// A plan of a part of the world, `width` user units wide, without walls. Bounds without extent
+    /// show one square metre.
+    pub fn of_bounds(bounds: &Bounds, width: f64) -> Self {
+        let extent = |low: f64, high: f64| match high - low {
+            extent if extent > 0.0 && extent.is_finite() => extent,
+            _ => 1.0,
+        };
+        let (extent_x, extent_y) = (
+            extent(bounds.min.x, bounds.max.x),
+            extent(bounds.min.y, bounds.max.y),
         );
-        for end in walls.iter().flatten() {
-            min = Point::new(min.x.min(end.x), min.y.min(end.y));
-            max = Point::new(max.x.max(end.x), max.y.max(end.y));
-        }
-        if max.x < min.x || max.y < min.y {
-            (min, max) = (Point::origin(), Point::origin());
-        }
-        let (extent_x, extent_y) = (max.x - min.x, max.y - min.y);
-        let extent_x = if extent_x > 0.0 { extent_x } else { 1.0 };
-        let extent_y = if extent_y > 0.0 { extent_y } else { 1.0 };
+        let is_place = bounds.min.x.is_finite() && bounds.min.y.is_finite();
+        let min = if is_place {
+            bounds.min
+        } else {
+            Point::origin()
+        };
         let scale = (width - 2.0 * MARGIN) / extent_x;
-        let mut plan = Self {
+        Self {
             west: min.x,
             north: min.y + extent_y,
             scale,
@@ -66,7 +69,15 @@ impl Plan {
             height: scale * extent_y + 2.0 * MARGIN,
             layers: Vec::new(),
             walls: html! {},
-        };
+            legend: None,
+        }
+    }
+
+    /// A plan that is `width` user units wide and holds all walls. Walls lie above every layer.
+    /// Without a wall of some extent the plan shows one square metre around it.
+    pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
+        let bounds = Bounds::of(walls.iter().flatten().copied());
+        let mut plan = Self::of_bounds(&bounds, width);
         let mut path = String::new();
         for [from, to] in walls {
             let ((x0, y0), (x1, y1)) = (plan.at(*from), plan.at(*to));
@@ -149,6 +160,88 @@ impl Plan {
         });
     }
 
+    /// Adds a graph, each node at its coordinates.
+    pub fn graph(&mut self, graph: &Graph) {
+        let markup = graph.markup(&|position| self.at(position));
+        self.layers.push(markup);
+    }
+
+    /// Adds where something may be.
+    pub fn region(&mut self, region: &Region, series: Series) {
+        let class = format!("uncertain {}", series.class());
+        let markup = match *region {
+            Region::Box {
+                pose,
+                length,
+                width,
+            } => {
+                let corner = |along: f64, across: f64| {
+                    pose.transform(Point::new(0.5 * along * length, 0.5 * across * width))
+                };
+                let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+                let path = self.path(&corners.map(|(along, across)| corner(along, across)));
+                html! { path class=(class) d={ (path) "Z" } {} }
+            }
+            Region::Ellipse {
+                pose,
+                along,
+                across,
+            } => {
+                let (x, y) = self.at(pose.position);
+                // Counter-clockwise in the world is clockwise where y grows downwards.
+                let turn = -pose.heading.degrees();
+                html! {
+                    ellipse class=(class)
+                        rx=(tenths(along * self.scale)) ry=(tenths(across * self.scale))
+                        transform={
+                            "translate(" (tenths(x)) " " (tenths(y)) ") rotate(" (tenths(turn)) ")"
+                        } {}
+                }
+            }
+        };
+        self.layers.push(markup);
+    }
+
+    /// Adds square cells, `side` metres wide, each with its middle and its value, coloured by the depth
+    /// of `shade`; values that are not finite are left out. Below the plan stands what the colours
+    /// mean, once for all cells: give every call the same shade.
+    ///
+    /// ```
+    /// use tolman::draw::{Plan, Shade};
+    /// use tolman_geom::Point;
+    ///
+    /// let steps = [(0.5, 2.0), (1.5, 1.0), (2.5, 0.0)];
+    /// let cells: Vec<_> = steps.iter().map(|&(x, steps)| (Point::new(x, 0.5), steps)).collect();
+    /// let shade = Shade::of("steps to the goal", cells.iter().map(|cell| cell.1));
+    /// let mut plan = Plan::of_walls(&[[Point::new(0.0, 0.0), Point::new(3.0, 1.0)]], 400.0);
+    /// plan.cells(&cells, 1.0, &shade);
+    /// let drawing = plan.drawing("How far each cell is from the goal.");
+    /// # assert!(drawing.body.into_string().contains("steps to the goal"));
+    /// ```
+    pub fn cells(&mut self, cells: &[(Point, f64)], side: f64, shade: &Shade) {
+        let size = side * self.scale;
+        // Values are written where there is room for them.
+        let longest = cells.iter().map(|cell| shade.text(cell.1).len()).max();
+        let written = words::width("0") * longest.unwrap_or(0) as f64 + 4.0 < size && size > 16.0;
+        let placed = cells.iter().filter(|(_, value)| value.is_finite());
+        let markup = html! {
+            g class=(shade.series.class()) {
+                @for (middle, value) in placed {
+                    @let (x, y) = self.at(*middle);
+                    rect class="heat" fill-opacity=(shade.opacity(*value))
+                        x=(tenths(x - 0.5 * size)) y=(tenths(y - 0.5 * size))
+                        width=(tenths(size)) height=(tenths(size)) {}
+                    @if written {
+                        text class={ "small " (shade.text_class(*value)) } x=(tenths(x)) y=(tenths(y))
+                            text-anchor="middle" dominant-baseline="central" { (shade.text(*value)) }
+                    }
+                }
+            }
+        };
+        self.layers.push(markup);
+        self.legend = Some(shade.clone());
+    }
+
     /// Adds a word centred at a position.
     pub fn label(&mut self, position: Point, text: &str) {
         let (x, y) = self.at(position);
@@ -178,10 +271,12 @@ impl Plan {
             rect class="floor" width=(tenths(self.width)) height=(tenths(self.height)) {}
             @for layer in &self.layers { (layer) }
             (self.walls)
+            @if let Some(shade) = &self.legend { (shade.legend(MARGIN, self.height + 8.0)) }
         };
+        let legend = self.legend.map_or(0.0, |_| Shade::LEGEND + 8.0);
         Drawing {
             width: self.width,
-            height: self.height,
+            height: self.height + legend,
             description: description.into(),
             body,
         }
@@ -207,6 +302,8 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
+    use tolman_geom::{Heading, Pose};
+
     use super::*;
 
     fn square() -> Plan {
@@ -232,6 +329,54 @@ mod tests {
         let path =
             plan.path(&[(1.0, 3.0), (1.0001, 3.0), (2.0, 3.0)].map(|(x, y)| Point::new(x, y)));
         assert_eq!(path, "M8 8L108 8");
+    }
+
+    #[test]
+    fn regions_turn_counter_clockwise_in_the_world() {
+        let mut plan = square();
+        let pose = Pose::new(Point::new(3.0, 2.0), Heading::from_degrees(90.0));
+        let (length, width) = (1.0, 0.5);
+        plan.region(
+            &Region::Box {
+                pose,
+                length,
+                width,
+            },
+            Series(0),
+        );
+        let pose = Pose::new(pose.position, Heading::from_degrees(30.0));
+        let (along, across) = (0.5, 0.1);
+        plan.region(
+            &Region::Ellipse {
+                pose,
+                along,
+                across,
+            },
+            Series(1),
+        );
+        let svg = plan.drawing("regions").body.into_string();
+        // 100 units a metre: north-west, south-west, south-east, north-east of 208, 108.
+        assert!(svg.contains("M183 58L183 158L233 158L233 58Z"), "{svg}");
+        assert!(svg.contains("rx=\"50\" ry=\"10\" transform=\"translate(208 108) rotate(-30)\""));
+    }
+
+    #[test]
+    fn cells_lie_around_their_middle_and_have_a_legend() {
+        let mut plan = square();
+        let cells = [
+            (Point::new(1.5, 2.5), 3.0),
+            (Point::new(2.5, 2.5), f64::NAN),
+        ];
+        plan.cells(&cells, 1.0, &Shade::new("steps", 0.0, 3.0));
+        let drawing = plan.drawing("cells");
+        assert!((drawing.height - (200.0 + 2.0 * MARGIN + 8.0 + Shade::LEGEND)).abs() < 1e-9);
+        let svg = drawing.body.into_string();
+        assert!(
+            svg.contains("x=\"8\" y=\"8\" width=\"100\" height=\"100\""),
+            "{svg}"
+        );
+        assert_eq!(svg.matches("width=\"100\"").count(), 1);
+        assert!(svg.contains(">3</text>") && svg.contains("steps"));
     }
 
     #[test]

@@ -1,0 +1,134 @@
+//! Values as depths of a colour.
+
+use maud::{Markup, html};
+
+use super::Series;
+use super::number::tenths;
+
+/// How values become depths of one colour: none at the low end, full at the high end. Works on light and
+/// dark pages alike, and one colour tells more from less to every reader.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shade {
+    /// What the values are, with their unit.
+    pub title: String,
+    /// The value that is not coloured at all.
+    pub low: f64,
+    /// The value of full colour.
+    pub high: f64,
+    /// The colour.
+    pub series: Series,
+    /// How many decimals values are written with.
+    pub decimals: u8,
+}
+
+impl Shade {
+    /// Depths of the first colour between two values, written without decimals.
+    pub fn new(title: impl Into<String>, low: f64, high: f64) -> Self {
+        Self {
+            title: title.into(),
+            low,
+            high,
+            series: Series(0),
+            decimals: 0,
+        }
+    }
+
+    /// From the least to the greatest of these values; those that are not finite do not count.
+    pub fn of(title: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        if low <= high {
+            Self::new(title, low, high)
+        } else {
+            Self::new(title, 0.0, 1.0)
+        }
+    }
+
+    /// Sets the colour.
+    #[must_use]
+    pub const fn series(mut self, series: Series) -> Self {
+        self.series = series;
+        self
+    }
+
+    /// Sets how many decimals values are written with.
+    #[must_use]
+    pub const fn decimals(mut self, decimals: u8) -> Self {
+        self.decimals = decimals;
+        self
+    }
+
+    /// A value as text.
+    pub(super) fn text(&self, value: f64) -> String {
+        format!("{value:.0$}", usize::from(self.decimals))
+    }
+
+    /// From 0 to 1; 0 where all values are the same.
+    fn share(&self, value: f64) -> f64 {
+        let share = (value - self.low) / (self.high - self.low);
+        if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
+    /// The attribute that gives an element with the class `heat` its depth.
+    pub(super) fn opacity(&self, value: f64) -> String {
+        // Text upon it must be readable at full depth, and the least value must not look like none.
+        format!("{:.2}", 0.06 + 0.84 * self.share(value))
+    }
+
+    /// The class of text upon a value.
+    pub(super) fn text_class(&self, value: f64) -> &'static str {
+        if self.share(value) > 0.65 { "upon" } else { "" }
+    }
+
+    /// The height of [`Self::legend`].
+    pub(super) const LEGEND: f64 = 34.0;
+
+    /// A bar of all depths with its ends named, from `x` on.
+    pub(super) fn legend(&self, x: f64, y: f64) -> Markup {
+        const STEPS: u32 = 24;
+        const STEP: f64 = 5.0;
+        let width = f64::from(STEPS) * STEP;
+        html! {
+            g class=(self.series.class()) {
+                @for step in 0..STEPS {
+                    @let value = self.low + (self.high - self.low) * (f64::from(step) + 0.5) / f64::from(STEPS);
+                    rect class="heat" fill-opacity=(self.opacity(value)) width=(tenths(STEP)) height="9"
+                        x=(tenths(x + STEP * f64::from(step))) y=(tenths(y)) {}
+                }
+                text class="quiet small" x=(tenths(x)) y=(tenths(y + 21.0)) { (self.text(self.low)) }
+                text class="quiet small" x=(tenths(x + width)) y=(tenths(y + 21.0)) text-anchor="end" {
+                    (self.text(self.high))
+                }
+                text class="quiet" x=(tenths(x + width + 10.0)) y=(tenths(y + 8.0)) { (self.title) }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_is_deeper_and_ends_are_kept() {
+        let shade = Shade::of("steps", [3.0, f64::NAN, 7.0]);
+        let depths: Vec<f64> = [2.0, 3.0, 5.0, 7.0, 9.0]
+            .map(|value| shade.opacity(value).parse().unwrap())
+            .to_vec();
+        assert_eq!(depths, [0.06, 0.06, 0.48, 0.9, 0.9]);
+        assert_eq!((shade.text_class(4.0), shade.text_class(6.0)), ("", "upon"));
+    }
+
+    #[test]
+    fn nothing_and_one_value_have_a_shade() {
+        assert_eq!(Shade::of("nothing", []).opacity(0.5), "0.48");
+        assert_eq!(Shade::of("one", [4.0]).opacity(4.0), "0.06");
+        assert_eq!(Shade::of("one", [4.0]).opacity(f64::NAN), "0.06");
+    }
+}

@@ -1,0 +1,74 @@
+//! Words in pictures, where no line breaks by itself.
+
+use maud::{Markup, html};
+
+use super::number::tenths;
+
+/// The height of a line, user units.
+pub(super) const LINE: f64 = 14.0;
+
+/// About the width of a text in the font of drawings, user units.
+#[expect(clippy::cast_precision_loss, reason = "far fewer characters than 2^53")]
+pub(super) fn width(text: &str) -> f64 {
+    6.6 * text.chars().count() as f64
+}
+
+/// The words of a text in lines of at most `most` characters where words allow it; at most three
+/// lines, of which the last may end in `…`.
+pub(super) fn lines(text: &str, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    if lines.len() > 3 {
+        lines.truncate(3);
+        lines[2].push('…');
+    }
+    for line in &mut lines {
+        if line.chars().count() > most + 4 {
+            *line = line.chars().take(most + 3).chain(['…']).collect();
+        }
+    }
+    lines
+}
+
+/// Lines centred below each other, the first with its base at `y`.
+#[expect(clippy::cast_precision_loss, reason = "three lines at most")]
+pub(super) fn centred(lines: &[String], x: f64, y: f64) -> Markup {
+    html! {
+        @for (i, line) in lines.iter().enumerate() {
+            text x=(tenths(x)) y=(tenths(y + LINE * i as f64)) text-anchor="middle" { (line) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lines;
+
+    #[test]
+    fn lines_break_between_words() {
+        for (text, expect) in [
+            ("Wall-follow", vec!["Wall-follow"]),
+            (
+                "GNG with a map of 40 nodes",
+                vec!["GNG with a map", "of 40 nodes"],
+            ),
+            ("", vec![]),
+            ("a b", vec!["a b"]),
+            ("abcdefghijklmnopqrstuvwxyz", vec!["abcdefghijklmnopq…"]),
+        ] {
+            assert_eq!(lines(text, 14), expect);
+        }
+        assert_eq!(
+            lines("one two three four five", 5).last().unwrap(),
+            "three…"
+        );
+    }
+}
