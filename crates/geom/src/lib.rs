@@ -1,4 +1,4 @@
-//! Points, headings, poses and twists: the geometry every tolman crate speaks.
+//! Points, headings, poses and twists, and bounds on them: the geometry every tolman crate speaks.
 //!
 //! Metres, radians, seconds; angles grow counter-clockwise; in a robot's own frame x is ahead and
 //! y is left. In a world frame x is east and y is north, so a heading of 0 looks east.
@@ -8,7 +8,10 @@
 //! why poses are named `world_from_robot` where both frames matter. A [`Twist`] is a velocity, and
 //! [`Pose::moved`] follows one along its exact arc.
 //!
-//! All trigonometry goes through [`libm`], so the same numbers come out on every platform.
+//! What is known only within bounds has types of its own: an [`Interval`] holds a number, a [`PointBox`] a position, a
+//! [`PoseBox`] a pose, and all that is computed with them is rounded outwards, so that what is true stays inside.
+//!
+//! All other trigonometry goes through [`libm`], so the same numbers come out on every platform.
 //!
 //! ```
 //! use tolman_geom::{Heading, Point, Pose, Twist};
@@ -26,11 +29,17 @@
 #![no_std]
 
 mod heading;
+mod interval;
+mod point_box;
 mod pose;
+mod pose_box;
 mod twist;
 
 pub use heading::Heading;
+pub use interval::{Interval, IntervalError};
+pub use point_box::PointBox;
 pub use pose::Pose;
+pub use pose_box::PoseBox;
 pub use twist::Twist;
 
 /// A position in the plane, in metres.

@@ -1,0 +1,138 @@
+//! + − × ÷, squares and roots.
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+use super::rounding::{
+    product_down, product_up, quotient_down, quotient_up, root_down, root_up, sum_down, sum_up,
+};
+use super::{Interval, IntervalError};
+
+impl Interval {
+    /// All quotients of a number here and one of `divisor` other than 0; none if the divisor is 0 alone. Where 0
+    /// lies inside or at the end of the divisor, a bound is missing.
+    #[must_use]
+    pub fn checked_div(self, divisor: Self) -> Option<Self> {
+        let Self { low, high } = divisor;
+        if low < 0.0 && high > 0.0 {
+            return Some(Self::UNBOUNDED);
+        }
+        if high <= 0.0 {
+            return if low < 0.0 {
+                (-self).checked_div(-divisor)
+            } else {
+                None
+            };
+        }
+        // The divisor is positive, or all of it but its lower bound.
+        let over = |numerator: f64, quotient: fn(f64, f64) -> f64, towards: [f64; 2]| {
+            // The larger quotient is over the smaller divisor where the numerator is positive.
+            let divisor = if numerator < 0.0 {
+                towards[0]
+            } else {
+                towards[1]
+            };
+            if divisor == 0.0 && numerator != 0.0 {
+                numerator.signum() * f64::INFINITY
+            } else if divisor == 0.0 {
+                0.0
+            } else {
+                quotient(numerator, divisor)
+            }
+        };
+        Some(Self {
+            low: over(self.low, quotient_down, [low, high]),
+            high: over(self.high, quotient_up, [high, low]),
+        })
+    }
+
+    /// All squares; narrower than the product with itself where 0 lies inside.
+    #[must_use]
+    pub fn squared(self) -> Self {
+        let Self { low, high } = self.abs();
+        Self {
+            low: product_down(low, low).max(0.0),
+            high: product_up(high, high),
+        }
+    }
+
+    /// The roots of the numbers that have one; none if all are negative.
+    #[must_use]
+    pub fn sqrt(self) -> Option<Self> {
+        (self.high >= 0.0).then(|| Self {
+            low: root_down(self.low.max(0.0)),
+            high: root_up(self.high),
+        })
+    }
+
+    /// All absolute values.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.low >= 0.0 {
+            self
+        } else if self.high <= 0.0 {
+            -self
+        } else {
+            Self {
+                low: 0.0,
+                high: self.high.max(-self.low),
+            }
+        }
+    }
+
+    /// Everything within `margin` of a number here.
+    ///
+    /// # Errors
+    /// If `margin` is negative or no number.
+    pub fn widened(self, margin: f64) -> Result<Self, IntervalError> {
+        Ok(self + Self::about(0.0, margin)?)
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            low: -self.high,
+            high: -self.low,
+        }
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            low: sum_down(self.low, other.low),
+            high: sum_up(self.high, other.high),
+        }
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let corners = [
+            (self.low, other.low),
+            (self.low, other.high),
+            (self.high, other.low),
+            (self.high, other.high),
+        ];
+        let low = corners.map(|(a, b)| product_down(a, b));
+        let high = corners.map(|(a, b)| product_up(a, b));
+        Self {
+            low: low.into_iter().fold(f64::INFINITY, f64::min),
+            high: high.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}

@@ -1,0 +1,31 @@
+use thiserror::Error;
+
+/// Why numbers do not bound an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum IntervalError {
+    /// A bound is NaN.
+    #[error(
+        "the bounds [{low}, {high}] are not both numbers; give numbers, infinite where there is no bound"
+    )]
+    NotANumber {
+        /// The lower bound.
+        low: f64,
+        /// The upper bound.
+        high: f64,
+    },
+    /// No number lies between the bounds.
+    #[error("no number lies in [{low}, {high}]; give the lower bound first")]
+    Empty {
+        /// The lower bound.
+        low: f64,
+        /// The upper bound.
+        high: f64,
+    },
+    /// A margin is negative.
+    #[error("the margin is {margin}; give 0 or more")]
+    NegativeMargin {
+        /// The margin.
+        margin: f64,
+    },
+}

@@ -1,0 +1,232 @@
+//! Numbers known to lie between two bounds.
+
+mod arithmetic;
+mod error;
+mod rounding;
+mod trigonometry;
+
+use core::fmt;
+
+pub use error::IntervalError;
+use rounding::{sum_down, sum_up};
+
+/// A closed interval of reals, never empty, whose bounds are known for certain: `low` ≤ `high`. A bound that is
+/// infinite says that there is none on that side.
+///
+/// Arithmetic is *sound*: if x lies in `a` and y in `b`, then x + y lies in `a + b`, whatever was rounded on the
+/// way; bounds are rounded outwards where they are not exact. It is *monotone*: narrower operands give no wider
+/// result (sine and cosine up to their last digits). What cannot be (an intersection of intervals apart, the root of a negative number) is `None`.
+///
+/// ```
+/// use tolman_geom::Interval;
+///
+/// let wheel = Interval::about(1.0, 0.1)?; // a metre, give or take 10 cm
+/// let twice = wheel + wheel;
+/// assert!(twice.contains(1.8) && twice.contains(2.2));
+/// // Seen from elsewhere it is at least 2.1 m.
+/// let seen = Interval::new(2.1, 3.0)?;
+/// let both = twice.intersection(seen).unwrap();
+/// assert!(both.width() < 0.11);
+/// assert!(twice.intersection(Interval::new(5.0, 6.0)?).is_none());
+/// # Ok::<(), tolman_geom::IntervalError>(())
+/// ```
+///
+/// Source: the diktiometry of Engelson and McDermott keeps every position and heading so.
+#[derive(Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Bounds", into = "Bounds"))]
+pub struct Interval {
+    low: f64,
+    high: f64,
+}
+
+impl Interval {
+    /// Nothing but 0.
+    pub const ZERO: Self = Self {
+        low: 0.0,
+        high: 0.0,
+    };
+
+    /// Nothing is known.
+    pub const UNBOUNDED: Self = Self {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
+    /// From `low` to `high`.
+    ///
+    /// # Errors
+    /// If a bound is NaN, `low` is above `high`, or no finite number lies between them.
+    pub fn new(low: f64, high: f64) -> Result<Self, IntervalError> {
+        if low.is_nan() || high.is_nan() {
+            return Err(IntervalError::NotANumber { low, high });
+        }
+        if low > high || low == f64::INFINITY || high == f64::NEG_INFINITY {
+            return Err(IntervalError::Empty { low, high });
+        }
+        Ok(Self { low, high })
+    }
+
+    /// One number.
+    ///
+    /// # Errors
+    /// If it is NaN or infinite.
+    pub fn of(value: f64) -> Result<Self, IntervalError> {
+        Self::new(value, value)
+    }
+
+    /// Everything within `margin` of `middle`.
+    ///
+    /// # Errors
+    /// If `margin` is negative or one of them is no number.
+    pub fn about(middle: f64, margin: f64) -> Result<Self, IntervalError> {
+        if margin < 0.0 {
+            return Err(IntervalError::NegativeMargin { margin });
+        }
+        Ok(Self::of(middle)? + Self::new(-margin, margin)?)
+    }
+
+    /// One number that is known to be finite.
+    pub(crate) const fn point(value: f64) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    /// Its lower and its upper half.
+    pub(crate) fn halves(self) -> (Self, Self) {
+        let middle = self.middle();
+        let lower = Self {
+            high: middle,
+            ..self
+        };
+        let upper = Self {
+            low: middle,
+            ..self
+        };
+        (lower, upper)
+    }
+
+    /// The least it may be.
+    #[must_use]
+    pub const fn low(self) -> f64 {
+        self.low
+    }
+
+    /// The most it may be.
+    #[must_use]
+    pub const fn high(self) -> f64 {
+        self.high
+    }
+
+    /// Upper bound of `high − low`; infinite if a bound is missing.
+    #[must_use]
+    pub fn width(self) -> f64 {
+        sum_up(self.high, -self.low)
+    }
+
+    /// A number in the middle, always inside; 0 or the one bound if the other is missing.
+    #[must_use]
+    pub fn middle(self) -> f64 {
+        match (self.low.is_finite(), self.high.is_finite()) {
+            // Halved first, so that the sum cannot overflow.
+            (true, true) => (0.5 * self.low + 0.5 * self.high).clamp(self.low, self.high),
+            (true, false) => self.low,
+            (false, true) => self.high,
+            (false, false) => 0.0,
+        }
+    }
+
+    /// Whether both bounds are there.
+    #[must_use]
+    pub const fn is_bounded(self) -> bool {
+        self.low.is_finite() && self.high.is_finite()
+    }
+
+    /// Whether `value` lies inside; never NaN.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+
+    /// Whether all of `other` lies inside.
+    #[must_use]
+    pub fn encloses(self, other: Self) -> bool {
+        self.low <= other.low && other.high <= self.high
+    }
+
+    /// Whether the two have a number in common.
+    #[must_use]
+    pub fn meets(self, other: Self) -> bool {
+        self.low <= other.high && other.low <= self.high
+    }
+
+    /// Lower bound of the distance between a number of each; 0 where they meet.
+    #[must_use]
+    pub fn gap(self, other: Self) -> f64 {
+        sum_down(self.low, -other.high)
+            .max(sum_down(other.low, -self.high))
+            .max(0.0)
+    }
+
+    /// What both allow; none if they contradict each other.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        self.meets(other).then(|| Self {
+            low: self.low.max(other.low),
+            high: self.high.min(other.high),
+        })
+    }
+
+    /// The least interval that holds both.
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+}
+
+impl fmt::Debug for Interval {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "[{:?}, {:?}]", self.low, self.high)
+    }
+}
+
+impl fmt::Display for Interval {
+    /// `[low, high]`, with the decimals asked for.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str("[")?;
+        fmt::Display::fmt(&self.low, out)?;
+        out.write_str(", ")?;
+        fmt::Display::fmt(&self.high, out)?;
+        out.write_str("]")
+    }
+}
+
+/// How intervals are written: `[low, high]`, `null` for a bound that is not there, since JSON has no infinity.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(transparent)]
+struct Bounds([Option<f64>; 2]);
+
+#[cfg(feature = "serde")]
+impl From<Interval> for Bounds {
+    fn from(interval: Interval) -> Self {
+        Self([interval.low, interval.high].map(|bound| Some(bound).filter(|b| b.is_finite())))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Bounds> for Interval {
+    type Error = IntervalError;
+
+    fn try_from(Bounds([low, high]): Bounds) -> Result<Self, IntervalError> {
+        Self::new(
+            low.unwrap_or(f64::NEG_INFINITY),
+            high.unwrap_or(f64::INFINITY),
+        )
+    }
+}

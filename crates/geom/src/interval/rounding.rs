@@ -1,0 +1,77 @@
+//! Sums, products, quotients and roots rounded outwards without touching the processor's rounding mode.
+//!
+//! A result rounded to nearest lies within half a unit in the last place of the exact one, so its
+//! neighbour bounds it. Sums that are exact are kept: what adds up grows by no more than it must.
+//!
+//! An infinite operand stands for a bound that is not there, for ever larger finite numbers, so 0 times it is 0.
+
+/// At most a + b.
+pub(super) fn sum_down(a: f64, b: f64) -> f64 {
+    let sum = a + b;
+    // What rounding lost (Knuth's TwoSum); NaN where something overflowed or is infinite.
+    let b_part = sum - a;
+    let lost = (a - (sum - b_part)) + (b - b_part);
+    if lost >= 0.0 { sum } else { sum.next_down() }
+}
+
+/// At least a + b.
+pub(super) fn sum_up(a: f64, b: f64) -> f64 {
+    -sum_down(-a, -b)
+}
+
+/// At most a · b.
+pub(super) fn product_down(a: f64, b: f64) -> f64 {
+    if a == 0.0 || b == 0.0 {
+        0.0
+    } else {
+        below(a * b, (a > 0.0) == (b > 0.0))
+    }
+}
+
+/// At least a · b.
+pub(super) fn product_up(a: f64, b: f64) -> f64 {
+    -product_down(-a, b)
+}
+
+/// At most a / b, for b ≠ 0.
+pub(super) fn quotient_down(a: f64, b: f64) -> f64 {
+    if a == 0.0 || (b.is_infinite() && a.is_finite()) {
+        0.0
+    } else if b.is_infinite() {
+        a * b.signum()
+    } else {
+        below(a / b, (a > 0.0) == (b > 0.0))
+    }
+}
+
+/// The neighbour below a rounded result; but what is positive has not less than 0 below it.
+fn below(rounded: f64, positive: bool) -> f64 {
+    if positive {
+        rounded.next_down().max(0.0)
+    } else {
+        rounded.next_down()
+    }
+}
+
+/// At least a / b, for b ≠ 0.
+pub(super) fn quotient_up(a: f64, b: f64) -> f64 {
+    -quotient_down(-a, b)
+}
+
+/// At most √a, for a ≥ 0. libm's root is correctly rounded.
+pub(super) fn root_down(a: f64) -> f64 {
+    if a == 0.0 {
+        0.0
+    } else {
+        libm::sqrt(a).next_down()
+    }
+}
+
+/// At least √a, for a ≥ 0.
+pub(super) fn root_up(a: f64) -> f64 {
+    if a == 0.0 {
+        0.0
+    } else {
+        libm::sqrt(a).next_up()
+    }
+}

@@ -1,0 +1,129 @@
+//! Sine and cosine, without trust in anybody's libm.
+//!
+//! An angle is brought near 0 by a multiple of π/2 that is itself an interval, the Taylor series is summed in
+//! interval arithmetic, and what is cut off of it is added.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use super::Interval;
+
+/// π/2 in three parts (Cody and Waite). Multiples of the first are exact, since its last 22 bits are 0; what is left
+/// of π/2 behind the second lies within the third.
+const HALF_PI: [Interval; 3] = [
+    Interval::point(f64::from_bits(0x3FF9_21FB_5440_0000)),
+    Interval::point(f64::from_bits(0x3DD0_B461_1A62_6331)),
+    Interval {
+        low: 3.521e-27,
+        high: 3.522e-27,
+    },
+];
+
+/// Angles beyond this many quarter turns are not told apart.
+const MOST_QUARTERS: f64 = 1_048_576.0;
+
+/// The most that the series up to x¹⁷ (x¹⁸ for the cosine) can lack for |x| ≤ 0.8: 0.8¹⁹ / 19!.
+const REMAINDER: Interval = Interval {
+    low: -1.2e-19,
+    high: 1.2e-19,
+};
+
+impl Interval {
+    /// The sines of all angles here, in radians: exact up to a few units in the last place, also where an extreme
+    /// lies inside.
+    #[must_use]
+    pub fn sin(self) -> Self {
+        self.sines().0
+    }
+
+    /// The cosines of all angles here, in radians.
+    #[must_use]
+    pub fn cos(self) -> Self {
+        self.sines().1
+    }
+
+    /// 2π.
+    pub(crate) fn full_circle() -> Self {
+        multiple_of_half_pi(4)
+    }
+
+    /// Sine and cosine.
+    pub(crate) fn sines(self) -> (Self, Self) {
+        const ALL: Interval = Interval {
+            low: -1.0,
+            high: 1.0,
+        };
+        let reach = MOST_QUARTERS * FRAC_PI_2;
+        if self.width() >= TAU || self.low < -reach || self.high > reach {
+            return (ALL, ALL);
+        }
+        let (low_sin, low_cos) = sines_of(self.low);
+        let (high_sin, high_cos) = sines_of(self.high);
+        let (mut sin, mut cos) = (low_sin.hull(high_sin), low_cos.hull(high_cos));
+        // Between the ends both grow or fall, but for the quarter turns inside.
+        let first = libm::floor(self.low / FRAC_PI_2) as i32;
+        for quarter in first..=first + 5 {
+            if multiple_of_half_pi(quarter).meets(self) {
+                let (of_sin, of_cos) = match quarter.rem_euclid(4) {
+                    0 => (0.0, 1.0),
+                    1 => (1.0, 0.0),
+                    2 => (0.0, -1.0),
+                    _ => (-1.0, 0.0),
+                };
+                sin = sin.hull(Interval::point(of_sin));
+                cos = cos.hull(Interval::point(of_cos));
+            }
+        }
+        let within = |values: Self| Self {
+            low: values.low.max(-1.0),
+            high: values.high.min(1.0),
+        };
+        (within(sin), within(cos))
+    }
+}
+
+fn multiple_of_half_pi(quarters: i32) -> Interval {
+    let quarters = Interval::point(f64::from(quarters));
+    let [first, second, rest] = HALF_PI;
+    quarters * rest + quarters * second + exact_product(quarters, first)
+}
+
+/// The product of a whole number of at most 20 bits with a number whose last 22 bits are 0.
+fn exact_product(whole: Interval, short: Interval) -> Interval {
+    Interval::point(whole.low * short.low)
+}
+
+/// Sine and cosine of one angle of at most [`MOST_QUARTERS`].
+fn sines_of(angle: f64) -> (Interval, Interval) {
+    let quarters = libm::round(angle / FRAC_PI_2);
+    let [first, second, rest] = HALF_PI;
+    let count = Interval::point(quarters);
+    let near_zero =
+        Interval::point(angle) - exact_product(count, first) - count * second - count * rest;
+    let (sin, cos) = series(near_zero);
+    match (quarters as i32).rem_euclid(4) {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// Sine and cosine of an angle within 0.8 of 0, by their series in Horner's form:
+/// sin x = x (1 − x²/(2·3) (1 − x²/(4·5) (…))), cos x = 1 − x²/(1·2) (1 − x²/(3·4) (…)).
+fn series(x: Interval) -> (Interval, Interval) {
+    const ONE: Interval = Interval::point(1.0);
+    let square = x.squared();
+    let horner = |last: u32| {
+        let mut sum = ONE;
+        let mut n = last;
+        while n >= 2 {
+            let divisor = Interval::point(f64::from(n * (n - 1)));
+            // No divisor is 0.
+            let term = (square * sum).checked_div(divisor).unwrap_or(square);
+            sum = ONE - term;
+            n -= 2;
+        }
+        sum
+    };
+    (x * horner(17) + REMAINDER, horner(18) + REMAINDER)
+}

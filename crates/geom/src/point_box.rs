@@ -1,0 +1,220 @@
+use crate::{Interval, IntervalError, Point};
+
+/// A position known to lie in a rectangle along the axes; or a displacement, which is a position seen from another.
+///
+/// Never empty. All operations are sound and monotone, as those of [`Interval`] are.
+///
+/// ```
+/// use tolman_geom::{Interval, Point, PointBox};
+///
+/// let corner = PointBox::about(Point::new(2.0, 0.0), 0.1)?;
+/// // Turned by a right angle, give or take a degree.
+/// let turn = Interval::about(90_f64.to_radians(), 1_f64.to_radians())?;
+/// let turned = corner.rotated(turn);
+/// assert!(turned.contains(Point::new(0.0, 2.0)));
+/// assert!(turned.x.width() < 0.3 && turned.y.width() < 0.21);
+/// # Ok::<(), tolman_geom::IntervalError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PointBox {
+    /// From west to east, m.
+    pub x: Interval,
+    /// From south to north, m.
+    pub y: Interval,
+}
+
+impl PointBox {
+    /// The origin alone.
+    pub const ORIGIN: Self = Self {
+        x: Interval::ZERO,
+        y: Interval::ZERO,
+    };
+
+    /// Nothing is known.
+    pub const UNBOUNDED: Self = Self {
+        x: Interval::UNBOUNDED,
+        y: Interval::UNBOUNDED,
+    };
+
+    /// A box from its sides.
+    #[must_use]
+    pub const fn new(x: Interval, y: Interval) -> Self {
+        Self { x, y }
+    }
+
+    /// One position.
+    ///
+    /// # Errors
+    /// If it is not finite.
+    pub fn of(point: Point) -> Result<Self, IntervalError> {
+        Ok(Self::new(Interval::of(point.x)?, Interval::of(point.y)?))
+    }
+
+    /// The square of all positions within `margin` of `middle` along each axis.
+    ///
+    /// # Errors
+    /// If `margin` is negative or something is no number.
+    pub fn about(middle: Point, margin: f64) -> Result<Self, IntervalError> {
+        Ok(Self::new(
+            Interval::about(middle.x, margin)?,
+            Interval::about(middle.y, margin)?,
+        ))
+    }
+
+    /// A position in the middle, always inside.
+    #[must_use]
+    pub fn middle(self) -> Point {
+        Point::new(self.x.middle(), self.y.middle())
+    }
+
+    /// The longer side, m.
+    #[must_use]
+    pub fn width(self) -> f64 {
+        self.x.width().max(self.y.width())
+    }
+
+    /// Whether all four bounds are there.
+    #[must_use]
+    pub const fn is_bounded(self) -> bool {
+        self.x.is_bounded() && self.y.is_bounded()
+    }
+
+    /// Whether a position lies inside; never one with NaN.
+    #[must_use]
+    pub fn contains(self, point: Point) -> bool {
+        self.x.contains(point.x) && self.y.contains(point.y)
+    }
+
+    /// Whether all of `other` lies inside.
+    #[must_use]
+    pub fn encloses(self, other: Self) -> bool {
+        self.x.encloses(other.x) && self.y.encloses(other.y)
+    }
+
+    /// Whether the two have a position in common.
+    #[must_use]
+    pub fn meets(self, other: Self) -> bool {
+        self.x.meets(other.x) && self.y.meets(other.y)
+    }
+
+    /// What both allow; none if they contradict each other.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        Some(Self {
+            x: self.x.intersection(other.x)?,
+            y: self.y.intersection(other.y)?,
+        })
+    }
+
+    /// The least box that holds both.
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            x: self.x.hull(other.x),
+            y: self.y.hull(other.y),
+        }
+    }
+
+    /// All distances from the origin: how long the displacement may be, m.
+    #[must_use]
+    pub fn norm(self) -> Interval {
+        let square = self.x.squared() + self.y.squared();
+        // A sum of squares is never negative.
+        square.sqrt().unwrap_or(Interval::ZERO)
+    }
+
+    /// All distances between a position of each, m.
+    #[must_use]
+    pub fn distance(self, other: Self) -> Interval {
+        (self - other).norm()
+    }
+
+    /// All places of a position turned about the origin by any of `angles`, rad: the least box up to rounding.
+    ///
+    /// For a given angle the turned position depends linearly on the position, so it is extreme in a corner; along
+    /// the angles a corner follows a circle about the origin, whose extremes lie at the ends or where it crosses an
+    /// axis. (Cosine and sine each as an interval of its own would be sound, but wider.)
+    #[must_use]
+    pub fn rotated(self, angles: Interval) -> Self {
+        Self {
+            x: shadow(self.x, self.y, angles),
+            y: shadow(self.y, -self.x, angles),
+        }
+    }
+}
+
+/// All values of a · cos θ − b · sin θ.
+fn shadow(a: Interval, b: Interval, angles: Interval) -> Interval {
+    /// Nearly a full circle, on which all extremes lie.
+    const WHOLE: f64 = 6.25;
+    /// Less than half a circle, on which a corner's shadow has at most one extreme.
+    const PART: f64 = 2.0;
+    if angles.width() >= WHOLE || !a.is_bounded() || !b.is_bounded() {
+        let longest = PointBox { x: a, y: b }.norm();
+        return longest.hull(-longest);
+    }
+    if angles.width() > PART {
+        let (first, second) = angles.halves();
+        return shadow(a, b, first).hull(shadow(a, b, second));
+    }
+    let corners = [a.low(), a.high()].map(|a| [b.low(), b.high()].map(|b| trace(a, b, angles)));
+    let [[first, second], [third, fourth]] = corners;
+    first.hull(second).hull(third.hull(fourth))
+}
+
+/// The shadow of one corner, for angles over less than half a circle.
+fn trace(a: f64, b: f64, angles: Interval) -> Interval {
+    let (a, b) = (Interval::point(a), Interval::point(b));
+    let ends = [angles.low(), angles.high()].map(|end| {
+        let (sin, cos) = Interval::point(end).sines();
+        let value = a * cos - b * sin;
+        let slope = -(a * sin) - b * cos;
+        (value, slope)
+    });
+    let [(first, before), (second, after)] = ends;
+    let hull = first.hull(second);
+    // Over less than half a circle there is an extreme between the ends only where the slope changes sign. Where a
+    // slope's sign is not certain, an end is an extreme up to rounding.
+    let longest = PointBox { x: a, y: b }.norm();
+    let rises_then_falls = before.high() >= 0.0 && after.low() <= 0.0;
+    let falls_then_rises = before.low() <= 0.0 && after.high() >= 0.0;
+    match (rises_then_falls, falls_then_rises) {
+        (true, false) => hull.hull(longest),
+        (false, true) => hull.hull(-longest),
+        (true, true) if hull.low() >= 0.0 => hull.hull(longest),
+        (true, true) if hull.high() <= 0.0 => hull.hull(-longest),
+        (true, true) => hull.hull(longest).hull(-longest),
+        (false, false) => hull,
+    }
+}
+
+impl core::ops::Neg for PointBox {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            x: -self.x,
+            y: -self.y,
+        }
+    }
+}
+
+impl core::ops::Add for PointBox {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            x: self.x + other.x,
+            y: self.y + other.y,
+        }
+    }
+}
+
+impl core::ops::Sub for PointBox {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}

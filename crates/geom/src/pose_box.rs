@@ -1,0 +1,162 @@
+use core::f64::consts::TAU;
+
+use crate::{Interval, IntervalError, PointBox, Pose};
+
+/// A pose known to lie within bounds, and so a rigid transform known within bounds: the uncertain [`Pose`].
+///
+/// The heading is not wrapped: it may be wider than a full circle, and headings a full circle apart are the same
+/// wherever poses are compared. All operations are sound: whatever true poses lie in the operands, the true result
+/// lies in the result.
+///
+/// ```
+/// use tolman_geom::{Heading, Interval, Point, PointBox, Pose, PoseBox};
+///
+/// // A metre ahead give or take 10 cm, then to the left by 90° give or take 1°; four times: round a square.
+/// let leg = PoseBox::new(
+///     PointBox::new(Interval::about(1.0, 0.1)?, Interval::ZERO),
+///     Interval::about(90_f64.to_radians(), 1_f64.to_radians())?,
+/// );
+/// let round = (1..4).fold(leg, |way, _| way.compose(leg));
+/// assert!(round.contains(Pose::IDENTITY));
+/// assert!(round.position.width() < 0.8);
+/// // Somebody recognizes the start: two estimates of the same pose narrow each other.
+/// let seen = PoseBox::about(Pose::IDENTITY, 0.05, 0.02)?;
+/// let both = round.intersection(seen).unwrap();
+/// assert!(seen.position.encloses(both.position));
+/// # Ok::<(), tolman_geom::IntervalError>(())
+/// ```
+///
+/// Source: Engelson and McDermott, *Maps considered as adaptive planning resources*: positions and headings as
+/// intervals, composed and inverted along links.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PoseBox {
+    /// Where, m.
+    pub position: PointBox,
+    /// Which way it looks, rad, not wrapped.
+    pub heading: Interval,
+}
+
+impl PoseBox {
+    /// The origin, looking east, for certain.
+    pub const IDENTITY: Self = Self {
+        position: PointBox::ORIGIN,
+        heading: Interval::ZERO,
+    };
+
+    /// A box from its parts.
+    #[must_use]
+    pub const fn new(position: PointBox, heading: Interval) -> Self {
+        Self { position, heading }
+    }
+
+    /// One pose.
+    ///
+    /// # Errors
+    /// If it is not finite.
+    pub fn of(pose: Pose) -> Result<Self, IntervalError> {
+        Self::about(pose, 0.0, 0.0)
+    }
+
+    /// All poses within `metres` of `middle` along each axis and within `radians` of its heading.
+    ///
+    /// # Errors
+    /// If a margin is negative or something is no number.
+    pub fn about(middle: Pose, metres: f64, radians: f64) -> Result<Self, IntervalError> {
+        Ok(Self {
+            position: PointBox::about(middle.position, metres)?,
+            heading: Interval::about(middle.heading.radians(), radians)?,
+        })
+    }
+
+    /// `a_from_b.compose(b_from_c)` is `a_from_c`.
+    #[must_use]
+    pub fn compose(self, inner: Self) -> Self {
+        Self {
+            position: self.transform(inner.position),
+            heading: self.heading + inner.heading,
+        }
+    }
+
+    /// `a_from_b.inverse()` is `b_from_a`.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        Self {
+            position: (-self.position).rotated(-self.heading),
+            heading: -self.heading,
+        }
+    }
+
+    /// `other` as seen from here: `world_from_a.between(world_from_b)` is `a_from_b`. Narrower than composing with the
+    /// inverse, which forgets that its position and its heading are seen from the same place.
+    #[must_use]
+    pub fn between(self, other: Self) -> Self {
+        Self {
+            position: (other.position - self.position).rotated(-self.heading),
+            heading: other.heading - self.heading,
+        }
+    }
+
+    /// Positions of this pose's own frame, in the frame the pose is given in.
+    #[must_use]
+    pub fn transform(self, position: PointBox) -> PointBox {
+        self.position + position.rotated(self.heading)
+    }
+
+    /// Whether a pose lies inside, its heading up to full circles.
+    #[must_use]
+    pub fn contains(self, pose: Pose) -> bool {
+        let heading = Interval::of(pose.heading.radians());
+        self.position.contains(pose.position)
+            && heading.is_ok_and(|heading| self.heading.meets(nearest(heading, self.heading)))
+    }
+
+    /// What both allow, headings up to full circles; none if they contradict each other, which is a *fact*: a bound was
+    /// broken, or the two are not estimates of the same pose. Where wide headings agree in two parts of the circle,
+    /// what lies between them is in the result as well.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        Some(Self {
+            position: self.position.intersection(other.position)?,
+            heading: common(self.heading, other.heading)?,
+        })
+    }
+
+    /// The least box that holds both, the headings of `other` brought to within half a circle of those here.
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            position: self.position.hull(other.position),
+            heading: self.heading.hull(nearest(other.heading, self.heading)),
+        }
+    }
+
+    /// A pose in the middle, always inside.
+    #[must_use]
+    pub fn middle(self) -> Pose {
+        Pose::new(self.position.middle(), self.heading.middle().into())
+    }
+}
+
+/// The angles of `a` that are, up to full circles, in `b`.
+fn common(a: Interval, b: Interval) -> Option<Interval> {
+    if a.width() >= TAU {
+        return Some(b);
+    }
+    if b.width() >= TAU {
+        return Some(a);
+    }
+    let circle = Interval::full_circle();
+    let b = nearest(b, a);
+    let parts = [b - circle, b, b + circle].map(|turned| a.intersection(turned));
+    parts.into_iter().flatten().reduce(Interval::hull)
+}
+
+/// `angles` turned by as many full circles as bring their middle nearest to that of `target`.
+fn nearest(angles: Interval, target: Interval) -> Interval {
+    let circles = libm::round((target.middle() - angles.middle()) / TAU);
+    if circles == 0.0 {
+        return angles;
+    }
+    angles + Interval::full_circle() * Interval::point(circles)
+}
