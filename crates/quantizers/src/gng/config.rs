@@ -106,9 +106,11 @@ impl GngConfig {
     }
 
     /// The equilibrium GNG of MSLST with an error threshold of its table 1, in squared robot units for scans in robot
-    /// units. The paper gives no rates; these are Fritzke's.
+    /// units. The paper gives no rates; these are Fritzke's, but for the decay d = 0.9975: it was chosen so that the scans of
+    /// the Large maze at threshold 50 give the paper's 26 units (see docs/quantizers.md).
     pub fn mslst(threshold: f64) -> Self {
         Self {
+            decay: 0.9975,
             order: StepOrder::Mslst,
             gate: GrowthGate::MeanError { threshold },
             ..Self::fritzke()
