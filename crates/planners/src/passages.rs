@@ -1,0 +1,84 @@
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+
+/// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One byte a cell.
+///
+/// ```
+/// use tolman_maze::{Cell, Direction, Grid, Maze};
+/// use tolman_planners::{Passages, Unknown};
+///
+/// let mut maze = Maze::open(Grid::new(3, 1));
+/// maze.set_wall(Cell::new(1, 0), Direction::East, true);
+/// let passages = Passages::<16>::new(&maze, Unknown::Closed);
+/// assert!(passages.is_open(Cell::new(1, 0), Direction::West));
+/// assert!(!passages.is_open(Cell::new(1, 0), Direction::East));
+/// assert!(!passages.is_open(Cell::new(0, 0), Direction::West), "the border is closed");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Passages<const N: usize> {
+    /// Bit [`Direction::index`] of a cell, row by row from the south: open to that side.
+    sides: [[u8; N]; N],
+}
+
+/// What to take a wall for that nobody has looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// Open: what can be hoped for. No way in the maze is shorter than the shortest hoped for.
+    Open,
+    /// Closed: what is certain.
+    Closed,
+}
+
+impl<const N: usize> Passages<N> {
+    /// The passages of a maze as far as it is known. Of a maze of more than `N` columns or rows only the
+    /// south-western part is taken. O(N²).
+    #[must_use]
+    pub fn new(walls: &impl Walls, unknown: Unknown) -> Self {
+        let grid = walls.grid();
+        let side = N.min(u16::MAX.into()) as u16;
+        let part = Grid::new(grid.width().min(side), grid.height().min(side));
+        let mut passages = Self { sides: [[0; N]; N] };
+        for cell in part.cells() {
+            for direction in [Direction::North, Direction::East] {
+                let open = match walls.knowledge(cell, direction) {
+                    Knowledge::Open => true,
+                    Knowledge::Wall => false,
+                    Knowledge::Unknown => unknown == Unknown::Open,
+                };
+                if open && let Some(next) = part.neighbour(cell, direction) {
+                    passages.open_side(cell, direction);
+                    passages.open_side(next, direction.opposite());
+                }
+            }
+        }
+        passages
+    }
+
+    fn open_side(&mut self, cell: Cell, direction: Direction) {
+        let row = self.sides.get_mut(usize::from(cell.y));
+        if let Some(sides) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
+            *sides |= 1 << direction.index();
+        }
+    }
+
+    /// Whether a plan may go from `cell` to `direction`. Nothing is open outside the maze.
+    #[must_use]
+    pub fn is_open(&self, cell: Cell, direction: Direction) -> bool {
+        let row = self.sides.get(usize::from(cell.y));
+        row.and_then(|row| row.get(usize::from(cell.x)))
+            .is_some_and(|sides| sides >> direction.index() & 1 == 1)
+    }
+
+    /// Whether everything that is open here is open in `other` too.
+    #[must_use]
+    pub fn is_within(&self, other: &Self) -> bool {
+        let (ours, theirs) = (self.sides(), other.sides());
+        ours.iter()
+            .zip(theirs)
+            .all(|(ours, theirs)| ours & !theirs == 0)
+    }
+
+    /// The open sides of every cell, row by row from the south.
+    pub(crate) const fn sides(&self) -> &[u8] {
+        self.sides.as_flattened()
+    }
+}

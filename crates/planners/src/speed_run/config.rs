@@ -1,0 +1,168 @@
+use core::fmt;
+
+use thiserror::Error;
+
+/// How a speed run is driven: what its times follow from.
+///
+/// There is no default: take the preset of the kind of maze, [`SpeedRunConfig::classic`] or
+/// [`SpeedRunConfig::half_size`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedRunConfig {
+    /// Distance between the middles of two neighbouring cells. Millimetres, above 0. Rules of the
+    /// competitions: 180 (classic), 90 (half-size).
+    pub cell_mm: f64,
+    /// Speed at the ends of every straight, that is in the slalom turns, and at the start. mm/s,
+    /// above 0.
+    pub turn_speed_mm_s: f64,
+    /// Straights from cell to cell.
+    pub straight: Drive,
+    /// Straights from wall to wall at 45°.
+    pub diagonal: Drive,
+    /// How long the slalom turns take.
+    pub slalom: SlalomTimes,
+}
+
+/// How a straight is driven: faster with constant acceleration up to the top speed, and slower again
+/// with the same deceleration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// mm/s², above 0.
+    pub acceleration_mm_s2: f64,
+    /// mm/s, not below the speed in the turns.
+    pub top_speed_mm_s: f64,
+}
+
+/// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Turn`](super::Turn) says from where to where
+/// they lead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SlalomTimes {
+    /// 45° from a straight into a diagonal, or out of one.
+    pub f45_ms: u16,
+    /// 90° from a straight into a straight, over two cells.
+    pub f90_ms: u16,
+    /// 135° from a straight into a diagonal, or out of one.
+    pub f135_ms: u16,
+    /// 180° from a straight into the straight beside it.
+    pub f180_ms: u16,
+    /// 90° from a diagonal into a diagonal.
+    pub fv90_ms: u16,
+}
+
+impl SpeedRunConfig {
+    /// Half-size mazes with the values that kerikun11/micromouse-maze-library has by default
+    /// (`StepMapSlalom::EdgeCost::RunParameter`): cells of 90 mm, turns at 420 mm/s, straights with
+    /// 4200 mm/s² up to 1500 mm/s, diagonals with 3600 mm/s² up to 1200 mm/s.
+    ///
+    /// The library's sixth turn, FS90 (287 ms, within one cell), is left out as it is in the
+    /// library's own runs with diagonals: there it never pays.
+    #[must_use]
+    pub const fn half_size() -> Self {
+        Self {
+            cell_mm: 90.0,
+            turn_speed_mm_s: 420.0,
+            straight: Drive {
+                acceleration_mm_s2: 4200.0,
+                top_speed_mm_s: 1500.0,
+            },
+            diagonal: Drive {
+                acceleration_mm_s2: 3600.0,
+                top_speed_mm_s: 1200.0,
+            },
+            slalom: SlalomTimes {
+                f45_ms: 257,
+                f90_ms: 375,
+                f135_ms: 465,
+                f180_ms: 563,
+                fv90_ms: 388,
+            },
+        }
+    }
+
+    /// Classic mazes: as [`SpeedRunConfig::half_size`], with cells of 180 mm.
+    #[must_use]
+    pub const fn classic() -> Self {
+        Self {
+            cell_mm: 180.0,
+            ..Self::half_size()
+        }
+    }
+}
+
+/// Why times cannot be worked out from a [`SpeedRunConfig`].
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SpeedRunConfigError {
+    /// A length, speed or acceleration that is not a positive number.
+    #[error("{field} is {value}, but has to be a number above 0")]
+    NotPositive {
+        /// Which field.
+        field: Field,
+        /// What it holds.
+        value: f64,
+    },
+    /// A top speed below the speed in the turns.
+    #[error(
+        "{field} is {value} mm/s, below the {turn_speed_mm_s} mm/s in the turns: raise the one or lower the other"
+    )]
+    TopSpeedTooLow {
+        /// Which field.
+        field: Field,
+        /// What it holds.
+        value: f64,
+        /// The speed in the turns.
+        turn_speed_mm_s: f64,
+    },
+    /// A move takes no time, or the longest straight that fits into the maze takes more than 65.535 s.
+    #[error("moves take {shortest_ms} to {longest_ms} ms: they have to take 1 to 65535 ms")]
+    OutOfRange {
+        /// The shortest move.
+        shortest_ms: u64,
+        /// The longest move.
+        longest_ms: u64,
+    },
+    /// The longest move takes so much longer than the shortest that the search would need more buckets than it
+    /// has.
+    #[error(
+        "the longest move takes {longest_ms} ms, more than {most} times as long as the shortest with \
+         {shortest_ms} ms: use a map for larger mazes"
+    )]
+    TooUneven {
+        /// The longest move.
+        longest_ms: u64,
+        /// The shortest move.
+        shortest_ms: u64,
+        /// How many times as long it may take.
+        most: usize,
+    },
+}
+
+/// A field of [`SpeedRunConfig`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Field {
+    /// [`SpeedRunConfig::cell_mm`]
+    Cell,
+    /// [`SpeedRunConfig::turn_speed_mm_s`]
+    TurnSpeed,
+    /// The acceleration of [`SpeedRunConfig::straight`]
+    StraightAcceleration,
+    /// The top speed of [`SpeedRunConfig::straight`]
+    StraightTopSpeed,
+    /// The acceleration of [`SpeedRunConfig::diagonal`]
+    DiagonalAcceleration,
+    /// The top speed of [`SpeedRunConfig::diagonal`]
+    DiagonalTopSpeed,
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Cell => "cell_mm",
+            Self::TurnSpeed => "turn_speed_mm_s",
+            Self::StraightAcceleration => "straight.acceleration_mm_s2",
+            Self::StraightTopSpeed => "straight.top_speed_mm_s",
+            Self::DiagonalAcceleration => "diagonal.acceleration_mm_s2",
+            Self::DiagonalTopSpeed => "diagonal.top_speed_mm_s",
+        })
+    }
+}

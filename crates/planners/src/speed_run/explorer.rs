@@ -1,0 +1,108 @@
+use tolman_maze::{Cell, Direction, Knowledge, Walls};
+
+use super::{RunState, SpeedRunPlanner, SpeedRunTimes};
+use crate::{Passages, StepMap, Unknown};
+
+/// Explores a maze cell by cell until the best speed run is known for certain, and comes back.
+///
+/// In every cell it takes the best run that can be hoped for: all walls nobody has looked at are open. If no
+/// wall of that run is left to look at, it is the best of all and the exploration is over; else the mouse
+/// drives to the nearest cell beside one of those walls. On the way out the goals count as such cells too, so
+/// that it has been there in the end.
+///
+/// The explorer holds nothing of the maze that it does not compare with `walls` at each call, so walls
+/// may be forgotten again at any time.
+#[derive(Clone, Debug)]
+pub struct SpeedRunExplorer<'a, const N: usize> {
+    planner: SpeedRunPlanner<'a, N>,
+    home: Cell,
+    goal: Goal,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Goal {
+    Ahead,
+    Visited,
+}
+
+/// What an explorer wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decision {
+    /// Drive one cell in this direction, and look at the walls there.
+    Drive(Direction),
+    /// The mouse stands at the start, was at a goal, and no run is faster than the one known, whatever
+    /// the walls that nobody has looked at. It takes so long:
+    Finished {
+        /// Milliseconds.
+        run_ms: u16,
+    },
+    /// No way leads to a goal, or the walls around the mouse are not known.
+    Stuck,
+}
+
+impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
+    /// An explorer that has seen nothing, for a mouse that starts in `home`, looking to `heading`.
+    #[must_use]
+    pub const fn new(
+        times: &'a SpeedRunTimes<N>,
+        home: Cell,
+        heading: Direction,
+        goals: &'a [Cell],
+    ) -> Self {
+        let start = RunState::Straight {
+            cell: home,
+            heading,
+        };
+        Self {
+            planner: SpeedRunPlanner::new(times, start, goals),
+            home,
+            goal: Goal::Ahead,
+        }
+    }
+
+    /// What to do in the cell `at`, looking to `heading`, once its walls are in `walls`. O(N²), plus a
+    /// search if no best run hoped for so far can be driven any more.
+    #[must_use]
+    pub fn decide(&mut self, walls: &impl Walls, at: Cell, heading: Direction) -> Decision {
+        if self.planner.goals().contains(&at) {
+            self.goal = Goal::Visited;
+        }
+        let hoped = Passages::new(walls, Unknown::Open);
+        self.planner.update(&hoped);
+        let Some(run_ms) = self.planner.time_ms() else {
+            return Decision::Stuck;
+        };
+        let unseen = self
+            .planner
+            .run(&hoped)
+            .edges()
+            .filter(|(cell, direction)| !walls.knowledge(*cell, *direction).is_known());
+        let beside = unseen.flat_map(|(cell, direction)| {
+            [Some(cell), walls.grid().neighbour(cell, direction)]
+                .into_iter()
+                .flatten()
+        });
+        let mut targets = beside.peekable();
+        let steps = if self.goal == Goal::Ahead {
+            StepMap::new(&hoped, targets.chain(self.planner.goals().iter().copied()))
+        } else if targets.peek().is_some() {
+            StepMap::new(&hoped, targets)
+        } else if at == self.home {
+            return Decision::Finished { run_ms };
+        } else {
+            StepMap::new(&Passages::new(walls, Unknown::Closed), [self.home])
+        };
+        let order = [heading, heading.left(), heading.right(), heading.opposite()];
+        let open = order
+            .into_iter()
+            .filter(|direction| walls.knowledge(at, *direction) == Knowledge::Open);
+        let next = steps.descend(&hoped, at, open);
+        next.map_or(Decision::Stuck, Decision::Drive)
+    }
+
+    /// The planner: which run is hoped for, and in the end known to be the best.
+    #[must_use]
+    pub const fn planner(&self) -> &SpeedRunPlanner<'a, N> {
+        &self.planner
+    }
+}

@@ -1,0 +1,190 @@
+use tolman_maze::{Cell, Direction};
+
+use super::buckets::Buckets;
+use super::moves::{Further, for_each_straight, for_each_turn};
+use super::state::{Facing, Node, STATES_PER_CELL};
+use super::{RunState, SpeedRun, SpeedRunTimes};
+use crate::Passages;
+
+/// What takes so long counts as never.
+const NEVER: u16 = u16::MAX;
+
+/// How long the best speed run takes from every state to the nearest goal, in a maze of up to
+/// `N` × `N` cells, `N` ≤ 32.
+///
+/// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that consist of
+/// straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. What takes 65.535 s or more
+/// counts as out of reach.
+///
+/// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so it
+/// drives the runs from the goals to every state turned round. Its queue has buckets no wider than the
+/// shortest move lasts, so that whatever is in the first bucket is final (Denardo and Fox, *Shortest-route
+/// methods: 1. Reaching, pruning, and buckets*, 1979).
+#[derive(Clone, Debug)]
+pub struct SpeedRunMap<const N: usize> {
+    /// Times of the states turned round.
+    times: [[[u16; STATES_PER_CELL]; N]; N],
+    /// One bit a state: its time is that of a straight, which no other straight has to continue.
+    by_straight: [[u16; N]; N],
+    buckets: Buckets<N>,
+}
+
+/// How far a search goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// To every state.
+    Everywhere,
+    /// Until it is clear how long the run from this state takes. All states nearer to a goal are clear
+    /// as well; of those farther away the times may be too long, or missing.
+    Until(RunState),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Arrival {
+    Straight,
+    Turn,
+}
+
+impl<const N: usize> Default for SpeedRunMap<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const N: usize> SpeedRunMap<N> {
+    /// A map on which no goal is in reach from anywhere.
+    #[must_use]
+    pub const fn new() -> Self {
+        const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
+        Self {
+            times: [[[NEVER; STATES_PER_CELL]; N]; N],
+            by_straight: [[0; N]; N],
+            buckets: Buckets::EMPTY,
+        }
+    }
+
+    /// Works the times to `goals` out anew. O(N² · N): every state looks along a straight at most.
+    pub fn search(
+        &mut self,
+        passages: &Passages<N>,
+        times: &SpeedRunTimes<N>,
+        goals: &[Cell],
+        extent: Extent,
+    ) {
+        self.times.as_flattened_mut().fill([NEVER; STATES_PER_CELL]);
+        self.buckets.clear();
+        let side = N as u16;
+        for goal in goals.iter().filter(|goal| goal.x < side && goal.y < side) {
+            for heading in Direction::ALL {
+                let state = RunState::Straight {
+                    cell: *goal,
+                    heading,
+                };
+                self.arrive(Node::new::<N>(state), 0, Arrival::Turn, times);
+            }
+        }
+        let last = match extent {
+            Extent::Everywhere => None,
+            Extent::Until(state) => Some(Node::new::<N>(state).reversed::<N>()),
+        };
+        let mut bucket = 0;
+        while let Some(next) = self.buckets.next(bucket) {
+            bucket = next;
+            while let Some(cell) = self.buckets.pop(bucket) {
+                self.settle(cell, bucket, passages.sides(), times);
+            }
+            if last.is_some_and(|last| times.bucket(self.time(last)) <= bucket) {
+                break;
+            }
+        }
+    }
+
+    /// How long the run from `state` to the nearest goal takes, in milliseconds; none if no way leads
+    /// there.
+    #[must_use]
+    pub fn time_ms(&self, state: RunState) -> Option<u16> {
+        let time = self.time_from(Node::new::<N>(state));
+        (time != NEVER).then_some(time)
+    }
+
+    /// The best run from `start`, move by move, on the passages and times of the last search.
+    ///
+    /// If passages were closed since, what comes out is a best run still, provided that it
+    /// [arrives](SpeedRun::has_arrived).
+    #[must_use]
+    pub fn run<'a>(
+        &'a self,
+        passages: &'a Passages<N>,
+        times: &'a SpeedRunTimes<N>,
+        start: RunState,
+    ) -> SpeedRun<'a, N> {
+        SpeedRun::new(self, passages, times, Node::new::<N>(start))
+    }
+
+    /// [`NEVER`] if no way leads to a goal.
+    pub(super) fn time_from(&self, node: Node) -> u16 {
+        self.time(node.reversed::<N>())
+    }
+
+    #[inline(always)]
+    fn time(&self, node: Node) -> u16 {
+        let times = self.times.as_flattened().get(node.cell);
+        let time = times.and_then(|times| times.get(node.state));
+        time.copied().unwrap_or(NEVER)
+    }
+
+    #[inline(always)]
+    fn arrive(&mut self, node: Node, time: u16, arrival: Arrival, times: &SpeedRunTimes<N>) {
+        let states = self.times.as_flattened_mut().get_mut(node.cell);
+        let Some(best) = states.and_then(|states| states.get_mut(node.state)) else {
+            return;
+        };
+        if time >= *best {
+            return;
+        }
+        *best = time;
+        if let Some(flags) = self.by_straight.as_flattened_mut().get_mut(node.cell) {
+            let bit = 1 << node.state;
+            match arrival {
+                Arrival::Straight => *flags |= bit,
+                Arrival::Turn => *flags &= !bit,
+            }
+        }
+        self.buckets.insert(times.bucket(time), node.cell);
+    }
+
+    /// Goes on from every state of `cell` whose time lies in `bucket`, the first that is not empty.
+    fn settle(&mut self, cell: usize, bucket: usize, sides: &[u8], times: &SpeedRunTimes<N>) {
+        let (Some(states), Some(by_straight)) = (
+            self.times.as_flattened().get(cell).copied(),
+            self.by_straight.as_flattened().get(cell).copied(),
+        ) else {
+            return;
+        };
+        for (state, time) in states.into_iter().enumerate() {
+            if times.bucket(time) != bucket || time == NEVER {
+                continue;
+            }
+            let node = Node { cell, state };
+            if by_straight >> state & 1 == 0 {
+                let straights = match node.facing() {
+                    Facing::Straight(_) => times.straights(),
+                    Facing::Diagonal(..) => times.diagonals(),
+                };
+                for_each_straight::<N>(sides, node, |cells, to| {
+                    // Who got there no later than we set out is ahead of us all the way.
+                    if self.time(to) <= time {
+                        return Further::No;
+                    }
+                    let takes = straights.get(cells).copied().unwrap_or(NEVER);
+                    self.arrive(to, time.saturating_add(takes), Arrival::Straight, times);
+                    Further::Yes
+                });
+            }
+            for_each_turn::<N>(sides, node, |slalom, _, to| {
+                let takes = times.slalom().time_ms(slalom);
+                self.arrive(to, time.saturating_add(takes), Arrival::Turn, times);
+            });
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! The speed run of a micromouse: the fastest way to the goal with straights, diagonals, slalom turns and
+//! acceleration, and the exploration that proves it to be the fastest.
+//!
+//! A [`SpeedRunConfig`] says how the mouse drives, [`SpeedRunTimes`] how long each move takes then. On
+//! [`Passages`](crate::Passages) a [`SpeedRunMap`] finds how long the best run takes from everywhere, and the run
+//! itself. A [`SpeedRunPlanner`] keeps that up while walls turn up, a [`SpeedRunExplorer`] decides where to look
+//! for walls, and a [`SpeedRunCertificate`] convinces a checker that shares no code with them.
+//!
+//! ```
+//! use tolman_maze::{Cell, Direction};
+//! use tolman_planners::speed_run::{Extent, RunState, SpeedRunConfig, SpeedRunMap, SpeedRunTimes};
+//! use tolman_planners::{Passages, Unknown};
+//!
+//! let text = "\
+//! o---o---o---o---o
+//! | S             |
+//! o---o---o---o   o
+//! |   |       |   |
+//! o   o   o   o   o
+//! |         G |   |
+//! o   o   o---o   o
+//! |   |           |
+//! o---o---o---o---o
+//! ";
+//! # #[cfg(feature = "alloc")] {
+//! let maze = tolman_maze::read(text)?.maze;
+//! let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic())?;
+//! let passages = Passages::new(&maze, Unknown::Closed);
+//! let mut map = SpeedRunMap::new();
+//! map.search(&passages, &times, maze.goals(), Extent::Everywhere);
+//!
+//! let start = RunState::Straight { cell: Cell::new(0, 3), heading: Direction::East };
+//! assert_eq!(map.time_ms(start), Some(1992));
+//! for step in map.run(&passages, &times, start) {
+//!     println!("{:?}", step.run_move);
+//! }
+//! # }
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+//!
+//! Model and default values are those of kerikun11/micromouse-maze-library (`StepMapSlalom`), so that the times can be
+//! compared. It deviates in two points. Times are whole milliseconds, straights rounded up, where the library cuts
+//! them down to multiples of two. And the search is exact: the library stops looking along a straight where
+//! another run is faster, although its own could be faster farther on.
+//!
+//! Nothing here allocates, except for the checker, and nothing panics: sizes are const generics.
+
+mod buckets;
+#[cfg(feature = "alloc")]
+mod certificate;
+mod config;
+mod explorer;
+mod map;
+mod moves;
+mod planner;
+mod run;
+mod state;
+mod times;
+
+#[cfg(feature = "alloc")]
+pub use certificate::{CertificateError, SpeedRunCertificate, best_possible_ms};
+pub use config::{Drive, Field, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
+pub use explorer::{Decision, SpeedRunExplorer};
+pub use map::{Extent, SpeedRunMap};
+pub use moves::{RunMove, RunStep, Side, Slalom};
+pub use planner::{Replanning, SpeedRunPlanner};
+pub use run::SpeedRun;
+pub use state::RunState;
+pub use times::SpeedRunTimes;

@@ -1,0 +1,224 @@
+use tolman_maze::Direction;
+
+use super::state::{Facing, Node, beside, left, opposite, right};
+use super::{RunState, SlalomTimes};
+
+/// One move of a speed run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunMove {
+    /// So many cells straight on.
+    Straight {
+        /// 1 or more.
+        cells: u16,
+    },
+    /// So many cells straight on along a diagonal, from edge to edge.
+    Diagonal {
+        /// 1 or more.
+        cells: u16,
+    },
+    /// A slalom turn.
+    Turn {
+        /// Which.
+        slalom: Slalom,
+        /// To which side.
+        side: Side,
+    },
+}
+
+/// The slalom turns. Each contains what it needs of straight before and behind it.
+///
+/// Said of a mouse in the middle of a cell that looks north, or on the western edge of a cell that looks
+/// north-east, and turns right or to its only possible side, respectively:
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slalom {
+    /// 45°: from the middle of a cell through the cell to the north onto the eastern edge of that one. And back: from a
+    /// diagonal through the northern edge into the middle of the cell there.
+    F45,
+    /// 90°: through the cell to the north into the middle of the cell east of that one.
+    F90,
+    /// 135°: through the cells to the north and north-east onto the southern edge of the latter. And back.
+    F135,
+    /// 180°: through the cells to the north and north-east into the cell to the east.
+    F180,
+    /// 90° from diagonal to diagonal: through the northern edge and out through the western edge of the cell there.
+    Fv90,
+}
+
+/// A move of a speed run and where it begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunStep {
+    /// Where the mouse is before it.
+    pub from: RunState,
+    /// What it does.
+    pub run_move: RunMove,
+}
+
+impl RunStep {
+    /// The sides to which the mouse leaves one cell after the other, from the cell of [`RunStep::from`] to that
+    /// of the state after the move.
+    pub fn directions(self) -> impl Iterator<Item = Direction> {
+        // A pattern, from the beginning again when it is used up.
+        let (pattern, period, count) = match (self.from, self.run_move) {
+            (RunState::Straight { heading, .. }, RunMove::Turn { slalom, side }) => {
+                let to_side = match side {
+                    Side::Left => heading.left(),
+                    Side::Right => heading.right(),
+                };
+                let count = match slalom {
+                    Slalom::F45 | Slalom::F90 => 2,
+                    Slalom::F135 | Slalom::F180 | Slalom::Fv90 => 3,
+                };
+                ([heading, to_side, heading.opposite()], 3, count)
+            }
+            (RunState::Diagonal { into, out, .. }, RunMove::Turn { slalom, .. }) => {
+                let count = if slalom == Slalom::F45 { 1 } else { 2 };
+                ([out, into.opposite(), out], 3, count)
+            }
+            (
+                RunState::Straight { heading, .. },
+                RunMove::Straight { cells } | RunMove::Diagonal { cells },
+            ) => ([heading; 3], 1, cells),
+            (
+                RunState::Diagonal { into, out, .. },
+                RunMove::Straight { cells } | RunMove::Diagonal { cells },
+            ) => ([out, into, out], 2, cells),
+        };
+        pattern.into_iter().take(period).cycle().take(count.into())
+    }
+}
+
+/// Left or right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Counter-clockwise.
+    Left,
+    /// Clockwise.
+    Right,
+}
+
+impl SlalomTimes {
+    /// How long this turn takes, in milliseconds.
+    #[must_use]
+    pub const fn time_ms(&self, slalom: Slalom) -> u16 {
+        match slalom {
+            Slalom::F45 => self.f45_ms,
+            Slalom::F90 => self.f90_ms,
+            Slalom::F135 => self.f135_ms,
+            Slalom::F180 => self.f180_ms,
+            Slalom::Fv90 => self.fv90_ms,
+        }
+    }
+}
+
+/// Whether `sides` (one byte a cell) has `cell` open to `direction`.
+#[inline(always)]
+pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
+    sides
+        .get(cell)
+        .is_some_and(|open| open >> direction & 1 == 1)
+}
+
+/// Every turn that can be made from `node`, always in the same order.
+///
+/// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise nothing
+/// could follow.
+#[inline(always)]
+pub(super) fn for_each_turn<const N: usize>(
+    sides: &[u8],
+    node: Node,
+    mut visit: impl FnMut(Slalom, Side, Node),
+) {
+    let open = |cell, direction| is_open(sides, cell, direction);
+    match node.facing() {
+        Facing::Straight(ahead) => {
+            if !open(node.cell, ahead) {
+                return;
+            }
+            let back = opposite(ahead);
+            let next = beside::<N>(node.cell, ahead);
+            for (side, to_side) in [(Side::Left, left(ahead)), (Side::Right, right(ahead))] {
+                if !open(next, to_side) {
+                    continue;
+                }
+                let far = beside::<N>(next, to_side);
+                visit(Slalom::F90, side, Node::straight(far, to_side));
+                if open(far, ahead) {
+                    visit(Slalom::F45, side, Node::diagonal(far, to_side, ahead));
+                }
+                if open(far, back) {
+                    let near = beside::<N>(far, back);
+                    visit(Slalom::F180, side, Node::straight(near, back));
+                    if open(near, to_side) {
+                        visit(Slalom::F135, side, Node::diagonal(near, back, to_side));
+                    }
+                }
+            }
+        }
+        Facing::Diagonal(into, out) => {
+            if !open(node.cell, out) {
+                return;
+            }
+            let side = if out == left(into) {
+                Side::Left
+            } else {
+                Side::Right
+            };
+            let next = beside::<N>(node.cell, out);
+            visit(Slalom::F45, side, Node::straight(next, out));
+            let back = opposite(into);
+            if open(next, back) {
+                let far = beside::<N>(next, back);
+                visit(Slalom::F135, side, Node::straight(far, back));
+                if open(far, out) {
+                    visit(Slalom::Fv90, side, Node::diagonal(far, back, out));
+                }
+            }
+        }
+    }
+}
+
+/// Every cell count `n` and end of the straights that lead on from `node`, nearest first, until `visit` says
+/// to stop.
+#[inline(always)]
+pub(super) fn for_each_straight<const N: usize>(
+    sides: &[u8],
+    node: Node,
+    mut visit: impl FnMut(usize, Node) -> Further,
+) {
+    let open = |cell, direction| is_open(sides, cell, direction);
+    match node.facing() {
+        Facing::Straight(ahead) => {
+            let mut cell = node.cell;
+            for n in 1.. {
+                if !open(cell, ahead) {
+                    return;
+                }
+                cell = beside::<N>(cell, ahead);
+                if visit(n, Node::straight(cell, ahead)) == Further::No {
+                    return;
+                }
+            }
+        }
+        Facing::Diagonal(mut into, mut out) => {
+            let mut cell = node.cell;
+            for n in 1.. {
+                if !open(cell, out) {
+                    return;
+                }
+                cell = beside::<N>(cell, out);
+                (into, out) = (out, into);
+                // The edge reached has to lead on.
+                if !open(cell, out) || visit(n, Node::diagonal(cell, into, out)) == Further::No {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Whether a visitor wants to see more of a straight.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Further {
+    Yes,
+    No,
+}

@@ -1,0 +1,83 @@
+use tolman_maze::Cell;
+
+use super::{Extent, RunState, SpeedRun, SpeedRunMap, SpeedRunTimes};
+use crate::Passages;
+
+/// Keeps the best run from one start to the goals while the passages change.
+///
+/// Walls that turn up make no run faster. So as long as a best run found earlier can still be driven, it is
+/// a best run still, and nothing has to be searched.
+#[derive(Clone, Debug)]
+pub struct SpeedRunPlanner<'a, const N: usize> {
+    times: &'a SpeedRunTimes<N>,
+    start: RunState,
+    goals: &'a [Cell],
+    map: SpeedRunMap<N>,
+    /// What was open at the last search.
+    searched: Option<Passages<N>>,
+}
+
+/// What an update took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Replanning {
+    /// The best run is as fast as before: there is still one among the best known.
+    Kept,
+    /// The map was searched anew.
+    Searched,
+}
+
+impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
+    /// A planner that has seen no maze yet.
+    #[must_use]
+    pub const fn new(times: &'a SpeedRunTimes<N>, start: RunState, goals: &'a [Cell]) -> Self {
+        Self {
+            times,
+            start,
+            goals,
+            map: SpeedRunMap::new(),
+            searched: None,
+        }
+    }
+
+    /// Takes in what is open now. O(N²) if a best run is left of those known, else as
+    /// [`SpeedRunMap::search`].
+    pub fn update(&mut self, passages: &Passages<N>) -> Replanning {
+        let only_closed = |before: &Passages<N>| passages.is_within(before);
+        if self.searched.as_ref().is_some_and(only_closed) {
+            let mut run = self.run(passages);
+            run.by_ref().for_each(drop);
+            if run.has_arrived() || self.time_ms().is_none() {
+                return Replanning::Kept;
+            }
+        }
+        let extent = Extent::Until(self.start);
+        self.map.search(passages, self.times, self.goals, extent);
+        self.searched = Some(passages.clone());
+        Replanning::Searched
+    }
+
+    /// How long the best run takes, in milliseconds; none if no way leads to a goal, or before the first
+    /// update.
+    #[must_use]
+    pub fn time_ms(&self) -> Option<u16> {
+        self.map.time_ms(self.start)
+    }
+
+    /// A best run on the passages of the last update.
+    #[must_use]
+    pub fn run<'b>(&'b self, passages: &'b Passages<N>) -> SpeedRun<'b, N> {
+        self.map.run(passages, self.times, self.start)
+    }
+
+    /// Where the runs begin.
+    #[must_use]
+    pub const fn start(&self) -> RunState {
+        self.start
+    }
+
+    /// Where they end.
+    #[must_use]
+    pub const fn goals(&self) -> &'a [Cell] {
+        self.goals
+    }
+}

@@ -1,0 +1,107 @@
+use tolman_maze::{Cell, Direction};
+
+use super::moves::{Further, RunMove, RunStep, for_each_straight, for_each_turn};
+use super::state::{Facing, Node};
+use super::{RunState, SpeedRunMap, SpeedRunTimes};
+use crate::Passages;
+
+/// A speed run, as an iterator over its moves. See [`SpeedRunMap::run`].
+#[derive(Clone, Debug)]
+pub struct SpeedRun<'a, const N: usize> {
+    map: &'a SpeedRunMap<N>,
+    passages: &'a Passages<N>,
+    times: &'a SpeedRunTimes<N>,
+    at: Node,
+}
+
+impl<'a, const N: usize> SpeedRun<'a, N> {
+    pub(super) const fn new(
+        map: &'a SpeedRunMap<N>,
+        passages: &'a Passages<N>,
+        times: &'a SpeedRunTimes<N>,
+        at: Node,
+    ) -> Self {
+        Self {
+            map,
+            passages,
+            times,
+            at,
+        }
+    }
+
+    /// Where the run is before its next move.
+    #[must_use]
+    pub fn state(&self) -> RunState {
+        self.at.state::<N>()
+    }
+
+    /// Every edge that the run crosses from here on: the cell it leaves and the side it leaves it to.
+    pub fn edges(self) -> impl Iterator<Item = (Cell, Direction)> {
+        let mut cell = self.at.cell_of::<N>();
+        self.flat_map(RunStep::directions).map(move |direction| {
+            let edge = (cell, direction);
+            let (east, north) = direction.step();
+            // An edge that is open leads to a cell of the maze.
+            cell.x = cell.x.wrapping_add_signed(east.into());
+            cell.y = cell.y.wrapping_add_signed(north.into());
+            edge
+        })
+    }
+
+    /// Whether the run has come to a goal.
+    #[must_use]
+    pub fn has_arrived(&self) -> bool {
+        self.map.time_from(self.at) == 0
+    }
+}
+
+impl<const N: usize> Iterator for SpeedRun<'_, N> {
+    type Item = RunStep;
+
+    /// The first move, in the order straights from short to long, then turns, after which exactly as
+    /// much time is left as the map says. None at the goal, and where no move fits, because passages were
+    /// closed or no goal is in reach.
+    fn next(&mut self) -> Option<RunStep> {
+        let (map, times, sides, from) = (self.map, self.times, self.passages.sides(), self.at);
+        let left = map.time_from(from);
+        if left == 0 || left == u16::MAX {
+            return None;
+        }
+        let fits = |to: Node, takes: u16| map.time_from(to).checked_add(takes) == Some(left);
+        let mut found = None;
+        for_each_straight::<N>(sides, from, |cells, to| {
+            let (takes, run_move) = match from.facing() {
+                Facing::Straight(_) => (
+                    times.straight_ms(cells),
+                    RunMove::Straight {
+                        cells: cells as u16,
+                    },
+                ),
+                Facing::Diagonal(..) => (
+                    times.diagonal_ms(cells),
+                    RunMove::Diagonal {
+                        cells: cells as u16,
+                    },
+                ),
+            };
+            if takes.is_some_and(|takes| fits(to, takes)) {
+                found = Some((run_move, to));
+                return Further::No;
+            }
+            Further::Yes
+        });
+        if found.is_none() {
+            for_each_turn::<N>(sides, from, |slalom, side, to| {
+                if found.is_none() && fits(to, times.slalom().time_ms(slalom)) {
+                    found = Some((RunMove::Turn { slalom, side }, to));
+                }
+            });
+        }
+        let (run_move, to) = found?;
+        self.at = to;
+        Some(RunStep {
+            from: from.state::<N>(),
+            run_move,
+        })
+    }
+}

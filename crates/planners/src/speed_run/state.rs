@@ -1,0 +1,158 @@
+use tolman_maze::{Cell, Direction};
+
+/// Where a speed run can be between two moves, and which way it looks.
+///
+/// Straights begin and end in the middle of a cell, diagonals in the middle of an edge between two
+/// cells. These are the nodes of kerikun11/micromouse-maze-library (`StepMapSlalom::Index`),
+/// numbered by the cell ahead: twelve for every cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunState {
+    /// In the middle of `cell`, looking to `heading`.
+    Straight {
+        /// The cell the mouse is in.
+        cell: Cell,
+        /// Where it looks.
+        heading: Direction,
+    },
+    /// On the edge through which one comes into `cell` by going to `into`, looking at 45° between
+    /// `into` and `out`: the mouse crosses the cell and leaves it to `out`, a direction beside `into`.
+    Diagonal {
+        /// The cell the mouse is about to cross.
+        cell: Cell,
+        /// The way it comes in.
+        into: Direction,
+        /// The way it goes out.
+        out: Direction,
+    },
+}
+
+/// The states of a cell are numbered: 0 … 3 straight to north, east, south, west; from 4 on diagonal,
+/// by twice the way in, plus one when it leaves to the right.
+pub(super) const STATES_PER_CELL: usize = 12;
+
+/// A [`RunState`] by number, in a maze whose rows are `N` cells apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Node {
+    pub(super) cell: usize,
+    pub(super) state: usize,
+}
+
+/// What the number of a state within its cell says.
+#[derive(Clone, Copy)]
+pub(super) enum Facing {
+    /// Looking this way.
+    Straight(usize),
+    /// Coming in this way, leaving that way.
+    Diagonal(usize, usize),
+}
+
+pub(super) const fn left(direction: usize) -> usize {
+    (direction + 3) % 4
+}
+
+pub(super) const fn right(direction: usize) -> usize {
+    (direction + 1) % 4
+}
+
+pub(super) const fn opposite(direction: usize) -> usize {
+    (direction + 2) % 4
+}
+
+impl Node {
+    pub(super) const fn straight(cell: usize, heading: usize) -> Self {
+        Self {
+            cell,
+            state: heading,
+        }
+    }
+
+    /// `out` lies to the left or right of `into`.
+    pub(super) const fn diagonal(cell: usize, into: usize, out: usize) -> Self {
+        let turns_right = (out + 4 - into) % 4 == 1;
+        Self {
+            cell,
+            state: 4 + 2 * into + turns_right as usize,
+        }
+    }
+
+    pub(super) const fn facing(self) -> Facing {
+        match self.state {
+            heading @ 0..4 => Facing::Straight(heading),
+            diagonal => {
+                let into = (diagonal - 4) / 2 % 4;
+                let out = if diagonal % 2 == 1 {
+                    right(into)
+                } else {
+                    left(into)
+                };
+                Facing::Diagonal(into, out)
+            }
+        }
+    }
+
+    /// The same place, looking the other way.
+    pub(super) const fn reversed<const N: usize>(self) -> Self {
+        match self.facing() {
+            Facing::Straight(heading) => Self::straight(self.cell, opposite(heading)),
+            Facing::Diagonal(into, out) => Self::diagonal(
+                beside::<N>(self.cell, opposite(into)),
+                opposite(into),
+                opposite(out),
+            ),
+        }
+    }
+
+    pub(super) const fn new<const N: usize>(state: RunState) -> Self {
+        match state {
+            RunState::Straight { cell, heading } => {
+                Self::straight(index::<N>(cell), heading.index())
+            }
+            RunState::Diagonal { cell, into, out } => {
+                Self::diagonal(index::<N>(cell), into.index(), out.index())
+            }
+        }
+    }
+
+    pub(super) fn cell_of<const N: usize>(self) -> Cell {
+        Cell::new((self.cell % N) as u16, (self.cell / N) as u16)
+    }
+
+    pub(super) fn state<const N: usize>(self) -> RunState {
+        let cell = self.cell_of::<N>();
+        match self.facing() {
+            Facing::Straight(heading) => RunState::Straight {
+                cell,
+                heading: direction(heading),
+            },
+            Facing::Diagonal(into, out) => RunState::Diagonal {
+                cell,
+                into: direction(into),
+                out: direction(out),
+            },
+        }
+    }
+}
+
+/// The cell on the other side of an edge that is open. (Off the maze the number is that of no cell or of a
+/// wrong one; no open edge leads there.)
+pub(super) const fn beside<const N: usize>(cell: usize, direction: usize) -> usize {
+    match direction {
+        0 => cell.wrapping_add(N),
+        1 => cell.wrapping_add(1),
+        2 => cell.wrapping_sub(N),
+        _ => cell.wrapping_sub(1),
+    }
+}
+
+pub(super) const fn index<const N: usize>(cell: Cell) -> usize {
+    cell.y as usize * N + cell.x as usize
+}
+
+pub(super) const fn direction(index: usize) -> Direction {
+    match index % 4 {
+        0 => Direction::North,
+        1 => Direction::East,
+        2 => Direction::South,
+        _ => Direction::West,
+    }
+}

@@ -1,0 +1,176 @@
+use super::config::{Drive, Field, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
+
+/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells.
+///
+/// Times of straights are rounded up. So a straight never takes longer than its two parts one
+/// after the other, and the search need not look at straights that follow straights.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SpeedRunTimes<const N: usize> {
+    /// Straights of 0 … N − 1 cells.
+    straight: [u16; N],
+    /// Diagonals of 0 … 2 N − 1 half diagonals of a cell.
+    diagonal: [[u16; N]; 2],
+    slalom: SlalomTimes,
+    /// 2¹⁶ by the time of the shortest move, rounded up.
+    bucket_scale: u32,
+}
+
+impl<const N: usize> SpeedRunTimes<N> {
+    /// Works the times out. O(N).
+    ///
+    /// A straight of length `d` begins and ends at the speed `s` of the turns. With acceleration
+    /// `a` it takes 2 (√(s² + a d) − s) / a while the top speed `v` is not reached, that is as
+    /// long as a d < v² − s², and (a d + (v − s)²) / (a v) after that.
+    ///
+    /// # Errors
+    /// If a value is not a positive number, a top speed is below the speed in the turns, or the times
+    /// are too far apart for the search.
+    pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
+        check(config)?;
+        let speed = config.turn_speed_mm_s;
+        let half_diagonal = config.cell_mm * core::f64::consts::FRAC_1_SQRT_2;
+        let (straight, diagonal) = (config.straight, config.diagonal);
+        let slalom = config.slalom;
+
+        let longest = milliseconds(diagonal, speed, half_diagonal * (2 * N - 1) as f64)
+            .max(milliseconds(
+                straight,
+                speed,
+                config.cell_mm * (N - 1) as f64,
+            ))
+            .max(u64::from(slalom.longest()));
+        let shortest = milliseconds(diagonal, speed, half_diagonal)
+            .min(milliseconds(straight, speed, config.cell_mm))
+            .min(u64::from(slalom.shortest()));
+        if shortest == 0 || longest > u64::from(u16::MAX) {
+            return Err(SpeedRunConfigError::OutOfRange {
+                longest_ms: longest,
+                shortest_ms: shortest,
+            });
+        }
+        let bucket_scale = (1_u32 << 16).div_ceil(shortest as u32);
+        if bucket(bucket_scale, longest as u16) + 2 > 2 * N {
+            return Err(SpeedRunConfigError::TooUneven {
+                longest_ms: longest,
+                shortest_ms: shortest,
+                most: 2 * N - 2,
+            });
+        }
+        // All fit in 16 bits: none is longer than the longest.
+        let time = |drive, length: f64| milliseconds(drive, speed, length) as u16;
+        Ok(Self {
+            straight: core::array::from_fn(|cells| time(straight, config.cell_mm * cells as f64)),
+            diagonal: core::array::from_fn(|half| {
+                core::array::from_fn(|n| time(diagonal, half_diagonal * (half * N + n) as f64))
+            }),
+            slalom,
+            bucket_scale,
+        })
+    }
+
+    /// A straight of `cells` cells, from the middle of one to the middle of another; none if no such
+    /// straight fits into the maze.
+    #[must_use]
+    pub fn straight_ms(&self, cells: usize) -> Option<u16> {
+        self.straights().get(cells).copied()
+    }
+
+    /// A diagonal across `cells` cells, from the middle of one edge to that of another; none if no such
+    /// diagonal fits into the maze.
+    #[must_use]
+    pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
+        self.diagonals().get(cells).copied()
+    }
+
+    /// The slalom turns.
+    #[must_use]
+    pub const fn slalom(&self) -> SlalomTimes {
+        self.slalom
+    }
+
+    /// By number of cells.
+    pub(super) const fn straights(&self) -> &[u16] {
+        &self.straight
+    }
+
+    /// By number of cells.
+    pub(super) const fn diagonals(&self) -> &[u16] {
+        self.diagonal.as_flattened()
+    }
+
+    /// The bucket of the search that a time belongs to. A move always leads to a later one, and by less than
+    /// 2 N.
+    pub(super) const fn bucket(&self, time: u16) -> usize {
+        bucket(self.bucket_scale, time)
+    }
+}
+
+const fn bucket(scale: u32, time: u16) -> usize {
+    ((time as u32 * scale) >> 16) as usize
+}
+
+impl SlalomTimes {
+    fn all(&self) -> [u16; 5] {
+        [
+            self.f45_ms,
+            self.f90_ms,
+            self.f135_ms,
+            self.f180_ms,
+            self.fv90_ms,
+        ]
+    }
+
+    fn longest(&self) -> u16 {
+        self.all().into_iter().fold(0, u16::max)
+    }
+
+    fn shortest(&self) -> u16 {
+        self.all().into_iter().fold(u16::MAX, u16::min)
+    }
+}
+
+/// How long a straight of `length` millimetres takes, rounded up.
+fn milliseconds(drive: Drive, speed: f64, length: f64) -> u64 {
+    let Drive {
+        acceleration_mm_s2: acceleration,
+        top_speed_mm_s: top,
+    } = drive;
+    let gained = acceleration * length;
+    let seconds = if gained < top * top - speed * speed {
+        2.0 * (libm::sqrt(speed * speed + gained) - speed) / acceleration
+    } else {
+        (gained + (top - speed) * (top - speed)) / (acceleration * top)
+    };
+    // What misses a whole number by rounding errors alone is that number.
+    libm::ceil(seconds * 1000.0 - 1e-6) as u64
+}
+
+fn check(config: &SpeedRunConfig) -> Result<(), SpeedRunConfigError> {
+    let (straight, diagonal) = (config.straight, config.diagonal);
+    for (field, value) in [
+        (Field::Cell, config.cell_mm),
+        (Field::TurnSpeed, config.turn_speed_mm_s),
+        (Field::StraightAcceleration, straight.acceleration_mm_s2),
+        (Field::StraightTopSpeed, straight.top_speed_mm_s),
+        (Field::DiagonalAcceleration, diagonal.acceleration_mm_s2),
+        (Field::DiagonalTopSpeed, diagonal.top_speed_mm_s),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(SpeedRunConfigError::NotPositive { field, value });
+        }
+    }
+    let turn_speed_mm_s = config.turn_speed_mm_s;
+    for (field, value) in [
+        (Field::StraightTopSpeed, straight.top_speed_mm_s),
+        (Field::DiagonalTopSpeed, diagonal.top_speed_mm_s),
+    ] {
+        if value < turn_speed_mm_s {
+            return Err(SpeedRunConfigError::TopSpeedTooLow {
+                field,
+                value,
+                turn_speed_mm_s,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,108 @@
+use tolman_maze::{Cell, Direction};
+
+use crate::Passages;
+
+/// How many cells away the nearest of some cells is, for every cell of a maze of up to `N` × `N`.
+///
+/// What a mouse follows that drives from cell to cell: always to a neighbour with a smaller number.
+///
+/// ```
+/// use tolman_maze::{Cell, Grid, Maze};
+/// use tolman_planners::{Passages, StepMap, Unknown};
+///
+/// let maze = Maze::open(Grid::new(3, 2));
+/// let passages = Passages::<16>::new(&maze, Unknown::Closed);
+/// let steps = StepMap::new(&passages, [Cell::new(2, 1)]);
+/// assert_eq!(steps.steps(Cell::new(0, 0)), Some(3));
+/// assert_eq!(steps.steps(Cell::new(3, 0)), None, "not in the maze");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StepMap<const N: usize> {
+    steps: [[u16; N]; N],
+}
+
+/// No way leads there.
+const NEVER: u16 = u16::MAX;
+
+impl<const N: usize> StepMap<N> {
+    /// Breadth-first search from `targets`; those outside of `N` × `N` cells are left out. O(N²).
+    #[must_use]
+    pub fn new(passages: &Passages<N>, targets: impl IntoIterator<Item = Cell>) -> Self {
+        let mut map = Self {
+            steps: [[NEVER; N]; N],
+        };
+        let mut queue = [[0_u16; N]; N];
+        let queue = queue.as_flattened_mut();
+        let steps = map.steps.as_flattened_mut();
+        let (mut first, mut last) = (0, 0);
+        let mut reach = |steps: &mut [u16], queue: &mut [u16], cell: usize, step: u16| {
+            if let (Some(slot @ &mut NEVER), Some(free)) =
+                (steps.get_mut(cell), queue.get_mut(last))
+            {
+                *slot = step;
+                *free = cell as u16;
+                last += 1;
+            }
+            last
+        };
+        let mut end = 0;
+        for target in targets {
+            let (x, y) = (usize::from(target.x), usize::from(target.y));
+            if x < N && y < N {
+                end = reach(steps, queue, y * N + x, 0);
+            }
+        }
+        while first < end {
+            let cell = queue.get(first).copied().map_or(0, usize::from);
+            first += 1;
+            let (Some(sides), Some(step)) = (passages.sides().get(cell), steps.get(cell)) else {
+                break;
+            };
+            let step = step + 1;
+            for (bit, beside) in [
+                (1, cell.wrapping_add(N)),
+                (2, cell + 1),
+                (4, cell.wrapping_sub(N)),
+                (8, cell.wrapping_sub(1)),
+            ] {
+                if sides & bit != 0 {
+                    end = reach(steps, queue, beside, step);
+                }
+            }
+        }
+        map
+    }
+
+    /// Steps from `cell` to the nearest target, none if no way leads there.
+    #[must_use]
+    pub fn steps(&self, cell: Cell) -> Option<u16> {
+        let row = self.steps.get(usize::from(cell.y))?;
+        let steps = row.get(usize::from(cell.x)).copied()?;
+        (steps != NEVER).then_some(steps)
+    }
+
+    /// The way to go from `cell`: the first of `directions` that is open and than which none of them leads
+    /// nearer to a target. None if none leads to any.
+    #[must_use]
+    pub fn descend(
+        &self,
+        passages: &Passages<N>,
+        cell: Cell,
+        directions: impl IntoIterator<Item = Direction>,
+    ) -> Option<Direction> {
+        let open = directions
+            .into_iter()
+            .filter(|direction| passages.is_open(cell, *direction));
+        let steps = |direction: &Direction| {
+            let (east, north) = direction.step();
+            let x = cell.x.checked_add_signed(east.into())?;
+            let y = cell.y.checked_add_signed(north.into())?;
+            self.steps(Cell::new(x, y))
+        };
+        // Of equals, min_by_key takes the first.
+        let nearest = open
+            .filter_map(|direction| steps(&direction).map(|steps| (steps, direction)))
+            .min_by_key(|(steps, _)| *steps);
+        nearest.map(|(_, direction)| direction)
+    }
+}

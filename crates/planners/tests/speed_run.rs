@@ -1,0 +1,245 @@
+//! Speed runs: the search against plain Dijkstra on an explicit graph, explorations against the checker.
+#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
+
+use proptest::prelude::*;
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
+use tolman_planners::speed_run::{
+    Decision, Extent, Replanning, RunState, SpeedRunCertificate, SpeedRunConfig, SpeedRunExplorer,
+    SpeedRunMap, SpeedRunPlanner, SpeedRunTimes, best_possible_ms,
+};
+use tolman_planners::{Passages, Unknown};
+
+/// Every wall known, known to be open, or unknown.
+#[derive(Clone, Debug)]
+struct Sketch {
+    grid: Grid,
+    /// By [`Grid::wall`].
+    walls: Vec<Knowledge>,
+}
+
+impl Walls for Sketch {
+    fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
+        self.walls[self.grid.wall(cell, direction).0 as usize]
+    }
+}
+
+impl Sketch {
+    /// Nothing known but the border.
+    fn dark(grid: Grid) -> Self {
+        let mut sketch = Self {
+            grid,
+            walls: vec![Knowledge::Unknown; grid.wall_count()],
+        };
+        for (cell, direction) in grid.border() {
+            sketch.set(cell, direction, Knowledge::Wall);
+        }
+        sketch
+    }
+
+    fn set(&mut self, cell: Cell, direction: Direction, knowledge: Knowledge) {
+        self.walls[self.grid.wall(cell, direction).0 as usize] = knowledge;
+    }
+
+    fn look(&mut self, maze: &Maze, cell: Cell) {
+        for direction in Direction::ALL {
+            self.set(cell, direction, maze.knowledge(cell, direction));
+        }
+    }
+}
+
+/// A maze of 1 to 12 cells a side with a third of its walls unknown, start and goals anywhere.
+fn sketches() -> impl Strategy<Value = (Sketch, Cell, Direction, Vec<Cell>)> {
+    (1_u16..=12, 1_u16..=12).prop_flat_map(|(width, height)| {
+        let grid = Grid::new(width, height);
+        let cell = (0..width, 0..height).prop_map(|(x, y)| Cell::new(x, y));
+        let wall = prop_oneof![
+            3 => Just(Knowledge::Open),
+            2 => Just(Knowledge::Wall),
+            1 => Just(Knowledge::Unknown),
+        ];
+        (
+            prop::collection::vec(wall, grid.wall_count()),
+            cell.clone(),
+            prop::sample::select(&Direction::ALL[..]),
+            prop::collection::vec(cell, 1..4),
+        )
+            .prop_map(move |(walls, start, heading, goals)| {
+                let mut sketch = Sketch { grid, walls };
+                for (cell, direction) in grid.border() {
+                    sketch.set(cell, direction, Knowledge::Wall);
+                }
+                (sketch, start, heading, goals)
+            })
+    })
+}
+
+fn configs() -> impl Strategy<Value = SpeedRunConfig> {
+    prop_oneof![
+        Just(SpeedRunConfig::classic()),
+        Just(SpeedRunConfig::half_size()),
+        // Straights dear, turns cheap, and a top speed that is reached at once.
+        (300.0..420.0, 420.0..600.0, 250_u16..400).prop_map(|(slow, fast, turn)| {
+            let mut config = SpeedRunConfig::half_size();
+            config.turn_speed_mm_s = slow;
+            config.diagonal.top_speed_mm_s = fast;
+            config.straight.top_speed_mm_s = slow;
+            config.slalom.f180_ms = turn;
+            config.slalom.fv90_ms = turn;
+            config
+        }),
+    ]
+}
+
+fn start_of(cell: Cell, heading: Direction) -> RunState {
+    RunState::Straight { cell, heading }
+}
+
+proptest! {
+    #[test]
+    fn the_search_finds_what_plain_dijkstra_finds(
+        (sketch, start, heading, goals) in sketches(),
+        config in configs(),
+    ) {
+        let times = SpeedRunTimes::<16>::new(&config).unwrap();
+        let from = start_of(start, heading);
+        let mut map = SpeedRunMap::new();
+        let hoped = Passages::new(&sketch, Unknown::Open);
+        let expected = best_possible_ms(&sketch, &config, (start, heading), &goals);
+        for extent in [Extent::Until(from), Extent::Everywhere] {
+            map.search(&hoped, &times, &goals, extent);
+            prop_assert_eq!(map.time_ms(from).map(u32::from), expected);
+            let mut run = map.run(&hoped, &times, from);
+            run.by_ref().for_each(drop);
+            prop_assert_eq!(run.has_arrived(), expected.is_some());
+        }
+    }
+
+    #[test]
+    fn a_run_on_known_walls_is_certified_where_nothing_better_can_be_hoped_for(
+        (sketch, start, heading, goals) in sketches(),
+        config in configs(),
+    ) {
+        let times = SpeedRunTimes::<16>::new(&config).unwrap();
+        let from = start_of(start, heading);
+        let known = Passages::new(&sketch, Unknown::Closed);
+        let mut map = SpeedRunMap::new();
+        map.search(&known, &times, &goals, Extent::Everywhere);
+        if let Some(time) = map.time_ms(from) {
+            let run = map.run(&known, &times, from);
+            let edges: Vec<_> = run.clone().edges().collect();
+            for (cell, direction) in &edges {
+                prop_assert_eq!(sketch.knowledge(*cell, *direction), Knowledge::Open);
+            }
+            let mut certificate = SpeedRunCertificate {
+                start,
+                heading,
+                moves: run.map(|step| step.run_move).collect(),
+                time_ms: time.into(),
+            };
+            let hoped = best_possible_ms(&sketch, &config, (start, heading), &goals).unwrap();
+            let verdict = certificate.check(&sketch, &config, &goals);
+            prop_assert_eq!(verdict.is_ok(), hoped == u32::from(time), "{:?}", verdict);
+            certificate.time_ms += 1;
+            prop_assert!(certificate.check(&sketch, &config, &goals).is_err());
+        }
+    }
+
+    #[test]
+    fn the_incremental_plan_is_as_fast_as_a_new_one(
+        (truth, start, heading, goals) in sketches(),
+        order in prop::collection::vec((0_u16..12, 0_u16..12, any::<bool>()), 0..60),
+    ) {
+        let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic()).unwrap();
+        let from = start_of(start, heading);
+        let mut sketch = Sketch::dark(truth.grid);
+        let mut planner = SpeedRunPlanner::new(&times, from, &goals);
+        let mut map = SpeedRunMap::new();
+        for (x, y, forget) in order {
+            let cell = Cell::new(x, y);
+            if truth.grid.contains(cell) {
+                // Walls are seen, and now and then forgotten.
+                for direction in Direction::ALL {
+                    let inner = truth.grid.neighbour(cell, direction).is_some();
+                    let known = if forget && inner {
+                        Knowledge::Unknown
+                    } else {
+                        truth.knowledge(cell, direction)
+                    };
+                    sketch.set(cell, direction, known);
+                }
+            }
+            let hoped = Passages::new(&sketch, Unknown::Open);
+            planner.update(&hoped);
+            map.search(&hoped, &times, &goals, Extent::Everywhere);
+            prop_assert_eq!(planner.time_ms(), map.time_ms(from));
+            let mut run = planner.run(&hoped);
+            run.by_ref().for_each(drop);
+            prop_assert_eq!(run.has_arrived(), planner.time_ms().is_some());
+            prop_assert_eq!(planner.update(&hoped), Replanning::Kept);
+        }
+    }
+
+    #[test]
+    fn explorations_end_at_home_with_a_run_that_the_checker_certifies(
+        (sketch, start, heading, goals) in sketches(),
+    ) {
+        let mut maze = Maze::open(sketch.grid);
+        for cell in sketch.grid.cells() {
+            for direction in [Direction::North, Direction::East] {
+                let stands = sketch.knowledge(cell, direction) == Knowledge::Wall;
+                maze.set_wall(cell, direction, stands);
+            }
+        }
+        let config = SpeedRunConfig::half_size();
+        let expected = best_possible_ms(&maze, &config, (start, heading), &goals);
+        let outcome = explore::<16>(&maze, start, heading, &goals, &config);
+        prop_assert_eq!(outcome, expected);
+    }
+}
+
+/// Explores, has the result checked and says how long the run takes; none if the explorer is stuck.
+fn explore<const N: usize>(
+    maze: &Maze,
+    home: Cell,
+    heading: Direction,
+    goals: &[Cell],
+    config: &SpeedRunConfig,
+) -> Option<u32> {
+    let times = SpeedRunTimes::<N>::new(config).unwrap();
+    let mut explorer = SpeedRunExplorer::new(&times, home, heading, goals);
+    let mut sketch = Sketch::dark(maze.grid());
+    let (mut at, mut looks) = (home, heading);
+    let mut cells = 0;
+    let mut was_at_goal = false;
+    loop {
+        sketch.look(maze, at);
+        was_at_goal |= goals.contains(&at);
+        match explorer.decide(&sketch, at, looks) {
+            Decision::Drive(direction) => {
+                assert!(maze.is_open(at, direction), "against the wall at {at}");
+                at = maze.grid().neighbour(at, direction).unwrap();
+                looks = direction;
+                cells += 1;
+                assert!(cells < 20_000, "an exploration that does not end");
+            }
+            Decision::Finished { run_ms } => {
+                assert!(was_at_goal && at == home);
+                let known = Passages::new(&sketch, Unknown::Closed);
+                let run = explorer.planner().run(&known);
+                let certificate = SpeedRunCertificate {
+                    start: home,
+                    heading,
+                    moves: run.map(|step| step.run_move).collect(),
+                    time_ms: run_ms.into(),
+                };
+                assert_eq!(certificate.check(&sketch, config, goals), Ok(()));
+                return Some(run_ms.into());
+            }
+            Decision::Stuck => return None,
+        }
+    }
+}
