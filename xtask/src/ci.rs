@@ -31,6 +31,11 @@ const STEPS: &[Step] = &[
         passes("clippy --workspace --all-targets --quiet -- --deny warnings")
     }),
     ("tests", tests),
+    ("browser", || {
+        if_installed("chromium", || {
+            passes("test --package tolman --test browser --quiet -- --ignored")
+        })
+    }),
     ("doc tests", || passes("test --workspace --doc --quiet")),
     // The tests have just built the command.
     ("mazes", || passed(mazes::check_with(&mut built("tolman")?))),

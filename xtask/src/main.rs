@@ -34,7 +34,7 @@ enum Verb {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
-    /// Everything a change must pass: format, lints, tests, docs, layers, mazes, bare metal
+    /// Everything a change must pass: format, lints, tests, pages in a browser, docs, layers, mazes, bare metal
     Ci {
         /// Run the remaining steps after one has failed
         #[arg(long)]

@@ -1,0 +1,53 @@
+//! The pages that the command writes, as a browser shows them: `cargo xtask ci` runs these tests where chromium
+//! is installed, `cargo test -p tolman --test browser -- --ignored` by hand.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot talk to its browser has failed"
+)]
+
+mod client;
+mod devtools;
+mod report;
+mod tab;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use tab::Tab;
+
+/// A browser with one empty tab; none, said on stderr, where chromium is not installed.
+fn tab() -> Option<Tab> {
+    use std::io::Write;
+    let tab = Tab::open();
+    if tab.is_none() {
+        // Not with a macro: the test harness keeps what those print.
+        let _ = writeln!(std::io::stderr(), "left out: chromium is not installed");
+    }
+    tab
+}
+
+/// An empty folder of this name, by itself for each test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("browser")
+        .join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Lets `tolman` do what `words` say, in the workspace's folder, and asks for success.
+#[track_caller]
+fn tolman(words: &[&str]) {
+    let output = Command::new(env!("CARGO_BIN_EXE_tolman"))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .args(words)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "tolman {words:?}: {complaint}");
+}
