@@ -99,6 +99,23 @@ pub enum ConfigError {
     },
 }
 
+/// Refuses the value of a field unless a condition holds.
+pub(crate) fn within(
+    field: &'static str,
+    value: f64,
+    holds: bool,
+    range: &'static str,
+) -> Result<(), ConfigError> {
+    if holds {
+        return Ok(());
+    }
+    Err(ConfigError::OutOfRange {
+        field,
+        value,
+        range,
+    })
+}
+
 /// A unit that is not, or no longer, part of the network.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("the network has no unit {0}: it was removed, or never there")]

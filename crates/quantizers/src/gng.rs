@@ -240,7 +240,7 @@ impl<S: Scalar> Gng<S> {
         let rate = S::from_f64(self.config.neighbour_rate);
         self.network
             .approach(winner, input, S::from_f64(self.config.winner_rate));
-        self.network.approach_neighbours(winner, input, rate);
+        self.network.approach_neighbours(winner, input, |_| rate);
     }
 
     fn decay_sums(&mut self) {

@@ -4,10 +4,12 @@
 //! a *prototype* near the inputs it stands for, its *edges* join units whose inputs are neighbours. In the order data flows:
 //!
 //! - [`Scalar`]: what an input is made of;
-//! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says;
+//! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says, or [`Soinn`], which chooses the number of
+//!   its units and clusters itself;
 //! - the [`Observation`] names the units that it met;
 //! - the [`Network`] has the units, their edges and [`Clusters`], answers which unit is nearest to
 //!   something, and measures the [`QuantizationError`];
+//! - an [`AssociativeMemory`] recalls one part of what was learnt from another;
 //! - [`Event`]s tell what came and went, for maps that stand on the units.
 //!
 //! ```
@@ -38,18 +40,25 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+mod associative_memory;
 mod error;
 mod event;
 mod gng;
 mod network;
 mod quantizer;
 mod scalar;
+mod soinn;
 mod unit;
 
+pub use associative_memory::{AssociativeMemory, Chain, Recall};
 pub use error::{ConfigError, InputError, UnknownUnit};
 pub use event::Event;
 pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, StepOrder, Utility};
 pub use network::{Clusters, Edge, Network, QuantizationError};
 pub use quantizer::{Observation, Quantizer};
 pub use scalar::Scalar;
+pub use soinn::{
+    Denoising, ErrorInsertion, SecondLayerConfig, SecondLayerError, SecondThreshold,
+    SimilarityThreshold, Soinn, SoinnConfig,
+};
 pub use unit::{Nearest, NearestTwo, UnitId};

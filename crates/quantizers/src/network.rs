@@ -242,6 +242,20 @@ impl<S: Scalar> Network<S> {
         }
     }
 
+    /// The squared distance between two units.
+    #[inline]
+    pub(crate) fn squared_distance(&self, a: usize, b: usize) -> S {
+        let mut sum = S::ZERO;
+        for feature in 0..self.dimension() {
+            let difference = self.prototypes.at(a, feature) - self.prototypes.at(b, feature);
+            let square = difference * difference;
+            sum += self
+                .weights()
+                .map_or(square, |weights| weights[feature] * square);
+        }
+        sum
+    }
+
     /// ‖x‖² of an input, as the distance measures it.
     pub(crate) fn squared_length(&self, input: &[S]) -> f64 {
         let squares = input.iter().enumerate().map(|(feature, value)| {
@@ -376,17 +390,33 @@ impl<S: Scalar> Network<S> {
         }
     }
 
+    /// Takes away the edges of a unit that are older than `max_age`.
+    #[inline]
+    pub(crate) fn cut_old_edges(&mut self, slot: usize, max_age: u32) {
+        for place in (0..self.links.degree(slot)).rev() {
+            let (other, age) = self.links.at(slot, place);
+            if age > max_age {
+                self.cut(slot, other);
+            }
+        }
+    }
+
     /// Moves a unit by `rate` of the way to `target`.
     #[inline]
     pub(crate) fn approach(&mut self, slot: usize, target: &[S], rate: S) {
         self.prototypes.approach(slot, target, rate);
     }
 
-    /// Moves the neighbours of a unit by `rate` of the way to `target`.
+    /// Moves each neighbour of a unit by `rate` of its slot of the way to `target`.
     #[inline]
-    pub(crate) fn approach_neighbours(&mut self, slot: usize, target: &[S], rate: S) {
+    pub(crate) fn approach_neighbours(
+        &mut self,
+        slot: usize,
+        target: &[S],
+        rate: impl Fn(usize) -> S,
+    ) {
         for other in self.links.neighbours(slot) {
-            self.prototypes.approach(other, target, rate);
+            self.prototypes.approach(other, target, rate(other));
         }
     }
 

@@ -1,6 +1,7 @@
 //! What can be chosen about a growing neural gas.
 
 use crate::ConfigError;
+use crate::error::within;
 
 /// The parameters of a growing neural gas. Its `Default` is [`fritzke`](Self::fritzke).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,20 +204,4 @@ impl Default for GngConfig {
     fn default() -> Self {
         Self::fritzke()
     }
-}
-
-fn within(
-    field: &'static str,
-    value: f64,
-    holds: bool,
-    range: &'static str,
-) -> Result<(), ConfigError> {
-    if holds {
-        return Ok(());
-    }
-    Err(ConfigError::OutOfRange {
-        field,
-        value,
-        range,
-    })
 }

@@ -1,0 +1,390 @@
+//! The self-organizing incremental neural network of Shen and Hasegawa.
+
+mod config;
+mod second_layer;
+
+use alloc::vec::Vec;
+
+pub use config::{Denoising, ErrorInsertion, SimilarityThreshold, SoinnConfig};
+pub use second_layer::{SecondLayerConfig, SecondLayerError, SecondThreshold};
+
+use crate::network::{Best, Candidate};
+use crate::{
+    ConfigError, InputError, Network, Observation, Quantizer, Scalar, UnitId, UnknownUnit,
+};
+
+/// One layer of a SOINN: "An incremental network for on-line unsupervised classification and topology learning" (Shen and
+/// Hasegawa 2006), algorithm 3.1.
+///
+/// An input far from what is known becomes a unit of its own; any other one joins its two nearest units and moves them, the less
+/// the more they have won. There is no number of units to choose. Clusters are what hangs together; a
+/// [second layer](Self::second_layer) tells them apart where noise has joined them.
+///
+/// ```
+/// use tolman_quantizers::{Quantizer, Soinn, SoinnConfig};
+///
+/// let mut soinn = Soinn::<f32>::new(2, SoinnConfig::noisy())?;
+/// for step in 0..20_000_u16 {
+///     let angle = f32::from(step) * 2.4;
+///     soinn.observe(&[angle.cos(), angle.sin()])?;
+/// }
+/// // What is new and alone is taken for noise.
+/// soinn.remove_noise();
+/// assert_eq!(soinn.network().clusters().count(), 1);
+/// assert!(soinn.nearest(&[1.0, 0.0])?.distance() < 0.2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Where the paper is silent: a new unit counts the input it was made of as a win. The first input and the first one that differs from
+/// it are the first two units, and not counted in periods of λ.
+///
+/// # Complexity
+/// A search of the two nearest units an input, and units once a period.
+#[derive(Clone, Debug)]
+pub struct Soinn<S> {
+    config: SoinnConfig,
+    network: Network<S>,
+    /// By slot.
+    tallies: Vec<Tally>,
+    steps: u64,
+    /// Slots that are to be removed; kept so as not to allocate.
+    doomed: Vec<usize>,
+}
+
+/// What a unit remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Tally {
+    /// E: the distances of the inputs it won.
+    error: f64,
+    /// M: how many those are.
+    wins: f64,
+    /// R: E / M after the last insertion it had part in.
+    radius: f64,
+}
+
+impl Tally {
+    /// Of a unit that was made of an input.
+    const NEW: Self = Self {
+        error: 0.0,
+        wins: 1.0,
+        radius: f64::INFINITY,
+    };
+
+    fn mean_error(&self) -> f64 {
+        self.error / self.wins
+    }
+
+    /// Whether it is worse off than it remembers.
+    fn has_grown(&self) -> bool {
+        self.mean_error() > self.radius
+    }
+
+    /// Left to one of two units between which a unit is put.
+    fn reduced(self) -> Self {
+        Self {
+            error: self.error * 2.0 / 3.0,
+            wins: self.wins * 0.75,
+            ..self
+        }
+    }
+
+    /// For a unit put between two.
+    fn between(q: Self, f: Self) -> Self {
+        Self {
+            error: (q.error + f.error) / 6.0,
+            wins: 0.25 * (q.wins + f.wins),
+            radius: 0.25 * (q.radius + f.radius),
+        }
+    }
+
+    fn remembering(self) -> Self {
+        Self {
+            radius: self.mean_error(),
+            ..self
+        }
+    }
+}
+
+impl<S: Scalar> Soinn<S> {
+    /// An empty network for inputs of `dimension` features.
+    ///
+    /// # Errors
+    /// If the dimension is 0 or a field of `config` is outside its range.
+    pub fn new(dimension: usize, config: SoinnConfig) -> Result<Self, ConfigError> {
+        Self::around(Network::new(dimension)?, config)
+    }
+
+    /// An empty network whose squared distance is Σ w (x − p)², with one weight w a feature.
+    ///
+    /// # Errors
+    /// If there are no weights, one is negative or not finite, none is above zero, or a field of `config` is outside
+    /// its range.
+    pub fn weighted(weights: &[S], config: SoinnConfig) -> Result<Self, ConfigError> {
+        Self::around(Network::weighted(weights)?, config)
+    }
+
+    fn around(network: Network<S>, config: SoinnConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            config,
+            network,
+            tallies: Vec::new(),
+            steps: 0,
+            doomed: Vec::new(),
+        })
+    }
+
+    /// What was chosen.
+    pub fn config(&self) -> &SoinnConfig {
+        &self.config
+    }
+
+    /// How many inputs were learnt, not counting those before there were two units.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// M: how many inputs a unit has won, less what it has left to units that were put beside it.
+    ///
+    /// # Errors
+    /// If there is no such unit.
+    pub fn wins(&self, id: UnitId) -> Result<f64, UnknownUnit> {
+        Ok(self.tallies[self.network.slot(id)?].wins)
+    }
+
+    /// E: the sum of the distances, not squared, of the inputs a unit has won, less what it has left to units that were put beside it.
+    ///
+    /// # Errors
+    /// If there is no such unit.
+    pub fn error(&self, id: UnitId) -> Result<f64, UnknownUnit> {
+        Ok(self.tallies[self.network.slot(id)?].error)
+    }
+
+    /// Learns a valid input.
+    fn learn(&mut self, input: &[S]) -> Observation<S> {
+        let best = self.network.search(input);
+        let (Some(winner), Some(second)) = (
+            self.network.found(best.first),
+            self.network.found(best.second),
+        ) else {
+            return self.begin(input, best);
+        };
+        self.steps += 1;
+        let mut observation = Observation {
+            winner,
+            second: Some(second),
+        };
+        if self.is_similar(best.first) && self.is_similar(best.second) {
+            self.adapt(input, best);
+        } else if self.network.has_ids_left() {
+            let slot = self.insert(input);
+            observation = Observation {
+                winner: self.network.at(slot),
+                second: Some(winner),
+            };
+        }
+        if self.steps.is_multiple_of(self.config.period.into()) {
+            self.insert_where_error_is_large();
+            self.remove_noise();
+            if !self.network.contains(observation.winner.id) {
+                self.name_again(input, &mut observation);
+            }
+        }
+        observation
+    }
+
+    /// What to do while there are fewer than two units.
+    #[cold]
+    fn begin(&mut self, input: &[S], best: Best<S>) -> Observation<S> {
+        match self.network.found(best.first) {
+            Some(only) if only.squared_distance <= S::ZERO => {
+                self.tallies[best.first.slot as usize].wins += 1.0;
+                Observation {
+                    winner: only,
+                    second: None,
+                }
+            }
+            second => {
+                let slot = self.insert(input);
+                let winner = self.network.at(slot);
+                Observation { winner, second }
+            }
+        }
+    }
+
+    /// The unit that stood for the input was taken for noise at once.
+    #[cold]
+    fn name_again(&self, input: &[S], observation: &mut Observation<S>) {
+        let best = self.network.search(input);
+        if let Some(winner) = self.network.found(best.first) {
+            let second = self.network.found(best.second);
+            *observation = Observation { winner, second };
+        }
+    }
+
+    fn insert(&mut self, input: &[S]) -> usize {
+        self.tallies.push(Tally::NEW);
+        self.network.insert(input)
+    }
+
+    /// Whether an input lies within the similarity threshold of a unit. (Algorithms 3.2 and 3.3.)
+    fn is_similar(&self, unit: Candidate<S>) -> bool {
+        let (slot, squared) = (unit.slot as usize, unit.squared_distance);
+        let reaches = |other| squared <= self.network.squared_distance(slot, other);
+        match self.config.threshold {
+            SimilarityThreshold::Constant(distance) => squared.to_f64() <= distance * distance,
+            // Within the distance of the farthest is within that of any.
+            SimilarityThreshold::Adaptive if self.network.links().degree(slot) > 0 => {
+                self.network.links().neighbours(slot).any(reaches)
+            }
+            SimilarityThreshold::Adaptive => self
+                .network
+                .slots()
+                .filter(|other| *other != slot)
+                .all(reaches),
+        }
+    }
+
+    /// Joins the two nearest units and moves the winner and its neighbours. (Steps 4 to 9.)
+    fn adapt(&mut self, input: &[S], best: Best<S>) {
+        let (first, second) = (best.first.slot as usize, best.second.slot as usize);
+        self.network.link(first, second, 0);
+        self.network.age_edges(first);
+        let tally = &mut self.tallies[first];
+        tally.error += libm::sqrt(best.first.squared_distance.to_f64());
+        tally.wins += 1.0;
+        let rate = S::from_f64(1.0 / tally.wins);
+        self.network.approach(first, input, rate);
+        let tallies = &self.tallies;
+        self.network.approach_neighbours(first, input, |other| {
+            S::from_f64((0.01 / tallies[other].wins).min(1.0))
+        });
+        self.network.cut_old_edges(first, self.config.max_age);
+    }
+
+    /// Step 10, its first half. What would be undone is not begun, so the network stays as it was to the bit.
+    fn insert_where_error_is_large(&mut self) {
+        if self.config.insertion == ErrorInsertion::Off || !self.network.has_ids_left() {
+            return;
+        }
+        let Some(q) = self.worst(self.network.slots()) else {
+            return;
+        };
+        let Some(f) = self.worst(self.network.links().neighbours(q)) else {
+            return;
+        };
+        let (old_q, old_f) = (self.tallies[q], self.tallies[f]);
+        let tallies = [
+            old_q.reduced(),
+            old_f.reduced(),
+            Tally::between(old_q, old_f),
+        ];
+        let mut grown = tallies.iter().map(Tally::has_grown);
+        let undone = match self.config.insertion {
+            ErrorInsertion::UnlessAllGrew => grown.all(|grown| grown),
+            _ => grown.any(|grown| grown),
+        };
+        if undone {
+            return;
+        }
+        let r = self.network.insert_between(q, f);
+        self.network.cut(q, f);
+        self.network.link(q, r, 0);
+        self.network.link(r, f, 0);
+        let [q_tally, f_tally, r_tally] = tallies.map(Tally::remembering);
+        self.tallies[q] = q_tally;
+        self.tallies[f] = f_tally;
+        self.tallies.push(r_tally);
+    }
+
+    /// The slot of largest error, the first of equals.
+    fn worst(&self, slots: impl Iterator<Item = usize>) -> Option<usize> {
+        slots.reduce(|worst, slot| {
+            if self.tallies[slot].error > self.tallies[worst].error {
+                slot
+            } else {
+                worst
+            }
+        })
+    }
+
+    /// Takes away what [`Denoising`] takes for noise. It comes by itself at the end of every period of λ inputs (step 10, its
+    /// second half); to be called before clusters are counted in the midst of one, when there are units too new to have a neighbour.
+    ///
+    /// # Complexity
+    /// Units.
+    pub fn remove_noise(&mut self) {
+        let Denoising::FewWins { c } = self.config.denoising else {
+            return;
+        };
+        let wins: f64 = self
+            .network
+            .slots()
+            .map(|slot| self.tallies[slot].wins)
+            .sum();
+        let fewest = c * (wins / self.network.len().max(1) as f64);
+        self.doomed.clear();
+        for slot in self.network.slots() {
+            let is_noise = match self.network.links().degree(slot) {
+                0 => true,
+                1 => self.tallies[slot].wins < fewest,
+                _ => false,
+            };
+            if is_noise {
+                self.doomed.push(slot);
+            }
+        }
+        for slot in &self.doomed {
+            if self.network.len() > 2 {
+                self.network.remove(*slot);
+            }
+        }
+        self.network.tidy(&mut self.tallies);
+    }
+}
+
+impl<S: Scalar> Quantizer<S> for Soinn<S> {
+    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError> {
+        self.network.check(input)?;
+        Ok(self.learn(input))
+    }
+
+    fn network(&self) -> &Network<S> {
+        &self.network
+    }
+
+    fn network_mut(&mut self) -> &mut Network<S> {
+        &mut self.network
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+
+    use super::*;
+
+    #[test]
+    fn an_insertion_undone_leaves_no_trace() {
+        let mut soinn = Soinn::<f64>::new(2, SoinnConfig::noisy()).unwrap();
+        soinn.network.listen();
+        let (mut undone, mut done) = (0, 0);
+        for step in 0..4000_u32 {
+            let (angle, radius) = (f64::from(step) * 2.4, 1.0 + 0.1 * f64::from(step % 7));
+            soinn
+                .observe(&[radius * libm::cos(angle), radius * libm::sin(angle)])
+                .unwrap();
+            if step % 40 == 0 {
+                let (before, units) = (format!("{soinn:?}"), soinn.network.len());
+                soinn.insert_where_error_is_large();
+                if soinn.network.len() == units {
+                    assert_eq!(format!("{soinn:?}"), before);
+                    undone += 1;
+                } else {
+                    done += 1;
+                }
+            }
+        }
+        assert!(undone > 5 && done > 5, "{undone} undone, {done} done");
+    }
+}

@@ -1,0 +1,142 @@
+//! What can be chosen about a SOINN.
+
+use crate::ConfigError;
+use crate::error::within;
+
+/// The parameters of one layer of a SOINN. Its `Default` is [`shen_hasegawa`](Self::shen_hasegawa).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoinnConfig {
+    /// age_dead: edges older than that go; in inputs won by one of the edge's ends, at least 1.
+    pub max_age: u32,
+    /// λ: at every λ-th input a unit may be put where the error is large, then noise is removed; at least 1. A unit has to
+    /// find its place in the graph within about λ inputs, so λ has to be large against the number of
+    /// inputs from one end of the data to the other.
+    pub period: u32,
+    /// Whether units are put where the error is large.
+    pub insertion: ErrorInsertion,
+    /// Which units are taken for noise.
+    pub denoising: Denoising,
+    /// How far from its nearest units an input is new.
+    pub threshold: SimilarityThreshold,
+}
+
+/// Every λ inputs, a unit half-way between the unit q of largest error and its neighbour f of largest error
+/// ("within-class insertion", Shen and Hasegawa 2006, algorithm 3.1, step 10): r gets a sixth of the errors, a quarter of the wins and of the
+/// remembered radii; q and f keep ⅔ of their errors and ¾ of their wins. It is undone if the mean error E / M has
+/// thereby grown beyond the radius remembered from the insertion before, which a unit that has seen none has at +∞.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorInsertion {
+    /// Undone if one of q, f, r has a mean error beyond its radius.
+    #[default]
+    UnlessOneGrew,
+    /// Undone only if all three have: the paper's "∀ i ∈ {q, r, f}" to the letter. Networks become many times as large.
+    UnlessAllGrew,
+    /// None at all, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
+    Off,
+}
+
+/// Which units are taken away every λ inputs, after the insertion. All are judged by the graph as it is before; two units always stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Denoising {
+    /// Units without a neighbour, and those with one that have won less than `c` times the mean of all units.
+    FewWins {
+        /// c: 0 to 1; the nearer to 1, the noisier the data are.
+        c: f64,
+    },
+    /// None: every input is worth remembering, also if it comes once.
+    Off,
+}
+
+/// How far from one of its two nearest units an input is new, so that it becomes a unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum SimilarityThreshold {
+    /// Farther than the unit's farthest neighbour, or if it has none, than the unit nearest to it (Shen and Hasegawa 2006,
+    /// algorithm 3.2): the first layer.
+    #[default]
+    Adaptive,
+    /// Farther than this distance: the second layer. Not negative.
+    Constant(f64),
+}
+
+impl SoinnConfig {
+    /// Shen and Hasegawa 2006, their artificial data: λ = age_dead = 100, c = 1.
+    pub fn shen_hasegawa() -> Self {
+        Self {
+            max_age: 100,
+            period: 100,
+            insertion: ErrorInsertion::UnlessOneGrew,
+            denoising: Denoising::FewWins { c: 1.0 },
+            threshold: SimilarityThreshold::Adaptive,
+        }
+    }
+
+    /// For noisy data: λ = 500, age_dead = 50, c = 1.
+    ///
+    /// With λ = 100 a newcomer is held against units that have won for the whole run, and goes before it has a second neighbour: growth
+    /// stops at about a hundred units, too coarse to see gaps between clusters. A larger λ gives it time; younger
+    /// edges let go of noise (measured in docs/quantizers.md).
+    pub fn noisy() -> Self {
+        Self {
+            max_age: 50,
+            period: 500,
+            ..Self::shen_hasegawa()
+        }
+    }
+
+    /// The dictionary of "Reasoning on SOINN associative memory" (Kawewong, Honda, Tsuboyama, Hasegawa), section 4: λ = age_dead = 20.
+    /// It does not give c; here 1, the value of the paper it follows.
+    pub fn cpm() -> Self {
+        Self {
+            max_age: 20,
+            period: 20,
+            ..Self::shen_hasegawa()
+        }
+    }
+
+    /// For inputs without noise, each of which counts also if it comes but once, as in an
+    /// [`AssociativeMemory`](crate::AssociativeMemory) of single lessons: whatever differs from all units is a new unit, nothing is
+    /// removed as noise, nothing put between what was learnt. An input that comes again and again makes two units, then an edge.
+    pub fn exact() -> Self {
+        Self {
+            insertion: ErrorInsertion::Off,
+            denoising: Denoising::Off,
+            threshold: SimilarityThreshold::Constant(0.0),
+            ..Self::shen_hasegawa()
+        }
+    }
+
+    /// # Errors
+    /// If a field is outside its range.
+    pub(super) fn check(&self) -> Result<(), ConfigError> {
+        let at_least_1 = "at least 1";
+        within(
+            "max_age",
+            self.max_age.into(),
+            self.max_age >= 1,
+            at_least_1,
+        )?;
+        within("period", self.period.into(), self.period >= 1, at_least_1)?;
+        if let Denoising::FewWins { c } = self.denoising {
+            let holds = (0.0..=1.0).contains(&c);
+            within("denoising.c", c, holds, "between 0 and 1")?;
+        }
+        if let SimilarityThreshold::Constant(distance) = self.threshold {
+            within(
+                "threshold",
+                distance,
+                distance >= 0.0 && distance.is_finite(),
+                "finite and not negative",
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Default for SoinnConfig {
+    fn default() -> Self {
+        Self::shen_hasegawa()
+    }
+}
