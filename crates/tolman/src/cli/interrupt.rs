@@ -1,22 +1,24 @@
-//! Ctrl-C.
+//! Ctrl-C, and what else asks a program to end.
 
 use alloc::sync::Arc;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::AtomicBool;
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag::{register, register_conditional_shutdown};
 
 use super::Failure;
 
 /// The exit code by which shells know a program that Ctrl-C ended.
 pub(super) const INTERRUPTED: i32 = 130;
 
-/// A flag that the first Ctrl-C raises; the second ends the program, and so does the first when the flag
-/// is up already.
+/// A flag that the first Ctrl-C raises, as `kill` does; the second ends the program, and so does the first when
+/// the flag is up already.
 pub(super) fn flag() -> Result<Arc<AtomicBool>, Failure> {
     let asked = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&asked);
-    ctrlc::set_handler(move || {
-        if asked.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED);
-        }
-    })?;
-    Ok(flag)
+    for (signal, code) in [(SIGINT, INTERRUPTED), (SIGTERM, 143)] {
+        // In this order: a signal must not find the flag that it raises itself.
+        register_conditional_shutdown(signal, code, Arc::clone(&asked))?;
+        register(signal, Arc::clone(&asked))?;
+    }
+    Ok(asked)
 }

@@ -6,6 +6,9 @@ use tolman_sim::Bounds;
 /// Below so many dots a corridor is no longer made out.
 const LEAST_DOTS: f64 = 4.0;
 
+/// So many hops of the window are a window.
+const HOPS: f64 = 4.0;
+
 /// A piece of the world on a grid of dots. Lines of the world that lie whole cells apart lie whole dots
 /// apart on it, so that all walls look alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +34,11 @@ impl Window {
             let before = if extent <= dots + 0.5 {
                 -((dots - extent) / 2.0)
             } else {
-                // Half a window ahead of the robot, but not beyond the world.
-                ((robot - least) / metres_per_dot - dots / 2.0).clamp(0.0, extent - dots)
+                // The robot is about the middle, but nothing beyond the world is; in hops, for a picture
+                // that moves with every step is hard to read.
+                let hop = (dots / HOPS).floor();
+                let middle = ((robot - least) / metres_per_dot / hop).round() * hop;
+                (middle - dots / 2.0).clamp(0.0, extent - dots)
             };
             let first = least + before.round() * metres_per_dot;
             [first, first + dots * metres_per_dot]
@@ -66,6 +72,24 @@ mod tests {
         assert!(near(window.metres_per_dot, 1.0 / 11.0));
         assert!(near(window.x[0], -28.0 / 11.0) && near(window.x[1], 72.0 / 11.0));
         assert!(near(window.y[0], 0.0) && near(window.y[1], 4.0));
+    }
+
+    #[test]
+    fn the_window_stands_still_while_the_robot_is_about_its_middle() {
+        let at = |x| Window::on(square(100.0), 1.0, Point::new(x, 50.0), 81, 41);
+        assert_eq!(at(48.0), at(52.0));
+        for x in 0..100 {
+            let Window {
+                x: [left, right], ..
+            } = at(f64::from(x));
+            assert!(left <= f64::from(x) && f64::from(x) <= right, "{x}");
+        }
+        let left = |x: i32| at(f64::from(x)).x[0];
+        let hops = (1..100).filter(|x| !near(left(*x), left(x - 1))).count();
+        assert!(
+            (10..=20).contains(&hops),
+            "{hops} hops over 80 m of 5 m each"
+        );
     }
 
     #[test]
