@@ -8,7 +8,7 @@
 //!
 //! Grid mazes are searched without a graph, without allocation and some hundred times faster: on [`Passages`], taken
 //! from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`] counts cells and
-//! [`speed_run`] finds the fastest run of a micromouse.
+//! [`speed_run`] finds the fastest run of a micromouse. A [`PoseSet`] finds a mouse that has lost its way.
 //!
 //! ```
 //! use tolman_planners::{Arcs, costs_from, steps_from};
@@ -37,6 +37,7 @@ mod graph;
 mod passages;
 #[cfg(feature = "alloc")]
 mod path;
+mod pose_set;
 pub mod speed_run;
 mod step_map;
 
@@ -52,4 +53,5 @@ pub use graph::Graph;
 pub use passages::{Passages, Unknown};
 #[cfg(feature = "alloc")]
 pub use path::path_to;
+pub use pose_set::{Location, PoseSet};
 pub use step_map::StepMap;

@@ -1,0 +1,241 @@
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+
+/// Everywhere a mouse can be that has lost its way in a maze it knows in part, of up to `N` × `N` cells, `N` ≤ 32.
+///
+/// Every cell and heading is possible at first. What the mouse sees and does then rules poses out: those
+/// with a wall known where it sees none, or the other way round. Directions are the mouse's own: north is
+/// straight ahead, east to the right.
+///
+/// ```
+/// use tolman_maze::{Cell, Direction, Grid, Maze};
+/// use tolman_planners::{Location, PoseSet};
+///
+/// // A corridor of three cells, with a branch at its western end.
+/// let mut maze = Maze::open(Grid::new(3, 2));
+/// maze.set_wall(Cell::new(1, 0), Direction::North, true);
+/// maze.set_wall(Cell::new(2, 0), Direction::North, true);
+/// maze.set_wall(Cell::new(0, 1), Direction::East, true);
+/// let mut poses = PoseSet::<16>::anywhere(maze.grid());
+///
+/// // Walls on both sides, and open ahead:
+/// let (ahead, right, left) = (Direction::North, Direction::East, Direction::West);
+/// for (side, is_open) in [(left, false), (ahead, true), (right, false)] {
+///     poses.see(&maze, side, is_open);
+/// }
+/// assert!(matches!(poses.location(), Location::Among { poses: 5.. }));
+/// // It drives on and comes to a bend to the right.
+/// poses.drive(&maze, ahead);
+/// for (side, is_open) in [(left, false), (ahead, false), (right, true)] {
+///     poses.see(&maze, side, is_open);
+/// }
+/// let found = Location::Found { cell: Cell::new(0, 0), heading: Direction::West };
+/// assert_eq!(poses.location(), found);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PoseSet<const N: usize> {
+    grid: Grid,
+    /// By heading, then y; bit x.
+    cells: [[u32; N]; 4],
+}
+
+/// What is known of where a mouse is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// Only here.
+    Found {
+        /// The cell.
+        cell: Cell,
+        /// Where the mouse looks.
+        heading: Direction,
+    },
+    /// At one of several places.
+    Among {
+        /// How many, at least 2.
+        poses: u32,
+    },
+    /// Nowhere: a wall in the map is wrong, or something seen was.
+    Nowhere,
+}
+
+impl<const N: usize> PoseSet<N> {
+    /// Every pose in the maze; of a larger one than `N` × `N` the south-western part.
+    #[must_use]
+    pub fn anywhere(grid: Grid) -> Self {
+        const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
+        let side = N as u16;
+        let grid = Grid::new(grid.width().min(side), grid.height().min(side));
+        let mut poses = Self {
+            grid,
+            cells: [[0; N]; 4],
+        };
+        for cell in grid.cells() {
+            for heading in Direction::ALL {
+                poses.insert(cell, heading);
+            }
+        }
+        poses
+    }
+
+    /// Takes in that the mouse sees its cell open, or a wall there, to `side`. Where the map does not know,
+    /// both can be. O(N²).
+    pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
+        let contrary = Knowledge::of_standing(is_open);
+        self.retain(|cell, heading| walls.knowledge(cell, turned(heading, side)) != contrary);
+    }
+
+    /// Takes in that the mouse has turned to `side` and driven one cell. O(N²).
+    pub fn drive(&mut self, walls: &impl Walls, side: Direction) {
+        let mut after = Self {
+            grid: self.grid,
+            cells: [[0; N]; 4],
+        };
+        for (cell, heading) in self.iter() {
+            let heading = turned(heading, side);
+            if walls.knowledge(cell, heading) != Knowledge::Wall
+                && let Some(next) = self.grid.neighbour(cell, heading)
+            {
+                after.insert(next, heading);
+            }
+        }
+        *self = after;
+    }
+
+    /// Where the mouse is, as far as that is clear.
+    #[must_use]
+    pub fn location(&self) -> Location {
+        let mut poses = self.iter();
+        match (poses.next(), poses.next()) {
+            (None, _) => Location::Nowhere,
+            (Some((cell, heading)), None) => Location::Found { cell, heading },
+            _ => Location::Among {
+                poses: self
+                    .cells
+                    .iter()
+                    .flatten()
+                    .map(|row| row.count_ones())
+                    .sum(),
+            },
+        }
+    }
+
+    /// Where to drive to find out more: to the next place that looks different for the first pose and another one,
+    /// if it is the first, along ways that are known then. None if the walls known tell no pose from the first.
+    /// O(poses · N²).
+    #[must_use]
+    pub fn next_drive(&self, walls: &impl Walls) -> Option<Direction> {
+        let mut poses = self.iter();
+        let first = poses.next()?;
+        poses.find_map(|other| self.tell_apart(walls, first, other))
+    }
+
+    /// Breadth-first search, in the frame of the first pose, for a cell with a wall that the other one has not.
+    fn tell_apart(
+        &self,
+        walls: &impl Walls,
+        first: (Cell, Direction),
+        other: (Cell, Direction),
+    ) -> Option<Direction> {
+        // Where the first step went, by cell; 4 for none yet.
+        let mut way = [[4_u8; N]; N];
+        let mut queue = [[0_u16; N]; N];
+        let (way, queue) = (way.as_flattened_mut(), queue.as_flattened_mut());
+        let index = |cell: Cell| usize::from(cell.y) * N + usize::from(cell.x);
+        *queue.first_mut()? = index(first.0) as u16;
+        let mut end = 1;
+        for at in 0..N * N {
+            if at == end {
+                break;
+            }
+            let here = usize::from(*queue.get(at)?);
+            let cell = Cell::new((here % N) as u16, (here / N) as u16);
+            let twin = twin(cell, first, other);
+            for side in Direction::ALL {
+                let ours = walls.knowledge(cell, turned(first.1, side));
+                let theirs = twin.map_or(Knowledge::Unknown, |twin| {
+                    walls.knowledge(twin, turned(other.1, side))
+                });
+                let differ = ours.is_known() && theirs.is_known() && ours != theirs;
+                // What is seen from where the mouse stands has been seen.
+                if differ && at > 0 {
+                    let first_step = way.get(here).copied()?;
+                    return Direction::ALL.get(usize::from(first_step)).copied();
+                }
+                if ours != Knowledge::Open {
+                    continue;
+                }
+                if let Some(next) = self.grid.neighbour(cell, turned(first.1, side)) {
+                    let next = index(next);
+                    let from = way.get(here).copied()?;
+                    if let Some(slot @ 4) = way.get_mut(next)
+                        && next != usize::from(*queue.first()?)
+                    {
+                        *slot = if at == 0 { side.index() as u8 } else { from };
+                        *queue.get_mut(end)? = next as u16;
+                        end += 1;
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// South-western cells first, and northern headings.
+    fn iter(&self) -> impl Iterator<Item = (Cell, Direction)> {
+        let grid = self.grid;
+        grid.cells()
+            .flat_map(|cell| Direction::ALL.map(|heading| (cell, heading)))
+            .filter(|(cell, heading)| self.contains(*cell, *heading))
+    }
+
+    /// Whether the mouse can be in `cell` and look to `heading`.
+    #[must_use]
+    pub fn contains(&self, cell: Cell, heading: Direction) -> bool {
+        let rows = self.cells.get(heading.index());
+        let row = rows.and_then(|rows| rows.get(usize::from(cell.y)));
+        self.grid.contains(cell) && row.is_some_and(|row| row >> (cell.x % 32) & 1 == 1)
+    }
+
+    fn insert(&mut self, cell: Cell, heading: Direction) {
+        let rows = self.cells.get_mut(heading.index());
+        if let Some(row) = rows.and_then(|rows| rows.get_mut(usize::from(cell.y))) {
+            *row |= 1 << (cell.x % 32);
+        }
+    }
+
+    fn retain(&mut self, mut keep: impl FnMut(Cell, Direction) -> bool) {
+        let mut kept = Self {
+            grid: self.grid,
+            cells: [[0; N]; 4],
+        };
+        for (cell, heading) in self.iter().filter(|(cell, heading)| keep(*cell, *heading)) {
+            kept.insert(cell, heading);
+        }
+        *self = kept;
+    }
+}
+
+/// The direction that is `side` for a mouse that looks to `heading`.
+fn turned(heading: Direction, side: Direction) -> Direction {
+    match side {
+        Direction::North => heading,
+        Direction::East => heading.right(),
+        Direction::South => heading.opposite(),
+        Direction::West => heading.left(),
+    }
+}
+
+/// Where a mouse is that began at `other`, when one that began at `first` and drove the same way is in `cell`.
+fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
+    let east = i32::from(cell.x) - i32::from(first.0.x);
+    let north = i32::from(cell.y) - i32::from(first.0.y);
+    let quarters = (other.1.index() + 4 - first.1.index()) % 4;
+    let (east, north) = match quarters {
+        0 => (east, north),
+        1 => (north, -east),
+        2 => (-east, -north),
+        _ => (-north, east),
+    };
+    let x = u16::try_from(i32::from(other.0.x) + east).ok()?;
+    let y = u16::try_from(i32::from(other.0.y) + north).ok()?;
+    Some(Cell::new(x, y))
+}
