@@ -1,6 +1,7 @@
 //! `cargo xtask ci`: what a change must pass, each step timed, a table at the end.
 
 mod bare_metal;
+mod firmware;
 mod msrv;
 
 use core::time::Duration;
@@ -43,6 +44,7 @@ const STEPS: &[Step] = &[
     ("plain build", || passes("check --workspace --quiet")),
     ("api docs", || passed(docs::api())),
     ("bare metal", bare_metal::check),
+    ("firmware", firmware::check),
     ("fuzz", fuzz_targets),
     ("msrv", msrv::check),
     ("licences", || {

@@ -122,7 +122,11 @@ impl Grid {
         } else {
             (self.width as usize, vertical)
         };
-        let (x, y) = ((id - first) % columns, (id - first) / columns);
+        let place = id - first;
+        // Without columns there are no such walls.
+        let (Some(x), Some(y)) = (place.checked_rem(columns), place.checked_div(columns)) else {
+            return None;
+        };
         let (x, y) = (x as u16, y as u16);
         Some(if id < vertical {
             match x.checked_sub(1) {

@@ -36,6 +36,9 @@ pub struct PoseSet<const N: usize> {
     grid: Grid,
     /// By heading, then y; bit x.
     cells: [[u32; N]; 4],
+    /// The pose from whose point of view the next drive is planned, as long as it is one of the set. Sticking
+    /// to it keeps the mouse from driving to and fro.
+    guess: Option<(Cell, Direction)>,
 }
 
 /// What is known of where a mouse is.
@@ -67,6 +70,7 @@ impl<const N: usize> PoseSet<N> {
         let mut poses = Self {
             grid,
             cells: [[0; N]; 4],
+            guess: None,
         };
         for cell in grid.cells() {
             for heading in Direction::ALL {
@@ -85,17 +89,20 @@ impl<const N: usize> PoseSet<N> {
 
     /// Takes in that the mouse has turned to `side` and driven one cell. O(N²).
     pub fn drive(&mut self, walls: &impl Walls, side: Direction) {
-        let mut after = Self {
-            grid: self.grid,
-            cells: [[0; N]; 4],
-        };
-        for (cell, heading) in self.iter() {
+        let grid = self.grid;
+        let driven = |(cell, heading)| {
             let heading = turned(heading, side);
-            if walls.knowledge(cell, heading) != Knowledge::Wall
-                && let Some(next) = self.grid.neighbour(cell, heading)
-            {
-                after.insert(next, heading);
-            }
+            let free = walls.knowledge(cell, heading) != Knowledge::Wall;
+            let next = grid.neighbour(cell, heading).filter(|_| free)?;
+            Some((next, heading))
+        };
+        let mut after = Self {
+            grid,
+            cells: [[0; N]; 4],
+            guess: self.guess.and_then(driven),
+        };
+        for (cell, heading) in self.iter().filter_map(driven) {
+            after.insert(cell, heading);
         }
         *self = after;
     }
@@ -118,14 +125,22 @@ impl<const N: usize> PoseSet<N> {
         }
     }
 
-    /// Where to drive to find out more: to the next place that looks different for the first pose and another one,
-    /// if it is the first, along ways that are known then. None if the walls known tell no pose from the first.
-    /// O(poses · N²).
+    /// Where to drive to find out more: to the next place that looks different from what it would be for another
+    /// pose, on ways known to be open, from the point of view of one pose of the set. None if the walls known
+    /// tell no pose from another. O(poses · N²), and for each pose that cannot be told from any other as much again.
     #[must_use]
-    pub fn next_drive(&self, walls: &impl Walls) -> Option<Direction> {
-        let mut poses = self.iter();
-        let first = poses.next()?;
-        poses.find_map(|other| self.tell_apart(walls, first, other))
+    pub fn next_drive(&mut self, walls: &impl Walls) -> Option<Direction> {
+        let guess = self
+            .guess
+            .filter(|(cell, heading)| self.contains(*cell, *heading));
+        let (guess, side) = guess.into_iter().chain(self.iter()).find_map(|guess| {
+            let others = self.iter().filter(|other| *other != guess);
+            let ways = others.filter_map(|other| self.tell_apart(walls, guess, other));
+            let nearest = ways.min_by_key(|way| way.cells)?;
+            Some((guess, nearest.side))
+        })?;
+        self.guess = Some(guess);
+        Some(side)
     }
 
     /// Breadth-first search, in the frame of the first pose, for a cell with a wall that the other one has not.
@@ -134,13 +149,13 @@ impl<const N: usize> PoseSet<N> {
         walls: &impl Walls,
         first: (Cell, Direction),
         other: (Cell, Direction),
-    ) -> Option<Direction> {
-        // Where the first step went, by cell; 4 for none yet.
-        let mut way = [[4_u8; N]; N];
+    ) -> Option<Way> {
+        let mut ways = [[None::<Way>; N]; N];
         let mut queue = [[0_u16; N]; N];
-        let (way, queue) = (way.as_flattened_mut(), queue.as_flattened_mut());
+        let (ways, queue) = (ways.as_flattened_mut(), queue.as_flattened_mut());
         let index = |cell: Cell| usize::from(cell.y) * N + usize::from(cell.x);
-        *queue.first_mut()? = index(first.0) as u16;
+        let start = index(first.0);
+        *queue.first_mut()? = start as u16;
         let mut end = 1;
         for at in 0..N * N {
             if at == end {
@@ -149,30 +164,33 @@ impl<const N: usize> PoseSet<N> {
             let here = usize::from(*queue.get(at)?);
             let cell = Cell::new((here % N) as u16, (here / N) as u16);
             let twin = twin(cell, first, other);
+            let way = ways.get(here).copied()?;
             for side in Direction::ALL {
-                let ours = walls.knowledge(cell, turned(first.1, side));
+                let direction = turned(first.1, side);
+                let ours = walls.knowledge(cell, direction);
                 let theirs = twin.map_or(Knowledge::Unknown, |twin| {
                     walls.knowledge(twin, turned(other.1, side))
                 });
                 let differ = ours.is_known() && theirs.is_known() && ours != theirs;
-                // What is seen from where the mouse stands has been seen.
-                if differ && at > 0 {
-                    let first_step = way.get(here).copied()?;
-                    return Direction::ALL.get(usize::from(first_step)).copied();
+                // Around the mouse itself everything has been seen.
+                if differ && way.is_some() {
+                    return way;
                 }
                 if ours != Knowledge::Open {
                     continue;
                 }
-                if let Some(next) = self.grid.neighbour(cell, turned(first.1, side)) {
-                    let next = index(next);
-                    let from = way.get(here).copied()?;
-                    if let Some(slot @ 4) = way.get_mut(next)
-                        && next != usize::from(*queue.first()?)
-                    {
-                        *slot = if at == 0 { side.index() as u8 } else { from };
-                        *queue.get_mut(end)? = next as u16;
-                        end += 1;
-                    }
+                let Some(next) = self.grid.neighbour(cell, direction).map(index) else {
+                    continue;
+                };
+                if let Some(slot @ None) = ways.get_mut(next)
+                    && next != start
+                {
+                    *slot = Some(Way {
+                        cells: way.map_or(0, |way| way.cells) + 1,
+                        side: way.map_or(side, |way| way.side),
+                    });
+                    *queue.get_mut(end)? = next as u16;
+                    end += 1;
                 }
             }
         }
@@ -204,14 +222,23 @@ impl<const N: usize> PoseSet<N> {
 
     fn retain(&mut self, mut keep: impl FnMut(Cell, Direction) -> bool) {
         let mut kept = Self {
-            grid: self.grid,
             cells: [[0; N]; 4],
+            ..*self
         };
         for (cell, heading) in self.iter().filter(|(cell, heading)| keep(*cell, *heading)) {
             kept.insert(cell, heading);
         }
         *self = kept;
     }
+}
+
+/// A way to some cell.
+#[derive(Clone, Copy)]
+struct Way {
+    /// How long it is.
+    cells: u16,
+    /// Where its first cell lies, as the mouse sees it.
+    side: Direction,
 }
 
 /// The direction that is `side` for a mouse that looks to `heading`.

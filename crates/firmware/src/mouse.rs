@@ -1,0 +1,211 @@
+use tolman_maps::wall_map::{ClosedCells, Ray, TooLarge, WallMap};
+use tolman_maze::{Cell, Direction, Grid, Walls};
+use tolman_planners::speed_run::{Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
+use tolman_planners::{Location, Passages, PoseSet, Unknown};
+
+/// Columns and rows of the maze: those of the classic competition.
+pub const MAZE: usize = 16;
+
+/// How many walls can be forgotten after a crash.
+const LOG: usize = 32;
+
+/// How many observations are forgotten after a crash.
+const DOUBTFUL: usize = 4;
+
+/// How many cells a lost mouse drives before it asks for help.
+const PATIENCE: u8 = 60;
+
+/// Where the mouse is put at the start, and where it looks then.
+const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
+
+/// The mouse: what it knows and what it is doing. Directions to and from it are its own: north is ahead.
+#[derive(Clone, Debug)]
+pub struct Mouse<'a> {
+    times: &'a SpeedRunTimes<MAZE>,
+    goals: &'a [Cell],
+    walls: WallMap<MAZE, LOG>,
+    task: Task<'a>,
+}
+
+/// One thing at a time, so that both can have the same memory.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
+enum Task<'a> {
+    Explore {
+        explorer: SpeedRunExplorer<'a, MAZE>,
+        cell: Cell,
+        heading: Direction,
+    },
+    Localize {
+        poses: PoseSet<MAZE>,
+        /// How many cells it may still drive for that.
+        patience: u8,
+    },
+}
+
+/// What the wall sensors say: which sides of the cell are open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sides {
+    /// On the left.
+    pub left: bool,
+    /// In front.
+    pub ahead: bool,
+    /// On the right.
+    pub right: bool,
+}
+
+/// What the motors shall do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Turn to this side, north being ahead, drive to the next cell and look.
+    Drive(Direction),
+    /// Stay: the mouse is back at the start and knows the fastest run, which takes so long.
+    Ready {
+        /// Milliseconds.
+        run_ms: u16,
+    },
+    /// Stay: the walls known do not say where the mouse is, or contradict what it sees. It has to be carried back to
+    /// the start.
+    CarryBack,
+    /// Stay: no way leads to the goal as far as the walls are known.
+    GiveUp,
+}
+
+impl<'a> Mouse<'a> {
+    /// A mouse in the start of a maze that it has never seen.
+    ///
+    /// # Errors
+    /// Never, as the maze is as large as the map.
+    pub fn new(times: &'a SpeedRunTimes<MAZE>, goals: &'a [Cell]) -> Result<Self, TooLarge> {
+        let grid = Grid::new(MAZE as u16, MAZE as u16);
+        Ok(Self {
+            times,
+            goals,
+            walls: WallMap::new(grid, ClosedCells::Possible)?,
+            task: explore(times, goals, START),
+        })
+    }
+
+    /// What to do after what is seen on arrival in a cell.
+    pub fn arrive(&mut self, seen: Sides) -> Command {
+        if let Task::Localize { poses, patience } = &mut self.task {
+            for (side, is_open) in seen.all() {
+                poses.see(&self.walls, side, is_open);
+            }
+            match poses.location() {
+                Location::Found { cell, heading } => {
+                    self.task = explore(self.times, self.goals, (cell, heading));
+                }
+                Location::Among { .. } => return look_around(poses, patience, &self.walls),
+                Location::Nowhere => return Command::CarryBack,
+            }
+        }
+        let Task::Explore {
+            explorer,
+            cell,
+            heading,
+        } = &mut self.task
+        else {
+            return Command::CarryBack;
+        };
+        if self.walls.observe(*cell, &seen.rays(*heading)).is_err() {
+            return Command::CarryBack;
+        }
+        match explorer.decide(&self.walls, *cell, *heading) {
+            Decision::Drive(direction) => {
+                let side = relative(direction, *heading);
+                *cell = self
+                    .walls
+                    .grid()
+                    .neighbour(*cell, direction)
+                    .unwrap_or(*cell);
+                *heading = direction;
+                Command::Drive(side)
+            }
+            Decision::Finished { run_ms } => Command::Ready { run_ms },
+            Decision::Stuck => Command::GiveUp,
+        }
+    }
+
+    /// Says that the mouse has crashed and lost its way. What it saw last may be wrong and is forgotten.
+    /// It has to stand in some cell, with an open side behind it.
+    pub fn crash(&mut self) {
+        self.walls.undo(DOUBTFUL);
+        self.task = Task::Localize {
+            poses: PoseSet::anywhere(self.walls.grid()),
+            patience: PATIENCE,
+        };
+    }
+
+    /// Says that the mouse was carried back to the start. What it saw last is forgotten, in case it was
+    /// wrong.
+    pub fn carried_back(&mut self) {
+        self.walls.undo(DOUBTFUL);
+        self.task = explore(self.times, self.goals, START);
+    }
+
+    /// Hands out the moves of the fastest run on the walls known to be open, once the mouse is ready.
+    pub fn run(&self, each: impl FnMut(RunStep)) {
+        if let Task::Explore { explorer, .. } = &self.task {
+            let known = Passages::new(&self.walls, Unknown::Closed);
+            explorer.planner().run(&known).for_each(each);
+        }
+    }
+}
+
+fn explore<'a>(
+    times: &'a SpeedRunTimes<MAZE>,
+    goals: &'a [Cell],
+    (cell, heading): (Cell, Direction),
+) -> Task<'a> {
+    Task::Explore {
+        explorer: SpeedRunExplorer::new(times, START.0, START.1, goals),
+        cell,
+        heading,
+    }
+}
+
+/// Drives to where poses that are left look different.
+fn look_around(poses: &mut PoseSet<MAZE>, patience: &mut u8, walls: &impl Walls) -> Command {
+    let next = patience.checked_sub(1).zip(poses.next_drive(walls));
+    next.map_or(Command::CarryBack, |(left, side)| {
+        *patience = left;
+        poses.drive(walls, side);
+        Command::Drive(side)
+    })
+}
+
+/// `direction` as a mouse sees it that looks to `heading`.
+fn relative(direction: Direction, heading: Direction) -> Direction {
+    match (direction.index() + 4 - heading.index()) % 4 {
+        0 => Direction::North,
+        1 => Direction::East,
+        2 => Direction::South,
+        _ => Direction::West,
+    }
+}
+
+impl Sides {
+    fn all(self) -> [(Direction, bool); 3] {
+        [
+            (Direction::North, self.ahead),
+            (Direction::East, self.right),
+            (Direction::West, self.left),
+        ]
+    }
+
+    fn rays(self, heading: Direction) -> [Ray; 3] {
+        let ray = |direction, is_open| {
+            if is_open {
+                Ray::out_of_range(direction, 1)
+            } else {
+                Ray::to_wall(direction, 0)
+            }
+        };
+        [
+            ray(heading, self.ahead),
+            ray(heading.right(), self.right),
+            ray(heading.left(), self.left),
+        ]
+    }
+}
