@@ -10,7 +10,10 @@ use crate::{
 };
 
 /// A robot of a simulation: its place in the order of adding, from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
+#[serde(transparent)]
 pub struct RobotId(pub u32);
 
 /// What really is, for scoring; no robot knows it.

@@ -3,7 +3,7 @@
 //! The first line holds the world, the seed and the robots. Then follows one line per tick and robot
 //! with its command, pose, bump and, if chosen, what it sensed; and one for every robot that was
 //! lifted and every door that was moved from outside. [`replay`] simulates the commands again and
-//! compares every number.
+//! compares every number; a [`Reader`] only reads.
 //!
 //! ```
 //! use tolman_geom::{Heading, Point, Pose};
@@ -29,15 +29,19 @@
 
 mod error;
 mod lines;
+mod reader;
 mod recording;
 mod replay;
 
 use core::error::Error;
+use core::fmt::Debug;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use error::{RecordError, ReplayError};
+pub use lines::{Event, StepRecord};
+pub use reader::Reader;
 pub use recording::{Detail, Recording};
 pub use replay::replay;
 
@@ -48,7 +52,7 @@ pub trait Recordable:
     Model<Command: Clone + Serialize + DeserializeOwned, Sensing: Clone + Serialize + DeserializeOwned>
 {
     /// All that is needed to build one.
-    type Config: Clone + Serialize + DeserializeOwned;
+    type Config: Clone + Debug + Serialize + DeserializeOwned;
     /// Why one cannot be built.
     type ConfigError: Error + Send + Sync + 'static;
 

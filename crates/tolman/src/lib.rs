@@ -3,8 +3,8 @@
 //! In the order data flows: a [`course`] is a maze made ready for runs, the [`pioneer`] the robot that
 //! runs in it, one of the [`agents`] its mind, and an [`episode`] one run. An [`experiment`] plays
 //! every run of its tables, [`stats`] weighs the runs against each other and against the paper,
-//! [`draw`] makes pictures of them and [`report`] gathers everything on one page. [`data`] finds what
-//! other people measured, [`files`] writes ours.
+//! [`draw`] makes pictures of them, [`replay`] plays them and [`report`] gathers everything on one page. [`data`] finds what
+//! other people measured, [`files`] writes ours; [`shell`] spells commands.
 
 extern crate alloc;
 
@@ -17,5 +17,7 @@ pub mod experiment;
 pub mod files;
 pub mod mms;
 pub mod pioneer;
+pub mod replay;
 pub mod report;
+pub mod shell;
 pub mod stats;

@@ -31,7 +31,7 @@ pub enum RecordError {
     Door(#[from] DoorError),
 }
 
-/// Why a trace was not replayed to its end.
+/// Why a trace was not read, or not replayed, to its end.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReplayError {

@@ -4,13 +4,13 @@ use serde::{Deserialize, Serialize};
 use tolman_geom::Pose;
 
 use super::Recordable;
-use crate::DoorState;
+use crate::{DoorState, RobotId};
 
 pub(super) const FORMAT: &str = "tolman-trace";
 pub(super) const VERSION: u32 = 1;
 
 /// The first line.
-#[derive(Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub(super) struct Header<M: Recordable> {
     pub(super) format: String,
@@ -24,34 +24,52 @@ pub(super) struct Header<M: Recordable> {
     pub(super) world: serde_json::Value,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub(super) struct Start<M: Recordable> {
     pub(super) config: M::Config,
     pub(super) pose: Pose,
 }
 
-/// Any further line.
-#[derive(Serialize, Deserialize)]
+/// Any line of a trace but the first.
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", bound = "")]
-pub(super) enum Line<M: Recordable> {
+pub enum Event<M: Recordable> {
     /// A robot carried out a command.
-    Step(Step<M>),
-    /// A robot was lifted and set down.
-    Place { robot: u32, pose: Pose },
-    /// A door was moved.
-    Door { name: String, state: DoorState },
+    Step(StepRecord<M>),
+    /// A robot was lifted and set down after the steps so far.
+    Place {
+        /// Which.
+        robot: RobotId,
+        /// Where it stands since.
+        pose: Pose,
+    },
+    /// A door was moved after the steps so far.
+    Door {
+        /// Its name.
+        name: String,
+        /// How it stands since.
+        state: DoorState,
+    },
 }
 
-#[derive(Serialize, Deserialize)]
+/// What one robot did in one step.
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
-pub(super) struct Step<M: Recordable> {
-    pub(super) tick: u64,
-    pub(super) time_us: u64,
-    pub(super) robot: u32,
-    pub(super) command: M::Command,
-    pub(super) pose: Pose,
-    pub(super) bump: bool,
+pub struct StepRecord<M: Recordable> {
+    /// Steps since the run began, this one among them.
+    pub tick: u64,
+    /// Microseconds since the run began.
+    pub time_us: u64,
+    /// Which robot.
+    pub robot: RobotId,
+    /// What it was told.
+    pub command: M::Command,
+    /// Where it was afterwards.
+    pub pose: Pose,
+    /// Whether its motion was cut by a contact.
+    pub bump: bool,
+    /// What it sensed then, if that was written down.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) sensing: Option<M::Sensing>,
+    pub sensing: Option<M::Sensing>,
 }

@@ -5,8 +5,8 @@ use serde::Serialize;
 use tolman_geom::Pose;
 use tolman_robot::Robot;
 
-use super::lines::{FORMAT, Header, Line, Start, Step, VERSION};
-use super::{RecordError, Recordable};
+use super::lines::{FORMAT, Header, Start, VERSION};
+use super::{Event, RecordError, Recordable, StepRecord};
 use crate::{DoorState, RobotId, Simulation, World};
 
 /// How much of a run is written down.
@@ -83,23 +83,23 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), RecordError> {
         self.simulation.step(commands)?;
         for (robot, command) in self.simulation.robots().zip(commands) {
-            let line = Line::Step(self.line(robot, command));
+            let line = Event::Step(self.line(robot, command));
             self.write(&line)?;
         }
         Ok(())
     }
 
     /// What is written of one robot's step.
-    pub(super) fn line(&self, robot: RobotId, command: &M::Command) -> Step<M> {
+    pub(super) fn line(&self, robot: RobotId, command: &M::Command) -> StepRecord<M> {
         let truth = self.simulation.truth(robot);
         let sensing = match self.detail {
             Detail::Poses => None,
             Detail::Sensing => Some(self.simulation.sensing(robot).clone()),
         };
-        Step {
+        StepRecord {
             tick: truth.tick,
             time_us: truth.time_us,
-            robot: robot.0,
+            robot,
             command: command.clone(),
             pose: truth.pose,
             bump: truth.bump,
@@ -113,10 +113,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// If it cannot stand there, there is no such robot, or the line cannot be written.
     pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), RecordError> {
         self.simulation.place(robot, pose)?;
-        self.write(&Line::<M>::Place {
-            robot: robot.0,
-            pose,
-        })
+        self.write(&Event::<M>::Place { robot, pose })
     }
 
     /// Opens or shuts a door, as [`Simulation::set_door`] does, and writes it down.
@@ -125,7 +122,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// If there is no such door, or the line cannot be written.
     pub fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), RecordError> {
         self.simulation.set_door(name, state)?;
-        self.write(&Line::<M>::Door {
+        self.write(&Event::<M>::Door {
             name: name.to_owned(),
             state,
         })

@@ -3,7 +3,9 @@
 //! Results go to stdout, everything else to stderr. A verb writes to the `out` it is given and
 //! returns a [`Failure`] if there is something to complain about.
 
+mod called;
 mod completions;
+mod demo;
 mod experiment;
 mod failure;
 mod file;
@@ -11,6 +13,8 @@ mod interrupt;
 mod man;
 mod maze;
 mod mms_host;
+mod replay;
+mod replay_file;
 mod run;
 mod stdout;
 
@@ -31,6 +35,8 @@ struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
+  tolman demo
+  tolman run wall-follow --maze mazes/large.maze --replay run.html
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman maze show mazes/j.maze
   tolman experiment baselines --quick
@@ -41,6 +47,8 @@ Exit codes: 0 done, 1 failed, 2 bad input, 3 a table disagrees with the paper (o
 #[derive(Subcommand)]
 enum Verb {
     Run(run::Arguments),
+    Replay(replay::Arguments),
+    Demo(demo::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
     MmsHost(mms_host::Arguments),
@@ -72,6 +80,8 @@ impl Verb {
     fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
             Self::Run(arguments) => run::carry_out(&arguments, out),
+            Self::Replay(arguments) => replay::carry_out(&arguments, out),
+            Self::Demo(arguments) => demo::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(&arguments, out),

@@ -18,9 +18,11 @@ use tolman::agents::Cast;
 use tolman::course::Course;
 use tolman::episode::{self, Episode, EpisodeError, Trial};
 use tolman::pioneer::{body, calibrated};
+use tolman::replay::{Fact, Recorder};
 
 use super::failure::OrBadInput;
-use super::{Failure, file, maze};
+use super::replay_file::{self, Overwrite};
+use super::{Failure, called, file, maze};
 
 /// Sends one robot through a maze and tells what became of it
 #[derive(clap::Args)]
@@ -32,6 +34,7 @@ that line.
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman run wall-follow --maze mazes/large.maze --live
+  tolman run wall-follow --maze mazes/large.maze --replay run.html
   tolman run avoid --maze taiwan2016f.txt --start marked --steps 20000")]
 pub(super) struct Arguments {
     /// Who chooses the actions
@@ -65,12 +68,22 @@ pub(super) struct Arguments {
     /// scan
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    /// Write a replay: one HTML file that plays the run in any browser
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+    /// Overwrite the replay's file even if it is no replay
+    #[arg(long, requires = "replay")]
+    force: bool,
     /// Write the outcome as JSON
     #[arg(long)]
     json: bool,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let overwrite = Overwrite::if_forced(arguments.force);
+    if let Some(path) = &arguments.replay {
+        replay_file::check(path, overwrite)?;
+    }
     let read = maze::read(&arguments.maze)?;
     let robot = calibrated();
     let course = Course::new(&maze::name(&arguments.maze), &read, &body())
@@ -92,8 +105,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         false => None,
     };
     let mut commands = Vec::new();
+    let mut recorder = Recorder::new(&trial);
     let episode = episode::run(&trial, &mut mind, |step| {
         commands.push(step.command);
+        recorder.see(step);
         if let Some(live) = &mut live {
             live.watch(step);
         }
@@ -108,6 +123,14 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
     if let Some(path) = &arguments.svg {
         file::write(path, &picture::of(&course, &episode, &told))?;
+    }
+    if let Some(path) = &arguments.replay {
+        let title = format!("{} in {}", arguments.brain.0.name(), course.name);
+        let mut replay = recorder.finish(title, &episode);
+        let brain = Fact::new("brain", arguments.brain.0.name());
+        replay.facts.insert(1, brain);
+        let replay = replay.fact("made by", called::command());
+        replay_file::write(path, &replay, overwrite)?;
     }
     if arguments.json {
         let json = json!({
@@ -130,6 +153,9 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Ok(());
     }
     writeln!(out, "{told}")?;
+    if let Some(path) = &arguments.replay {
+        writeln!(out, "replay: {}", replay_file::address(path))?;
+    }
     Ok(())
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::thread;
 
 use super::Experiment;
+use crate::shell::quoted;
 
 /// What the caller calls experiments with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,30 +110,9 @@ impl Options {
     }
 }
 
-/// An argument as a shell takes it: in single quotes if it holds anything unusual, in `$'…'` if it holds
-/// what a terminal would obey.
-fn quoted(argument: &str) -> String {
-    let usual = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+@%".contains(c);
-    if !argument.is_empty() && argument.chars().all(usual) {
-        argument.to_owned()
-    } else if argument.contains(char::is_control) {
-        let escaped = |c: char| match c {
-            '\'' | '\\' => format!("\\{c}"),
-            c if c.is_control() => {
-                let bytes = c.to_string().into_bytes();
-                bytes.iter().map(|byte| format!("\\x{byte:02x}")).collect()
-            }
-            c => c.to_string(),
-        };
-        format!("$'{}'", argument.chars().map(escaped).collect::<String>())
-    } else {
-        format!("'{}'", argument.replace('\'', r"'\''"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Options, quoted};
+    use super::Options;
 
     #[test]
     fn threads_are_as_many_as_help() {
@@ -152,18 +132,5 @@ mod tests {
             assert_eq!(threads(Some(jobs), runs), expect, "{jobs} for {runs}");
         }
         assert!((1..=Options::MOST_JOBS).contains(&threads(None, 1000)));
-    }
-
-    #[test]
-    fn arguments_survive_the_shell() {
-        for (argument, expect) in [
-            ("a/b.txt", "a/b.txt"),
-            ("my maze", "'my maze'"),
-            ("it's", r"'it'\''s'"),
-            ("", "''"),
-            ("it's \u{1b}[31m\u{85}", r"$'it\'s \x1b[31m\xc2\x85'"),
-        ] {
-            assert_eq!(quoted(argument), expect);
-        }
     }
 }

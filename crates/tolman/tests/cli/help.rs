@@ -20,6 +20,8 @@ fn help_names_every_verb_and_the_exit_codes() {
 fn every_verb_explains_itself() {
     for verb in [
         &["run"][..],
+        &["replay"],
+        &["demo"],
         &["completions"],
         &["man"],
         &["experiment"],

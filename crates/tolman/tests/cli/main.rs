@@ -10,6 +10,7 @@ mod help;
 mod maze;
 #[cfg(unix)]
 mod mms_host;
+mod replay;
 mod run;
 
 use std::io::Write;

@@ -1,0 +1,164 @@
+use std::io::{BufRead, Lines};
+
+use serde::de::DeserializeOwned;
+use tolman_geom::Pose;
+
+use super::lines::{FORMAT, Header, Start, VERSION};
+use super::{Event, Recordable, ReplayError};
+use crate::World;
+use crate::world::Head;
+
+/// Reads a trace line by line, without simulating anything: what [`replay`](super::replay) compares, and what
+/// shows a run without repeating it.
+///
+/// The lines of a tick must be one per robot in order. Memory: one line.
+///
+/// ```
+/// use tolman_geom::{Heading, Point, Pose};
+/// use tolman_robot::TurnTranslate;
+/// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+/// use tolman_sim::trace::{Detail, Event, Reader, Recording};
+/// use tolman_sim::{Wall, World};
+///
+/// let wall = Wall::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));
+/// let world = World::from_segments(vec![wall])?;
+/// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?;
+/// let start = Pose::new(Point::origin(), Heading::EAST);
+/// let mut file = Vec::new();
+/// let mut recording = Recording::start(world, 7, vec![(robot, start)], &mut file, Detail::Poses)?;
+/// recording.step(&[TurnTranslate { turn: 0.0, translate: 0.5 }])?;
+/// recording.finish()?;
+///
+/// let mut trace = Reader::<LaserPioneer, _>::open(file.as_slice())?;
+/// assert_eq!(trace.seed(), 7);
+/// let (_, event) = trace.next().unwrap()?;
+/// assert!(matches!(event, Event::Step(step) if !step.bump && step.tick == 1));
+/// assert!(trace.next().is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Reader<M: Recordable, R> {
+    lines: Lines<R>,
+    /// The number of the last line read, from 1.
+    line: usize,
+    world: World,
+    header: Header<M>,
+    /// The tick under way, and how many of its lines were read.
+    tick: u64,
+    read: usize,
+}
+
+impl<M: Recordable, R: BufRead> Reader<M, R> {
+    /// Reads the first line.
+    ///
+    /// # Errors
+    /// If it is not that of a trace of such robots.
+    pub fn open(trace: R) -> Result<Self, ReplayError> {
+        let mut lines = trace.lines();
+        let first = lines.next().ok_or(ReplayError::Empty)??;
+        let head: Head = parse(&first, 1)?;
+        if head.format != FORMAT {
+            return Err(ReplayError::Format { found: head.format });
+        }
+        if head.version != VERSION {
+            return Err(ReplayError::Version {
+                found: head.version,
+            });
+        }
+        let header: Header<M> = parse(&first, 1)?;
+        let world = World::from_json(&header.world.to_string())?;
+        Ok(Self {
+            lines,
+            line: 1,
+            world,
+            header,
+            tick: 0,
+            read: 0,
+        })
+    }
+
+    /// Where it happened.
+    pub const fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The seed of all chance.
+    pub const fn seed(&self) -> u64 {
+        self.header.seed
+    }
+
+    /// The length of a time step, µs.
+    pub const fn step_us(&self) -> u64 {
+        self.header.step_us
+    }
+
+    /// What each robot was built to, and where it began.
+    pub fn robots(&self) -> impl ExactSizeIterator<Item = (&M::Config, Pose)> {
+        self.header
+            .robots
+            .iter()
+            .map(|Start { config, pose }| (config, *pose))
+    }
+
+    /// Checks that a line stands where it may.
+    fn in_order(&mut self, event: &Event<M>) -> Result<(), ReplayError> {
+        let robots = self.header.robots.len();
+        match event {
+            Event::Step(step) => {
+                if self.read == robots || self.tick == 0 {
+                    (self.tick, self.read) = (self.tick + 1, 0);
+                }
+                if (step.robot.0 as usize, step.tick) != (self.read, self.tick) {
+                    return Err(self.disorder());
+                }
+                self.read += 1;
+                Ok(())
+            }
+            Event::Place { .. } if self.is_within_a_tick() => Err(self.disorder()),
+            Event::Place { .. } | Event::Door { .. } => Ok(()),
+        }
+    }
+
+    fn is_within_a_tick(&self) -> bool {
+        self.tick > 0 && self.read < self.header.robots.len()
+    }
+
+    fn disorder(&self) -> ReplayError {
+        ReplayError::Order {
+            line: self.line,
+            robot: self.read,
+            tick: self.tick,
+        }
+    }
+}
+
+impl<M: Recordable, R: BufRead> Iterator for Reader<M, R> {
+    /// The number of the line, from 1, and what it says.
+    type Item = Result<(usize, Event<M>), ReplayError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.line += 1;
+        let text = match self.lines.next() {
+            Some(Ok(text)) => text,
+            Some(Err(error)) => return Some(Err(error.into())),
+            None if self.is_within_a_tick() => {
+                let error = self.disorder();
+                // Said once; after that there is nothing more.
+                self.read = self.header.robots.len();
+                return Some(Err(error));
+            }
+            None => return None,
+        };
+        let event = parse::<Event<M>>(&text, self.line);
+        let event = event.and_then(|event| self.in_order(&event).map(|()| event));
+        Some(event.map(|event| (self.line, event)))
+    }
+}
+
+fn parse<T: DeserializeOwned>(text: &str, line: usize) -> Result<T, ReplayError> {
+    serde_json::from_str(text).map_err(|source| ReplayError::Line {
+        line,
+        column: source.column(),
+        source,
+    })
+}

@@ -1,0 +1,126 @@
+//! Where two runs part.
+
+use core::fmt;
+
+use serde::Serialize;
+
+use super::of_trace::{Portrait, RobotTrace, Trace};
+
+/// The first step at which two traces differ, and in what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The step, the start being 0.
+    pub step: u32,
+    /// The first robot that differs in it, from 0.
+    pub robot: u32,
+    /// The first of its numbers that does.
+    pub what: Differs,
+}
+
+/// What differs first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Differs {
+    /// What the robot was told.
+    Command,
+    /// Where it was.
+    Pose,
+    /// Whether it touched something.
+    Bump,
+    /// Nothing but that the first trace ends here.
+    FirstEnds,
+    /// Nothing but that the second trace ends here.
+    SecondEnds,
+    /// The first trace has this robot, the second one has not, or the other way round.
+    Robots,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { step, robot, what } = self;
+        match what {
+            Differs::Command => write!(formatter, "first differ at step {step}: in the command")?,
+            Differs::Pose => write!(formatter, "first differ at step {step}: in the pose")?,
+            Differs::Bump => write!(formatter, "first differ at step {step}: in the bump")?,
+            Differs::FirstEnds => {
+                return write!(
+                    formatter,
+                    "are the same to the bit up to step {step}, where the first ends"
+                );
+            }
+            Differs::SecondEnds => {
+                return write!(
+                    formatter,
+                    "are the same to the bit up to step {step}, where the second ends"
+                );
+            }
+            Differs::Robots => return write!(formatter, "do not have the same number of robots"),
+        }
+        if *robot > 0 {
+            write!(formatter, " of robot {robot}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Where two traces part; none if they are the same to the bit. O(steps).
+pub(super) fn first_difference<M: Portrait>(
+    first: &Trace<M>,
+    second: &Trace<M>,
+) -> Option<Difference> {
+    let (ones, others) = (first.robots(), second.robots());
+    let differences = (0_u32..).zip(ones.iter().zip(others));
+    let earliest = differences
+        .filter_map(|(robot, (one, other))| of_robot(robot, one, other))
+        .min_by_key(|difference| (difference.step, difference.robot));
+    let missing = (ones.len() != others.len()).then(|| Difference {
+        step: 0,
+        robot: ones.len().min(others.len()) as u32,
+        what: Differs::Robots,
+    });
+    missing.or(earliest)
+}
+
+fn of_robot<M: Portrait>(
+    robot: u32,
+    one: &RobotTrace<M>,
+    other: &RobotTrace<M>,
+) -> Option<Difference> {
+    let differs = |step: usize, what: Differs| {
+        Some(Difference {
+            step: step as u32,
+            robot,
+            what,
+        })
+    };
+    if !same(&one.poses[0], &other.poses[0]) {
+        return differs(0, Differs::Pose);
+    }
+    let (ends, other_ends) = (one.commands.len(), other.commands.len());
+    for step in 0..ends.min(other_ends) {
+        let what = if !same(&one.commands[step], &other.commands[step]) {
+            Differs::Command
+        } else if !same(&one.poses[step + 1], &other.poses[step + 1]) {
+            Differs::Pose
+        } else if one.bumps[step] != other.bumps[step] {
+            Differs::Bump
+        } else {
+            continue;
+        };
+        return differs(step + 1, what);
+    }
+    match ends.cmp(&other_ends) {
+        core::cmp::Ordering::Less => differs(ends, Differs::FirstEnds),
+        core::cmp::Ordering::Greater => differs(other_ends, Differs::SecondEnds),
+        core::cmp::Ordering::Equal => None,
+    }
+}
+
+/// The shortest text that reads back as a number differs wherever its bits do, as in the trace itself.
+fn same<T: Serialize>(one: &T, other: &T) -> bool {
+    match (serde_json::to_string(one), serde_json::to_string(other)) {
+        (Ok(one), Ok(other)) => one == other,
+        // What came out of a trace goes into one again.
+        _ => false,
+    }
+}

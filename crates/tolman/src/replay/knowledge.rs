@@ -1,0 +1,307 @@
+//! What a robot knew, and when: layers that any system can hand over.
+
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::Scan;
+
+use super::Fact;
+
+/// A learned map as it grew: nodes and edges that come, may move, and may go again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MapGrowth {
+    /// What the layer is called: `state graph`.
+    pub name: String,
+    /// The nodes, in any order; no two of the same id.
+    pub nodes: Vec<Node>,
+    /// The edges.
+    pub edges: Vec<Edge>,
+}
+
+/// A node of a [`MapGrowth`]: a state, a place, a unit of a rounding, a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// What edges and beliefs name it by.
+    pub id: u32,
+    /// Where it is drawn when it is born, in the world's frame.
+    pub position: Point,
+    /// The step at which it came to be.
+    pub born: u32,
+    /// The step from which on it is no more.
+    pub died: Option<u32>,
+    /// A word or two beside it; empty for none.
+    pub label: String,
+    /// What is told when it is clicked.
+    pub facts: Vec<Fact>,
+    /// Steps at which the robot was there, ascending.
+    pub visits: Vec<u32>,
+    /// Where it moved to afterwards, ascending.
+    pub moves: Vec<NodeMove>,
+    /// The scan it stands for.
+    pub exemplar: Option<Exemplar>,
+}
+
+impl Node {
+    /// A node that lives for ever, without label, facts, visits and exemplar.
+    #[must_use]
+    pub const fn new(id: u32, position: Point, born: u32) -> Self {
+        Self {
+            id,
+            position,
+            born,
+            died: None,
+            label: String::new(),
+            facts: Vec::new(),
+            visits: Vec::new(),
+            moves: Vec::new(),
+            exemplar: None,
+        }
+    }
+}
+
+/// A node's new place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeMove {
+    /// The step from which it holds.
+    pub step: u32,
+    /// Where it is drawn.
+    pub position: Point,
+}
+
+/// A scan that a node stands for, drawn as a polar plot when the node is clicked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exemplar {
+    /// The heading that bearing 0 of the scan looks to.
+    pub heading: Heading,
+    /// The scan. Its ranges are drawn to 1/255 of the largest.
+    pub scan: Scan,
+}
+
+/// An edge of a [`MapGrowth`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// The id of the node it comes from.
+    pub a: u32,
+    /// The id of the node it leads to.
+    pub b: u32,
+    /// What it means, and so how it is drawn.
+    pub kind: EdgeKind,
+    /// The step at which it came to be.
+    pub born: u32,
+    /// The step from which on it is no more.
+    pub died: Option<u32>,
+    /// A word or two, told when one of its nodes is clicked; empty for none.
+    pub label: String,
+}
+
+impl Edge {
+    /// A passage that stays, without a label.
+    #[must_use]
+    pub const fn new(a: u32, b: u32, born: u32) -> Self {
+        Self {
+            a,
+            b,
+            kind: EdgeKind::Passage,
+            born,
+            died: None,
+            label: String::new(),
+        }
+    }
+}
+
+/// What an [`Edge`] means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// A way from one to the other.
+    Passage,
+    /// A wall between two posts.
+    Wall,
+    /// A relation that is no way: a loop closure, a match.
+    Relation,
+}
+
+/// Where a robot believes itself, or something, to be.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Belief {
+    /// What the layer is called.
+    pub name: String,
+    /// What it believed and from when on, ascending; each holds until the next.
+    pub entries: Vec<BeliefAt>,
+}
+
+/// One state of a [`Belief`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeliefAt {
+    /// The step from which it holds.
+    pub step: u32,
+    /// All of it; empty for none.
+    pub shapes: Vec<Shape>,
+}
+
+/// A part of a belief, in the world's frame. Weights run from 0 to 1 and show as opacity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// It may be here.
+    Point {
+        /// Where.
+        position: Point,
+        /// How likely.
+        weight: f64,
+    },
+    /// It may stand here and look there.
+    Pose {
+        /// How it stands.
+        pose: Pose,
+        /// How likely.
+        weight: f64,
+    },
+    /// It may be at this node of any map.
+    Node {
+        /// The node's id.
+        id: u32,
+        /// How likely.
+        weight: f64,
+    },
+    /// It is inside this box along the axes.
+    Box {
+        /// South-west corner.
+        min: Point,
+        /// North-east corner.
+        max: Point,
+        /// How likely.
+        weight: f64,
+    },
+    /// It is about here: an ellipse of uncertainty.
+    Ellipse {
+        /// Its middle.
+        centre: Point,
+        /// Its semi-axes, m.
+        semi_axes: [f64; 2],
+        /// Where the first of them points.
+        heading: Heading,
+        /// How likely.
+        weight: f64,
+    },
+}
+
+/// Numbers over the cells of a grid that change now and then, drawn as colours and, where there is room, in
+/// digits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// What the layer is called: `distance to the goal`.
+    pub name: String,
+    /// The south-west corner of cell 0.
+    pub origin: Point,
+    /// The side of a cell, m.
+    pub pitch: f64,
+    /// Cells from west to east; cell i lies in column i mod columns, row i / columns, from the south-west.
+    pub columns: u32,
+    /// The values drawn in the palest and the strongest colour.
+    pub range: [f64; 2],
+    /// What changed, by step, ascending. A cell that never had a value is not drawn.
+    pub changes: Vec<FieldChange>,
+}
+
+/// One change of a [`Field`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldChange {
+    /// The step from which it holds.
+    pub step: u32,
+    /// Which cell.
+    pub cell: u32,
+    /// Its new value; none if it has none any more.
+    pub value: Option<f64>,
+}
+
+/// A number over time, shown with its curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// What it is called: `coverage`.
+    pub name: String,
+    /// Its unit, set behind it; `%` shows a share as per cent.
+    pub unit: String,
+    /// Its values, by step, ascending; each holds until the next.
+    pub samples: Vec<Sample>,
+}
+
+/// One value of a [`Series`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The step from which it holds.
+    pub step: u32,
+    /// The value.
+    pub value: f64,
+}
+
+/// Words over time: the action under way, the state it is in.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Notes {
+    /// What they are about: `action`.
+    pub name: String,
+    /// The words, by step, ascending; each holds until the next.
+    pub notes: Vec<Note>,
+}
+
+impl Notes {
+    /// No notes yet.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Says something from `step` on; what is said already is not said again.
+    pub fn say(&mut self, step: u32, text: impl Into<String>) {
+        let text = text.into();
+        if self.notes.last().is_none_or(|last| last.text != text) {
+            self.notes.push(Note { step, text });
+        }
+    }
+}
+
+/// One of [`Notes`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// The step from which it holds.
+    pub step: u32,
+    /// What it says.
+    pub text: String,
+}
+
+/// Steps at which something happened, marked on the slider.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Marks {
+    /// What happened, and so the colour.
+    pub kind: Mark,
+    /// What it is called: `bump`.
+    pub name: String,
+    /// When, ascending.
+    pub steps: Vec<u32>,
+}
+
+impl Marks {
+    /// No marks yet.
+    pub fn new(kind: Mark, name: impl Into<String>) -> Self {
+        Self {
+            kind,
+            name: name.into(),
+            steps: Vec::new(),
+        }
+    }
+}
+
+/// What a mark on the slider says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// The body touched something.
+    Bump,
+    /// An action failed.
+    Failure,
+    /// The robot arrived.
+    Arrival,
+    /// The robot was lifted and set down elsewhere.
+    Kidnapping,
+    /// The first step at which two runs differ.
+    Difference,
+    /// Anything else.
+    Event,
+}

@@ -1,0 +1,344 @@
+//! Replays of traces.
+
+use core::fmt;
+use std::io::BufRead;
+
+use thiserror::Error;
+use tolman_geom::Pose;
+use tolman_robot::{Ring, TurnTranslate};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::trace::{Event, Reader, Recordable, ReplayError};
+use tolman_sim::{DoorEvent, DoorState, World};
+
+use super::difference::{Difference, first_difference};
+use super::floor::Floor;
+use super::{Door, DoorChange, Fact, Mark, Marks, Replay, Sample, Scenery, Series, Track};
+
+/// What a replay shows of a kind of robot beyond its body.
+pub trait Portrait: Recordable {
+    /// Its range sensor, if it has one.
+    fn ring(config: &Self::Config) -> Option<Ring>;
+
+    /// The parts of a command by name, as shares of their full rates.
+    fn parts(command: &Self::Command) -> Vec<(&'static str, f64)>;
+}
+
+impl Portrait for LaserPioneer {
+    fn ring(config: &LaserPioneerConfig) -> Option<Ring> {
+        Some(config.ring)
+    }
+
+    fn parts(command: &TurnTranslate) -> Vec<(&'static str, f64)> {
+        vec![("turn", command.turn), ("translate", command.translate)]
+    }
+}
+
+/// A trace in memory: what there is to show of it and to compare it by.
+#[derive(Debug)]
+pub struct Trace<M: Recordable> {
+    /// What it is called.
+    pub name: String,
+    world: World,
+    seed: u64,
+    step_us: u64,
+    /// The world as the trace has it, for comparison.
+    world_text: String,
+    robots: Vec<RobotTrace<M>>,
+    doors: Vec<(u32, String, DoorState)>,
+}
+
+/// What one robot of a trace did.
+#[derive(Debug)]
+pub(super) struct RobotTrace<M: Recordable> {
+    config: M::Config,
+    /// One more than there are commands.
+    pub(super) poses: Vec<Pose>,
+    pub(super) commands: Vec<M::Command>,
+    /// One for each command.
+    pub(super) bumps: Vec<bool>,
+    /// The steps after which it was lifted.
+    lifts: Vec<u32>,
+}
+
+/// Why traces cannot be shown on one slider.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// There is none.
+    #[error("there is no trace to show; give at least one")]
+    None,
+    /// They happened in different worlds.
+    #[error(
+        "{second} happened in another world than {first}; give traces of the same world, or replay each by itself"
+    )]
+    Worlds {
+        /// The first trace's name.
+        first: String,
+        /// The name of the one that differs from it.
+        second: String,
+    },
+    /// Their time steps differ in length.
+    #[error("the time steps of {second} last {second_us} µs, those of {first} {first_us} µs")]
+    Steps {
+        /// The first trace's name.
+        first: String,
+        /// Its time step, µs.
+        first_us: u64,
+        /// The name of the one that differs from it.
+        second: String,
+        /// Its time step, µs.
+        second_us: u64,
+    },
+    /// A robot cannot be built again.
+    #[error("{trace}: robot {robot} cannot be built")]
+    Robot {
+        /// The trace's name.
+        trace: String,
+        /// Which robot, from 0.
+        robot: usize,
+        /// Why.
+        source: Box<dyn core::error::Error + Send + Sync>,
+    },
+}
+
+/// How a trace compares to the first one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Verdict {
+    /// The first trace's name.
+    pub first: String,
+    /// The other's.
+    pub second: String,
+    /// Where they part; none if they are the same to the bit.
+    pub difference: Option<Difference>,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { first, second, .. } = self;
+        match &self.difference {
+            Some(difference) => write!(formatter, "{first} and {second} {difference}"),
+            None => write!(formatter, "{first} and {second} are the same to the bit"),
+        }
+    }
+}
+
+impl<M: Portrait> Trace<M> {
+    /// Reads a trace to its end. Memory: about 100 bytes a step; what was sensed is not kept.
+    ///
+    /// # Errors
+    /// If it cannot be read, with the line.
+    pub fn read(name: impl Into<String>, trace: impl BufRead) -> Result<Self, ReplayError> {
+        let reader = Reader::<M, _>::open(trace)?;
+        let robots = reader.robots().map(|(config, pose)| RobotTrace {
+            config: config.clone(),
+            poses: vec![pose],
+            commands: Vec::new(),
+            bumps: Vec::new(),
+            lifts: Vec::new(),
+        });
+        let mut trace = Self {
+            name: name.into(),
+            world: reader.world().clone(),
+            world_text: reader.world().to_json()?,
+            seed: reader.seed(),
+            step_us: reader.step_us(),
+            robots: robots.collect(),
+            doors: Vec::new(),
+        };
+        let mut now = 0;
+        for event in reader {
+            match event?.1 {
+                Event::Step(step) => {
+                    now = step.tick as u32;
+                    if let Some(robot) = trace.robots.get_mut(step.robot.0 as usize) {
+                        robot.poses.push(step.pose);
+                        robot.commands.push(step.command);
+                        robot.bumps.push(step.bump);
+                    }
+                }
+                Event::Place { robot, .. } => {
+                    if let Some(robot) = trace.robots.get_mut(robot.0 as usize) {
+                        robot.lifts.push(now + 1);
+                    }
+                }
+                Event::Door { name, state } => trace.doors.push((now, name, state)),
+            }
+        }
+        Ok(trace)
+    }
+
+    pub(super) fn robots(&self) -> &[RobotTrace<M>] {
+        &self.robots
+    }
+
+    fn steps(&self) -> u32 {
+        self.robots
+            .iter()
+            .map(|robot| robot.bumps.len() as u32)
+            .max()
+            .unwrap_or(0)
+    }
+
+    fn scenery(&self) -> Scenery {
+        let mut scenery = Scenery::of_world(&self.world);
+        for (shown, door) in scenery.doors.iter_mut().zip(self.world.doors()) {
+            self.open_and_shut(shown, &door.schedule);
+        }
+        let start = self.robots.first().and_then(|robot| robot.poses.first());
+        let floor = start.and_then(|start| Floor::from(&self.world, start.position));
+        if let Some(floor) = floor {
+            scenery.zones.extend(floor.solid());
+        }
+        scenery
+    }
+
+    /// When a door changed by its schedule and from outside. That a door waits for a body in its way is not
+    /// in the trace, so it may be shown shut a little too soon.
+    fn open_and_shut(&self, door: &mut Door, schedule: &[DoorEvent]) {
+        let scheduled = schedule.iter().map(|event| DoorChange {
+            step: (event.time_us / self.step_us.max(1)) as u32,
+            state: event.state,
+        });
+        let moved = self.doors.iter().filter(|(_, name, _)| *name == door.name);
+        let moved = moved.map(|(step, _, state)| DoorChange {
+            step: *step,
+            state: *state,
+        });
+        door.changes.extend(scheduled.chain(moved));
+        door.changes.sort_by_key(|change| change.step);
+    }
+
+    fn tracks(&self, several: bool) -> Result<Vec<Track>, CompareError> {
+        let tracks = self.robots.iter().enumerate().map(|(number, robot)| {
+            let name = match (self.robots.len(), several) {
+                (1, _) => self.name.clone(),
+                (_, false) => format!("robot {number}"),
+                (_, true) => format!("{} robot {number}", self.name),
+            };
+            let model = M::from_config(robot.config.clone());
+            let model = model.map_err(|source| CompareError::Robot {
+                trace: self.name.clone(),
+                robot: number,
+                source: Box::new(source),
+            })?;
+            let mut track = robot.track(name, model.body().clone());
+            let destination = self.world.zone("destination");
+            track.marks.push(arrival(&robot.poses, |pose| {
+                destination.is_some_and(|zone| zone.contains(pose.position))
+            }));
+            if let Some(floor) = Floor::from(&self.world, robot.poses[0].position) {
+                let path = robot.poses.iter().map(|pose| pose.position);
+                track.series.insert(0, floor.coverage(path));
+            }
+            Ok(track)
+        });
+        tracks.collect()
+    }
+}
+
+impl<M: Portrait> RobotTrace<M> {
+    fn track(&self, name: String, body: tolman_robot::Body) -> Track {
+        let mut track = Track::new(name, body, self.poses.clone());
+        track.ring = M::ring(&self.config);
+        track.lifts.clone_from(&self.lifts);
+        let mut bumps = Marks::new(Mark::Bump, "bump");
+        bumps.steps = (1..)
+            .zip(&self.bumps)
+            .filter_map(|(step, bump)| bump.then_some(step))
+            .collect();
+        let mut kidnapped = Marks::new(Mark::Kidnapping, "kidnapped");
+        kidnapped.steps.clone_from(&self.lifts);
+        track.marks = vec![bumps, kidnapped];
+        for (step, command) in (1..).zip(&self.commands) {
+            for (i, (name, share)) in M::parts(command).into_iter().enumerate() {
+                if track.series.len() <= i {
+                    track.series.push(Series {
+                        name: format!("{name}, %"),
+                        unit: String::new(),
+                        samples: Vec::new(),
+                    });
+                }
+                // Whole per cent: what a reader takes in, in few bytes.
+                let value = libm::round(100.0 * share);
+                track.series[i].samples.push(Sample { step, value });
+            }
+        }
+        track
+    }
+}
+
+/// The first step at which a robot is where it was to go.
+fn arrival(poses: &[Pose], there: impl Fn(&Pose) -> bool) -> Marks {
+    let mut arrival = Marks::new(Mark::Arrival, "arrived");
+    let first = poses.iter().position(there);
+    arrival.steps.extend(first.map(|step| step as u32));
+    arrival
+}
+
+impl Replay {
+    /// The replay of one trace, or of several in the same world on one slider, with how each compares to
+    /// the first. The first step at which one differs is marked.
+    ///
+    /// Linear in the length of the traces; nothing is simulated.
+    ///
+    /// # Errors
+    /// [`CompareError`] if there is no trace, their worlds or time steps differ, or a robot cannot be built.
+    pub fn of_traces<M: Portrait>(
+        traces: &[Trace<M>],
+    ) -> Result<(Self, Vec<Verdict>), CompareError> {
+        let (first, others) = traces.split_first().ok_or(CompareError::None)?;
+        let mut differences = Marks::new(Mark::Difference, "first difference");
+        let mut verdicts = Vec::new();
+        for second in others {
+            if first.world_text != second.world_text {
+                return Err(CompareError::Worlds {
+                    first: first.name.clone(),
+                    second: second.name.clone(),
+                });
+            }
+            if first.step_us != second.step_us {
+                return Err(CompareError::Steps {
+                    first: first.name.clone(),
+                    first_us: first.step_us,
+                    second: second.name.clone(),
+                    second_us: second.step_us,
+                });
+            }
+            let difference = first_difference(first, second);
+            differences
+                .steps
+                .extend(difference.map(|difference| difference.step));
+            verdicts.push(Verdict {
+                first: first.name.clone(),
+                second: second.name.clone(),
+                difference,
+            });
+        }
+        differences.steps.sort_unstable();
+        let mut tracks = Vec::new();
+        for trace in traces {
+            tracks.extend(trace.tracks(traces.len() > 1)?);
+        }
+        let names: Vec<&str> = traces.iter().map(|trace| trace.name.as_str()).collect();
+        let mut replay = Self::new(
+            names.join(" and "),
+            first.step_us as f64 * 1e-6,
+            first.scenery(),
+            tracks,
+        );
+        replay.facts = facts(traces, &verdicts);
+        replay.marks = vec![differences];
+        Ok((replay, verdicts))
+    }
+}
+
+fn facts<M: Portrait>(traces: &[Trace<M>], verdicts: &[Verdict]) -> Vec<Fact> {
+    let told = traces.iter().map(|trace| {
+        let value = format!("{} steps, seed {}", trace.steps(), trace.seed);
+        Fact::new(&trace.name, value)
+    });
+    let compared = verdicts
+        .iter()
+        .map(|verdict| Fact::new("verdict", verdict.to_string()));
+    told.chain(compared).collect()
+}

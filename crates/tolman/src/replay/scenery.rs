@@ -1,0 +1,114 @@
+use core::f64::consts::TAU;
+
+use tolman_geom::{Point, Vector};
+use tolman_sim::{Area, Bounds, World};
+
+/// What stands still: walls, zones of the floor, and doors in their frames. Metres, x to the right and y
+/// upwards.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scenery {
+    /// The ends of each wall.
+    pub walls: Vec<[Point; 2]>,
+    /// Parts of the floor.
+    pub zones: Vec<Zone>,
+    /// Walls that come and go.
+    pub doors: Vec<Door>,
+}
+
+/// A part of the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Zone {
+    /// What it means, and so how it is coloured.
+    pub kind: ZoneKind,
+    /// What it is called.
+    pub name: String,
+    /// Its corners in order.
+    pub corners: Vec<Point>,
+}
+
+/// What a [`Zone`] means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ZoneKind {
+    /// Where the robot is to go.
+    Destination,
+    /// Where it began.
+    Start,
+    /// A part of the floor that is told apart.
+    Region,
+    /// No floor at all: walled off.
+    Solid,
+}
+
+/// A wall that comes and goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Door {
+    /// What it is called.
+    pub name: String,
+    /// Its ends.
+    pub ends: [Point; 2],
+    /// How it stood and from when on, ascending; before the first change it is open.
+    pub changes: Vec<DoorChange>,
+}
+
+/// One change of a [`Door`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DoorChange {
+    /// The step from which it holds.
+    pub step: u32,
+    /// Whether the door lets through.
+    pub state: tolman_sim::DoorState,
+}
+
+/// A disc is drawn with so many corners.
+const DISC_CORNERS: u32 = 48;
+
+impl Scenery {
+    /// The walls and zones of a simulated world, and its doors as they stand at the beginning.
+    #[must_use]
+    pub fn of_world(world: &World) -> Self {
+        let zones = world.zones().iter().flat_map(|zone| {
+            let kind = match zone.name() {
+                "destination" => ZoneKind::Destination,
+                "start" => ZoneKind::Start,
+                _ => ZoneKind::Region,
+            };
+            zone.areas().iter().map(move |area| Zone {
+                kind,
+                name: zone.name().to_owned(),
+                corners: corners(area),
+            })
+        });
+        let doors = world.doors().iter().map(|door| Door {
+            name: door.name.clone(),
+            ends: [door.start, door.end],
+            changes: vec![DoorChange {
+                step: 0,
+                state: door.state,
+            }],
+        });
+        Self {
+            walls: world
+                .walls()
+                .iter()
+                .map(|wall| [wall.start, wall.end])
+                .collect(),
+            zones: zones.collect(),
+            doors: doors.collect(),
+        }
+    }
+}
+
+fn corners(area: &Area) -> Vec<Point> {
+    match *area {
+        Area::Rectangle(Bounds { min, max }) => {
+            vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
+        }
+        Area::Disc { centre, radius } => (0..DISC_CORNERS)
+            .map(|corner| {
+                let angle = TAU * f64::from(corner) / f64::from(DISC_CORNERS);
+                let (sin, cos) = libm::sincos(angle);
+                centre + Vector::new(cos, sin) * radius
+            })
+            .collect(),
+    }
+}
