@@ -1,5 +1,7 @@
 //! What can be wrong with what a caller passes.
 
+use alloc::string::String;
+
 use thiserror::Error;
 
 use crate::UnitId;
@@ -120,3 +122,72 @@ pub(crate) fn within(
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("the network has no unit {0}: it was removed, or never there")]
 pub struct UnknownUnit(pub UnitId);
+
+/// Why what was saved cannot be resumed.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SnapshotError {
+    /// It is something else.
+    #[error("this is {found:?} where {expected:?} was expected")]
+    WrongFormat {
+        /// What is read here.
+        expected: &'static str,
+        /// What the text says it is.
+        found: String,
+    },
+    /// It was saved by a later version.
+    #[error(
+        "version {found} is newer than {newest}, the newest this program reads: use a newer program"
+    )]
+    WrongVersion {
+        /// The newest known version.
+        newest: u32,
+        /// The version of the text.
+        found: u32,
+    },
+    /// A field of the configuration is outside its range, or a weight is.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A prototype is no valid input.
+    #[error("the prototype of unit {id}: {source}")]
+    BadPrototype {
+        /// The unit.
+        id: UnitId,
+        /// What is wrong.
+        source: InputError,
+    },
+    /// Ids have to ascend and to lie below the next id.
+    #[error("unit {id} is out of order: ids have to ascend and be less than {next_id}")]
+    BadId {
+        /// The unit.
+        id: UnitId,
+        /// The id of the next unit to come.
+        next_id: u32,
+    },
+    /// An edge has an end that is no unit, joins a unit to itself or stands there twice.
+    #[error("the edge {}–{} has an end that is no unit, or joins a unit to itself, or comes twice", .ends.0, .ends.1)]
+    BadEdge {
+        /// The ends.
+        ends: (UnitId, UnitId),
+    },
+    /// A number that an algorithm keeps is not what it can be.
+    #[error("{field} is {value} but has to be {range}")]
+    BadNumber {
+        /// What it is.
+        field: &'static str,
+        /// The value.
+        value: f64,
+        /// What it may be, in words.
+        range: &'static str,
+    },
+    /// A list has another length than what it belongs to.
+    #[error("{found} {what} where {expected} were expected")]
+    WrongCount {
+        /// What is listed.
+        what: &'static str,
+        /// How many there have to be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+}

@@ -34,26 +34,28 @@ pub enum Event {
     Unlinked(UnitId, UnitId),
 }
 
-/// Keeps events if somebody listens.
+/// The events of a network, kept from the moment somebody listens.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct EventLog {
+pub struct Events {
     listening: bool,
-    events: Vec<Event>,
+    kept: Vec<Event>,
 }
 
-impl EventLog {
-    pub(crate) fn listen(&mut self) {
+impl Events {
+    /// Keeps events from now on. Without it, none are kept and nothing is allocated.
+    pub fn listen(&mut self) {
         self.listening = true;
+    }
+
+    /// The events since [`listen`](Self::listen) or the last call, oldest first.
+    pub fn drain(&mut self) -> impl ExactSizeIterator<Item = Event> + '_ {
+        self.kept.drain(..)
     }
 
     #[inline]
     pub(crate) fn push(&mut self, event: Event) {
         if self.listening {
-            self.events.push(event);
+            self.kept.push(event);
         }
-    }
-
-    pub(crate) fn drain(&mut self) -> impl Iterator<Item = Event> + '_ {
-        self.events.drain(..)
     }
 }

@@ -2,16 +2,19 @@
 
 mod config;
 mod decay;
+mod saved;
 
 use alloc::vec::Vec;
 
 use decay::Decay;
 
 pub use config::{ErrorKind, GngConfig, GrowthGate, StepOrder, Utility};
+pub use saved::SavedGng;
 
 use crate::network::{Best, Candidate};
 use crate::{
-    ConfigError, InputError, Network, Observation, Quantizer, Scalar, UnitId, UnknownUnit,
+    ConfigError, Events, InputError, Lanes, Network, Observation, Quantizer, Scalar, Search,
+    UnitId, UnknownUnit,
 };
 
 /// A growing neural gas.
@@ -32,6 +35,18 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "SavedGng<S>",
+        into = "SavedGng<S>",
+        bound(
+            serialize = "S: Scalar + serde::Serialize",
+            deserialize = "S: Scalar + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Gng<S> {
     config: GngConfig,
     network: Network<S>,
@@ -92,10 +107,17 @@ impl<S: Scalar> Gng<S> {
                 .check(prototype.as_ref())
                 .map_err(|source| ConfigError::BadUnit { unit, source })?;
         }
+        let mut last = None;
         for prototype in prototypes {
-            self.seed(prototype.as_ref());
+            last = Some(self.seed(prototype.as_ref(), last));
         }
+        self.network.tidy(&mut self.sums);
         Ok(())
+    }
+
+    /// Chooses how the nearest units are searched for. It changes no result.
+    pub fn set_search(&mut self, search: Search, lanes: Lanes) {
+        self.network.set_search(search, lanes);
     }
 
     /// What was chosen.
@@ -159,12 +181,12 @@ impl<S: Scalar> Gng<S> {
         self.decay.value(sum) / self.network.len().max(1) as f64
     }
 
-    /// A unit joined to the one before it.
-    fn seed(&mut self, prototype: &[S]) -> usize {
+    /// A unit joined to another.
+    fn seed(&mut self, prototype: &[S], other: Option<usize>) -> usize {
         let slot = self.network.insert(prototype);
         self.sums.push(Sums::default());
-        if slot > 0 {
-            self.network.link(slot - 1, slot, 0);
+        if let Some(other) = other {
+            self.network.link(other, slot, 0);
         }
         slot
     }
@@ -180,7 +202,7 @@ impl<S: Scalar> Gng<S> {
                 second: None,
             };
         }
-        let slot = self.seed(input);
+        let slot = self.seed(input, met.map(|_| best.first.slot as usize));
         Observation {
             winner: self.network.at(slot),
             second: met,
@@ -374,7 +396,7 @@ impl<S: Scalar> Quantizer<S> for Gng<S> {
         &self.network
     }
 
-    fn network_mut(&mut self) -> &mut Network<S> {
-        &mut self.network
+    fn events(&mut self) -> &mut Events {
+        self.network.events()
     }
 }

@@ -51,10 +51,12 @@ mod soinn;
 mod unit;
 
 pub use associative_memory::{AssociativeMemory, Chain, Recall};
-pub use error::{ConfigError, InputError, UnknownUnit};
-pub use event::Event;
-pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, StepOrder, Utility};
-pub use network::{Clusters, Edge, Network, QuantizationError};
+pub use error::{ConfigError, InputError, SnapshotError, UnknownUnit};
+pub use event::{Event, Events};
+pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, SavedGng, StepOrder, Utility};
+pub use network::{
+    Clusters, Edge, Lanes, Network, QuantizationError, Search, Snapshot, SnapshotUnit,
+};
 pub use quantizer::{Observation, Quantizer};
 pub use scalar::Scalar;
 pub use soinn::{

@@ -1,25 +1,33 @@
 //! Units, their prototypes and their edges: the graph that all quantizers grow.
 
 mod clusters;
+mod kernels;
 mod links;
 mod measure;
 mod metric;
 mod prototypes;
 mod search;
+mod snapshot;
+mod tree;
 
 use alloc::vec::Vec;
 
+use kernels::Kernels;
 use links::Links;
 use metric::Metric;
 use prototypes::Prototypes;
-use search::{Masked, Plain, Weighted, scan};
+use search::{Masked, Plain, Terms, Weighted, scan};
+use tree::Tree;
 
-use crate::event::EventLog;
-use crate::{ConfigError, Event, InputError, Nearest, NearestTwo, Scalar, UnitId, UnknownUnit};
+use crate::{
+    ConfigError, Event, Events, InputError, Nearest, NearestTwo, Scalar, UnitId, UnknownUnit,
+};
 
 pub use clusters::Clusters;
+pub use kernels::{Lanes, Search};
 pub use measure::QuantizationError;
 pub(crate) use search::{Best, Candidate};
+pub use snapshot::{Snapshot, SnapshotUnit};
 
 /// The units of a quantizer, their prototypes and the edges between them.
 ///
@@ -40,7 +48,11 @@ pub struct Network<S> {
     live: Vec<bool>,
     len: usize,
     next_id: u32,
-    log: EventLog,
+    events: Events,
+    search: Search,
+    kernels: Kernels,
+    /// The index, where it is used.
+    tree: Option<Tree<S>>,
     /// The new numbers of slots while gaps are closed; kept so as not to allocate.
     renumbered: Vec<u32>,
 }
@@ -65,7 +77,10 @@ impl<S: Scalar> Network<S> {
             live: Vec::new(),
             len: 0,
             next_id: 0,
-            log: EventLog::default(),
+            events: Events::default(),
+            search: Search::default(),
+            kernels: Kernels::from(Lanes::default()),
+            tree: None,
             renumbered: Vec::new(),
         }
     }
@@ -165,22 +180,11 @@ impl<S: Scalar> Network<S> {
     ) -> Result<NearestTwo<S>, InputError> {
         self.metric.check_masked(input, mask)?;
         let mut best = Best::none();
-        let blocks = self.prototypes.blocks();
         match self.metric.weights() {
-            None => scan(blocks, input, Masked(Plain, mask), &mut best),
-            Some(weights) => scan(blocks, input, Masked(Weighted(weights), mask), &mut best),
+            None => self.search_by(input, Masked(Plain, mask), &mut best),
+            Some(weights) => self.search_by(input, Masked(Weighted(weights), mask), &mut best),
         }
         self.named(best)
-    }
-
-    /// Begins to keep events. Without it, none are kept.
-    pub fn listen(&mut self) {
-        self.log.listen();
-    }
-
-    /// The events since [`listen`](Self::listen) or the last call, oldest first.
-    pub fn drain_events(&mut self) -> impl Iterator<Item = Event> + '_ {
-        self.log.drain()
     }
 
     /// Where the unit is until gaps are closed.
@@ -201,19 +205,52 @@ impl<S: Scalar> Network<S> {
 
 /// What quantizers do to the graph.
 impl<S: Scalar> Network<S> {
+    pub(crate) fn events(&mut self) -> &mut Events {
+        &mut self.events
+    }
+
+    /// Chooses how the nearest units are searched for. It changes no result.
+    pub(crate) fn set_search(&mut self, search: Search, lanes: Lanes) {
+        self.search = search;
+        self.kernels = lanes.into();
+        self.tree = None;
+        self.consider_tree();
+    }
+
+    /// Builds the index if it is wanted and not there yet.
+    fn consider_tree(&mut self) {
+        if self.tree.is_none() && self.search.wants_tree(self.dimension(), self.len) {
+            self.tree = Some(Tree::new(&self.prototypes, self.slots(), self.ids.len()));
+        }
+    }
+
     pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
         self.metric.check(input)
+    }
+
+    pub(crate) fn check_prototype(&self, prototype: &[S]) -> Result<(), InputError> {
+        self.metric.check_prototype(prototype)
     }
 
     /// The two nearest slots to a valid input.
     pub(crate) fn search(&self, input: &[S]) -> Best<S> {
         let mut best = Best::none();
-        let blocks = self.prototypes.blocks();
         match self.metric.weights() {
-            None => scan(blocks, input, Plain, &mut best),
-            Some(weights) => scan(blocks, input, Weighted(weights), &mut best),
+            None => self.search_by(input, Plain, &mut best),
+            Some(weights) => self.search_by(input, Weighted(weights), &mut best),
         }
         best
+    }
+
+    #[inline]
+    fn search_by(&self, input: &[S], terms: impl Terms<S>, best: &mut Best<S>) {
+        match &self.tree {
+            Some(tree) => tree.search(input, terms, best),
+            None => self.kernels.run(
+                #[inline(always)]
+                || scan(&self.prototypes, input, terms, best),
+            ),
+        }
     }
 
     /// The unit nearest to another unit, if there are two.
@@ -316,8 +353,12 @@ impl<S: Scalar> Network<S> {
         self.ids.push(id);
         self.live.push(true);
         self.len += 1;
-        self.log.push(Event::Inserted { id, between });
-        self.ids.len() - 1
+        self.events.push(Event::Inserted { id, between });
+        let slot = self.ids.len() - 1;
+        if let Some(tree) = &mut self.tree {
+            tree.insert(slot, &self.prototypes);
+        }
+        slot
     }
 
     /// Takes a unit and its edges away.
@@ -326,7 +367,7 @@ impl<S: Scalar> Network<S> {
             self.cut(slot, other);
         }
         self.leave(slot);
-        self.log.push(Event::Removed { id: self.ids[slot] });
+        self.events.push(Event::Removed { id: self.ids[slot] });
     }
 
     /// Makes one unit part of another, which takes over its edges with their ages, the younger one
@@ -340,13 +381,16 @@ impl<S: Scalar> Network<S> {
             }
         }
         self.leave(gone);
-        self.log.push(Event::Merged {
+        self.events.push(Event::Merged {
             gone: self.ids[gone],
             into: self.ids[into],
         });
     }
 
     fn leave(&mut self, slot: usize) {
+        if let Some(tree) = &mut self.tree {
+            tree.remove(slot);
+        }
         self.prototypes.vacate(slot);
         self.live[slot] = false;
         self.len -= 1;
@@ -357,7 +401,7 @@ impl<S: Scalar> Network<S> {
     pub(crate) fn link(&mut self, a: usize, b: usize, age: u32) {
         if self.links.renew(a, b, age) {
             let (low, high) = (self.ids[a.min(b)], self.ids[a.max(b)]);
-            self.log.push(Event::Linked(low, high));
+            self.events.push(Event::Linked(low, high));
         }
     }
 
@@ -365,7 +409,7 @@ impl<S: Scalar> Network<S> {
     pub(crate) fn cut(&mut self, a: usize, b: usize) {
         if self.links.cut(a, b) {
             let (low, high) = (self.ids[a.min(b)], self.ids[a.max(b)]);
-            self.log.push(Event::Unlinked(low, high));
+            self.events.push(Event::Unlinked(low, high));
         }
     }
 
@@ -405,6 +449,9 @@ impl<S: Scalar> Network<S> {
     #[inline]
     pub(crate) fn approach(&mut self, slot: usize, target: &[S], rate: S) {
         self.prototypes.approach(slot, target, rate);
+        if let Some(tree) = &mut self.tree {
+            tree.follow(slot, &self.prototypes);
+        }
     }
 
     /// Moves each neighbour of a unit by `rate` of its slot of the way to `target`.
@@ -417,10 +464,14 @@ impl<S: Scalar> Network<S> {
     ) {
         for other in self.links.neighbours(slot) {
             self.prototypes.approach(other, target, rate(other));
+            if let Some(tree) = &mut self.tree {
+                tree.follow(other, &self.prototypes);
+            }
         }
     }
 
-    /// Closes the gaps that removed units left if it is worthwhile, in `per_unit` as well, which has one item
+    /// To be called when a quantizer is done with an input. Builds the index once it pays, and closes the gaps that
+    /// removed units left if it is worthwhile, in `per_unit` as well, which has one item
     /// a slot. Slots known from before are void.
     #[inline]
     pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
@@ -430,6 +481,7 @@ impl<S: Scalar> Network<S> {
         if blocks(self.len) + (used / 8).max(1) <= used {
             self.close_gaps(per_unit);
         }
+        self.consider_tree();
     }
 
     #[cold]
@@ -449,6 +501,9 @@ impl<S: Scalar> Network<S> {
         }
         self.prototypes.truncate(to);
         self.links.renumber(&self.renumbered);
+        if let Some(tree) = &mut self.tree {
+            tree.renumber(&self.renumbered);
+        }
         self.ids.truncate(to);
         self.live.clear();
         self.live.resize(to, true);
@@ -458,6 +513,7 @@ impl<S: Scalar> Network<S> {
 
 /// An edge and how often its ends have won since it was made or renewed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Edge {
     /// The units it joins, the smaller id first.
     pub ends: (UnitId, UnitId),

@@ -1,6 +1,6 @@
 //! What all quantizers have in common.
 
-use crate::{InputError, Nearest, NearestTwo, Network, Scalar};
+use crate::{Events, InputError, Nearest, NearestTwo, Network, Scalar, Snapshot};
 
 /// Learns a graph of prototypes from one input after the other.
 ///
@@ -14,11 +14,11 @@ pub trait Quantizer<S: Scalar> {
     /// or so large that squares overflow. Nothing is learnt then.
     fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError>;
 
-    /// The units, their edges and their events.
+    /// The units and their edges.
     fn network(&self) -> &Network<S>;
 
-    /// The same, to listen to events.
-    fn network_mut(&mut self) -> &mut Network<S>;
+    /// What happens to units and edges, for those who listen.
+    fn events(&mut self) -> &mut Events;
 
     /// The unit nearest to `input`.
     ///
@@ -34,6 +34,11 @@ pub trait Quantizer<S: Scalar> {
     /// As [`nearest`](Self::nearest).
     fn nearest_two(&self, input: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.network().nearest_two(input)
+    }
+
+    /// A copy of the units and edges as they are now.
+    fn snapshot(&self) -> Snapshot<S> {
+        self.network().snapshot()
     }
 }
 

@@ -10,7 +10,8 @@ pub use second_layer::{SecondLayerConfig, SecondLayerError, SecondThreshold};
 
 use crate::network::{Best, Candidate};
 use crate::{
-    ConfigError, InputError, Network, Observation, Quantizer, Scalar, UnitId, UnknownUnit,
+    ConfigError, Events, InputError, Lanes, Network, Observation, Quantizer, Scalar, Search,
+    UnitId, UnknownUnit,
 };
 
 /// One layer of a SOINN: "An incremental network for on-line unsupervised classification and topology learning" (Shen and
@@ -134,6 +135,11 @@ impl<S: Scalar> Soinn<S> {
         })
     }
 
+    /// Chooses how the nearest units are searched for. It changes no result.
+    pub fn set_search(&mut self, search: Search, lanes: Lanes) {
+        self.network.set_search(search, lanes);
+    }
+
     /// What was chosen.
     pub fn config(&self) -> &SoinnConfig {
         &self.config
@@ -190,6 +196,7 @@ impl<S: Scalar> Soinn<S> {
                 self.name_again(input, &mut observation);
             }
         }
+        self.network.tidy(&mut self.tallies);
         observation
     }
 
@@ -353,8 +360,8 @@ impl<S: Scalar> Quantizer<S> for Soinn<S> {
         &self.network
     }
 
-    fn network_mut(&mut self) -> &mut Network<S> {
-        &mut self.network
+    fn events(&mut self) -> &mut Events {
+        self.network.events()
     }
 }
 
@@ -367,7 +374,7 @@ mod tests {
     #[test]
     fn an_insertion_undone_leaves_no_trace() {
         let mut soinn = Soinn::<f64>::new(2, SoinnConfig::noisy()).unwrap();
-        soinn.network.listen();
+        soinn.events().listen();
         let (mut undone, mut done) = (0, 0);
         for step in 0..4000_u32 {
             let (angle, radius) = (f64::from(step) * 2.4, 1.0 + 0.1 * f64::from(step % 7));

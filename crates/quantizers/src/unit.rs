@@ -7,6 +7,8 @@ use crate::Scalar;
 /// The name of a unit, for good: no other unit of the same network ever bears it, also after the
 /// unit is gone. Later units have greater ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct UnitId(pub u32);
 
 impl fmt::Display for UnitId {

@@ -298,12 +298,12 @@ proptest! {
     #[test]
     fn the_graph_stays_sound(seed in any::<u64>(), config in configs()) {
         let mut soinn = Soinn::<f32>::new(3, config).unwrap();
-        soinn.network_mut().listen();
+        soinn.events().listen();
         let mut replay = Replay::default();
         for input in clouds(seed, 500) {
             let input = input.map(|value| value as f32);
             let observation = soinn.observe(&input).unwrap();
-            for event in soinn.network_mut().drain_events() {
+            for event in soinn.events().drain() {
                 replay.play(event);
             }
             let network = soinn.network();

@@ -5,6 +5,7 @@ use crate::error::within;
 
 /// The parameters of a growing neural gas. Its `Default` is [`fritzke`](Self::fritzke).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GngConfig {
     /// ε_b: the part of the way to the input that the nearest unit moves; 0 to 1.
     pub winner_rate: f64,
@@ -32,6 +33,8 @@ pub struct GngConfig {
 
 /// The order of the parts of a step. The sources agree on the parts, not on their order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum StepOrder {
     /// "A growing neural gas network learns topologies" (Fritzke 1995), section 2: age the winner's edges, add to
@@ -47,6 +50,8 @@ pub enum StepOrder {
 
 /// What the nearest unit w of an input x is charged with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ErrorKind {
     /// ‖x − w‖² (Fritzke 1995, equation 4): units come where they lower the mean squared error most.
@@ -61,6 +66,8 @@ pub enum ErrorKind {
 
 /// When an equilibrium GNG may grow. E is the vector of all errors as they are kept, decayed; N is the number of units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GrowthGate {
     /// Always, as long as there is room (Fritzke 1995).
@@ -83,6 +90,7 @@ pub enum GrowthGate {
 /// GNG-U, "A self-organizing network that can follow non-stationary distributions" (Fritzke 1997): the utility of a unit is
 /// how much the error of its inputs would be larger without it, summed and decayed as errors are.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Utility {
     /// k: after each input, the unit of least utility U goes if max(E) > k · U. Small values forget quickly. Above 0.
     pub threshold: f64,

@@ -15,6 +15,17 @@ impl Decay {
         Self { factor: 1.0 }
     }
 
+    /// None unless 2⁻⁶³ ≤ factor ≤ 1.
+    pub(super) fn with_factor(factor: f64) -> Option<Self> {
+        (SMALLEST..=1.0)
+            .contains(&factor)
+            .then_some(Self { factor })
+    }
+
+    pub(super) fn factor(self) -> f64 {
+        self.factor
+    }
+
     /// What is to be kept for `value`.
     #[inline]
     pub(super) fn kept(self, value: f64) -> f64 {

@@ -79,6 +79,17 @@ impl<S: Scalar> Metric<S> {
         )
     }
 
+    /// Whether a prototype can have come from valid inputs: it may miss the limit by roundings.
+    pub(crate) fn check_prototype(&self, prototype: &[S]) -> Result<(), InputError> {
+        let slack = S::from_f64(1.0 + 1e-4);
+        let near = Self {
+            dimension: self.dimension,
+            weights: None,
+            limit: self.limit * slack,
+        };
+        near.check(prototype)
+    }
+
     /// Whether `input` can be asked for where `mask` is true.
     pub(crate) fn check_masked(&self, input: &[S], mask: &[bool]) -> Result<(), InputError> {
         if input.len() != self.dimension {

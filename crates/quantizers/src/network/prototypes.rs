@@ -29,10 +29,10 @@ impl<S: Scalar> Prototypes<S> {
         self.dimension
     }
 
-    /// One item a block: `dimension` arrays of lanes.
+    /// All blocks, each `dimension` rows of lanes.
     #[inline(always)]
-    pub(crate) fn blocks(&self) -> core::slice::ChunksExact<'_, [S; LANES]> {
-        self.features.chunks_exact(self.dimension)
+    pub(crate) fn rows(&self) -> &[[S; LANES]] {
+        &self.features
     }
 
     #[inline(always)]

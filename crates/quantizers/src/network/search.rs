@@ -1,6 +1,6 @@
 //! Which units are nearest: all of them are looked at, many abreast.
 
-use super::prototypes::LANES;
+use super::prototypes::{LANES, Prototypes};
 use crate::Scalar;
 
 /// The two nearest slots so far, ordered by distance, then by slot.
@@ -46,6 +46,33 @@ impl<S: Scalar> Best<S> {
                 self.first = candidate;
             } else {
                 self.second = candidate;
+            }
+        }
+    }
+
+    /// Offers a block of slots behind all that were offered before, which therefore lose ties.
+    #[inline(always)]
+    fn offer_later(&mut self, sums: &[S; LANES], start: usize) {
+        let bound = self.second.squared_distance;
+        let mut some = false;
+        for sum in sums {
+            some |= *sum < bound;
+        }
+        if !some {
+            return;
+        }
+        for (lane, squared_distance) in sums.iter().copied().enumerate() {
+            if squared_distance < self.second.squared_distance {
+                let candidate = Candidate {
+                    squared_distance,
+                    slot: (start + lane) as u32,
+                };
+                if squared_distance < self.first.squared_distance {
+                    self.second = self.first;
+                    self.first = candidate;
+                } else {
+                    self.second = candidate;
+                }
             }
         }
     }
@@ -105,37 +132,48 @@ impl<S: Scalar, T: Terms<S>> Terms<S> for Masked<'_, T> {
     }
 }
 
-/// Offers all units of `blocks` to `best`. Slots count from 0.
+/// Offers all units to `best`. Slots count from 0.
+///
+/// Two blocks abreast keep the processor busy while each waits for its own sums.
 #[inline(always)]
-pub(crate) fn scan<'a, S: Scalar>(
-    blocks: impl Iterator<Item = &'a [[S; LANES]]>,
+pub(crate) fn scan<S: Scalar>(
+    prototypes: &Prototypes<S>,
     input: &[S],
     terms: impl Terms<S>,
     best: &mut Best<S>,
 ) {
-    for (block, rows) in blocks.enumerate() {
-        let mut sums = [S::ZERO; LANES];
-        for (feature, (row, value)) in rows.iter().zip(input).enumerate() {
-            if terms.compares(feature) {
-                for lane in 0..LANES {
-                    sums[lane] += terms.square(feature, *value - row[lane]);
+    let mut pairs = prototypes.rows().chunks_exact(2 * input.len());
+    let mut start = 0;
+    for pair in &mut pairs {
+        compare::<S, 2>(pair, input, terms, start, best);
+        start += 2 * LANES;
+    }
+    for single in pairs.remainder().chunks_exact(input.len()) {
+        compare::<S, 1>(single, input, terms, start, best);
+    }
+}
+
+/// Offers the units of `N` blocks.
+#[inline(always)]
+fn compare<S: Scalar, const N: usize>(
+    rows: &[[S; LANES]],
+    input: &[S],
+    terms: impl Terms<S>,
+    start: usize,
+    best: &mut Best<S>,
+) {
+    let mut sums = [[S::ZERO; LANES]; N];
+    for (feature, value) in input.iter().enumerate() {
+        if terms.compares(feature) {
+            for (block, sums) in sums.iter_mut().enumerate() {
+                let row = &rows[block * input.len() + feature];
+                for (sum, other) in sums.iter_mut().zip(row) {
+                    *sum += terms.square(feature, *value - *other);
                 }
             }
         }
-        // Later slots lose ties, so only what is strictly nearer matters.
-        let bound = best.second.squared_distance;
-        let mut some = false;
-        for sum in sums {
-            some |= sum < bound;
-        }
-        if some {
-            for (lane, squared_distance) in sums.into_iter().enumerate() {
-                let slot = (block * LANES + lane) as u32;
-                best.offer(Candidate {
-                    squared_distance,
-                    slot,
-                });
-            }
-        }
+    }
+    for (block, sums) in sums.iter().enumerate() {
+        best.offer_later(sums, start + block * LANES);
     }
 }

@@ -1,0 +1,109 @@
+//! A growing neural gas as plain data, to be saved and resumed.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::{Decay, Gng, GngConfig, Sums};
+use crate::{Network, Scalar, Snapshot, SnapshotError};
+
+const FORMAT: &str = "tolman-gng";
+const VERSION: u32 = 1;
+
+/// All there is to know of a [`Gng`]. To resume it and go on gives the same bits as never to have stopped.
+///
+/// With the feature `serde`, `Gng` itself is serialized as this, and refuses to be made of what is invalid.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SavedGng<S> {
+    /// What this is.
+    pub format: String,
+    /// The version of the format.
+    pub version: u32,
+    /// The parameters.
+    pub config: GngConfig,
+    /// The units and edges.
+    pub network: Snapshot<S>,
+    /// The error and the utility of each unit, both to be multiplied by `factor`.
+    pub sums: Vec<(f64, f64)>,
+    /// What errors have decayed by since all of them were last brought up to date; above 0, at most 1.
+    pub factor: f64,
+    /// Inputs learnt.
+    pub steps: u64,
+}
+
+impl<S: Scalar> From<&Gng<S>> for SavedGng<S> {
+    fn from(gng: &Gng<S>) -> Self {
+        let sums = gng.network.slots().map(|slot| {
+            let sums = gng.sums[slot];
+            (sums.error, sums.utility)
+        });
+        Self {
+            format: FORMAT.into(),
+            version: VERSION,
+            config: gng.config,
+            network: gng.network.snapshot(),
+            sums: sums.collect(),
+            factor: gng.decay.factor(),
+            steps: gng.steps,
+        }
+    }
+}
+
+impl<S: Scalar> From<Gng<S>> for SavedGng<S> {
+    fn from(gng: Gng<S>) -> Self {
+        Self::from(&gng)
+    }
+}
+
+impl<S: Scalar> TryFrom<SavedGng<S>> for Gng<S> {
+    type Error = SnapshotError;
+
+    /// Resumes what was saved. Search and events are as in a new network.
+    fn try_from(saved: SavedGng<S>) -> Result<Self, SnapshotError> {
+        if saved.format != FORMAT {
+            return Err(SnapshotError::WrongFormat {
+                expected: FORMAT,
+                found: saved.format,
+            });
+        }
+        if saved.version != VERSION {
+            return Err(SnapshotError::WrongVersion {
+                newest: VERSION,
+                found: saved.version,
+            });
+        }
+        let network = Network::from_snapshot(&saved.network)?;
+        let mut gng = Self::around(network, saved.config)?;
+        if saved.sums.len() != gng.network.len() {
+            return Err(SnapshotError::WrongCount {
+                what: "sums",
+                expected: gng.network.len(),
+                found: saved.sums.len(),
+            });
+        }
+        for (error, utility) in saved.sums {
+            in_range("the error of a unit", error)?;
+            in_range("the utility of a unit", utility)?;
+            gng.sums.push(Sums { error, utility });
+        }
+        gng.decay = Decay::with_factor(saved.factor).ok_or(SnapshotError::BadNumber {
+            field: "factor",
+            value: saved.factor,
+            range: "between 2⁻⁶³ and 1",
+        })?;
+        gng.steps = saved.steps;
+        Ok(gng)
+    }
+}
+
+/// No sum can have become larger.
+fn in_range(field: &'static str, value: f64) -> Result<(), SnapshotError> {
+    if (0.0..1e280).contains(&value) {
+        return Ok(());
+    }
+    Err(SnapshotError::BadNumber {
+        field,
+        value,
+        range: "not negative and less than 1e280",
+    })
+}

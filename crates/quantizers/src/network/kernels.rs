@@ -1,0 +1,73 @@
+//! The same code compiled for several widths of lanes, chosen at run time.
+
+use super::tree::MOST_FEATURES;
+
+/// How many units are compared at once. The results are the same to the bit: lanes do what scalars do, and nothing
+/// is fused.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lanes {
+    /// As many as every processor of the target has lanes for.
+    Baseline,
+    /// As many as this processor has lanes for, found out at run time. Without the feature `std` that cannot be found
+    /// out, and it is the same as [`Lanes::Baseline`].
+    #[default]
+    Widest,
+}
+
+/// How the nearest units are found. The results are the same to the bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Search {
+    /// Whatever is fastest: the index for many units of few features, else the scan.
+    #[default]
+    Automatic,
+    /// Every unit is compared.
+    Scan,
+    /// An exact index, a k-d tree, for up to four features; with more, the scan.
+    Index,
+}
+
+impl Search {
+    /// Whether an index shall be built for so many units.
+    pub(crate) fn wants_tree(self, dimension: usize, units: usize) -> bool {
+        let least = match self {
+            Self::Scan => return false,
+            Self::Index => 1,
+            // Where both took as long when measured.
+            Self::Automatic => 64 << dimension,
+        };
+        dimension <= MOST_FEATURES && units >= least
+    }
+}
+
+/// Runs kernels compiled for some [`Lanes`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kernels {
+    #[cfg(feature = "std")]
+    arch: Option<pulp::Arch>,
+}
+
+impl From<Lanes> for Kernels {
+    fn from(lanes: Lanes) -> Self {
+        #[cfg(not(feature = "std"))]
+        let _ = lanes;
+        Self {
+            #[cfg(feature = "std")]
+            arch: match lanes {
+                Lanes::Baseline => None,
+                Lanes::Widest => Some(pulp::Arch::new()),
+            },
+        }
+    }
+}
+
+impl Kernels {
+    /// Runs `kernel`, which is compiled for the lanes as far as it is inlined.
+    #[inline(always)]
+    pub(crate) fn run<R>(self, kernel: impl FnOnce() -> R) -> R {
+        #[cfg(feature = "std")]
+        if let Some(arch) = self.arch {
+            return arch.dispatch(kernel);
+        }
+        kernel()
+    }
+}

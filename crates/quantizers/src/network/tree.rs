@@ -1,0 +1,524 @@
+//! Which units are nearest where there are few features and many units: an exact index.
+//!
+//! A k-d tree whose leaves hold up to 16 units each, side by side, so that a leaf is compared as fast as a block of
+//! [`Prototypes`]. It answers what a scan of all units answers, to the bit: it
+//! leaves a subtree out only if every unit in it is farther than the second nearest so far **as computed**. That can be told,
+//! since rounding keeps order: where |x − p| ≥ |x − s| in a feature, the same holds for their rounded differences,
+//! squares and sums, as long as both are summed in the same order.
+
+use alloc::vec::Vec;
+
+use super::prototypes::{LANES, Prototypes};
+use super::search::{Best, Candidate, Terms};
+use crate::Scalar;
+
+/// With more features than that, a search visits so many leaves that it might as well visit all units.
+pub(crate) const MOST_FEATURES: usize = 4;
+
+/// No path from the root is longer: see [`steepest`] for 2³² units.
+const DEEPEST: usize = 64;
+
+/// How many inner nodes may stand on a path to a leaf of a tree of so many units: twice what a balanced one has, and two.
+fn steepest(units: usize) -> u32 {
+    2 * (units / (LANES / 2)).max(1).ilog2() + 2
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Node<S> {
+    /// Units below the split in this feature are in the first child, units above it in the second, units on it in
+    /// either.
+    Inner {
+        feature: u32,
+        split: S,
+        /// The first child; the second is the node after it.
+        children: u32,
+    },
+    Leaf(u32),
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Leaf<S> {
+    /// By feature; lanes without a unit are at infinity.
+    features: [[S; LANES]; MOST_FEATURES],
+    slots: [u32; LANES],
+    len: u32,
+    /// The leaf's node, and how many inner nodes are above it.
+    node: u32,
+    depth: u32,
+    /// Where the splits above let a unit be, by feature, both ends included.
+    low: [S; MOST_FEATURES],
+    high: [S; MOST_FEATURES],
+}
+
+/// The leaf a slot's unit is in, and its lane there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    leaf: u32,
+    lane: u32,
+}
+
+/// An exact index of up to [`MOST_FEATURES`] features.
+///
+/// It stays balanced as a scapegoat tree does (Galperin and Rivest 1993): when a path has become too long, the
+/// smallest part that is to blame is built anew.
+#[derive(Clone, Debug)]
+pub(crate) struct Tree<S> {
+    dimension: usize,
+    /// The root is node 0. Children stand in pairs.
+    nodes: Vec<Node<S>>,
+    leaves: Vec<Leaf<S>>,
+    /// By slot; arbitrary where no unit is.
+    places: Vec<Place>,
+    len: usize,
+    /// The first of each pair of nodes that is not used, and the leaves that are not used.
+    free_pairs: Vec<u32>,
+    free_leaves: Vec<u32>,
+    /// What a rebuild works on; kept so as not to allocate.
+    slots: Vec<u32>,
+    open_nodes: Vec<u32>,
+    open_parts: Vec<Part>,
+}
+
+/// Slots that are yet to be divided, and the leaf that stands for them meanwhile.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    start: u32,
+    end: u32,
+    leaf: u32,
+}
+
+impl<S: Scalar> Leaf<S> {
+    fn root() -> Self {
+        Self {
+            features: [[S::INFINITY; LANES]; MOST_FEATURES],
+            slots: [u32::MAX; LANES],
+            len: 0,
+            node: 0,
+            depth: 0,
+            low: [S::ZERO - S::INFINITY; MOST_FEATURES],
+            high: [S::INFINITY; MOST_FEATURES],
+        }
+    }
+
+    /// Takes all units out.
+    fn clear(&mut self) {
+        self.features = [[S::INFINITY; LANES]; MOST_FEATURES];
+        self.slots = [u32::MAX; LANES];
+        self.len = 0;
+    }
+}
+
+impl<S: Scalar> Tree<S> {
+    /// An index of the given slots, all of which are below `highest`.
+    pub(crate) fn new(
+        prototypes: &Prototypes<S>,
+        slots: impl Iterator<Item = usize>,
+        highest: usize,
+    ) -> Self {
+        let slots: Vec<u32> = slots.map(|slot| slot as u32).collect();
+        let mut tree = Self {
+            dimension: prototypes.dimension(),
+            nodes: Vec::from([Node::Leaf(0)]),
+            leaves: Vec::from([Leaf::root()]),
+            places: Vec::new(),
+            len: slots.len(),
+            free_pairs: Vec::new(),
+            free_leaves: Vec::new(),
+            slots,
+            open_nodes: Vec::new(),
+            open_parts: Vec::new(),
+        };
+        tree.places.resize(highest, Place::default());
+        tree.fill(0, prototypes);
+        tree
+    }
+
+    /// Puts all of `self.slots` below an empty leaf, balanced.
+    fn fill(&mut self, leaf: u32, prototypes: &Prototypes<S>) {
+        let mut slots = core::mem::take(&mut self.slots);
+        self.open_parts.push(Part {
+            start: 0,
+            end: slots.len() as u32,
+            leaf,
+        });
+        while let Some(part) = self.open_parts.pop() {
+            let range = part.start as usize..part.end as usize;
+            if range.len() <= LANES {
+                for slot in &slots[range] {
+                    self.put(part.leaf, *slot, prototypes);
+                }
+                continue;
+            }
+            let division = divide(&mut slots[range], self.dimension, prototypes);
+            let leaf = self.fork(part.leaf, division.feature, division.split);
+            let middle = part.start + division.middle as u32;
+            self.open_parts.push(Part {
+                end: middle,
+                ..part
+            });
+            self.open_parts.push(Part {
+                start: middle,
+                leaf,
+                ..part
+            });
+        }
+        slots.clear();
+        self.slots = slots;
+    }
+
+    /// Divides an empty leaf's region; the leaf keeps the lower part, and the new leaf for the upper part is returned.
+    fn fork(&mut self, lower: u32, feature: usize, split: S) -> u32 {
+        let mut below = self.leaves[lower as usize];
+        let mut above = below;
+        let upper = self.free_leaves.pop().unwrap_or_else(|| {
+            self.leaves.push(above);
+            self.leaves.len() as u32 - 1
+        });
+        let children = [Node::Leaf(lower), Node::Leaf(upper)];
+        let pair = self.free_pairs.pop().unwrap_or_else(|| {
+            self.nodes.extend(children);
+            self.nodes.len() as u32 - 2
+        });
+        self.nodes[pair as usize..][..2].copy_from_slice(&children);
+        self.nodes[below.node as usize] = Node::Inner {
+            feature: feature as u32,
+            split,
+            children: pair,
+        };
+        (below.node, above.node) = (pair, pair + 1);
+        below.depth += 1;
+        above.depth += 1;
+        below.high[feature] = split;
+        above.low[feature] = split;
+        self.leaves[lower as usize] = below;
+        self.leaves[upper as usize] = above;
+        upper
+    }
+
+    /// Enters a unit into a leaf that has room.
+    fn put(&mut self, leaf: u32, slot: u32, prototypes: &Prototypes<S>) {
+        let place = &mut self.places[slot as usize];
+        let inside = &mut self.leaves[leaf as usize];
+        *place = Place {
+            leaf,
+            lane: inside.len,
+        };
+        let lane = inside.len as usize;
+        for feature in 0..self.dimension {
+            inside.features[feature][lane] = prototypes.at(slot as usize, feature);
+        }
+        inside.slots[lane] = slot;
+        inside.len += 1;
+    }
+
+    /// Enters a unit.
+    pub(crate) fn insert(&mut self, slot: usize, prototypes: &Prototypes<S>) {
+        if self.places.len() <= slot {
+            self.places.resize(slot + 1, Place::default());
+        }
+        self.len += 1;
+        loop {
+            let path = self.descend(slot, prototypes);
+            let leaf = path.leaf;
+            if (self.leaves[leaf as usize].len as usize) < LANES {
+                return self.put(leaf, slot as u32, prototypes);
+            }
+            if self.is_sparse() {
+                self.rebuild(&path, 0, prototypes);
+                continue;
+            }
+            self.divide_leaf(leaf, prototypes);
+            let depth = path.len as u32;
+            if depth > steepest(self.len) {
+                let to_blame = self.scapegoat(&path);
+                self.rebuild(&path, to_blame, prototypes);
+            }
+        }
+    }
+
+    /// Whether leaves are so empty that a new tree pays.
+    fn is_sparse(&self) -> bool {
+        self.leaves.len() - self.free_leaves.len() > self.len / 4 + 8
+    }
+
+    /// The way from the root to the leaf whose region a unit is in.
+    fn descend(&self, slot: usize, prototypes: &Prototypes<S>) -> Path {
+        let mut path = Path {
+            nodes: [0; DEEPEST],
+            len: 1,
+            leaf: 0,
+        };
+        loop {
+            let depth = path.len - 1;
+            match self.nodes[path.nodes[depth] as usize] {
+                Node::Leaf(leaf) => {
+                    path.leaf = leaf;
+                    return path;
+                }
+                Node::Inner {
+                    feature,
+                    split,
+                    children,
+                } => {
+                    let value = prototypes.at(slot, feature as usize);
+                    let side = if value < split {
+                        0
+                    } else if value > split {
+                        1
+                    } else {
+                        // Many equal units spread over both sides.
+                        (slot >> (depth % 32)) as u32 & 1
+                    };
+                    path.nodes[path.len] = children + side;
+                    path.len += 1;
+                }
+            }
+        }
+    }
+
+    /// Divides a full leaf into two.
+    fn divide_leaf(&mut self, leaf: u32, prototypes: &Prototypes<S>) {
+        let mut slots = self.leaves[leaf as usize].slots;
+        let division = divide(&mut slots, self.dimension, prototypes);
+        self.leaves[leaf as usize].clear();
+        let upper = self.fork(leaf, division.feature, division.split);
+        for (place, slot) in slots.into_iter().enumerate() {
+            let side = if place < division.middle { leaf } else { upper };
+            self.put(side, slot, prototypes);
+        }
+    }
+
+    /// Where on a path that is too long the smallest part begins that is too deep for its units. The path's leaf
+    /// has just been divided.
+    fn scapegoat(&mut self, path: &Path) -> usize {
+        for depth in (1..path.len).rev() {
+            let height = (path.len - depth) as u32;
+            if height > steepest(self.count(path.nodes[depth])) {
+                return depth;
+            }
+        }
+        0
+    }
+
+    /// How many units are below a node.
+    fn count(&mut self, node: u32) -> usize {
+        let mut units = 0;
+        self.open_nodes.push(node);
+        while let Some(node) = self.open_nodes.pop() {
+            match self.nodes[node as usize] {
+                Node::Leaf(leaf) => units += self.leaves[leaf as usize].len as usize,
+                Node::Inner { children, .. } => self.open_nodes.extend([children, children + 1]),
+            }
+        }
+        units
+    }
+
+    /// Builds what is below the node at `depth` on a path anew.
+    #[cold]
+    fn rebuild(&mut self, path: &Path, depth: usize, prototypes: &Prototypes<S>) {
+        let top = path.nodes[depth];
+        let mut region = Leaf::root();
+        (region.node, region.depth) = (top, depth as u32);
+        for step in path.nodes[..=depth].windows(2) {
+            if let Node::Inner {
+                feature,
+                split,
+                children,
+            } = self.nodes[step[0] as usize]
+            {
+                let bounds = if step[1] == children {
+                    &mut region.high
+                } else {
+                    &mut region.low
+                };
+                bounds[feature as usize] = split;
+            }
+        }
+        self.open_nodes.push(top);
+        while let Some(node) = self.open_nodes.pop() {
+            match self.nodes[node as usize] {
+                Node::Leaf(leaf) => {
+                    let inside = &mut self.leaves[leaf as usize];
+                    self.slots
+                        .extend_from_slice(&inside.slots[..inside.len as usize]);
+                    inside.clear();
+                    self.free_leaves.push(leaf);
+                }
+                Node::Inner { children, .. } => {
+                    self.free_pairs.push(children);
+                    self.open_nodes.extend([children, children + 1]);
+                }
+            }
+        }
+        let leaf = self.free_leaves.pop().unwrap_or_default();
+        self.leaves[leaf as usize] = region;
+        self.nodes[top as usize] = Node::Leaf(leaf);
+        self.fill(leaf, prototypes);
+    }
+
+    /// Takes a unit out.
+    pub(crate) fn remove(&mut self, slot: usize) {
+        let Place { leaf, lane } = self.places[slot];
+        let inside = &mut self.leaves[leaf as usize];
+        inside.len -= 1;
+        let (lane, last) = (lane as usize, inside.len as usize);
+        for row in &mut inside.features {
+            row[lane] = row[last];
+            row[last] = S::INFINITY;
+        }
+        inside.slots[lane] = inside.slots[last];
+        inside.slots[last] = u32::MAX;
+        if lane != last {
+            self.places[inside.slots[lane] as usize].lane = lane as u32;
+        }
+        self.len -= 1;
+    }
+
+    /// Follows a unit that has moved.
+    #[inline]
+    pub(crate) fn follow(&mut self, slot: usize, prototypes: &Prototypes<S>) {
+        let Place { leaf, lane } = self.places[slot];
+        let inside = &mut self.leaves[leaf as usize];
+        let mut stays = true;
+        for feature in 0..self.dimension {
+            let value = prototypes.at(slot, feature);
+            stays &= inside.low[feature] <= value && value <= inside.high[feature];
+            inside.features[feature][lane as usize] = value;
+        }
+        if !stays {
+            self.remove(slot);
+            self.insert(slot, prototypes);
+        }
+    }
+
+    /// Gives slots new numbers, as [`super::links::Links::renumber`] does.
+    pub(crate) fn renumber(&mut self, new: &[u32]) {
+        for leaf in &mut self.leaves {
+            for slot in &mut leaf.slots[..leaf.len as usize] {
+                *slot = new[*slot as usize];
+            }
+        }
+        for (slot, to) in new.iter().enumerate() {
+            if *to != u32::MAX {
+                self.places[*to as usize] = self.places[slot];
+            }
+        }
+    }
+
+    /// Offers the two nearest units to `best`.
+    #[inline]
+    pub(crate) fn search(&self, input: &[S], terms: impl Terms<S>, best: &mut Best<S>) {
+        self.visit(0, input, terms, &mut [S::ZERO; MOST_FEATURES], best);
+    }
+
+    /// Offers the units below `node`. `gaps` is how far the node's region is from the input, by feature.
+    fn visit(
+        &self,
+        node: u32,
+        input: &[S],
+        terms: impl Terms<S>,
+        gaps: &mut [S; MOST_FEATURES],
+        best: &mut Best<S>,
+    ) {
+        match self.nodes[node as usize] {
+            Node::Leaf(leaf) => self.compare(leaf, input, terms, best),
+            Node::Inner {
+                feature,
+                split,
+                children,
+            } => {
+                let feature = feature as usize;
+                let gap = input[feature] - split;
+                let (near, far) = if gap < S::ZERO {
+                    (children, children + 1)
+                } else {
+                    (children + 1, children)
+                };
+                self.visit(near, input, terms, gaps, best);
+                let before = core::mem::replace(&mut gaps[feature], gap);
+                let mut bound = S::ZERO;
+                for (feature, gap) in gaps.iter().enumerate().take(self.dimension) {
+                    if terms.compares(feature) {
+                        bound += terms.square(feature, *gap);
+                    }
+                }
+                if bound <= best.second.squared_distance {
+                    self.visit(far, input, terms, gaps, best);
+                }
+                gaps[feature] = before;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn compare(&self, leaf: u32, input: &[S], terms: impl Terms<S>, best: &mut Best<S>) {
+        let leaf = &self.leaves[leaf as usize];
+        let mut sums = [S::ZERO; LANES];
+        for (feature, value) in input.iter().enumerate() {
+            if terms.compares(feature) {
+                for (sum, other) in sums.iter_mut().zip(&leaf.features[feature]) {
+                    *sum += terms.square(feature, *value - *other);
+                }
+            }
+        }
+        for (lane, squared_distance) in sums.into_iter().enumerate() {
+            if squared_distance <= best.second.squared_distance {
+                best.offer(Candidate {
+                    squared_distance,
+                    slot: leaf.slots[lane],
+                });
+            }
+        }
+    }
+}
+
+/// The way from the root to a leaf.
+struct Path {
+    nodes: [u32; DEEPEST],
+    len: usize,
+    leaf: u32,
+}
+
+/// Where slots are divided: those from `middle` on are not below `split` in `feature`, the others not above it.
+struct Division<S> {
+    feature: usize,
+    split: S,
+    middle: usize,
+}
+
+/// Orders `slots` by the feature in which they are spread most, and divides them in the middle. Equal values are
+/// ordered by slot, so that the division does not depend on the order before.
+fn divide<S: Scalar>(
+    slots: &mut [u32],
+    dimension: usize,
+    prototypes: &Prototypes<S>,
+) -> Division<S> {
+    let at = |slot: u32, feature| prototypes.at(slot as usize, feature);
+    let mut widest = (0, S::ZERO - S::INFINITY);
+    for feature in 0..dimension {
+        let (mut low, mut high) = (S::INFINITY, S::ZERO - S::INFINITY);
+        for slot in slots.iter() {
+            let value = at(*slot, feature);
+            if value < low {
+                low = value;
+            }
+            if value > high {
+                high = value;
+            }
+        }
+        if high - low > widest.1 {
+            widest = (feature, high - low);
+        }
+    }
+    let feature = widest.0;
+    let middle = slots.len() / 2;
+    let (_, median, _) = slots.select_nth_unstable_by(middle, |a, b| {
+        let order = at(*a, feature).partial_cmp(&at(*b, feature));
+        order.unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(b))
+    });
+    Division {
+        feature,
+        split: at(*median, feature),
+        middle,
+    }
+}

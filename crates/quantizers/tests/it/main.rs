@@ -1,0 +1,12 @@
+//! The quantizers seen from outside.
+
+#![expect(clippy::unwrap_used, reason = "a test may fail")]
+
+extern crate alloc;
+
+mod bad_input;
+mod equilibrium;
+mod gng;
+mod saving;
+mod search;
+mod streams;

@@ -1,0 +1,51 @@
+//! Once a network has grown, an input allocates nothing.
+
+#![expect(clippy::unwrap_used, reason = "a test may fail")]
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_quantizers::{Gng, GngConfig, Quantizer, Utility};
+
+/// Allocations of 20,000 inputs after the network has had 60,000.
+fn allocations(dimension: usize, config: GngConfig) -> u64 {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let mut gng = Gng::<f32>::new(dimension, config).unwrap();
+    let mut input = vec![0.0; dimension];
+    let mut feed = |inputs: u32| {
+        for _ in 0..inputs {
+            for value in &mut input {
+                *value = rng.random_range(0.0..1.0_f32);
+            }
+            gng.observe(&input).unwrap();
+        }
+    };
+    feed(60_000);
+    allocation_counter::measure(|| feed(20_000)).count_total
+}
+
+#[test]
+fn a_grown_network_allocates_nothing() {
+    let config = GngConfig {
+        growth_period: 20,
+        max_age: 30,
+        ..GngConfig::fritzke()
+    };
+    for (dimension, max_units) in [(2, 100), (2, 1000), (11, 100)] {
+        let bounded = GngConfig {
+            max_units,
+            ..config
+        };
+        assert_eq!(allocations(dimension, bounded), 0, "{dimension} features");
+        let forgetful = GngConfig {
+            utility: Some(Utility { threshold: 10.0 }),
+            ..bounded
+        };
+        assert_eq!(
+            allocations(dimension, forgetful),
+            0,
+            "{dimension} features, GNG-U"
+        );
+    }
+    // The counter counts.
+    assert!(allocation_counter::measure(|| drop(vec![1_u8; 10])).count_total > 0);
+}
