@@ -8,9 +8,11 @@
 
 mod client;
 mod devtools;
+mod replay;
 mod report;
 mod tab;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -18,13 +20,17 @@ use tab::Tab;
 
 /// A browser with one empty tab; none, said on stderr, where chromium is not installed.
 fn tab() -> Option<Tab> {
-    use std::io::Write;
     let tab = Tab::open();
     if tab.is_none() {
-        // Not with a macro: the test harness keeps what those print.
-        let _ = writeln!(std::io::stderr(), "left out: chromium is not installed");
+        tell("left out: chromium is not installed");
     }
     tab
+}
+
+/// Writes a line on stderr. Not with a macro: the test harness keeps what those print.
+fn tell(line: &str) {
+    // Nobody is left to be told that stderr cannot be written.
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// An empty folder of this name, by itself for each test.
@@ -39,9 +45,9 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Lets `tolman` do what `words` say, in the workspace's folder, and asks for success.
+/// Lets `tolman` do what `words` say, in the workspace's folder; asks for success and returns what it wrote.
 #[track_caller]
-fn tolman(words: &[&str]) {
+fn tolman(words: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_tolman"))
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .args(words)
@@ -50,4 +56,5 @@ fn tolman(words: &[&str]) {
         .unwrap();
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "tolman {words:?}: {complaint}");
+    String::from_utf8(output.stdout).unwrap()
 }

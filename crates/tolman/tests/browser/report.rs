@@ -24,15 +24,7 @@ fn a_report_is_seen_in_every_light_and_on_every_width() {
         tab.resize(width, height);
         for scheme in [Scheme::Light, Scheme::Dark] {
             tab.prefer(scheme);
-            let picture = folder.join(format!("{scheme:?}-{width}.png"));
-            let look = tab.look(&picture);
-            let seen = format!("{}: {look:?}", picture.display());
-            assert!(look.colours > 50 && look.ground < 0.98, "{seen}");
-            match scheme {
-                Scheme::Light => assert!(look.lightness > 0.7, "{seen}"),
-                Scheme::Dark => assert!(look.lightness < 0.4, "{seen}"),
-            }
-            assert!(tab.overflow() <= 0.0, "{seen}: scrolls sideways");
+            tab.assert_seen(&folder, scheme, width);
         }
     }
     tab.assert_content();

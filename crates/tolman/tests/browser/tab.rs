@@ -29,11 +29,11 @@ pub(crate) enum Scheme {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
     /// How many colours it has.
-    pub(crate) colours: u64,
+    colours: u64,
     /// The part of it that has its most frequent colour.
     pub(crate) ground: f64,
     /// Its mean lightness, 0 to 1.
-    pub(crate) lightness: f64,
+    lightness: f64,
 }
 
 impl Tab {
@@ -95,6 +95,14 @@ impl Tab {
         let value = self.eval(expression);
         assert!(value.is_number(), "{expression} is {value}");
         value.as_f64().unwrap()
+    }
+
+    /// The whole number that an expression is.
+    #[track_caller]
+    pub(crate) fn whole(&mut self, expression: &str) -> u64 {
+        let value = self.eval(expression);
+        assert!(value.is_u64(), "{expression} is {value}");
+        value.as_u64().unwrap()
     }
 
     /// Waits until a condition holds.
@@ -205,6 +213,21 @@ impl Tab {
             ground: look[1].as_f64().unwrap(),
             lightness: look[2].as_f64().unwrap(),
         }
+    }
+
+    /// Asks that something is to be seen, in the light that is preferred, and nothing beyond the edge of the window;
+    /// leaves a picture of it in `folder`.
+    #[track_caller]
+    pub(crate) fn assert_seen(&mut self, folder: &Path, scheme: Scheme, width: u32) {
+        let picture = folder.join(format!("{scheme:?}-{width}.png").to_lowercase());
+        let look = self.look(&picture);
+        let seen = format!("{}: {look:?}", picture.display());
+        assert!(look.colours > 50 && look.ground < 0.98, "{seen}");
+        match scheme {
+            Scheme::Light => assert!(look.lightness > 0.7, "{seen}"),
+            Scheme::Dark => assert!(look.lightness < 0.4, "{seen}"),
+        }
+        assert!(self.overflow() <= 0.0, "{seen}: scrolls sideways");
     }
 
     /// What has gone wrong on the page so far, and what it asked of the network.
