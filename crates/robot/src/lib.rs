@@ -4,12 +4,15 @@
 //! are written against this trait and these value types only, so a brain or a layer that was tried
 //! on the simulator runs on a driver without a change.
 //!
+//! A robot of one make has a module of its own with its measures: [`epuck`].
+//!
 //! Metres, radians, seconds; the robot's frame has x ahead and y to the left.
 #![no_std]
 
 extern crate alloc;
 
 mod body;
+pub mod epuck;
 mod laser_robot;
 mod odometry;
 mod robot;

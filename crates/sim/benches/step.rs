@@ -2,7 +2,7 @@
 //!
 //! One iteration is one step of the whole world: commands, contact, scans of 72 beams of 2.5 units for
 //! every robot. Robots of 0.5 units diameter drive and turn at random, in mazes of 400 and 40,000 unit
-//! walls.
+//! walls. The e-pucks have eight infrared rays each and drive in corridors of 0.25 m.
 
 #![expect(
     clippy::unwrap_used,
@@ -22,11 +22,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Braided;
+use tolman_robot::epuck::WheelSpeeds;
 use tolman_robot::{Ring, TurnTranslate};
 use tolman_sim::casters::{Lanes, LatticeWalk, ParryPolyline};
 use tolman_sim::noise::Gaussian;
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise};
-use tolman_sim::{CorridorSize, Simulation, World};
+use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig, MotorNoise};
+use tolman_sim::sensors::{ResponseCurve, ResponsePoint};
+use tolman_sim::{CorridorSize, Model, Simulation, World};
 
 const PARRY: &str = "parry2d polyline";
 
@@ -64,7 +66,8 @@ fn main() {
             ("lattice walk, AVX2", world, quiet()),
         ];
         for (name, world, config) in worlds {
-            let mut sim = crowd(world, &config, robots, &mut rng);
+            let robot = || LaserPioneer::new(config.clone()).unwrap();
+            let mut sim = crowd(world, robot, robots, &mut rng);
             let commands: Vec<Vec<TurnTranslate>> = (0..64)
                 .map(|_| (0..robots).map(|_| command(&mut rng)).collect())
                 .collect();
@@ -81,8 +84,73 @@ fn main() {
             table.enter(&group, name, &column, per_second.map(|steps| steps / 1e3));
         }
     }
+    epucks(&mut criterion, &mut table);
     criterion.final_summary();
     println!("{table}");
+}
+
+/// A hundred e-pucks that see each other.
+fn epucks(criterion: &mut Criterion, table: &mut Table) {
+    const COUNT: u32 = 100;
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let maze = Braided {
+        width: 19,
+        height: 19,
+        share: 0.5,
+    }
+    .generate(&mut rng)
+    .unwrap();
+    let size = CorridorSize {
+        corridor_width: 0.25,
+        wall_thickness: 0.0,
+    };
+    let world = World::from_maze(&maze, &size).unwrap();
+    let parry = world
+        .clone()
+        .with_caster(Arc::new(ParryPolyline::new(world.walls())));
+    let perfect = EpuckConfig {
+        response: noiseless(&ResponseCurve::epuck()),
+        wheels: Vec::new(),
+        ..EpuckConfig::webots()
+    };
+    for (name, world, config) in [
+        (PARRY, parry, &perfect),
+        ("lattice walk", world.clone(), &perfect),
+        ("lattice walk, Webots' noise", world, &EpuckConfig::webots()),
+    ] {
+        let mut sim = crowd(
+            world,
+            || Epuck::new(config.clone()).unwrap(),
+            COUNT,
+            &mut rng,
+        );
+        let commands: Vec<Vec<WheelSpeeds>> = (0..64)
+            .map(|_| {
+                let mut speed = || rng.random_range(-2.0..6.0);
+                (0..COUNT)
+                    .map(|_| WheelSpeeds {
+                        left: speed(),
+                        right: speed(),
+                    })
+                    .collect()
+            })
+            .collect();
+        let mut next = commands.iter().cycle();
+        let mut step = || sim.step(next.next().unwrap_or(&commands[0]));
+        let label = format!("{COUNT} e-pucks, 400 walls, {name}");
+        let per_second = measure::per_second(criterion, &label, &mut step);
+        let group = format!("{COUNT} e-pucks");
+        table.enter(&group, name, "400", per_second.map(|steps| steps / 1e3));
+    }
+}
+
+/// The same curve without noise.
+fn noiseless(curve: &ResponseCurve) -> ResponseCurve {
+    let points = (0..=70).map(|millimetre| ResponsePoint {
+        relative_sd: 0.0,
+        ..curve.at(f64::from(millimetre) * 1e-3)
+    });
+    ResponseCurve::new(points.collect()).unwrap()
 }
 
 fn quiet() -> LaserPioneerConfig {
@@ -122,21 +190,20 @@ fn command(rng: &mut ChaCha8Rng) -> TurnTranslate {
 }
 
 /// Robots at random places of the world.
-fn crowd(
+fn crowd<M: Model>(
     world: World,
-    config: &LaserPioneerConfig,
+    robot: impl Fn() -> M,
     robots: u32,
     rng: &mut ChaCha8Rng,
-) -> Simulation<LaserPioneer> {
+) -> Simulation<M> {
     let bounds = world.bounds();
     let mut sim = Simulation::new(world, 1);
     while sim.robots().len() < robots as usize {
         let x = rng.random_range(bounds.min.x..bounds.max.x);
         let y = rng.random_range(bounds.min.y..bounds.max.y);
         let heading = Heading::from_radians(rng.random_range(-3.0..3.0));
-        let robot = LaserPioneer::new(config.clone()).unwrap();
         // Places that are taken are refused; try others.
-        let _ = sim.add(robot, Pose::new(Point::new(x, y), heading));
+        let _ = sim.add(robot(), Pose::new(Point::new(x, y), heading));
     }
     sim
 }

@@ -67,7 +67,7 @@ pub use door::{Door, DoorEvent, DoorState};
 pub use model::{CommandError, Model, Motion};
 pub use simulation::{DoorError, PlaceError, RobotId, Simulation, StepError, Truth};
 pub use solo::Solo;
-pub use surroundings::Surroundings;
+pub use surroundings::{Echo, Ray, Surroundings};
 pub use world::{
     Area, Bounds, CorridorSize, Material, Occupancy, Polyline, Wall, World, WorldError,
     WorldFileError, Zone,

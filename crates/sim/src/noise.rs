@@ -72,6 +72,12 @@ impl Values for f64 {
     }
 }
 
+impl<const N: usize> Values for [f64; N] {
+    fn change(&mut self, change: impl FnMut(f64) -> f64) {
+        *self = self.map(change);
+    }
+}
+
 impl Values for Scan {
     /// Beams that met nothing have no echo to disturb; the others stay within the range of the ring.
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {

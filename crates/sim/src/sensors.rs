@@ -28,11 +28,13 @@ use crate::{Chance, Surroundings};
 
 mod bumper;
 mod compass;
+mod infrared;
 mod laser;
 mod odometry;
 
 pub use bumper::Bumper;
 pub use compass::Compass;
+pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};
 pub use odometry::WheelOdometry;
 

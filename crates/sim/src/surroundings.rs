@@ -2,7 +2,7 @@ use tolman_geom::{Point, Pose, Vector};
 
 use crate::casters::Sweep;
 use crate::scene::Scene;
-use crate::{Motion, World};
+use crate::{Material, Motion, World};
 
 /// What a sensor can be sensitive to: the true state of things round one robot at the end of a step.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +20,36 @@ pub struct Surroundings<'a> {
     /// Microseconds since the run began.
     pub time_us: u64,
 }
+
+/// A half-line in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it begins, m.
+    pub origin: Point,
+    /// Where it goes: a unit vector.
+    pub direction: Vector,
+}
+
+/// What a ray meets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Echo {
+    /// How far away, m; the ray's whole length if nothing.
+    pub range: f64,
+    /// The share of infrared light that it throws back; robots throw back as much as the default material.
+    pub reflectance: f64,
+}
+
+impl Echo {
+    /// Something stands at `range`: it counts if it is nearer than what was met so far.
+    fn shorten(&mut self, range: f64, reflectance: f64) {
+        if range < self.range {
+            *self = Self { range, reflectance };
+        }
+    }
+}
+
+/// A point this near to a wall lies on it, m.
+const TOUCHING: f64 = 1e-6;
 
 impl<'a> Surroundings<'a> {
     /// The world.
@@ -41,6 +71,49 @@ impl<'a> Surroundings<'a> {
         let near = self.scene.bodies.near(self.robot, origin, range);
         let bodies = near.map(|other| other.ray(origin, direction));
         doors.chain(bodies).fold(range, f64::min)
+    }
+
+    /// What each ray meets first within `max_range` m: a wall, a shut door or another robot.
+    #[must_use]
+    pub fn echoes<const N: usize>(&self, rays: &[Ray; N], max_range: f64) -> [Echo; N] {
+        let caster = self.world().caster();
+        let mut echoes = rays.map(|Ray { origin, direction }| {
+            let range = caster.cast(origin, direction, max_range);
+            let reflectance = self.reflectance(origin + direction * range);
+            let mut echo = Echo { range, reflectance };
+            for door in self.scene.shut {
+                echo.shorten(door.ray(origin, direction), door.material.reflectance);
+            }
+            echo
+        });
+        // Who is near is asked once for all rays, which begin somewhere on the body.
+        let here = self.pose.position;
+        let spread = rays.iter().map(|ray| (ray.origin - here).norm());
+        let reach = max_range + spread.fold(0.0, f64::max);
+        let body = Material::default().reflectance;
+        for other in self.scene.bodies.near(self.robot, here, reach) {
+            for (ray, echo) in rays.iter().zip(&mut echoes) {
+                echo.shorten(other.ray(ray.origin, ray.direction), body);
+            }
+        }
+        echoes
+    }
+
+    /// The reflectance of the wall at a point.
+    fn reflectance(&self, point: Point) -> f64 {
+        if let Some(everywhere) = self.world().common_reflectance() {
+            return everywhere;
+        }
+        let mut nearest = (f64::INFINITY, Material::default().reflectance);
+        self.world().index().near(point, TOUCHING, |walls| {
+            for wall in walls {
+                let distance = wall.distance(point);
+                if distance < nearest.0 {
+                    nearest = (distance, wall.material.reflectance);
+                }
+            }
+        });
+        nearest.1
     }
 
     /// Shortens every beam of `sweep` to the wall, shut door or other robot it meets.

@@ -60,6 +60,8 @@ pub struct World {
     index: Arc<WallIndex>,
     caster: Arc<dyn Caster>,
     cells: Option<Cells>,
+    /// What all walls throw back of infrared light, if it is the same.
+    common_reflectance: Option<f64>,
 }
 
 /// The cells of a world made from a maze.
@@ -123,7 +125,12 @@ impl World {
         }
         let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
         let index = Arc::new(WallIndex::new(&walls, Lanes::Widest));
+        let first = walls[0].material.reflectance;
+        let alike = walls
+            .iter()
+            .all(|wall| wall.material.reflectance.total_cmp(&first).is_eq());
         Ok(Self {
+            common_reflectance: alike.then_some(first),
             walls,
             zones: Vec::new(),
             doors: Vec::new(),
@@ -221,6 +228,11 @@ impl World {
     /// All walls by place.
     pub(crate) fn index(&self) -> &Arc<WallIndex> {
         &self.index
+    }
+
+    /// What all walls throw back of infrared light, if it is the same.
+    pub(crate) fn common_reflectance(&self) -> Option<f64> {
+        self.common_reflectance
     }
 
     /// The grid the walls stand on, if they do.

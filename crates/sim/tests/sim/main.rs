@@ -7,6 +7,7 @@
 
 mod bodies;
 mod casters;
+mod epuck;
 mod leaks;
 mod noise;
 mod sensing;

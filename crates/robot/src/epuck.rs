@@ -1,0 +1,130 @@
+//! The e-puck: its measures, what it senses, what it is told.
+
+use core::f64::consts::PI;
+
+use tolman_geom::{Heading, Point, Pose};
+
+/// Radius of the body, m.
+pub const BODY_RADIUS: f64 = 0.037;
+
+/// Radius of a wheel, m.
+pub const WHEEL_RADIUS: f64 = 0.0205;
+
+/// From wheel to wheel, m.
+pub const TRACK: f64 = 0.053;
+
+/// The wheels turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
+pub const MOST_WHEEL_SPEED: f64 = 6.28;
+
+/// How many proximity sensors look round.
+pub const PROXIMITY_SENSORS: usize = 8;
+
+/// Where each proximity sensor sits and looks, degrees and m. Number 0 looks ahead, a little to the right; the others
+/// follow clockwise.
+const MOUNTS: [(f64, f64, f64); PROXIMITY_SENSORS] = [
+    (-17.2, 0.030, -0.010),
+    (-45.9, 0.022, -0.025),
+    (-90.0, 0.0, -0.031),
+    (-151.5, -0.030, -0.015),
+    (151.2, -0.030, 0.015),
+    (90.0, 0.0, 0.031),
+    (45.8, 0.022, 0.025),
+    (17.1, 0.030, 0.010),
+];
+
+/// Where each proximity sensor sits and looks, in the robot's frame.
+///
+/// ```
+/// use tolman_robot::epuck;
+///
+/// let ahead_right = epuck::proximity_mounts()[0];
+/// assert!(ahead_right.position.x > 0.0 && ahead_right.position.y < 0.0);
+/// assert!((ahead_right.heading.degrees() + 17.2).abs() < 1e-9);
+/// ```
+#[must_use]
+pub fn proximity_mounts() -> [Pose; PROXIMITY_SENSORS] {
+    MOUNTS.map(|(degrees, x, y)| {
+        Pose::new(
+            Point::new(x, y),
+            Heading::from_radians(degrees * PI / 180.0),
+        )
+    })
+}
+
+/// The command of a robot with two driven wheels: how fast each turns, rad/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WheelSpeeds {
+    /// The left wheel; positive rolls ahead.
+    pub left: f64,
+    /// The right wheel.
+    pub right: f64,
+}
+
+impl WheelSpeeds {
+    /// Stands still.
+    pub const STOP: Self = Self {
+        left: 0.0,
+        right: 0.0,
+    };
+}
+
+/// How far each wheel turned in a time step, rad, whether the robot moved or not.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WheelTurns {
+    /// The left wheel; positive is ahead.
+    pub left: f64,
+    /// The right wheel.
+    pub right: f64,
+}
+
+/// What an e-puck senses in one time step. A sensor that gave nothing this time is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct EpuckSensing {
+    /// Microseconds since the robot was switched on.
+    pub time_us: u64,
+    /// The proximity sensors' raw values, in the order of [`proximity_mounts`]: the larger the nearer.
+    pub proximity: Option<[f64; PROXIMITY_SENSORS]>,
+    /// What the wheels turned since the step before.
+    pub encoders: Option<WheelTurns>,
+    /// Whether the body touched something in this step. The real robot has no bumper and says nothing.
+    pub bump: Option<bool>,
+}
+
+#[cfg(all(test, feature = "serde"))]
+mod tests {
+    use super::*;
+
+    /// Traces hold these, so the names must last.
+    #[test]
+    fn sensings_and_commands_survive_json() {
+        let sensing = EpuckSensing {
+            time_us: 7,
+            proximity: Some([0.5; PROXIMITY_SENSORS]),
+            encoders: Some(WheelTurns {
+                left: 0.1,
+                right: -0.2,
+            }),
+            bump: None,
+        };
+        let json = serde_json::to_string(&sensing).unwrap();
+        assert_eq!(
+            json,
+            "{\"time_us\":7,\"proximity\":[0.5,0.5,0.5,0.5,0.5,0.5,0.5,0.5],\
+             \"encoders\":{\"left\":0.1,\"right\":-0.2},\"bump\":null}"
+        );
+        assert_eq!(
+            serde_json::from_str::<EpuckSensing>(&json).unwrap(),
+            sensing
+        );
+        let command = WheelSpeeds {
+            left: 1.0,
+            right: -2.0,
+        };
+        let json = serde_json::to_string(&command).unwrap();
+        assert_eq!(json, "{\"left\":1.0,\"right\":-2.0}");
+        assert_eq!(serde_json::from_str::<WheelSpeeds>(&json).unwrap(), command);
+    }
+}

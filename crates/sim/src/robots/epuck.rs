@@ -1,0 +1,190 @@
+use thiserror::Error;
+use tolman_geom::Twist;
+use tolman_robot::Body;
+use tolman_robot::epuck::{
+    BODY_RADIUS, EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, TRACK, WHEEL_RADIUS,
+    WheelSpeeds, WheelTurns, proximity_mounts,
+};
+
+use crate::noise::{Fault, FaultError, Faults, Faulty, Slip};
+use crate::sensors::{Bumper, Infrared, ResponseCurve, ResponseError, Sensor};
+use crate::trace::Recordable;
+use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
+
+/// The e-puck: a disc of 7.4 cm with two wheels and eight infrared proximity sensors.
+///
+/// Its measures are those of [`tolman_robot::epuck`]; what is told here is what differs from one simulated e-puck to
+/// the next.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EpuckConfig {
+    /// How the proximity sensors answer, with their noise.
+    pub response: ResponseCurve,
+    /// What happens to how far each wheel rolls over the ground, each wheel by itself; a drop-out rolls nowhere.
+    pub wheels: Vec<Fault>,
+    /// What is wrong with the proximity values beyond the noise of the curve.
+    #[serde(default)]
+    pub proximity: Vec<Fault>,
+    /// What happens where the body meets something.
+    pub contact: Contact,
+    /// Length of a time step, µs.
+    pub step_us: u64,
+}
+
+impl EpuckConfig {
+    /// Webots' e-puck: its response curve, and wheels that slip by up to 10 %. A step is 10 ms.
+    #[must_use]
+    pub fn webots() -> Self {
+        Self {
+            response: ResponseCurve::epuck(),
+            wheels: vec![Fault::Slip(Slip { share: 0.1 })],
+            proximity: Vec::new(),
+            contact: Contact::Slide,
+            step_us: 10_000,
+        }
+    }
+
+    /// CPM's e-puck: as Webots', but its sensors see 25 cm and answer from 0 to 3800.
+    #[must_use]
+    pub fn cpm() -> Self {
+        Self {
+            response: ResponseCurve::cpm(),
+            ..Self::webots()
+        }
+    }
+}
+
+/// A robot built to an [`EpuckConfig`].
+#[derive(Clone, Debug)]
+pub struct Epuck {
+    config: EpuckConfig,
+    left: Faults<f64>,
+    right: Faults<f64>,
+    /// What the wheels turned in this step.
+    turned: WheelTurns,
+    proximity: Faulty<Infrared<PROXIMITY_SENSORS>>,
+}
+
+impl Epuck {
+    /// Builds one.
+    ///
+    /// # Errors
+    /// If a field of the configuration has no sense.
+    pub fn new(config: EpuckConfig) -> Result<Self, EpuckError> {
+        if config.step_us == 0 {
+            return Err(EpuckError::Step);
+        }
+        let faults = [("wheels", &config.wheels), ("proximity", &config.proximity)];
+        for (field, faults) in faults {
+            for (index, fault) in faults.iter().enumerate() {
+                fault.check().map_err(|source| EpuckError::Fault {
+                    field,
+                    index,
+                    source,
+                })?;
+            }
+        }
+        let infrared = Infrared::new(proximity_mounts(), config.response.clone())?;
+        Ok(Self {
+            left: Faults::new("left wheel", config.wheels.iter().copied()),
+            right: Faults::new("right wheel", config.wheels.iter().copied()),
+            turned: WheelTurns::default(),
+            proximity: Faulty::new("proximity", infrared, config.proximity.iter().copied()),
+            config,
+        })
+    }
+}
+
+impl Model for Epuck {
+    type Command = WheelSpeeds;
+    type Sensing = EpuckSensing;
+
+    fn body(&self) -> &Body {
+        const BODY: Body = Body::Circle {
+            radius: BODY_RADIUS,
+        };
+        &BODY
+    }
+
+    fn contact(&self) -> Contact {
+        self.config.contact
+    }
+
+    fn step_us(&self) -> u64 {
+        self.config.step_us
+    }
+
+    fn check(&self, command: &WheelSpeeds) -> Result<(), CommandError> {
+        CommandError::check("left", command.left)?;
+        CommandError::check("right", command.right)
+    }
+
+    /// Speeds beyond what the wheels can count as the most they can. The encoders tell what the wheels turned, the
+    /// ground what they rolled.
+    fn motion(&mut self, command: &WheelSpeeds, chance: &Chance) -> Motion {
+        let seconds = self.config.step_us as f64 * 1e-6;
+        let turned = |speed: f64| speed.clamp(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED) * seconds;
+        self.turned = WheelTurns {
+            left: turned(command.left),
+            right: turned(command.right),
+        };
+        let rolled = |turned: f64, faults: &mut Faults<f64>| {
+            let mut way = Some(turned * WHEEL_RADIUS);
+            faults.disturb(&mut way, chance);
+            way.unwrap_or(0.0)
+        };
+        let left = rolled(self.turned.left, &mut self.left);
+        let right = rolled(self.turned.right, &mut self.right);
+        let Twist { linear, angular } = Twist::of_wheels(left, right, TRACK);
+        Motion {
+            distance: linear,
+            turn: angular,
+        }
+    }
+
+    fn silent(&self) -> EpuckSensing {
+        EpuckSensing::default()
+    }
+
+    fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut EpuckSensing) {
+        sensing.time_us = around.time_us;
+        self.proximity.sense(around, chance, &mut sensing.proximity);
+        sensing.encoders = Some(self.turned);
+        Bumper.sense(around, chance, &mut sensing.bump);
+    }
+}
+
+impl Recordable for Epuck {
+    type Config = EpuckConfig;
+    type ConfigError = EpuckError;
+
+    fn config(&self) -> &EpuckConfig {
+        &self.config
+    }
+
+    fn from_config(config: EpuckConfig) -> Result<Self, EpuckError> {
+        Self::new(config)
+    }
+}
+
+/// Why an e-puck cannot be built.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum EpuckError {
+    /// A time step has no length.
+    #[error("`step_us` is 0; give the microseconds of a time step")]
+    Step,
+    /// A fault has no sense.
+    #[error("`{field}`, fault {index}: {source}")]
+    Fault {
+        /// Of what.
+        field: &'static str,
+        /// Which of its faults, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: FaultError,
+    },
+    /// The response curve is none.
+    #[error("`response`: {0}")]
+    Response(#[from] ResponseError),
+}

@@ -1,0 +1,223 @@
+use thiserror::Error;
+use tolman_geom::{Pose, Vector};
+
+use super::Sensor;
+use crate::{Chance, Channel, Ray, Surroundings};
+
+/// How an infrared proximity sensor answers to a surface that throws all light back: straight lines between the
+/// points of a data sheet, the nearest first. Nearer and farther than those it reads as at the first and the last.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(transparent)]
+pub struct ResponseCurve {
+    points: Vec<ResponsePoint>,
+}
+
+/// One point of a [`ResponseCurve`].
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResponsePoint {
+    /// The range, m.
+    pub range: f64,
+    /// The raw value read at that range.
+    pub value: f64,
+    /// Standard deviation of the value, as a share of it.
+    pub relative_sd: f64,
+}
+
+/// The e-puck's sensors as Webots has them: range (m), value, relative standard deviation.
+const EPUCK: [(f64, f64, f64); 10] = [
+    (0.000, 4095.0, 0.002),
+    (0.005, 2133.0, 0.003),
+    (0.010, 1466.0, 0.007),
+    (0.015, 601.0, 0.041),
+    (0.020, 384.0, 0.015),
+    (0.030, 235.0, 0.024),
+    (0.040, 158.0, 0.029),
+    (0.050, 120.0, 0.042),
+    (0.060, 104.0, 0.031),
+    (0.070, 67.0, 0.049),
+];
+
+impl ResponseCurve {
+    /// A curve through these points.
+    ///
+    /// # Errors
+    /// If there are none, their ranges do not grow, or a number has no sense.
+    pub fn new(points: Vec<ResponsePoint>) -> Result<Self, ResponseError> {
+        let curve = Self { points };
+        curve.check()?;
+        Ok(curve)
+    }
+
+    /// The e-puck's, by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
+    #[must_use]
+    pub fn epuck() -> Self {
+        let point = |(range, value, relative_sd)| ResponsePoint {
+            range,
+            value,
+            relative_sd,
+        };
+        Self {
+            points: EPUCK.map(point).to_vec(),
+        }
+    }
+
+    /// CPM's e-puck: the same shape over 25 cm, from 3800 at contact to 0.
+    #[must_use]
+    pub fn cpm() -> Self {
+        let (_, most, _) = EPUCK[0];
+        let (reach, least, _) = EPUCK[EPUCK.len() - 1];
+        let mut curve = Self::epuck();
+        for point in &mut curve.points {
+            point.range *= 0.25 / reach;
+            point.value = (point.value - least) * 3800.0 / (most - least);
+        }
+        curve
+    }
+
+    /// Checks that it is a curve.
+    ///
+    /// # Errors
+    /// If it has no points, their ranges do not grow, or a number has no sense.
+    pub fn check(&self) -> Result<(), ResponseError> {
+        if self.points.is_empty() {
+            return Err(ResponseError::NoPoints);
+        }
+        let mut before = -1.0;
+        for (index, point) in self.points.iter().enumerate() {
+            let numbers = [
+                ("range", point.range),
+                ("value", point.value),
+                ("relative_sd", point.relative_sd),
+            ];
+            for (part, value) in numbers {
+                if !(0.0..=1e9).contains(&value) {
+                    return Err(ResponseError::Number { index, part, value });
+                }
+            }
+            if point.range <= before {
+                return Err(ResponseError::Order { index });
+            }
+            before = point.range;
+        }
+        Ok(())
+    }
+
+    /// The range beyond which nothing changes, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.points.last().map_or(0.0, |point| point.range)
+    }
+
+    /// What is read at a range, m, and its relative standard deviation: the point of the curve there.
+    #[must_use]
+    pub fn at(&self, range: f64) -> ResponsePoint {
+        let above = self.points.partition_point(|point| point.range < range);
+        match (above.checked_sub(1), self.points.get(above)) {
+            (None, Some(first)) => *first,
+            (Some(below), Some(above)) => {
+                let below = self.points[below];
+                let share = (range - below.range) / (above.range - below.range);
+                let between = |low: f64, high: f64| low + share * (high - low);
+                ResponsePoint {
+                    range,
+                    value: between(below.value, above.value),
+                    relative_sd: between(below.relative_sd, above.relative_sd),
+                }
+            }
+            (Some(last), None) => self.points[last],
+            (None, None) => ResponsePoint {
+                range,
+                value: 0.0,
+                relative_sd: 0.0,
+            },
+        }
+    }
+}
+
+/// Why points are no [`ResponseCurve`].
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ResponseError {
+    /// There are none.
+    #[error("the curve has no points; give at least one")]
+    NoPoints,
+    /// A number has no sense.
+    #[error("point {index} of the curve: `{part}` is {value}; give a number from 0 to 10⁹")]
+    Number {
+        /// Which point, from 0.
+        index: usize,
+        /// Which number of it.
+        part: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// A point is not farther than the one before.
+    #[error("point {index} of the curve is not farther than the one before; sort them by range")]
+    Order {
+        /// Which point, from 0.
+        index: usize,
+    },
+}
+
+/// Infrared proximity sensors round the body, one ray each. A reading is the raw value of each: larger is nearer.
+#[derive(Clone, Debug)]
+pub struct Infrared<const N: usize> {
+    /// In the robot's frame.
+    rays: [Ray; N],
+    curve: ResponseCurve,
+}
+
+impl<const N: usize> Infrared<N> {
+    /// Sensors that sit and look as `mounts` say, in the robot's frame.
+    ///
+    /// # Errors
+    /// If the curve is none.
+    pub fn new(mounts: [Pose; N], curve: ResponseCurve) -> Result<Self, ResponseError> {
+        curve.check()?;
+        let rays = mounts.map(|mount| Ray {
+            origin: mount.position,
+            direction: mount.heading.unit(),
+        });
+        Ok(Self { rays, curve })
+    }
+}
+
+impl<const N: usize> Sensor for Infrared<N> {
+    type Reading = [f64; N];
+
+    fn sense(
+        &mut self,
+        around: &Surroundings<'_>,
+        chance: &Chance,
+        reading: &mut Option<[f64; N]>,
+    ) {
+        let (here, ahead) = (around.pose.position, around.pose.heading.unit());
+        let turned = |vector: Vector| {
+            Vector::new(
+                ahead.x * vector.x - ahead.y * vector.y,
+                ahead.y * vector.x + ahead.x * vector.y,
+            )
+        };
+        let rays = self.rays.map(|ray| Ray {
+            origin: here + turned(ray.origin.coords),
+            direction: turned(ray.direction),
+        });
+        let echoes = around.echoes(&rays, self.curve.reach());
+        let dark = self.curve.at(f64::INFINITY).value;
+        let most = self.curve.at(0.0).value;
+        let mut draws = chance.draws(Channel::named("infrared"));
+        *reading = Some(echoes.map(|echo| {
+            let ResponsePoint {
+                value, relative_sd, ..
+            } = self.curve.at(echo.range);
+            let value = dark + echo.reflectance * (value - dark);
+            let noise = if relative_sd > 0.0 {
+                value * relative_sd * draws.gaussian()
+            } else {
+                0.0
+            };
+            (value + noise).clamp(0.0, most)
+        }));
+    }
+}
