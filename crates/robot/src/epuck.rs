@@ -14,6 +14,7 @@ pub const WHEEL_RADIUS: f64 = 0.0205;
 pub const TRACK: f64 = 0.053;
 
 /// The wheels turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
+#[expect(clippy::approx_constant, reason = "the data sheet says 6.28, not 2π")]
 pub const MOST_WHEEL_SPEED: f64 = 6.28;
 
 /// How many proximity sensors look round.
