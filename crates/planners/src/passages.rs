@@ -1,4 +1,4 @@
-use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 /// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One byte a cell.
 ///
@@ -29,22 +29,24 @@ pub enum Unknown {
 }
 
 impl<const N: usize> Passages<N> {
-    /// The passages of a maze as far as it is known. Of a maze of more than `N` columns or rows only the
-    /// south-western part is taken. O(N²).
+    /// The passages of a maze as far as it is known. O(N²).
+    ///
+    /// A maze of more than `N` columns or rows has none: rather no plan than a wrong one.
     #[must_use]
     pub fn new(walls: &impl Walls, unknown: Unknown) -> Self {
-        let grid = walls.grid();
-        let side = N.min(u16::MAX.into()) as u16;
-        let part = Grid::new(grid.width().min(side), grid.height().min(side));
         let mut passages = Self { sides: [[0; N]; N] };
-        for cell in part.cells() {
+        let grid = walls.grid();
+        if usize::from(grid.width().max(grid.height())) > N {
+            return passages;
+        }
+        for cell in grid.cells() {
             for direction in [Direction::North, Direction::East] {
                 let open = match walls.knowledge(cell, direction) {
                     Knowledge::Open => true,
                     Knowledge::Wall => false,
                     Knowledge::Unknown => unknown == Unknown::Open,
                 };
-                if open && let Some(next) = part.neighbour(cell, direction) {
+                if open && let Some(next) = grid.neighbour(cell, direction) {
                     passages.open_side(cell, direction);
                     passages.open_side(next, direction.opposite());
                 }

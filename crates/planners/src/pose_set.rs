@@ -61,12 +61,12 @@ pub enum Location {
 }
 
 impl<const N: usize> PoseSet<N> {
-    /// Every pose in the maze; of a larger one than `N` × `N` the south-western part.
+    /// Every pose in the maze; none in one of more than `N` columns or rows.
     #[must_use]
     pub fn anywhere(grid: Grid) -> Self {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
-        let side = N as u16;
-        let grid = Grid::new(grid.width().min(side), grid.height().min(side));
+        let fits = usize::from(grid.width().max(grid.height())) <= N;
+        let grid = if fits { grid } else { Grid::new(0, 0) };
         let mut poses = Self {
             grid,
             cells: [[0; N]; 4],

@@ -1,6 +1,8 @@
 //! Speed runs: the search against plain Dijkstra on an explicit graph, explorations against the checker.
 #![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
+use std::path::PathBuf;
+
 use proptest::prelude::*;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_planners::speed_run::{
@@ -242,4 +244,52 @@ fn explore<const N: usize>(
             Decision::Stuck => return None,
         }
     }
+}
+
+/// Every twentieth maze of a folder of other people's mazes, or none and a message where they are not at hand.
+fn mazes_of_others(folder: &str) -> Vec<Maze> {
+    let data = std::env::var_os("TOLMAN_DATA").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
+        PathBuf::from,
+    );
+    let Ok(entries) = std::fs::read_dir(data.join("mazes").join(folder)) else {
+        eprintln!("SKIPPED: {folder} is not there; set TOLMAN_DATA to run this test");
+        return Vec::new();
+    };
+    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    let texts = paths
+        .iter()
+        .step_by(20)
+        .map(|path| std::fs::read_to_string(path).unwrap());
+    let files = texts.filter_map(|text| tolman_maze::read(&text).ok());
+    files.map(|file| file.maze).collect()
+}
+
+#[test]
+fn competition_mazes_are_explored_and_certified() {
+    for (folder, config) in [
+        ("classic", SpeedRunConfig::classic()),
+        ("halfsize", SpeedRunConfig::half_size()),
+    ] {
+        for maze in mazes_of_others(folder) {
+            let (home, heading) = maze.start().unwrap();
+            let best = best_possible_ms(&maze, &config, (home, heading), maze.goals());
+            let found = explore::<32>(&maze, home, heading, maze.goals(), &config);
+            assert!(found.is_some());
+            assert_eq!(found, best, "\n{maze}");
+        }
+    }
+}
+
+#[test]
+fn a_maze_that_is_too_large_has_no_passages() {
+    let maze = Maze::open(Grid::new(17, 4));
+    let passages = Passages::<16>::new(&maze, Unknown::Closed);
+    assert!(!passages.is_open(Cell::new(0, 0), Direction::East));
+    let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic()).unwrap();
+    let goals = [Cell::new(1, 1)];
+    let mut explorer = SpeedRunExplorer::new(&times, Cell::new(0, 0), Direction::East, &goals);
+    let decision = explorer.decide(&maze, Cell::new(0, 0), Direction::East);
+    assert_eq!(decision, Decision::Stuck);
 }

@@ -1,6 +1,7 @@
 use super::config::{Drive, Field, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
 
-/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells.
+/// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells: 16 for
+/// classic ones, 32 for half-size ones.
 ///
 /// Times of straights are rounded up. So a straight never takes longer than its two parts one
 /// after the other, and the search need not look at straights that follow straights.
@@ -26,6 +27,7 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// If a value is not a positive number, a top speed is below the speed in the turns, or the times
     /// are too far apart for the search.
     pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
+        const { assert!(N >= 1, "a maze has cells") };
         check(config)?;
         let speed = config.turn_speed_mm_s;
         let half_diagonal = config.cell_mm * core::f64::consts::FRAC_1_SQRT_2;
@@ -173,4 +175,90 @@ fn check(config: &SpeedRunConfig) -> Result<(), SpeedRunConfigError> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What `change` makes of the classic preset.
+    fn outcome(change: impl FnOnce(&mut SpeedRunConfig)) -> Result<(), SpeedRunConfigError> {
+        let mut config = SpeedRunConfig::classic();
+        change(&mut config);
+        SpeedRunTimes::<16>::new(&config).map(drop)
+    }
+
+    #[test]
+    fn straights_take_what_the_law_of_motion_says() {
+        let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::half_size());
+        let straights = times.as_ref().map(|times| {
+            // 1 cell: 2 (√(420² + 4200 · 90) − 420) / 4200 = 0.15455 s.
+            // 15 cells reach 1500 mm/s: (4200 · 1350 + 1080²) / (4200 · 1500) = 1.08514 s.
+            [0, 1, 15, 16].map(|cells| times.straight_ms(cells))
+        });
+        assert_eq!(straights, Ok([Some(0), Some(155), Some(1086), None]));
+        // 1: 2 (√(420² + 3600 · 63.64) − 420) / 3600 = 0.12035 s.
+        assert_eq!(times.map(|times| times.diagonal_ms(1)), Ok(Some(121)));
+    }
+
+    #[test]
+    fn a_straight_never_takes_longer_than_its_parts() {
+        for (turn_speed, top_speed) in [(420.0, 1500.0), (333.0, 333.0), (1000.0, 1000.1)] {
+            let mut config = SpeedRunConfig::half_size();
+            config.turn_speed_mm_s = turn_speed;
+            config.straight.top_speed_mm_s = top_speed;
+            config.diagonal.top_speed_mm_s = top_speed;
+            config.slalom.f45_ms = 100;
+            let times = SpeedRunTimes::<16>::new(&config);
+            for table in times
+                .iter()
+                .flat_map(|times| [times.straights(), times.diagonals()])
+            {
+                for (whole, time) in table.iter().enumerate() {
+                    for part in 0..=whole {
+                        assert!(table[part] + table[whole - part] >= *time);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_driven_is_refused() {
+        use SpeedRunConfigError::{NotPositive, OutOfRange, TooUneven, TopSpeedTooLow};
+        assert_eq!(outcome(|_| ()), Ok(()));
+        assert!(matches!(
+            outcome(|config| config.cell_mm = f64::NAN),
+            Err(NotPositive {
+                field: Field::Cell,
+                ..
+            })
+        ));
+        assert!(matches!(
+            outcome(|config| config.diagonal.acceleration_mm_s2 = f64::INFINITY),
+            Err(NotPositive {
+                field: Field::DiagonalAcceleration,
+                ..
+            })
+        ));
+        assert!(matches!(
+            outcome(|config| config.straight.top_speed_mm_s = 400.0),
+            Err(TopSpeedTooLow {
+                field: Field::StraightTopSpeed,
+                ..
+            })
+        ));
+        assert!(matches!(
+            outcome(|config| config.slalom.f90_ms = 0),
+            Err(OutOfRange { shortest_ms: 0, .. })
+        ));
+        assert!(matches!(
+            outcome(|config| config.cell_mm = 1e9),
+            Err(OutOfRange { .. })
+        ));
+        assert!(matches!(
+            outcome(|config| config.slalom.f90_ms = 5),
+            Err(TooUneven { shortest_ms: 5, .. })
+        ));
+    }
 }
