@@ -135,7 +135,7 @@ pub enum SnapshotError {
         /// What the text says it is.
         found: String,
     },
-    /// It was saved by a later version.
+    /// It was saved in a version that is not known, most likely by a later program.
     #[error(
         "version {found} is newer than {newest}, the newest this program reads: use a newer program"
     )]
@@ -153,6 +153,14 @@ pub enum SnapshotError {
     BadPrototype {
         /// The unit.
         id: UnitId,
+        /// What is wrong.
+        source: InputError,
+    },
+    /// A remembered input is not valid.
+    #[error("remembered input {input}: {source}")]
+    BadMemory {
+        /// Its number, from 0.
+        input: usize,
         /// What is wrong.
         source: InputError,
     },
@@ -190,4 +198,22 @@ pub enum SnapshotError {
         /// How many there are.
         found: usize,
     },
+}
+
+/// Refuses what is not of a format, or of a version that is not known.
+pub(crate) fn check_header(
+    found: &str,
+    version: u32,
+    expected: &'static str,
+    newest: u32,
+) -> Result<(), SnapshotError> {
+    if found != expected {
+        let found = found.into();
+        return Err(SnapshotError::WrongFormat { expected, found });
+    }
+    if version == 0 || version > newest {
+        let found = version;
+        return Err(SnapshotError::WrongVersion { newest, found });
+    }
+    Ok(())
 }

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use decay::Decay;
 
-pub use config::{ErrorKind, GngConfig, GrowthGate, StepOrder, Utility};
+pub use config::{ErrorKind, GngConfig, GrowthGate, Removal, StepOrder, Utility};
 pub use saved::SavedGng;
 
 use crate::network::{Best, Candidate};
@@ -233,7 +233,9 @@ impl<S: Scalar> Gng<S> {
                 self.grow_if_due();
             }
         }
-        if let Some(utility) = self.config.utility {
+        if let Some(utility) = self.config.utility
+            && utility.removal == Removal::EveryInput
+        {
             self.drop_useless(utility);
         }
         self.network.tidy(&mut self.sums);
@@ -276,11 +278,15 @@ impl<S: Scalar> Gng<S> {
 
     fn grow_if_due(&mut self) {
         let due = self.steps.is_multiple_of(self.config.growth_period.into());
-        if due
-            && self.network.len() < self.config.max_units
-            && self.network.has_ids_left()
-            && self.gate_is_open()
+        if !due || !self.network.has_ids_left() || !self.gate_is_open() {
+            return;
+        }
+        if self.network.len() >= self.config.max_units
+            && let Some(utility) = self.config.utility
         {
+            self.drop_useless(utility);
+        }
+        if self.network.len() < self.config.max_units {
             self.grow();
         }
     }

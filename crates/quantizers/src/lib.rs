@@ -46,6 +46,7 @@ mod event;
 mod gng;
 mod network;
 mod quantizer;
+mod replay;
 mod scalar;
 mod soinn;
 mod unit;
@@ -53,11 +54,12 @@ mod unit;
 pub use associative_memory::{AssociativeMemory, Chain, Recall};
 pub use error::{ConfigError, InputError, SnapshotError, UnknownUnit};
 pub use event::{Event, Events};
-pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, SavedGng, StepOrder, Utility};
+pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, Removal, SavedGng, StepOrder, Utility};
 pub use network::{
     Clusters, Edge, Lanes, Network, QuantizationError, Search, Snapshot, SnapshotUnit,
 };
 pub use quantizer::{Observation, Quantizer};
+pub use replay::{Memory, Replay, ReplayConfig, SavedReplay};
 pub use scalar::Scalar;
 pub use soinn::{
     Denoising, ErrorInsertion, SecondLayerConfig, SecondLayerError, SecondThreshold,

@@ -4,7 +4,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_quantizers::{Gng, GngConfig, Quantizer, Utility};
+use tolman_quantizers::{Gng, GngConfig, Quantizer, Removal, Utility};
 
 /// Allocations of 20,000 inputs after the network has had 60,000.
 fn allocations(dimension: usize, config: GngConfig) -> u64 {
@@ -37,7 +37,10 @@ fn a_grown_network_allocates_nothing() {
         };
         assert_eq!(allocations(dimension, bounded), 0, "{dimension} features");
         let forgetful = GngConfig {
-            utility: Some(Utility { threshold: 10.0 }),
+            utility: Some(Utility {
+                threshold: 10.0,
+                removal: Removal::EveryInput,
+            }),
             ..bounded
         };
         assert_eq!(

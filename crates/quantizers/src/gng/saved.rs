@@ -4,6 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::{Decay, Gng, GngConfig, Sums};
+use crate::error::check_header;
 use crate::{Network, Scalar, Snapshot, SnapshotError};
 
 const FORMAT: &str = "tolman-gng";
@@ -60,18 +61,7 @@ impl<S: Scalar> TryFrom<SavedGng<S>> for Gng<S> {
 
     /// Resumes what was saved. Search and events are as in a new network.
     fn try_from(saved: SavedGng<S>) -> Result<Self, SnapshotError> {
-        if saved.format != FORMAT {
-            return Err(SnapshotError::WrongFormat {
-                expected: FORMAT,
-                found: saved.format,
-            });
-        }
-        if saved.version != VERSION {
-            return Err(SnapshotError::WrongVersion {
-                newest: VERSION,
-                found: saved.version,
-            });
-        }
+        check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         let network = Network::from_snapshot(&saved.network)?;
         let mut gng = Self::around(network, saved.config)?;
         if saved.sums.len() != gng.network.len() {

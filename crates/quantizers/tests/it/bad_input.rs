@@ -162,7 +162,7 @@ fn a_million_units() {
     let mut gng = Gng::<f32>::new(
         2,
         GngConfig {
-            growth_period: 10,
+            growth_period: 500,
             ..GngConfig::fritzke()
         },
     )

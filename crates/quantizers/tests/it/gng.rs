@@ -4,7 +4,8 @@ use alloc::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use tolman_quantizers::{
-    ErrorKind, Event, Gng, GngConfig, GrowthGate, Network, Quantizer, StepOrder, UnitId, Utility,
+    Edge, ErrorKind, Event, Gng, GngConfig, GrowthGate, Network, Quantizer, Removal, StepOrder,
+    UnitId, UnknownUnit, Utility,
 };
 
 use super::streams::{cube, grid};
@@ -24,7 +25,16 @@ pub(crate) fn configs() -> impl Strategy<Value = GngConfig> {
             (0.0..2.0).prop_map(|threshold| GrowthGate::MeanError { threshold }),
             (0.0..0.1).prop_map(|threshold| GrowthGate::Rate { threshold }),
         ],
-        prop::option::of((0.5..20.0).prop_map(|threshold| Utility { threshold })),
+        prop::option::of(
+            (0.5..20.0, any::<bool>()).prop_map(|(threshold, always)| Utility {
+                threshold,
+                removal: if always {
+                    Removal::EveryInput
+                } else {
+                    Removal::WhenFull
+                },
+            }),
+        ),
     );
     let bounds = (
         prop_oneof![1e-300..1.0, 0.9..=1.0_f64],
@@ -318,5 +328,34 @@ fn utility_follows_a_jump() {
         network.ids().filter(|id| x(*id) < 5.0).count()
     };
     assert!(left_behind(None) >= 5);
-    assert_eq!(left_behind(Some(Utility { threshold: 3.0 })), 0);
+    for removal in [Removal::EveryInput, Removal::WhenFull] {
+        assert_eq!(
+            left_behind(Some(Utility {
+                threshold: 3.0,
+                removal
+            })),
+            0
+        );
+    }
+}
+
+#[test]
+fn a_network_merged_into_one_unit_goes_on() {
+    let mut gng = Gng::<f64>::new(1, GngConfig::fritzke()).unwrap();
+    gng.observe(&[0.0]).unwrap();
+    gng.observe(&[1.0]).unwrap();
+    gng.merge(UnitId(0), UnitId(1)).unwrap();
+    assert_eq!(gng.merge(UnitId(0), UnitId(1)), Err(UnknownUnit(UnitId(0))));
+    assert_eq!(gng.network().len(), 1);
+    // One unit again, so the next point that differs is the second.
+    gng.observe(&[0.0]).unwrap();
+    let edges: Vec<_> = gng.network().edges().collect();
+    assert_eq!(
+        edges,
+        [Edge {
+            ends: (UnitId(1), UnitId(2)),
+            age: 0
+        }]
+    );
+    gng.observe(&[0.1]).unwrap();
 }

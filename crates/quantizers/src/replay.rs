@@ -1,0 +1,266 @@
+//! Past inputs mixed into a stream, so that its order does not matter.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::error::{check_header, within};
+use crate::{
+    ConfigError, Events, InputError, Network, Observation, Quantizer, Scalar, SnapshotError,
+};
+
+/// A quantizer that remembers some of its inputs and learns from them again and again.
+///
+/// A robot's inputs come in the order of its way: one place for a while, then another. A quantizer that learns from them as
+/// they come spends its units on where the robot has been last. This one keeps a sample of the past, and for every input it is
+/// shown it lets the quantizer learn from `per_input` remembered ones, drawn at random. The input itself is learnt
+/// when it is drawn.
+///
+/// ```
+/// use tolman_quantizers::{Gng, GngConfig, Quantizer, Replay, ReplayConfig};
+///
+/// let gng = Gng::<f32>::new(2, GngConfig::in_order(30))?;
+/// let mut gng = Replay::new(gng, ReplayConfig::measured(7))?;
+/// // Slowly once around a ring.
+/// let ring = (0..5000_u16).map(|step| f32::from(step) * 0.00125);
+/// let ring: Vec<_> = ring.map(|angle| [angle.cos(), angle.sin()]).collect();
+/// for input in &ring {
+///     gng.observe(input)?;
+/// }
+/// assert!(gng.network().quantization_error(&ring)?.mean < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Complexity
+/// `per_input` inputs of the quantizer for one. The memory takes `capacity` × features numbers.
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "SavedReplay<S, Q>",
+        into = "SavedReplay<S, Q>",
+        bound(
+            serialize = "S: Scalar + serde::Serialize, Q: Quantizer<S> + Clone + serde::Serialize",
+            deserialize = "S: Scalar + serde::Deserialize<'de>, Q: Quantizer<S> + serde::Deserialize<'de>"
+        )
+    )
+)]
+pub struct Replay<S, Q> {
+    config: ReplayConfig,
+    quantizer: Q,
+    /// Remembered inputs, one after the other.
+    memory: Vec<S>,
+    /// An input on its way from the memory to the quantizer; kept so as not to allocate.
+    drawn: Vec<S>,
+    /// How many inputs there were.
+    seen: u64,
+    chance: ChaCha8Rng,
+}
+
+/// What is remembered, and how often it is learnt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ReplayConfig {
+    /// How many inputs are remembered; at least 1.
+    pub capacity: u32,
+    /// How many remembered inputs are learnt for each new one; at least 1.
+    pub per_input: u32,
+    /// Which inputs are remembered.
+    pub memory: Memory,
+    /// Where chance begins.
+    pub seed: u64,
+}
+
+/// Which inputs are remembered once there are more than can be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Memory {
+    /// Each of all inputs so far with the same probability (reservoir sampling, algorithm R of Vitter 1985): for worlds that stay
+    /// as they are.
+    #[default]
+    Reservoir,
+    /// The last ones: for worlds that change.
+    Recent,
+}
+
+impl ReplayConfig {
+    /// A reservoir of 10,000 inputs, of which 8 are learnt for each new one: good for streams of every kind that we tried
+    /// (`docs/quantizers.md`). No paper stands behind it.
+    pub fn measured(seed: u64) -> Self {
+        Self {
+            capacity: 10_000,
+            per_input: 8,
+            memory: Memory::Reservoir,
+            seed,
+        }
+    }
+
+    fn check(&self) -> Result<(), ConfigError> {
+        let (capacity, per_input) = (self.capacity, self.per_input);
+        within("capacity", capacity.into(), capacity >= 1, "at least 1")?;
+        within("per_input", per_input.into(), per_input >= 1, "at least 1")
+    }
+}
+
+impl<S: Scalar, Q: Quantizer<S>> Replay<S, Q> {
+    /// Puts a memory before a quantizer.
+    ///
+    /// # Errors
+    /// If a field of `config` is outside its range.
+    pub fn new(quantizer: Q, config: ReplayConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            config,
+            quantizer,
+            memory: Vec::new(),
+            drawn: Vec::new(),
+            seen: 0,
+            chance: ChaCha8Rng::seed_from_u64(config.seed),
+        })
+    }
+
+    /// The quantizer that learns.
+    pub fn quantizer(&self) -> &Q {
+        &self.quantizer
+    }
+
+    /// The quantizer that has learnt; what was remembered is forgotten.
+    pub fn into_quantizer(self) -> Q {
+        self.quantizer
+    }
+
+    /// How many inputs are remembered.
+    pub fn remembered(&self) -> usize {
+        self.memory.len() / self.network().dimension()
+    }
+
+    fn remember(&mut self, input: &[S]) {
+        let capacity = u64::from(self.config.capacity);
+        self.seen += 1;
+        if self.seen <= capacity {
+            self.memory.extend_from_slice(input);
+            return;
+        }
+        let place = match self.config.memory {
+            Memory::Recent => (self.seen - 1) % capacity,
+            Memory::Reservoir => self.chance.random_range(0..self.seen),
+        };
+        if place < capacity {
+            let start = place as usize * input.len();
+            self.memory[start..start + input.len()].copy_from_slice(input);
+        }
+    }
+
+    fn draw(&mut self) {
+        let dimension = self.network().dimension();
+        let remembered = self.seen.min(self.config.capacity.into()) as u32;
+        let start = self.chance.random_range(0..remembered) as usize * dimension;
+        self.drawn.clear();
+        self.drawn
+            .extend_from_slice(&self.memory[start..start + dimension]);
+    }
+}
+
+/// All there is to know of a [`Replay`], to be saved and resumed.
+///
+/// With the feature `serde`, `Replay` itself is serialized as this, and refuses to be made of what is invalid.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SavedReplay<S, Q> {
+    /// What this is.
+    pub format: String,
+    /// The version of the format.
+    pub version: u32,
+    /// The parameters.
+    pub config: ReplayConfig,
+    /// The quantizer that learns.
+    pub quantizer: Q,
+    /// Remembered inputs, one after the other.
+    pub memory: Vec<S>,
+    /// How many inputs there were.
+    pub seen: u64,
+    /// How many words of chance were used.
+    pub words: u64,
+}
+
+const FORMAT: &str = "tolman-replay";
+const VERSION: u32 = 1;
+
+impl<S: Scalar, Q: Quantizer<S>> From<Replay<S, Q>> for SavedReplay<S, Q> {
+    fn from(replay: Replay<S, Q>) -> Self {
+        Self {
+            format: FORMAT.into(),
+            version: VERSION,
+            config: replay.config,
+            quantizer: replay.quantizer,
+            memory: replay.memory,
+            seen: replay.seen,
+            // 2⁶⁴ words are more than can be drawn.
+            words: replay.chance.get_word_pos() as u64,
+        }
+    }
+}
+
+impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for Replay<S, Q> {
+    type Error = SnapshotError;
+
+    /// Resumes what was saved.
+    fn try_from(saved: SavedReplay<S, Q>) -> Result<Self, SnapshotError> {
+        check_header(&saved.format, saved.version, FORMAT, VERSION)?;
+        saved.config.check()?;
+        let network = saved.quantizer.network();
+        let remembered = saved.seen.min(saved.config.capacity.into()) as usize;
+        let expected = remembered.saturating_mul(network.dimension());
+        if saved.memory.len() != expected {
+            return Err(SnapshotError::WrongCount {
+                what: "remembered features",
+                expected,
+                found: saved.memory.len(),
+            });
+        }
+        for (input, values) in saved.memory.chunks(network.dimension()).enumerate() {
+            network
+                .check(values)
+                .map_err(|source| SnapshotError::BadMemory { input, source })?;
+        }
+        let mut chance = ChaCha8Rng::seed_from_u64(saved.config.seed);
+        chance.set_word_pos(saved.words.into());
+        Ok(Self {
+            config: saved.config,
+            quantizer: saved.quantizer,
+            memory: saved.memory,
+            drawn: Vec::new(),
+            seen: saved.seen,
+            chance,
+        })
+    }
+}
+
+impl<S: Scalar, Q: Quantizer<S>> Quantizer<S> for Replay<S, Q> {
+    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError> {
+        self.network().check(input)?;
+        self.remember(input);
+        for _ in 0..self.config.per_input {
+            self.draw();
+            self.quantizer.observe(&self.drawn)?;
+        }
+        let found = self.nearest_two(input)?;
+        Ok(Observation {
+            winner: found.first,
+            second: found.second,
+        })
+    }
+
+    fn network(&self) -> &Network<S> {
+        self.quantizer.network()
+    }
+
+    fn events(&mut self) -> &mut Events {
+        self.quantizer.events()
+    }
+}
