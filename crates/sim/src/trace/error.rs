@@ -54,14 +54,14 @@ pub enum ReplayError {
         found: u32,
     },
     /// A line is broken: cut short, or changed by hand.
-    #[error("line {line}, column {column}: {source}; record the trace anew")]
+    #[error("line {line}, column {column}: {what}; record the trace anew")]
     Line {
         /// Which line, from 1.
         line: usize,
         /// Where in the line, from 1; 0 where it has no place.
         column: usize,
         /// What is wrong with it.
-        source: serde_json::Error,
+        what: String,
     },
     /// The world cannot be built again.
     #[error("line 1: {0}")]
@@ -102,4 +102,18 @@ pub enum ReplayError {
         /// The line as it would be now.
         replayed: String,
     },
+}
+
+impl ReplayError {
+    /// What JSON has to say against a line.
+    pub(super) fn of_line(line: usize, error: &serde_json::Error) -> Self {
+        // To JSON every line is its line 1.
+        let told = error.to_string();
+        let what = told.split(" at line ").next().unwrap_or_default();
+        Self::Line {
+            line,
+            column: error.column(),
+            what: what.to_owned(),
+        }
+    }
 }

@@ -156,9 +156,5 @@ impl<M: Recordable, R: BufRead> Iterator for Reader<M, R> {
 }
 
 fn parse<T: DeserializeOwned>(text: &str, line: usize) -> Result<T, ReplayError> {
-    serde_json::from_str(text).map_err(|source| ReplayError::Line {
-        line,
-        column: source.column(),
-        source,
-    })
+    serde_json::from_str(text).map_err(|error| ReplayError::of_line(line, &error))
 }

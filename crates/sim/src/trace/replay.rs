@@ -68,11 +68,7 @@ fn again<M: Recordable>(
         }
         // The shortest text that reads back as a number differs wherever its bits do.
         let text = |step: &StepRecord<M>| {
-            serde_json::to_string(step).map_err(|source| ReplayError::Line {
-                line: *line,
-                column: 0,
-                source,
-            })
+            serde_json::to_string(step).map_err(|error| ReplayError::of_line(*line, &error))
         };
         let (recorded, replayed) = (text(step)?, text(&now)?);
         if recorded != replayed {

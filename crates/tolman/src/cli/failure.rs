@@ -49,8 +49,22 @@ impl Failure {
 /// Tells an error on stderr, in colour where colours are wanted.
 pub(super) fn complain(error: &anyhow::Error) {
     let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
+    let told = told(error);
     // Nobody is left to be told that stderr cannot be written.
-    let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {error:#}");
+    let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {told}");
+}
+
+/// An error and the causes behind it in one line, each told once: some errors tell their cause themselves.
+fn told(error: &anyhow::Error) -> String {
+    let mut told = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if told.is_empty() {
+            told = cause;
+        } else if !told.contains(&cause) {
+            told = format!("{told}: {cause}");
+        }
+    }
+    told
 }
 
 impl<E: Into<anyhow::Error>> From<E> for Failure {
@@ -68,5 +82,24 @@ pub(super) trait OrBadInput<T> {
 impl<T, E: Into<anyhow::Error>> OrBadInput<T> for Result<T, E> {
     fn or_bad_input(self) -> Result<T, Failure> {
         self.map_err(|error| Failure::BadInput(error.into()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cause_is_told_once() {
+        let cause = || anyhow::anyhow!("no such file");
+        let error = |context: &'static str| cause().context(context).context("a.maze");
+        assert_eq!(
+            told(&error("cannot be read")),
+            "a.maze: cannot be read: no such file"
+        );
+        assert_eq!(
+            told(&error("no such file; name another")),
+            "a.maze: no such file; name another"
+        );
     }
 }

@@ -95,6 +95,9 @@ fn a_replay_is_seen_in_every_light_and_on_every_width() {
             tab.load(&page, "#t=80");
             tab.until("tolmanReplay.step === 80 && tolmanReplay.frames > 0");
             tab.assert_seen(&folder, scheme, width);
+            // Nothing of the controls is cut off, and the slider can be got hold of.
+            tab.until("[...document.querySelectorAll('footer *')].every(part => part.getBoundingClientRect().right <= innerWidth)");
+            assert!(tab.number("tolmanReplay.slider.clientWidth / innerWidth") > 0.5);
         }
     }
     tab.assert_content();

@@ -10,7 +10,7 @@ fn report(name: &str) -> (PathBuf, PathBuf) {
     let folder = folder(name);
     let out = folder.join("baselines");
     let path = out.to_str().unwrap();
-    tolman(&["experiment", "baselines", "--quick", "--out", path]);
+    tolman(&["experiment", "baselines", "--runs", "3", "--out", path]);
     (folder, out.join("report.html"))
 }
 

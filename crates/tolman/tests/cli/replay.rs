@@ -126,7 +126,11 @@ fn a_broken_trace_is_refused_with_its_line() {
     let trace = fs::read_to_string(folder.join("avoid.jsonl")).unwrap();
     let cut = trace.lines().take(2).collect::<Vec<_>>().join("\n");
     fs::write(folder.join("cut.jsonl"), &cut[..cut.len() - 9]).unwrap();
-    tolman_in(&folder, &["replay", "cut.jsonl"]).refused(2, &["cut.jsonl", "line 2", "column"]);
+    let refused = tolman_in(&folder, &["replay", "cut.jsonl"]);
+    // Once, and no line but that of the trace.
+    assert_eq!(refused.err.matches("EOF").count(), 1, "{}", refused.err);
+    assert!(!refused.err.contains("line 1"), "{}", refused.err);
+    refused.refused(2, &["cut.jsonl", "line 2", "column"]);
     assert!(!folder.join("cut.html").exists());
     tolman_in(&folder, &["replay", "none.jsonl"]).refused(2, &["none.jsonl"]);
     tolman_in(&folder, &["replay", "-"]).refused(2, &["--out"]);
