@@ -536,3 +536,167 @@ fn ascend(what: &str, steps: impl Iterator<Item = u32>) -> Result<(), EncodeErro
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Pose};
+    use tolman_robot::Scan;
+
+    use super::*;
+    use crate::replay::{BeliefAt, FieldChange, NodeMove, Note, Sample, Zone};
+
+    /// A replay with every layer there is.
+    fn full() -> Replay {
+        let at = |x: f64| Point::new(x, 0.5);
+        let pose = |x| Pose::new(at(x), Heading::from_radians(3.0 + x));
+        let ring = Ring::full(4, 2.0);
+        let body = Body::Circle { radius: 0.1 };
+        let mut track = Track::new("robot", body, vec![pose(0.0), pose(0.25), pose(1.0)]);
+        track.ring = Some(ring);
+        let mut node = Node::new(7, at(0.0), 0);
+        node.moves.push(NodeMove {
+            step: 1,
+            position: at(0.1),
+        });
+        node.visits = vec![0, 2];
+        node.exemplar = Some(Exemplar {
+            heading: Heading::EAST,
+            scan: Scan::clear(ring),
+        });
+        track.maps.push(MapGrowth {
+            name: "map".to_owned(),
+            nodes: vec![node, Node::new(9, at(1.0), 2)],
+            edges: vec![Edge::new(7, 9, 2)],
+        });
+        let shape = Shape::Node { id: 7, weight: 1.0 };
+        let entries = vec![BeliefAt {
+            step: 1,
+            shapes: vec![shape],
+        }];
+        track.beliefs.push(Belief {
+            name: "belief".to_owned(),
+            entries,
+        });
+        track.fields.push(Field {
+            name: "field".to_owned(),
+            origin: at(0.0),
+            pitch: 1.0,
+            columns: 1,
+            range: [0.0, 1.0],
+            changes: vec![FieldChange {
+                step: 0,
+                cell: 0,
+                value: None,
+            }],
+        });
+        let samples = |values: [f64; 2]| {
+            (0..)
+                .zip(values)
+                .map(|(step, value)| Sample { step, value })
+                .collect()
+        };
+        for values in [[1.0, -3.0], [0.5, 1.0]] {
+            let (name, unit) = ("number".to_owned(), String::new());
+            track.series.push(Series {
+                name,
+                unit,
+                samples: samples(values),
+            });
+        }
+        let note = |step, text: &str| Note {
+            step,
+            text: text.to_owned(),
+        };
+        let notes = vec![note(0, "a"), note(1, "b"), note(2, "a")];
+        track.notes.push(Notes {
+            name: "notes".to_owned(),
+            notes,
+        });
+        let zone = Zone {
+            kind: ZoneKind::Region,
+            name: String::new(),
+            corners: vec![at(0.0)],
+        };
+        let scenery = Scenery {
+            zones: vec![zone],
+            ..Scenery::default()
+        };
+        Replay::new("full", 0.1, scenery, vec![track])
+    }
+
+    #[test]
+    fn every_layer_is_written() {
+        let value = value(&full()).unwrap();
+        let track = &value["tracks"][0];
+        // The box is a metre wide: a quarter is 16384 of 65535.
+        assert_eq!(track["x"], blob::changes([0, 16384, 65535]));
+        assert_eq!(track["series"][0]["whole"], blob::changes([1, -3]));
+        assert_eq!(track["series"][0]["steps"], 0, "one at each step");
+        assert_eq!(track["series"][1]["values"], blob::floats([0.5, 1.0]));
+        assert_eq!(track["notes"][0]["texts"], json!(["a", "b"]));
+        assert_eq!(track["notes"][0]["index"], blob::numbers([0, 1, 0]));
+        assert_eq!(
+            track["maps"][0]["nodes"][0]["moves"],
+            json!([[1, [0.1, 0.5]]])
+        );
+        let exemplar = &track["maps"][0]["nodes"][0]["exemplar"]["ranges"];
+        assert_eq!(*exemplar, blob::bytes(&[255; 4]));
+        assert_eq!(
+            track["maps"][0]["edges"],
+            json!([[7, 9, "passage", 2, null, ""]])
+        );
+        assert_eq!(
+            track["beliefs"][0]["entries"],
+            json!([[1, [["node", 1.0, 7]]]])
+        );
+    }
+
+    #[test]
+    fn a_turn_past_the_seam_is_a_small_change() {
+        let value = value(&full()).unwrap();
+        // From 3.0 to 3.25 rad and on to 4.0, of which π is passed.
+        let quantum = |radians: f64| {
+            libm::round((radians + core::f64::consts::PI) * 65536.0 / core::f64::consts::TAU) as i32
+        };
+        let headings = [3.0, 3.25, 4.0].map(quantum);
+        assert!(headings[1] > 65536, "past the seam");
+        // The first heading is counted from the side of the seam that is nearer to 0.
+        let expected = blob::changes(headings.map(|heading| heading - 65536));
+        assert_eq!(value["tracks"][0]["heading"], expected);
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        let refused = |change: fn(&mut Replay)| {
+            let mut replay = full();
+            change(&mut replay);
+            json(&replay).unwrap_err().to_string()
+        };
+        for (error, part) in [
+            (refused(|replay| replay.tracks.clear()), "no track"),
+            (refused(|replay| replay.step_s = f64::NAN), "NaN s"),
+            (
+                refused(|replay| replay.tracks[0].poses[1].position.x = f64::INFINITY),
+                "pose 1",
+            ),
+            (
+                refused(|replay| replay.tracks[0].maps[0].edges[0].b = 8),
+                "node 8",
+            ),
+            (
+                refused(|replay| replay.tracks[0].maps[0].nodes[1].id = 7),
+                "the id 7",
+            ),
+            (
+                refused(|replay| replay.tracks[0].notes[0].notes[0].step = 2),
+                "note 1",
+            ),
+            (
+                refused(|replay| replay.tracks[0].fields[0].columns = 0),
+                "0 columns",
+            ),
+        ] {
+            assert!(error.contains(part), "no `{part}` in: {error}");
+        }
+    }
+}

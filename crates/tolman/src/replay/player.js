@@ -81,7 +81,8 @@ var TolmanReplay = (() => {
       byId.set(node.id, node);
     }
     const edges = map.edges.map(([a, b, kind, born, died, label]) => ({ a: byId.get(a), b: byId.get(b), kind, born, died, label }));
-    return { name: map.name, nodes: map.nodes, edges, byId };
+    const changed = [...map.nodes, ...edges].flatMap(thing => [thing.born, thing.died ?? 0, ...(thing.moves || []).map(moved => moved[0])]);
+    return { name: map.name, nodes: map.nodes, edges, byId, changed: changed.sort((a, b) => a - b) };
   }
 
   function decodeField(field) {
@@ -356,7 +357,7 @@ var TolmanReplay = (() => {
   const TRAIL_SHADES = 48;
 
   // The trail is drawn once and then only carried on: at most so many poses a frame, so that long runs stay smooth.
-  const POSES_PER_FRAME = 20000;
+  const POSES_PER_FRAME = 5000;
 
   // Beyond so many poses the trail leaves some out.
   const POSES_DRAWN = 200000;
@@ -366,7 +367,7 @@ var TolmanReplay = (() => {
     constructor(run) {
       this.run = run;
       this.stride = Math.max(1, Math.ceil(run.last / POSES_DRAWN));
-      this.marks = Math.max(POSES_PER_FRAME, Math.ceil(run.last / 8));
+      this.interval = Math.max(1000, Math.ceil(run.last / 10));
       this.forget();
     }
 
@@ -412,9 +413,9 @@ var TolmanReplay = (() => {
       this.run.tracks.forEach((track, number) => {
         if (style.shown(number)) this.segments(context, track, number, trail.upTo, to, style);
       });
-      const before = Math.floor(trail.upTo / this.marks);
+      const before = Math.floor(trail.upTo / this.interval);
       trail.upTo = to;
-      if (Math.floor(to / this.marks) > before) {
+      if (Math.floor(to / this.interval) > before) {
         const canvas = buffer(stage.width, stage.height, stage.ratio);
         canvas.getContext("2d").drawImage(trail.canvas, 0, 0);
         trail.saved.push({ canvas, upTo: to });
@@ -537,62 +538,90 @@ var TolmanReplay = (() => {
     relation: { colour: "relation", width: 1.2, dash: [4, 3] },
   };
 
-  function drawMap(context, stage, at, map, step, colours, selected) {
+  // Edges one by one and nodes as stamps: one long path of them all takes ten times as long to fill.
+  function drawMap(context, stage, at, map, step, colours, edgeColour) {
     toWorld(context, stage, at);
-    for (const [kind, style] of Object.entries(EDGE_STYLES)) {
-      context.beginPath();
-      for (const edge of map.edges) {
-        if (edge.kind !== kind || !alive(edge, step)) continue;
-        context.moveTo(...placeOf(edge.a, step));
-        context.lineTo(...placeOf(edge.b, step));
-      }
-      context.strokeStyle = colours[style.colour];
+    for (const edge of map.edges) {
+      if (!alive(edge, step)) continue;
+      const style = EDGE_STYLES[edge.kind];
+      context.strokeStyle = edge.kind === "passage" ? edgeColour : colours[style.colour];
       context.lineWidth = style.width / at.scale;
       context.setLineDash(style.dash.map(length => length / at.scale));
+      context.beginPath();
+      context.moveTo(...placeOf(edge.a, step));
+      context.lineTo(...placeOf(edge.b, step));
       context.stroke();
     }
     context.setLineDash([]);
-    const radius = nodeRadius(at) / at.scale;
-    const labelled = [];
-    context.beginPath();
+    toScreen(context, stage);
+    const stamp = nodeStamp(stage, at, colours, edgeColour), half = stamp.width / stage.ratio / 2, labelled = [];
     for (const node of map.nodes) {
       if (!alive(node, step)) continue;
-      const [x, y] = placeOf(node, step);
-      context.moveTo(x + radius, y);
-      context.arc(x, y, radius, 0, 2 * Math.PI);
-      if (node.label) labelled.push([node.label, x, y]);
+      const [left, top] = screenOf(stage, at, ...placeOf(node, step));
+      context.drawImage(stamp, left - half, top - half, 2 * half, 2 * half);
+      if (node.label) labelled.push([node.label, left, top]);
     }
+    drawLabels(context, at, labelled, colours);
+  }
+
+  function nodeStamp(stage, at, colours, edgeColour) {
+    const radius = nodeRadius(at), half = radius + 1.5, stamp = buffer(2 * half, 2 * half, stage.ratio);
+    const context = stamp.getContext("2d");
+    context.setTransform(stage.ratio, 0, 0, stage.ratio, stamp.width / 2, stamp.height / 2);
+    context.beginPath();
+    context.arc(0, 0, radius, 0, 2 * Math.PI);
     context.fillStyle = colours.node;
-    context.strokeStyle = colours.edge;
-    context.lineWidth = 1.6 / at.scale;
+    context.strokeStyle = edgeColour;
+    context.lineWidth = 1.6;
     context.fill();
     context.stroke();
-    if (selected && map.nodes.includes(selected) && alive(selected, step)) {
-      const [x, y] = placeOf(selected, step);
-      context.beginPath();
-      context.arc(x, y, 1.9 * radius, 0, 2 * Math.PI);
-      context.strokeStyle = colours.selected;
-      context.lineWidth = 2.5 / at.scale;
-      context.stroke();
-    }
-    drawLabels(context, stage, at, labelled, colours);
+    return stamp;
+  }
+
+  function drawSelected(context, stage, at, node, step, colours) {
+    if (!node || !alive(node, step)) return;
+    const [left, top] = screenOf(stage, at, ...placeOf(node, step));
+    toScreen(context, stage);
+    context.beginPath();
+    context.arc(left, top, 1.9 * nodeRadius(at), 0, 2 * Math.PI);
+    context.strokeStyle = colours.selected;
+    context.lineWidth = 2.5;
+    context.stroke();
   }
 
   function nodeRadius(at) {
     return Math.max(2.2, Math.min(5, at.scale * 0.12));
   }
 
-  // Words only where they do not cover each other.
-  function drawLabels(context, stage, at, labelled, colours) {
-    if (labelled.length === 0 || at.scale < 24 || labelled.length > 600) return;
-    toScreen(context, stage);
+  // Words only where there is room for them.
+  function drawLabels(context, at, labelled, colours) {
+    if (at.scale < 24 || labelled.length > 600) return;
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "left";
     context.textBaseline = "bottom";
     context.fillStyle = colours.wall;
-    for (const [label, x, y] of labelled) {
-      const [left, top] = screenOf(stage, at, x, y);
-      context.fillText(label, left + 6, top - 3);
+    for (const [label, left, top] of labelled) context.fillText(label, left + 6, top - 3);
+  }
+
+  // What changes now and then is drawn on a canvas of its own, anew when the view or its state is another.
+  class Kept {
+    constructor() {
+      this.state = null;
+    }
+
+    show(context, stage, at, state, draw) {
+      const fits = this.canvas && this.canvas.width === context.canvas.width && this.canvas.height === context.canvas.height;
+      if (!fits || this.state !== state || !sameView(this.at, at)) {
+        if (!fits) this.canvas = buffer(stage.width, stage.height, stage.ratio);
+        const own = this.canvas.getContext("2d");
+        own.setTransform(1, 0, 0, 1, 0, 0);
+        own.clearRect(0, 0, this.canvas.width, this.canvas.height);
+        draw(own);
+        this.state = state;
+        this.at = { ...at };
+      }
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      context.drawImage(this.canvas, 0, 0);
     }
   }
 
@@ -753,6 +782,9 @@ var TolmanReplay = (() => {
       this.frameMs = 0;
       this.selected = null;
       this.trail = new Trail(this.run);
+      this.sceneryKept = new Kept();
+      this.fieldsKept = new Kept();
+      this.mapsKept = new Kept();
       this.fields = this.run.tracks.map(track => track.fields.map(field => new FieldState(field)));
       this.layers = this.layerList();
       this.undo = [];
@@ -1025,7 +1057,6 @@ var TolmanReplay = (() => {
 
     setTheme(theme) {
       this.root.dataset.theme = theme;
-      this.scenery = null;
       this.trail.forget();
       this.drawMarks();
       this.drawCharts();
@@ -1181,7 +1212,7 @@ var TolmanReplay = (() => {
       this.run.tracks.forEach((track, number) => {
         if (!this.shows("track:" + number)) return;
         for (const map of track.maps) {
-          if (this.shows("map:" + map.name)) act(map);
+          if (this.shows("map:" + map.name)) act(map, number);
         }
       });
     }
@@ -1284,7 +1315,6 @@ var TolmanReplay = (() => {
         this.stage = { width, height, ratio };
         this.canvas.width = Math.round(width * ratio);
         this.canvas.height = Math.round(height * ratio);
-        this.scenery = null;
         this.trail.forget();
         if (!this.moved) this.at = fitted(this.run.box, width, height);
       }
@@ -1299,20 +1329,14 @@ var TolmanReplay = (() => {
       if (!stage) return true;
       if (this.shows("follow") && this.layers.some(layer => layer.key === "follow" && layer.on)) this.keepInSight();
       const { at } = this, colours = this.colours(), context = this.canvas.getContext("2d");
-      this.drawStatic(context, colours);
-      run.tracks.forEach((track, number) => {
-        if (!this.shows("track:" + number)) return;
-        track.fields.forEach((field, i) => {
-          if (this.shows("field:" + field.name)) drawField(context, stage, at, this.fields[number][i], step, colours);
-        });
-      });
+      this.drawKept(context, colours);
       let complete = true;
       if (this.shows("trajectory")) {
         complete = this.trail.update(stage, at, step, this.trailStyle(colours));
         this.trail.draw(context, stage, at);
       }
       drawDoors(context, stage, at, run, step, colours);
-      this.eachShownMap(map => drawMap(context, stage, at, map, step, colours, this.selected));
+      this.drawMaps(context, colours);
       run.tracks.forEach((track, number) => {
         if (this.shows("track:" + number)) this.drawTrack(context, track, number, colours);
       });
@@ -1330,16 +1354,32 @@ var TolmanReplay = (() => {
       drawRobot(context, stage, at, track, step, fill, colours);
     }
 
-    // Walls and zones change only with the view.
-    drawStatic(context, colours) {
-      const { stage, at } = this;
-      if (!this.scenery || !sameView(this.scenery.at, at)) {
-        const canvas = this.scenery ? this.scenery.canvas : buffer(stage.width, stage.height, stage.ratio);
-        drawScenery(canvas.getContext("2d"), stage, at, this.run, colours);
-        this.scenery = { canvas, at: { ...at } };
-      }
-      context.setTransform(1, 0, 0, 1, 0, 0);
-      context.drawImage(this.scenery.canvas, 0, 0);
+    // Walls and zones change only with the view, fields only now and then.
+    drawKept(context, colours) {
+      const { stage, at, run, step } = this, theme = this.root.dataset.theme;
+      this.sceneryKept.show(context, stage, at, theme, own => drawScenery(own, stage, at, run, colours));
+      const shown = this.shownFields();
+      if (shown.length === 0) return;
+      const state = [theme, ...shown.map(field => field.field.name + lastAt(field.field.steps, step))].join();
+      this.fieldsKept.show(context, stage, at, state, own => {
+        for (const field of shown) drawField(own, stage, at, field, step, colours);
+      });
+    }
+
+    shownFields() {
+      return this.run.tracks.flatMap((track, number) => this.shows("track:" + number) ? this.fields[number].filter(field => this.shows("field:" + field.field.name)) : []);
+    }
+
+    drawMaps(context, colours) {
+      const { stage, at, step } = this, shown = [];
+      this.eachShownMap((map, number) => shown.push([map, number]));
+      if (shown.length === 0) return;
+      const several = this.run.tracks.length > 1;
+      const state = [this.root.dataset.theme, ...shown.map(([map, number]) => number + map.name + lastAt(map.changed, step))].join();
+      this.mapsKept.show(context, stage, at, state, own => {
+        for (const [map, number] of shown) drawMap(own, stage, at, map, step, colours, several ? colours.tracks[number % colours.tracks.length] : colours.edge);
+      });
+      drawSelected(context, stage, at, this.selected, step, colours);
     }
 
     // One robot's way tells time by its colour; several are told apart by it.

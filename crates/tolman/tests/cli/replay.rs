@@ -110,6 +110,37 @@ fn two_traces_are_held_against_each_other() {
 }
 
 #[test]
+fn the_last_bit_of_a_pose_and_a_bump_are_differences() {
+    let folder = traces("bits");
+    let trace = fs::read_to_string(folder.join("avoid.jsonl")).unwrap();
+    let line = trace
+        .lines()
+        .find(|line| line.contains("\"tick\":4,"))
+        .unwrap();
+    let step: serde_json::Value = serde_json::from_str(line).unwrap();
+    let x = step["step"]["pose"]["position"][0].as_f64().unwrap();
+    let bump = step["step"]["bump"].as_bool().unwrap();
+    for (from, to, what) in [
+        (x.to_string(), x.next_up().to_string(), "in the pose"),
+        (
+            format!("\"bump\":{bump},\"sensing\""),
+            format!("\"bump\":{},\"sensing\"", !bump),
+            "in the bump",
+        ),
+    ] {
+        let changed = line.replacen(&from, &to, 1);
+        assert_ne!(changed, line);
+        fs::write(folder.join("changed.jsonl"), trace.replace(line, &changed)).unwrap();
+        let command = ["replay", "avoid.jsonl", "changed.jsonl", "--force"];
+        let told = tolman_in(&folder, &command).done();
+        assert!(
+            told.contains("first differ at step 4") && told.contains(what),
+            "{told}"
+        );
+    }
+}
+
+#[test]
 fn traces_of_two_worlds_share_no_slider() {
     let folder = traces("worlds");
     let wider = CORRIDOR.replace("0.95", "0.96");
