@@ -13,7 +13,7 @@ fn data(file: &Path) -> serde_json::Value {
 
 /// A folder with a maze and the traces of a run that stopped early, of the whole run and of another one.
 fn traces(name: &str) -> std::path::PathBuf {
-    let folder = folder(name);
+    let folder = folder(&format!("replay-{name}"));
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     for (brain, steps, trace) in [
         ("avoid", "3", "short.jsonl"),
@@ -29,7 +29,7 @@ fn traces(name: &str) -> std::path::PathBuf {
 
 #[test]
 fn the_demo_needs_nothing_and_overwrites_nothing() {
-    let folder = folder("demo");
+    let folder = folder("replay-demo");
     let first = tolman_in(&folder, &["demo"]).done();
     assert!(
         first.contains("found the destination") && first.contains("tolman-demo.html"),
@@ -49,7 +49,7 @@ fn the_demo_needs_nothing_and_overwrites_nothing() {
 
 #[test]
 fn a_run_leaves_a_replay_that_tells_how_to_make_it_again() {
-    let folder = folder("run-replay");
+    let folder = folder("replay-run");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let run = [
         "run",
@@ -74,9 +74,9 @@ fn a_run_leaves_a_replay_that_tells_how_to_make_it_again() {
 
 #[test]
 fn a_replay_lies_beside_its_trace() {
-    let folder = traces("replay");
+    let folder = traces("beside");
     let told = tolman_in(&folder, &["replay", "avoid.jsonl"]).done();
-    assert!(told.contains("/replay/avoid.html"), "{told}");
+    assert!(told.contains("/replay-beside/avoid.html"), "{told}");
     assert_eq!(data(&folder.join("avoid.html"))["title"], "avoid.jsonl");
 
     fs::write(folder.join("random.html"), "my letter").unwrap();
