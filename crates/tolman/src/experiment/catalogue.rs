@@ -1,6 +1,6 @@
 //! The experiments there are.
 
-use super::{BoxError, Error, Experiment, Options, baselines};
+use super::{BoxError, Error, Experiment, Options, baselines, quantizers};
 
 /// One experiment of the catalogue.
 #[derive(Clone, Copy, Debug)]
@@ -15,11 +15,18 @@ pub struct Entry {
 
 /// All experiments, in the order they are listed.
 pub const fn catalogue() -> &'static [Entry] {
-    &[Entry {
-        name: "baselines",
-        title: "Mazes without a map: MSLST's baselines",
-        open: baselines::open,
-    }]
+    &[
+        Entry {
+            name: "baselines",
+            title: "Mazes without a map: MSLST's baselines",
+            open: baselines::open,
+        },
+        Entry {
+            name: "quantizers",
+            title: "Quantizers: states out of scans, clusters out of noise",
+            open: quantizers::open,
+        },
+    ]
 }
 
 /// Makes an experiment ready by its name.

@@ -21,6 +21,7 @@ mod hash;
 mod options;
 mod plots;
 mod progress;
+mod quantizers;
 mod run;
 mod runner;
 mod runs_file;

@@ -1,0 +1,63 @@
+//! A robot's stream is no shuffled one: what the order of inputs does to GNG.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_quantizers::{Gng, GngConfig, Quantizer};
+
+use super::states::Mazes;
+use crate::experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+use crate::pioneer;
+
+/// The table's name.
+pub(super) const NAME: &str = "order of inputs";
+
+const SHUFFLED: &str = "shuffled";
+const IN_TIME: &str = "in time";
+
+/// GNG grows to so many units, and the scans come so many times over.
+const UNITS: usize = 40;
+const PASSES: u32 = 3;
+
+pub(super) fn table() -> Table {
+    Table::new(NAME, "GNG on the scans of the Large maze, in two orders")
+        .field("rms_error", Kind::Number)
+        .field("mean_squared_error", Kind::Number)
+        .field("units", Kind::Count)
+        .metric(Metric::mean("mean_squared_error").titled("MSE").unit("robot units²"))
+        .metric(Metric::mean("rms_error").titled("RMS error").unit("robot units"))
+        .metric(Metric::mean("units").decimals(0))
+        .row(Row::new(SHUFFLED))
+        .row(Row::new(IN_TIME))
+        .note(format!(
+            "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} units; the error is \
+             that of all those scans."
+        ))
+}
+
+pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
+    let scans = mazes.large_scans(job.seed)?;
+    let mut order: Vec<usize> = (0..scans.len()).collect();
+    if job.row == SHUFFLED {
+        let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+        rng.set_stream(4);
+        for end in (1..order.len()).rev() {
+            order.swap(end, rng.random_range(0..=end as u32) as usize);
+        }
+    }
+    let config = GngConfig {
+        max_units: UNITS,
+        ..GngConfig::fritzke()
+    };
+    let mut gng = Gng::<f64>::new(pioneer::ring().beams as usize, config)?;
+    for _ in 0..PASSES {
+        for scan in &order {
+            gng.observe(&scans[*scan])?;
+        }
+    }
+    let error = gng.network().quantization_error(&scans)?;
+    Ok(Fields::new()
+        .number("mean_squared_error", error.mean_squared)
+        .number("rms_error", libm::sqrt(error.mean_squared))
+        .count("units", gng.network().len() as u64))
+}
