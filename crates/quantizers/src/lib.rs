@@ -62,7 +62,7 @@ pub use quantizer::{Observation, Quantizer};
 pub use replay::{Memory, Replay, ReplayConfig, SavedReplay};
 pub use scalar::Scalar;
 pub use soinn::{
-    Denoising, ErrorInsertion, SecondLayerConfig, SecondLayerError, SecondThreshold,
-    SimilarityThreshold, Soinn, SoinnConfig,
+    Denoising, ErrorInsertion, SavedSoinn, SavedTally, SecondLayerConfig, SecondLayerError,
+    SecondThreshold, SimilarityThreshold, Soinn, SoinnConfig,
 };
 pub use unit::{Nearest, NearestTwo, UnitId};

@@ -1,11 +1,13 @@
 //! The self-organizing incremental neural network of Shen and Hasegawa.
 
 mod config;
+mod saved;
 mod second_layer;
 
 use alloc::vec::Vec;
 
 pub use config::{Denoising, ErrorInsertion, SimilarityThreshold, SoinnConfig};
+pub use saved::{SavedSoinn, SavedTally};
 pub use second_layer::{SecondLayerConfig, SecondLayerError, SecondThreshold};
 
 use crate::network::{Best, Candidate};
@@ -42,6 +44,18 @@ use crate::{
 /// # Complexity
 /// A search of the two nearest units an input, and units once a period.
 #[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(
+        try_from = "SavedSoinn<S>",
+        into = "SavedSoinn<S>",
+        bound(
+            serialize = "S: Scalar + serde::Serialize",
+            deserialize = "S: Scalar + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct Soinn<S> {
     config: SoinnConfig,
     network: Network<S>,

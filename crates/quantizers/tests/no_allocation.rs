@@ -4,7 +4,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_quantizers::{Gng, GngConfig, Quantizer, Removal, Utility};
+use tolman_quantizers::{Gng, GngConfig, Quantizer, Removal, Soinn, SoinnConfig, Utility};
 
 /// Allocations of 20,000 inputs after the network has had 60,000.
 fn allocations(dimension: usize, config: GngConfig) -> u64 {
@@ -51,4 +51,19 @@ fn a_grown_network_allocates_nothing() {
     }
     // The counter counts.
     assert!(allocation_counter::measure(|| drop(vec![1_u8; 10])).count_total > 0);
+}
+
+/// A SOINN has as many units as it finds worthwhile; here its data let it come to an end.
+#[test]
+fn a_grown_soinn_allocates_nothing() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let mut soinn = Soinn::<f32>::new(2, SoinnConfig::shen_hasegawa()).unwrap();
+    let mut feed = |inputs: u32| {
+        for _ in 0..inputs {
+            let input: [f32; 2] = core::array::from_fn(|_| rng.random_range(0.0..1.0_f32));
+            soinn.observe(&input).unwrap();
+        }
+    };
+    feed(200_000);
+    assert_eq!(allocation_counter::measure(|| feed(1000)).count_total, 0);
 }

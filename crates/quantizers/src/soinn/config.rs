@@ -5,6 +5,7 @@ use crate::error::within;
 
 /// The parameters of one layer of a SOINN. Its `Default` is [`shen_hasegawa`](Self::shen_hasegawa).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SoinnConfig {
     /// age_dead: edges older than that go; in inputs won by one of the edge's ends, at least 1.
     pub max_age: u32,
@@ -25,6 +26,8 @@ pub struct SoinnConfig {
 /// remembered radii; q and f keep ⅔ of their errors and ¾ of their wins. It is undone if the mean error E / M has
 /// thereby grown beyond the radius remembered from the insertion before, which a unit that has seen none has at +∞.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ErrorInsertion {
     /// Undone if one of q, f, r has a mean error beyond its radius.
@@ -38,6 +41,8 @@ pub enum ErrorInsertion {
 
 /// Which units are taken away every λ inputs, after the insertion. All are judged by the graph as it is before; two units always stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Denoising {
     /// Units without a neighbour, and those with one that have won less than `c` times the mean of all units.
@@ -51,6 +56,8 @@ pub enum Denoising {
 
 /// How far from one of its two nearest units an input is new, so that it becomes a unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SimilarityThreshold {
     /// Farther than the unit's farthest neighbour, or if it has none, than the unit nearest to it (Shen and Hasegawa 2006,

@@ -10,4 +10,5 @@ mod gng;
 mod replay;
 mod saving;
 mod search;
+mod soinn;
 mod streams;

@@ -1,6 +1,8 @@
 //! The quantizers side by side.
 
-use tolman_quantizers::{Gng, GngConfig, GrowthGate, Quantizer, Soinn, SoinnConfig, Utility};
+use tolman_quantizers::{
+    Gng, GngConfig, GrowthGate, Quantizer, Removal, Soinn, SoinnConfig, Utility,
+};
 
 use crate::experiment::BoxError;
 
@@ -23,7 +25,10 @@ pub(super) fn quantizer(
     Ok(match row {
         "GNG" => Box::new(gng(fritzke)?),
         "GNG-U" => Box::new(gng(GngConfig {
-            utility: Some(Utility { threshold: 10.0 }),
+            utility: Some(Utility {
+                threshold: 10.0,
+                removal: Removal::EveryInput,
+            }),
             ..fritzke
         })?),
         "equilibrium GNG" => Box::new(gng(GngConfig {

@@ -1,11 +1,5 @@
 //! SOINN and SOINN-AM, seen from outside.
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test that meets an error has failed"
-)]
-
-extern crate alloc;
+#![expect(clippy::panic, reason = "a test may fail")]
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
@@ -15,8 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_quantizers::{
     AssociativeMemory, ConfigError, Denoising, ErrorInsertion, Event, InputError, Quantizer,
-    Recall, SecondLayerConfig, SecondLayerError, SecondThreshold, SimilarityThreshold, Soinn,
-    SoinnConfig, UnitId,
+    Recall, SavedSoinn, SecondLayerConfig, SecondLayerError, SecondThreshold, SimilarityThreshold,
+    SnapshotError, Soinn, SoinnConfig, UnitId,
 };
 
 /// Algorithm 3.1 word for word: every unit a struct, every edge a map entry, every sum a loop.
@@ -323,6 +317,22 @@ proptest! {
     }
 
     #[test]
+    fn a_resumed_network_goes_on_as_if_nothing_were(
+        seed in any::<u64>(), config in configs(), when in 0_usize..400,
+    ) {
+        let mut soinn = Soinn::<f64>::new(3, config).unwrap();
+        let inputs = clouds(seed, 400);
+        for input in &inputs[..when] {
+            soinn.observe(input).unwrap();
+        }
+        let mut resumed = through_text(&SavedSoinn::from(&soinn));
+        for input in &inputs[when..] {
+            prop_assert_eq!(soinn.observe(input).unwrap(), resumed.observe(input).unwrap());
+        }
+        prop_assert_eq!(SavedSoinn::from(soinn), SavedSoinn::from(resumed));
+    }
+
+    #[test]
     fn bad_inputs_change_nothing(seed in any::<u64>(), bad in prop_oneof![
         Just(vec![f64::NAN, 0.0, 0.0]), Just(vec![0.0, f64::INFINITY, 0.0]), Just(vec![0.0, 0.0, -1e200]),
         Just(vec![]), Just(vec![0.0; 4]),
@@ -335,6 +345,50 @@ proptest! {
         prop_assert!(soinn.observe(&bad).is_err());
         prop_assert_eq!(format!("{soinn:?}"), before);
     }
+}
+
+#[cfg(not(feature = "serde"))]
+fn through_text(saved: &SavedSoinn<f64>) -> Soinn<f64> {
+    saved.clone().try_into().unwrap()
+}
+
+#[cfg(feature = "serde")]
+fn through_text(saved: &SavedSoinn<f64>) -> Soinn<f64> {
+    serde_json::from_str(&serde_json::to_string(saved).unwrap()).unwrap()
+}
+
+#[test]
+fn refuses_what_is_no_network() {
+    let saved = || {
+        let mut soinn = Soinn::<f64>::new(3, SoinnConfig::default()).unwrap();
+        for input in clouds(1, 500) {
+            soinn.observe(&input).unwrap();
+        }
+        SavedSoinn::from(soinn)
+    };
+    let refused = |spoil: &dyn Fn(&mut SavedSoinn<f64>)| {
+        let mut saved = saved();
+        spoil(&mut saved);
+        Soinn::try_from(saved).map(|_| ()).unwrap_err()
+    };
+    use SnapshotError as E;
+    assert!(Soinn::try_from(saved()).is_ok());
+    let error = refused(&|saved| saved.format = "tolman-gng".into());
+    assert!(matches!(error, E::WrongFormat { .. }));
+    let error = refused(&|saved| saved.version = 2);
+    assert!(matches!(error, E::WrongVersion { .. }));
+    let error = refused(&|saved| saved.config.period = 0);
+    assert!(matches!(error, E::Config(_)));
+    let error = refused(&|saved| saved.tallies.truncate(1));
+    assert!(matches!(error, E::WrongCount { .. }));
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let error = refused(&|saved| saved.tallies[0].error = bad);
+        assert!(matches!(error, E::BadNumber { .. }));
+        let error = refused(&|saved| saved.tallies[0].radius = Some(bad));
+        assert!(matches!(error, E::BadNumber { .. }));
+    }
+    let error = refused(&|saved| saved.tallies[0].wins = 0.0);
+    assert!(matches!(error, E::BadNumber { .. }));
 }
 
 #[test]
