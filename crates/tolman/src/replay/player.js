@@ -792,6 +792,8 @@ var TolmanReplay = (() => {
       this.listen();
       this.resize();
       this.seek(this.stepOfAddress() ?? 0);
+      // The first picture is there at once, also where nobody asks for frames: in a tab behind others, on paper.
+      this.frame(performance.now());
     }
 
     // ---- parts
