@@ -1,7 +1,7 @@
-//! Inputs a second that a growing neural gas learns from once it has all its units.
+//! Inputs a second that a growing neural gas learns from once it has all its units, and searches a second.
 //!
-//! One iteration is one input. The table at the end gives the median in million inputs per second of this thread's
-//! processor time, with plain and with the widest lanes.
+//! One iteration is one input. The table at the end gives the median in million per second of this thread's processor
+//! time, by scan with plain and with the widest lanes, and by the index where there is one.
 
 #![expect(
     clippy::unwrap_used,
@@ -27,38 +27,72 @@ const SIZES: [(usize, usize); 6] = [
     (72, 42),
 ];
 
+/// Features and units where only searches are measured.
+const LARGE: [(usize, usize); 2] = [(2, 10_000), (3, 10_000)];
+
+const WAYS: [(&str, Search, Lanes); 3] = [
+    ("scan, plain", Search::Scan, Lanes::Baseline),
+    ("scan, widest lanes", Search::Scan, Lanes::Widest),
+    ("index", Search::Index, Lanes::Widest),
+];
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
-    println!("| features | units | lanes | M inputs/s |");
-    println!("| ---: | ---: | --- | ---: |");
     let mut rows = Vec::new();
     for (dimension, units) in SIZES {
         let inputs = inputs(dimension);
-        for lanes in [Lanes::Baseline, Lanes::Widest] {
-            let mut gng = grown(dimension, units, &inputs, lanes);
+        for (way, search, lanes) in WAYS {
+            if dimension > 4 && search == Search::Index {
+                continue;
+            }
+            let mut gng = grown(dimension, units, 100, &inputs);
+            gng.set_search(search, lanes);
             let mut next = inputs.iter().cycle();
-            let label = format!("observe/{dimension}-d/{units} units/{lanes:?}");
+            let label = format!("learn/{dimension}-d/{units} units/{way}");
             let rate = per_second(&mut criterion, &label, &mut || {
                 gng.observe(next.next().unwrap()).unwrap()
             });
-            if let Some(rate) = rate {
-                let rate = rate / 1e6;
-                rows.push(format!("| {dimension} | {units} | {lanes:?} | {rate:.2} |"));
-            }
+            rows.push(row("learn", dimension, units, way, rate));
+        }
+    }
+    for (dimension, units) in LARGE {
+        let inputs = inputs(dimension);
+        let mut gng = grown(dimension, units, 20, &inputs);
+        for (way, search, lanes) in WAYS {
+            gng.set_search(search, lanes);
+            let mut next = inputs.iter().cycle();
+            let label = format!("nearest two/{dimension}-d/{units} units/{way}");
+            let rate = per_second(&mut criterion, &label, &mut || {
+                gng.nearest_two(next.next().unwrap()).unwrap()
+            });
+            rows.push(row("nearest two", dimension, units, way, rate));
         }
     }
     criterion.final_summary();
-    println!("{}", rows.join("\n"));
+    println!("| what | features | units | search | M/s |");
+    println!("| --- | ---: | ---: | --- | ---: |");
+    println!("{}", rows.concat());
 }
 
-fn grown(dimension: usize, units: usize, inputs: &[Vec<f32>], lanes: Lanes) -> Gng<f32> {
+/// A line of the table, or nothing if the command line left it out.
+fn row(what: &str, dimension: usize, units: usize, way: &str, rate: Option<f64>) -> String {
+    rate.map_or_else(String::new, |rate| {
+        format!(
+            "| {what} | {dimension} | {units} | {way} | {:.2} |\n",
+            rate / 1e6
+        )
+    })
+}
+
+fn grown(dimension: usize, units: usize, growth_period: u32, inputs: &[Vec<f32>]) -> Gng<f32> {
     let config = GngConfig {
         max_units: units,
+        growth_period,
         ..GngConfig::fritzke()
     };
     let mut gng = Gng::new(dimension, config).unwrap();
-    gng.set_search(Search::Automatic, lanes);
-    for input in inputs.iter().cycle().take(units * 150) {
+    let enough = units * growth_period as usize * 5 / 4;
+    for input in inputs.iter().cycle().take(enough) {
         gng.observe(input).unwrap();
     }
     gng
