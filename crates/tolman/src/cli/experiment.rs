@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use tolman::experiment::{
     Build, Disagreement, Error, Options, Program, Terminal, catalogue, execute, open,
-    tables_as_text,
+    tables_as_text, write_replay,
 };
 
 use super::{Failure, ink, interrupt};
@@ -21,7 +21,8 @@ figures/*.svg and config.toml. An interrupted experiment goes on where it stoppe
 Examples:
   tolman experiment baselines
   tolman experiment baselines --quick --out /tmp/look
-  tolman experiment baselines --maze taiwan2016f.txt --maze mine.maze --runs 100")]
+  tolman experiment baselines --maze taiwan2016f.txt --maze mine.maze --runs 100
+  tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
     /// The experiment; all of them one after the other when left out
     name: Option<String>,
@@ -46,6 +47,10 @@ pub(super) struct Arguments {
     /// Few runs, for a first look
     #[arg(long)]
     quick: bool,
+    /// Play one run again and write its replay to replays/ in the folder, and nothing else
+    #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
+    #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
+    replay: Vec<String>,
     /// Exit with 3 if a table disagrees with the paper
     #[arg(long)]
     check: bool,
@@ -60,6 +65,9 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             writeln!(out, "{:<12} {}", entry.name, entry.title)?;
         }
         return Ok(());
+    }
+    if let [table, row, run] = &arguments.replay[..] {
+        return replay(arguments, table, row, run, out);
     }
     let build = Build::current();
     // The first Ctrl-C lets the runs that are being played finish.
@@ -83,6 +91,27 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     if arguments.check && !disagreements.is_empty() {
         let lines: Vec<String> = disagreements.iter().map(told).collect();
         return Err(Failure::Disagrees(anyhow!("{}", lines.join("\n"))));
+    }
+    Ok(())
+}
+
+/// Writes the replay of one run.
+fn replay(
+    arguments: &Arguments,
+    table: &str,
+    row: &str,
+    run: &str,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let run = run.parse().map_err(|_| {
+        Failure::BadInput(anyhow!(
+            "{run:?} is no index of a run; give a whole number from 0 on"
+        ))
+    })?;
+    for (name, options) in arguments.chosen() {
+        let experiment = open(name, &options).map_err(classify)?;
+        let file = write_replay(&*experiment, &options, table, row, run).map_err(classify)?;
+        writeln!(out, "The replay: {}", file.display())?;
     }
     Ok(())
 }

@@ -25,7 +25,7 @@ const DOT: f64 = 3.2;
 /// One run in a box plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
-    /// The measured value.
+    /// The measured value, kept with the dot as `data-value`.
     pub value: f64,
     /// The index of the run, kept with the dot as `data-run`.
     pub run: u32,
@@ -127,7 +127,7 @@ impl BoxPlot {
                 g class="dots" {
                     @for (x, dot) in swarm(&dots, left + 24.0 + BOX + 8.0, y) {
                         circle cx=(tenths(x)) cy=(tenths(y(dot.value))) r="1.8"
-                            data-run=(dot.run) data-seed=(dot.seed) {}
+                            data-run=(dot.run) data-seed=(dot.seed) data-value=(short(dot.value)) {}
                     }
                 }
             }
@@ -158,6 +158,12 @@ impl BoxPlot {
         }
         text
     }
+}
+
+/// A value as short as it can be told: at most four decimals.
+fn short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn finite(dots: &[Dot]) -> Vec<Dot> {

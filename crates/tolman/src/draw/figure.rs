@@ -6,8 +6,19 @@ use super::number::tenths;
 
 /// The style rules of all drawings, with the colours of the light and the dark scheme. A file that
 /// stands alone carries them itself; a page carries them once.
+///
+/// The reader's scheme decides, unless the root element's `data-theme` says `light` or `dark`.
 pub const fn style() -> &'static str {
-    include_str!("style.css")
+    concat!(
+        ":root { color-scheme: light;\n",
+        include_str!("light.css"),
+        "}\n@media (prefers-color-scheme: dark) { :root:not([data-theme=light]) {\n",
+        include_str!("dark.css"),
+        "} }\n:root[data-theme=dark] {\n",
+        include_str!("dark.css"),
+        "}\n",
+        include_str!("style.css")
+    )
 }
 
 /// The content of a picture.

@@ -45,6 +45,7 @@ mod region;
 mod scale;
 mod series;
 mod shade;
+mod simplify;
 mod tiles;
 mod words;
 

@@ -9,6 +9,7 @@ use tolman_sim::{Area, Bounds};
 use crate::course::Course;
 
 use super::number::tenths;
+use super::simplify::simplified;
 use super::words;
 use super::{Drawing, Graph, Region, Series, Shade};
 
@@ -282,12 +283,16 @@ impl Plan {
         }
     }
 
-    /// SVG path data through positions; those that round to the place before are left out.
+    /// SVG path data through positions. Corners that nobody would see are left out, and so is a place
+    /// that rounds to the one before.
     fn path(&self, positions: &[Point]) -> String {
+        let places: Vec<(f64, f64)> = positions
+            .iter()
+            .map(|position| self.at(*position))
+            .collect();
         let mut path = String::new();
         let mut last = (String::new(), String::new());
-        for position in positions {
-            let (x, y) = self.at(*position);
+        for (x, y) in simplified(&places) {
             let here = (tenths(x), tenths(y));
             if here != last {
                 let verb = if path.is_empty() { 'M' } else { 'L' };

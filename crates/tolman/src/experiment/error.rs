@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::BoxError;
+use super::{BoxError, Job};
 
 /// Why an experiment could not be run to its end.
 #[derive(Debug, thiserror::Error)]
@@ -116,6 +116,22 @@ pub enum Error {
         /// Why.
         source: BoxError,
     },
+    /// There is no such table or row.
+    #[error("there is no {what} named {name:?}; choose one of: {known}")]
+    NoRow {
+        /// `table` or `row`.
+        what: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// The runs of a table cannot be replayed.
+    #[error("the runs of table {table} are not recorded, so there is nothing to replay")]
+    NoReplay {
+        /// The table.
+        table: String,
+    },
     /// The pictures could not be made.
     #[error("the figures of experiment {name} could not be drawn")]
     Figures {
@@ -143,6 +159,17 @@ pub enum Error {
 }
 
 impl Error {
+    /// A run that could not be played.
+    pub(super) fn run(job: &Job<'_>, source: BoxError) -> Self {
+        Self::Run {
+            table: job.table.to_owned(),
+            row: job.row.to_owned(),
+            run: job.run,
+            seed: job.seed,
+            source,
+        }
+    }
+
     /// Whether the caller's input is at fault (exit code 2) rather than the machine or the
     /// experiment (exit code 1).
     pub const fn is_bad_input(&self) -> bool {
@@ -155,6 +182,8 @@ impl Error {
                 | Self::Seed { .. }
                 | Self::ForeignFolder { .. }
                 | Self::Busy { .. }
+                | Self::NoRow { .. }
+                | Self::NoReplay { .. }
         )
     }
 }

@@ -19,6 +19,9 @@ const SPARE: &str = "spare.jsonl";
 /// two processes lock two files of the same name.
 const LOCK: &str = ".lock";
 
+/// The folder of single replays, which may be there before any run was played.
+pub(super) const REPLAYS: &str = "replays";
+
 /// An open folder of results. No other process can open it until this is dropped.
 #[derive(Debug)]
 pub(super) struct Folder {
@@ -146,8 +149,9 @@ fn refuse_foreign(path: &Path) -> Result<(), Error> {
     for entry in entries {
         let name = at("read the folder", path, entry)?.file_name();
         let name = name.to_string_lossy();
-        // What a process that died before its first whole file may leave behind.
-        let ours = name == LOCK || (name.starts_with('.') && name.ends_with(".tmp"));
+        // What a process that died before its first whole file may leave behind, and single replays.
+        let ours =
+            name == LOCK || name == REPLAYS || (name.starts_with('.') && name.ends_with(".tmp"));
         if !ours {
             return Err(foreign(
                 path,

@@ -22,6 +22,8 @@ mod options;
 mod plots;
 mod progress;
 mod quantizers;
+mod replay_file;
+mod replays;
 mod run;
 mod runner;
 mod runs_file;
@@ -39,6 +41,8 @@ pub use catalogue::{Entry, catalogue, open};
 pub use error::Error;
 pub use options::{Options, Program};
 pub use progress::{Event, Progress, Remedy, Silent};
+pub use replay_file::write_replay;
+pub use replays::{Recorded, Replays};
 pub use run::{Field, Fields, Job, Kind, Run};
 pub use runner::{Outcome, execute};
 pub use seed::run_seed;
@@ -55,6 +59,7 @@ pub(crate) use terminal::duration;
 pub(crate) use text::{heading, ours, value_with_spread};
 
 use crate::draw::Figure;
+use crate::replay::Replay;
 
 /// What goes wrong inside an experiment; the runner adds where it happened.
 pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
@@ -122,6 +127,11 @@ pub trait Experiment: Sync {
     /// The tables, in the order they are shown.
     fn tables(&self) -> &[Table];
 
+    /// What is left out because it is not here, and how to have it; `None` if all is here.
+    fn skipped(&self) -> Option<&str> {
+        None
+    }
+
     /// Everything, apart from the seed and the number of runs, that the results depend on: mazes
     /// with their whole contents, gains, noise. Two experiments with equal configurations give
     /// equal runs; finished runs are reused only then.
@@ -156,5 +166,17 @@ pub trait Experiment: Sync {
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let _ = runs;
         Ok(Vec::new())
+    }
+
+    /// Plays a run again and records it, so that its dots in the report can be opened. The report
+    /// carries the first runs of each row, as many as fit; [`write_replay`] writes any.
+    ///
+    /// `None`, the default, for runs of which there is nothing to see.
+    ///
+    /// # Errors
+    /// If the run cannot be played again.
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        let _ = job;
+        Ok(None)
     }
 }

@@ -66,6 +66,14 @@ fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[R
         "" => metric.title.clone(),
         unit => format!("{}, {unit}", metric.title),
     };
+    let of_paper = table
+        .rows
+        .iter()
+        .any(|row| row.paper_value(&metric.name).is_some());
+    let caption = match of_paper {
+        true => "Box: quartiles and median. Dots: every run. Diamond: the paper.",
+        false => "Box: quartiles and median. Dots: every run.",
+    };
     let plot = BoxPlot {
         table: table.name.clone(),
         axis,
@@ -76,6 +84,7 @@ fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[R
         format!("Table {}: {}", table.name, metric.title),
         plot.drawing(),
     )
+    .caption(caption)
     .table(&table.name)
 }
 

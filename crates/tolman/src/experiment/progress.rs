@@ -27,6 +27,11 @@ pub enum Event<'a> {
         /// What becomes of its run.
         remedy: Remedy,
     },
+    /// The experiment leaves something out.
+    Skipped {
+        /// What, and how to have it.
+        what: &'a str,
+    },
     /// The runs begin.
     Started {
         /// Runs of the whole experiment.
@@ -43,6 +48,8 @@ pub enum Event<'a> {
         /// How long that took.
         elapsed: Duration,
     },
+    /// The first runs of each row are played again, for the report to replay.
+    Recording,
 }
 
 /// What becomes of the run of a line that cannot be used.

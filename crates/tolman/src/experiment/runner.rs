@@ -10,8 +10,8 @@ use super::config_file::ConfigFile;
 use super::folder::Folder;
 use super::runs_file::{Appender, Key, Runs};
 use super::{
-    Analysis, Build, Error, Event, Experiment, Job, Options, Progress, Run, Summary, check, plots,
-    run_seed,
+    Analysis, Build, Error, Event, Experiment, Job, Options, Progress, Replays, Run, Summary,
+    check, plots, replays, run_seed,
 };
 use crate::draw::Figure;
 use crate::report;
@@ -26,6 +26,8 @@ pub struct Outcome {
     pub title: String,
     /// The paper whose tables these are; empty if there is none.
     pub source: String,
+    /// What the experiment leaves out because it is not here.
+    pub skipped: Option<String>,
     /// Where the results lie.
     pub folder: PathBuf,
     /// The command that makes them again.
@@ -50,6 +52,8 @@ pub struct Outcome {
     pub summary: Summary,
     /// The pictures.
     pub figures: Vec<Figure>,
+    /// The replays that the report carries.
+    pub replays: Replays,
 }
 
 /// Runs an experiment: resumes its folder, plays what is missing, and writes `config.toml`,
@@ -69,6 +73,9 @@ pub fn execute(
     check::options(options, experiment)?;
     check::tables(experiment)?;
     let runs_per_row = options.runs_of(experiment);
+    if let Some(what) = experiment.skipped() {
+        progress.event(&Event::Skipped { what });
+    }
     let config = ConfigFile::new(experiment, options, build)?;
     let path = options.folder_of(experiment.name());
     let folder = Folder::open(&path, &config, progress)?;
@@ -99,13 +106,14 @@ pub fn execute(
         played: played.len() as u64,
         elapsed,
     });
+    let interrupted = |done: u64| Error::Interrupted {
+        done,
+        total,
+        folder: path.clone(),
+        command: config.command.clone(),
+    };
     if known.len() + played.len() < jobs.len() {
-        return Err(Error::Interrupted {
-            done: (known.len() + played.len()) as u64,
-            total,
-            folder: path,
-            command: config.command,
-        });
+        return Err(interrupted((known.len() + played.len()) as u64));
     }
 
     let played_count = played.len() as u64;
@@ -123,10 +131,14 @@ pub fn execute(
     })?);
     check::figures(experiment, &figures)?;
     folder.write_figures(&figures)?;
+    progress.event(&Event::Recording);
+    let record = || replays::record(experiment, options.seed, runs_per_row, progress);
+    let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
     let outcome = Outcome {
         name: experiment.name().to_owned(),
         title: experiment.title().to_owned(),
         source: experiment.source().to_owned(),
+        skipped: experiment.skipped().map(str::to_owned),
         folder: path,
         command: config.command,
         seed: options.seed,
@@ -139,6 +151,7 @@ pub fn execute(
         analysis,
         summary,
         figures,
+        replays,
     };
     folder.write("report.html", &report::html(&outcome))?;
     Ok(outcome)
@@ -204,11 +217,5 @@ fn play_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Run, Error> {
         check::run(experiment, &run)?;
         Ok(run)
     });
-    played.map_err(|source| Error::Run {
-        table: job.table.to_owned(),
-        row: job.row.to_owned(),
-        run: job.run,
-        seed: job.seed,
-        source,
-    })
+    played.map_err(|source| Error::run(job, source))
 }

@@ -95,6 +95,12 @@ impl Progress for Terminal {
                     ));
                 }
             }
+            Event::Skipped { what } => self.line(what),
+            Event::Recording => {
+                if on_terminal() {
+                    self.line("recording the first runs of each row for the report");
+                }
+            }
         }
     }
 

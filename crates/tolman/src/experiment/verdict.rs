@@ -66,11 +66,24 @@ impl Verdict {
                 (own, Basis::PaperInterval)
             }
         };
+        // Of a whole there is no less than none and no more than all.
+        let accepted = match metric.statistic {
+            Statistic::Percent { .. } => within(accepted, 100.0),
+            Statistic::Count { whole, .. } => within(accepted, f64::from(whole)),
+            _ => accepted,
+        };
         Some(Self {
             matches: accepted.contains(ours),
             accepted,
             basis,
         })
+    }
+}
+
+fn within(interval: Interval, whole: f64) -> Interval {
+    Interval {
+        low: interval.low.max(0.0),
+        high: interval.high.min(whole),
     }
 }
 

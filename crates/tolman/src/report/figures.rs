@@ -30,13 +30,17 @@ pub(super) fn others(figures: &[Figure]) -> Markup {
     }
 }
 
+/// A picture wider than this may have to be scrolled on a phone, which the keyboard can do in focus.
+const PHONE: f64 = 340.0;
+
 fn one(figure: &Figure) -> Markup {
+    let wide = figure.drawing.width > PHONE;
     html! {
         // As wide as its picture, so that the caption does not push the next figure away.
         figure style=(format!("width: min(100%, {:.0}px)", figure.drawing.width)) {
-            div.wide { (figure.inline()) }
+            div.wide tabindex=[wide.then_some("0")] { (figure.inline()) }
             figcaption {
-                strong { (figure.title) }
+                strong { (figure.title) "." }
                 @if !figure.caption.is_empty() { " " (figure.caption) }
             }
         }

@@ -20,6 +20,7 @@ pub(super) fn header(outcome: &Outcome) -> Markup {
     };
     html! {
         header {
+            button #theme type="button" title="light or dark" aria-label="dark colours" { "◐" }
             h1 { (outcome.title) }
             @if !outcome.source.is_empty() { p.source { (outcome.source) } }
             p.meta {
@@ -29,6 +30,7 @@ pub(super) fn header(outcome: &Outcome) -> Markup {
                 " · " (time)
             }
             p.meta { "make it again: " code { (outcome.command) } }
+            @if let Some(skipped) = &outcome.skipped { p.skipped { (skipped) } }
         }
     }
 }
@@ -67,6 +69,28 @@ pub(super) fn cards(outcome: &Outcome) -> Markup {
                 ))
             }
             @if outcome.played > 0 { (card(&duration(outcome.elapsed), "to play the runs")) }
+        }
+    }
+}
+
+/// Links to the tables, with how many of their values match, where there is more than one.
+pub(super) fn contents(outcome: &Outcome) -> Markup {
+    let tables = &outcome.analysis.tables;
+    html! {
+        @if tables.len() > 1 {
+            nav aria-label="tables" {
+                @for (number, table) in (1_u32..).zip(tables) {
+                    @let verdicts = || {
+                        let rows = table.metrics.iter().flat_map(|metric| &metric.rows);
+                        rows.filter_map(|row| row.verdict)
+                    };
+                    @let (matching, all) = (verdicts().filter(|v| v.matches).count(), verdicts().count());
+                    a href={ "#table-" (number) } {
+                        "Table " (table.table.name)
+                        @if all > 0 { span { (matching) " / " (all) " match" } }
+                    }
+                }
+            }
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use maud::{Markup, html};
 
+use super::replays;
+
 use crate::experiment::{
     Basis, Metric, Outcome, RESAMPLES, Statistic, Tolerance, Verdict, heading,
 };
@@ -36,6 +38,8 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
     let by_interval = verdicts
         .iter()
         .any(|verdict| verdict.basis == Basis::PaperInterval);
+    let carried = replays::carried(outcome);
+    let partly = outcome.replays.of_each_row < outcome.runs_per_row;
     html! {
         section.notes {
             h2 { "How to read this" }
@@ -47,7 +51,7 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
                              interval of the paper's own sample: exact binomial for a share, mean \
                              ± 1.96 standard errors for a mean. "
                         }
-                        "The accepted values show when the pointer rests on a verdict."
+                        "The accepted values stand beside the verdict."
                     }
                 }
                 li { b { "95 % interval. " }
@@ -63,13 +67,20 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
                     li { b { "p. " } "Mann–Whitney U, two-sided, against the reference row, corrected for the \
                          comparisons within a metric. " b { "A" sub { "12" } ". " }
                          "The probability that a run of the row has a greater value than one of the \
-                         reference row; 0.5 is no difference."
+                         reference row; 0.5 is no difference, 0.56, 0.64 and 0.71 (0.44, 0.36, 0.29) begin a small, \
+                         medium and large one (Vargha and Delaney)."
                     }
                 }
                 @if mean || median {
                     li { b { "Box plots. " } "Box: R-7 quartiles and median. Whiskers: the last datum within \
                          1.5 interquartile ranges. Dots: every run. Diamond and bar: the paper's value and \
                          standard deviation." }
+                }
+                @if !carried.is_empty() {
+                    li { b { "Replays. " } "A click on a dot opens that run. With the keyboard: Tab to a plot, \
+                         arrow keys from dot to dot, Enter to open, Esc to close. " (carried)
+                        @if partly { " The dots of these runs are drawn stronger; the others show the command that replays them." }
+                    }
                 }
                 li { b { "Seeds. " } "The seed of a run comes from the master seed, the table and the index of \
                      the run, so the rows of a table meet the same starts. " code { "runs.jsonl" }

@@ -10,30 +10,31 @@ use crate::experiment::{
     value_with_spread,
 };
 
-/// The section of a table with its figures.
-pub(super) fn section(analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
+/// The section of the table of this number, from 1, with its figures.
+///
+/// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by the
+/// `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card: name and
+/// verdict above, the other cells below with their `data-label`.
+pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
     let table = &analysis.table;
-    let comparison = table.comparison.as_ref();
-    let of_paper = of_paper(analysis);
+    let columns = Columns::of(analysis);
     html! {
-        section {
+        section id={ "table-" (number) } {
             h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
-            div.wide {
-                table {
-                    thead { tr {
-                        th { "row" }
-                        @if of_paper { th { "paper" } }
-                        th { "ours" }
-                        th { "also" }
-                        th { "95 % interval" }
-                        @if let Some(Comparison { reference, correction }) = comparison {
-                            th { "p vs. " (reference) " (" (correction.name()) ")" }
-                            th { "A" sub { "12" } }
-                        }
-                        @if of_paper { th { "verdict" } }
-                    } }
-                    @for metric in &analysis.metrics { (group(analysis, metric)) }
-                }
+            table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
+                thead { tr {
+                    (sortable("row", &html! { "row" }))
+                    @if columns.paper { (sortable("paper", &html! { "paper" })) }
+                    (sortable("ours", &html! { "ours" }))
+                    @if columns.also { th.also { "also" } }
+                    th.interval { "95 % interval" }
+                    @if let Some(Comparison { reference, correction }) = columns.comparison {
+                        (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
+                        (sortable("effect", &html! { "A" sub { "12" } }))
+                    }
+                    @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
+                } }
+                @for metric in &analysis.metrics { (group(analysis, &columns, metric)) }
             }
             @if !table.note.is_empty() { p.note { (table.note) } }
             (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
@@ -41,95 +42,165 @@ pub(super) fn section(analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
     }
 }
 
-/// The rows of one metric below its heading.
-fn group(analysis: &TableAnalysis, metric: &MetricAnalysis) -> Markup {
-    let comparison = analysis.table.comparison.as_ref();
-    let columns = if comparison.is_some() { 6 } else { 4 } + if of_paper(analysis) { 2 } else { 0 };
+/// Which columns a table has, beside those that all have.
+struct Columns<'a> {
+    /// Whether the paper says anything of the table.
+    paper: bool,
+    /// Whether a metric is a mean or a median, beside which stands the other.
+    also: bool,
+    comparison: Option<&'a Comparison>,
+}
+
+impl<'a> Columns<'a> {
+    fn of(analysis: &'a TableAnalysis) -> Self {
+        let mut rows = analysis.metrics.iter().flat_map(|metric| &metric.rows);
+        let mut metrics = analysis
+            .metrics
+            .iter()
+            .map(|metric| &metric.metric.statistic);
+        Self {
+            paper: rows.any(|row| row.paper.is_some()),
+            also: metrics.any(|s| matches!(s, Statistic::Mean { .. } | Statistic::Median { .. })),
+            comparison: analysis.table.comparison.as_ref(),
+        }
+    }
+
+    fn count(&self) -> u32 {
+        let when = |there: bool, columns: u32| if there { columns } else { 0 };
+        3 + when(self.paper, 2) + when(self.also, 1) + when(self.comparison.is_some(), 2)
+    }
+}
+
+fn sortable(column: &str, title: &Markup) -> Markup {
     html! {
-        tbody {
-            tr.metric { th colspan=(columns) { (heading(&metric.metric)) } }
+        th class=(column) scope="col" data-sort=(column) aria-sort="none" {
+            button type="button" title="sort; once more for the other way, and again for the table's order" {
+                (title)
+            }
+        }
+    }
+}
+
+/// The rows of one metric below its heading.
+fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysis) -> Markup {
+    html! {
+        tbody data-metric=(metric.metric.name) {
+            tr.metric { th colspan=(columns.count()) scope="rowgroup" { (heading(&metric.metric)) } }
             @for measured in &metric.rows {
                 @let place = analysis.table.rows.iter().position(|row| row.name == measured.row);
-                (row(analysis, &metric.metric, measured, place.unwrap_or(0)))
+                (row(columns, &metric.metric, measured, place.unwrap_or(0)))
             }
         }
     }
 }
 
-/// Whether the paper says anything of the table.
-fn of_paper(analysis: &TableAnalysis) -> bool {
-    let mut rows = analysis.metrics.iter().flat_map(|metric| &metric.rows);
-    rows.any(|row| row.paper.is_some())
-}
-
-fn row(analysis: &TableAnalysis, metric: &Metric, measured: &Measured, place: usize) -> Markup {
-    let comparison = analysis.table.comparison.as_ref();
-    let of_paper = of_paper(analysis);
+fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize) -> Markup {
     let decimals = usize::from(metric.decimals);
     let series = Series(u32::try_from(place).unwrap_or(0));
-    let is_reference = comparison.is_some_and(|comparison| comparison.reference == measured.row);
+    let also = also(metric, measured);
     html! {
-        tr {
-            th scope="row" { span class={ "swatch " (series.class()) } {} (measured.row) }
-            @if of_paper {
-                td {
-                    @if let Some(paper) = &measured.paper {
+        tr data-place=(place) {
+            th scope="row" data-column="row" data-value=(measured.row) {
+                span class={ "swatch " (series.class()) } {} (measured.row)
+            }
+            @if columns.paper {
+                @if let Some(paper) = &measured.paper {
+                    td data-label="paper" data-column="paper" data-value=(paper.value) {
                         (value_with_spread(metric, paper.value, paper.sd))
-                    } @else { (none()) }
-                }
+                    }
+                } @else { td.none { "–" } }
             }
-            td { (ours(metric, measured)) }
-            td.quiet { (also(metric, measured)) }
-            td.quiet {
-                @if let Some(interval) = measured.interval {
+            td data-label="ours" data-column="ours" data-value=(measured.value) { (ours(metric, measured)) }
+            @if columns.also {
+                @if let Some(also) = also { td.quiet data-label="also" { (also) } } @else { td.none { "–" } }
+            }
+            @if let Some(interval) = measured.interval {
+                td.quiet data-label="95 % interval" {
                     (format!("{:.decimals$} – {:.decimals$}", interval.low, interval.high))
-                } @else { (none()) }
-            }
-            @if comparison.is_some() {
-                @if let Some(contrast) = measured.contrast {
-                    td class=[(contrast.p.value() < SIGNIFICANT).then_some("strong")] { (contrast.p) }
-                    td { (format!("{:.2}", contrast.a12)) }
-                } @else if is_reference {
-                    td.quiet colspan="2" { "reference" }
-                } @else {
-                    td { (none()) }
-                    td { (none()) }
                 }
-            }
-            @if of_paper { td { (badge(metric, measured.verdict)) } }
+            } @else { td.none { "–" } }
+            @if let Some(comparison) = columns.comparison { (contrast(comparison, measured)) }
+            @if columns.paper { (verdict(metric, measured.verdict)) }
         }
     }
 }
 
-fn badge(metric: &Metric, verdict: Option<Verdict>) -> Markup {
+/// p and effect size.
+fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
+    let versus = format!("p vs. {}", comparison.reference);
+    html! {
+        @if let Some(contrast) = measured.contrast {
+            td class=[(contrast.p.value() < SIGNIFICANT).then_some("strong")] data-label=(versus)
+                data-column="p" data-value=(contrast.p.ln()) { (contrast.p) }
+            td data-label="A₁₂" data-column="effect" data-value=(contrast.a12) {
+                (format!("{:.2}", contrast.a12)) " " span.quiet { (magnitude(contrast.a12)) }
+            }
+        } @else if comparison.reference == measured.row {
+            td.quiet.none colspan="2" { "reference" }
+        } @else {
+            td.none { "–" }
+            td.none { "–" }
+        }
+    }
+}
+
+/// How large an effect is, in the words of Vargha and Delaney ("A critique and improvement of the CL
+/// common language effect size statistics of McGraw and Wong", 2000).
+fn magnitude(a12: f64) -> &'static str {
+    match (a12 - 0.5).abs() {
+        distance if distance < 0.06 => "none",
+        distance if distance < 0.14 => "small",
+        distance if distance < 0.21 => "medium",
+        _ => "large",
+    }
+}
+
+fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
     let decimals = usize::from(metric.decimals);
     html! {
         @if let Some(Verdict { matches, accepted, .. }) = verdict {
-            span class=(if matches { "badge matches" } else { "badge differs" })
-                title=(format!("matches between {:.decimals$} and {:.decimals$}", accepted.low, accepted.high))
-            { (if matches { "matches" } else { "differs" }) }
-        } @else { (none()) }
+            td.verdict data-column="verdict" data-value=(if matches { "matches" } else { "differs" }) {
+                span.accepted {
+                    (format!("{:.decimals$} – {:.decimals$}", accepted.low, accepted.high))
+                }
+                span class=(if matches { "badge matches" } else { "badge differs" }) {
+                    (if matches { "matches" } else { "differs" })
+                }
+            }
+        } @else { td.verdict.none { "–" } }
     }
 }
 
 /// The median beside a mean, the mean beside a median.
-fn also(metric: &Metric, measured: &Measured) -> Markup {
+fn also(metric: &Metric, measured: &Measured) -> Option<String> {
     let decimals = usize::from(metric.decimals);
-    let told = match metric.statistic {
+    match metric.statistic {
         Statistic::Mean { .. } => measured
             .median
             .map(|value| format!("median {value:.decimals$}")),
-        Statistic::Median { .. } => measured
-            .mean
-            .map(|mean| format!("mean {}", value_with_spread(metric, mean, measured.sd))),
+        Statistic::Median { .. } => {
+            let mean = value_with_spread(metric, measured.mean?, measured.sd);
+            Some(format!("mean {mean}"))
+        }
         _ => None,
-    };
-    html! {
-        @if let Some(told) = told { (told) } @else { (none()) }
     }
 }
 
-/// A cell without a value.
-fn none() -> Markup {
-    html! { span.quiet { "–" } }
+#[cfg(test)]
+mod tests {
+    use super::magnitude;
+
+    #[test]
+    fn effects_have_vargha_and_delaneys_names() {
+        for (a12, expect) in [
+            (0.5, "none"),
+            (0.57, "small"),
+            (0.37, "small"),
+            (0.35, "medium"),
+            (0.72, "large"),
+            (0.0, "large"),
+        ] {
+            assert_eq!(magnitude(a12), expect, "{a12}");
+        }
+    }
 }

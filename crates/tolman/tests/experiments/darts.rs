@@ -6,7 +6,9 @@ use tolman::draw::{Figure, Plan, Series, Zone};
 use tolman::experiment::{
     BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Row, Run, Table, Tolerance,
 };
-use tolman_geom::Point;
+use tolman::replay::{Replay, Scenery, Track};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::Body;
 
 /// The most darts of a run.
 const DARTS: u32 = 10;
@@ -16,6 +18,8 @@ pub(crate) struct Darts {
     pub(crate) tables: Vec<Table>,
     /// Half the side of the board.
     pub(crate) reach: f64,
+    /// How often a replay goes over the darts.
+    pub(crate) replay_length: usize,
 }
 
 impl Darts {
@@ -61,6 +65,7 @@ impl Darts {
         Self {
             tables: vec![near, far],
             reach: 1.0,
+            replay_length: 1,
         }
     }
 
@@ -158,5 +163,24 @@ impl Experiment for Darts {
             plan.drawing("The board with the darts of three players, joined by lines.")
         });
         Ok(vec![figure.caption("Ring: first dart. Dot: last dart.")])
+    }
+
+    /// The darts of the near board, as if a robot went from one to the next.
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        if job.table != "1 (near)" {
+            return Ok(None);
+        }
+        let poses = self.throws(job).into_iter();
+        let poses: Vec<Pose> = poses.map(|at| Pose::new(at, Heading::EAST)).collect();
+        let long = poses.iter().cycle().take(poses.len() * self.replay_length);
+        let body = Body::Circle { radius: 0.05 };
+        let track = Track::new(job.row, body, long.copied().collect());
+        let title = format!("Run {} <of {}>", job.run, job.row);
+        Ok(Some(Replay::new(
+            title,
+            0.1,
+            Scenery::default(),
+            vec![track],
+        )))
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use tolman::experiment::{
-    Error, Ink, Metric, Options, Program, Row, Run, Tolerance, open, tables_as_text,
+    Error, Ink, Metric, Options, Program, Row, Run, Tolerance, open, tables_as_text, write_replay,
 };
 
 use crate::darts::Darts;
@@ -265,19 +265,146 @@ fn the_report_is_one_file_without_network() {
         .skip(1)
         .map(|rest| rest.split('"').next().unwrap())
         .collect();
+    for named in [
+        "table-1",
+        "table-2",
+        "theme",
+        "replay-dialog",
+        "box-1-throws",
+        "box-1-throws-title",
+    ] {
+        assert!(ids.contains(&named), "{named}");
+    }
     let all = ids.len();
     ids.sort_unstable();
     ids.dedup();
-    assert_eq!(
-        (ids.len(), all),
-        (3 * 5, 3 * 5),
-        "every figure, title and description once"
-    );
+    assert_eq!(ids.len(), all, "no id twice");
 
     // Every run is a dot in each of the two plots of its table.
     for run in &outcome.runs {
         let dot = format!("data-run=\"{}\" data-seed=\"{}\"", run.run, run.seed);
         assert_eq!(page.matches(&dot).count(), 2 * 3, "{dot}");
+    }
+}
+
+#[test]
+fn the_report_carries_the_replays_of_the_first_runs_of_each_row() {
+    let out = fresh("replays").join("out");
+    let darts = Darts::new();
+    let outcome = run(&darts, &options(&out)).0.unwrap();
+    assert_eq!(outcome.replays.of_each_row, 25);
+    assert!(outcome.replays.tables.iter().eq(["1 (near)"]));
+    let page = read(&out, "report.html");
+    assert_eq!(page.matches(" data-replay ").count(), 3 * 25);
+    assert!(page.contains("carries the replays of runs 0 to 24 of each row"));
+    // What a player reads here and in a file of its own is the same run.
+    let run_7 = page
+        .split("data-row=\"Adept\" data-run=\"7\">")
+        .nth(1)
+        .unwrap();
+    let run_7 = run_7.split("</script>").next().unwrap();
+    let written = write_replay(&darts, &options(&out), "1 (near)", "Adept", 7).unwrap();
+    assert!(written.ends_with("replays/1-2-7.html"));
+    assert!(fs::read_to_string(written).unwrap().contains(run_7));
+    // The script knows what plays the others.
+    assert!(page.contains(r#""shell":"'1 (near)'""#));
+
+    let few = Options {
+        runs: Some(3),
+        ..options(&fresh("replays").join("few"))
+    };
+    run(&darts, &few).0.unwrap();
+    let page = read(few.out.as_ref().unwrap(), "report.html");
+    assert!(page.contains("This page carries the replay of every run."));
+}
+
+#[test]
+fn replays_that_are_long_are_fewer_so_that_a_page_stays_below_its_size() {
+    let out = fresh("long-replays").join("out");
+    let mut darts = Darts::new();
+    darts.replay_length = 7000;
+    let outcome = run(&darts, &options(&out)).0.unwrap();
+    let replays = outcome.replays;
+    assert!(
+        (1..25).contains(&replays.of_each_row),
+        "{}",
+        replays.of_each_row
+    );
+    assert_eq!(replays.recorded.len(), 3 * replays.of_each_row as usize);
+    let bytes: usize = replays.recorded.iter().map(|one| one.json.len()).sum();
+    assert!(bytes <= replays.budget);
+    assert!(read(&out, "report.html").len() < 5_000_000);
+}
+
+/// 25 runs of each of 8 rows, told from 2 runs: a page grows by no more than its runs.
+#[test]
+fn the_report_of_two_mazes_stays_below_five_megabytes() {
+    let out = fresh("page-size").join("out");
+    let options = Options {
+        runs: Some(2),
+        ..options(&out)
+    };
+    let mut experiment_options = options.clone();
+    experiment_options.mazes = ["j", "large"]
+        .map(|name| format!("../../mazes/{name}.maze").into())
+        .to_vec();
+    let experiment = open("baselines", &experiment_options).unwrap();
+    let outcome = run(&*experiment, &options).0.unwrap();
+    assert_eq!(outcome.replays.recorded.len(), 2 * 8);
+    let size = read(&out, "report.html").len();
+    assert!(size * 25 / 2 < 5_000_000, "{size}");
+}
+
+#[test]
+fn a_replay_can_be_written_before_the_experiment_is_run() {
+    let out = fresh("replay-first").join("out");
+    let (darts, options) = (Darts::new(), options(&out));
+    write_replay(&darts, &options, "1 (near)", "Master", 1000).unwrap();
+    for (table, row, what) in [
+        ("9", "Adept", "choose one of: 1 (near), 2 (far)"),
+        ("1 (near)", "adept", "choose one of: Novice, Adept, Master"),
+        ("2 (far)", "Adept", "not recorded"),
+    ] {
+        let error = write_replay(&darts, &options, table, row, 0).unwrap_err();
+        assert!(
+            error.is_bad_input() && error.to_string().contains(what),
+            "{error}"
+        );
+    }
+    run(&darts, &options).0.unwrap();
+    assert!(out.join("replays/1-3-1000.html").exists());
+}
+
+#[test]
+fn tables_can_be_sorted_and_read_without_their_head() {
+    let out = fresh("sorting").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let page = read(&out, "report.html");
+    let table = page
+        .split("<table")
+        .nth(1)
+        .unwrap()
+        .split("</table>")
+        .next()
+        .unwrap();
+    let sorts = ["row", "paper", "ours", "p", "effect", "verdict"];
+    for column in sorts {
+        let head = format!(
+            "scope=\"col\" data-sort=\"{column}\" aria-sort=\"none\"><button type=\"button\""
+        );
+        assert!(table.contains(&head), "{column} in {table}");
+        let cell = format!("data-column=\"{column}\" data-value=\"");
+        assert!(table.contains(&cell), "{column}");
+    }
+    assert_eq!(table.matches("data-sort").count(), sorts.len());
+    assert_eq!(table.matches("data-place").count(), 3 * 4);
+    // On a phone a cell stands without its column's head: it names itself, or is left out.
+    for cell in table.split("<td").skip(1) {
+        let tag = cell.split('>').next().unwrap();
+        let named = ["data-label=", "verdict", "none"]
+            .iter()
+            .any(|name| tag.contains(name));
+        assert!(named, "{tag}");
     }
 }
 

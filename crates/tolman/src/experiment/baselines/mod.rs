@@ -14,10 +14,11 @@ use super::{
     BoxError, Comparison, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row,
     Run, Table, Tolerance,
 };
-use crate::agents::{Agent, Cast};
+use crate::agents::{Agent, Cast, Mind};
 use crate::draw::Figure;
 use crate::episode::{self, Episode, EpisodeError, Trial};
 use crate::pioneer;
+use crate::replay::{Recorder, Replay};
 
 use worlds::Venue;
 
@@ -29,6 +30,8 @@ struct Baselines {
     /// The agents of each venue.
     casts: Vec<Cast>,
     tables: Vec<Table>,
+    /// What is not here.
+    skipped: Option<String>,
 }
 
 /// Reads the worlds and sets the tables up.
@@ -36,11 +39,8 @@ struct Baselines {
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.
 pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
-    let (venues, missing) = worlds::venues(&options.mazes)?;
+    let (venues, skipped) = worlds::venues(&options.mazes)?;
     let mut tables: Vec<Table> = venues.iter().map(table).collect();
-    if let (Some(missing), Some(table)) = (missing, tables.last_mut()) {
-        table.note = format!("{} {missing}", table.note);
-    }
     tables.push(detector::table());
     let casts = venues.iter().map(|_| Cast::default()).collect();
     Ok(Box::new(Baselines {
@@ -48,6 +48,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         venues,
         casts,
         tables,
+        skipped,
     }))
 }
 
@@ -109,8 +110,8 @@ impl Baselines {
             .find(|(_, venue)| venue.table == table)
     }
 
-    /// Plays one run; also how figures play it again.
-    fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
+    /// What a run is made of; `None` for one of the detector.
+    fn cast(&self, job: &Job<'_>) -> Result<Option<(Trial<'_>, Mind)>, EpisodeError> {
         let (Some((index, venue)), Some(agent)) = (self.venue(job.table), Agent::named(job.row))
         else {
             return Ok(None);
@@ -122,7 +123,15 @@ impl Baselines {
             step_limit: venue.step_limit,
             seed: job.seed,
         };
-        let mut mind = self.casts[index].mind(agent, &venue.course, &self.robot)?;
+        let mind = self.casts[index].mind(agent, &venue.course, &self.robot)?;
+        Ok(Some((trial, mind)))
+    }
+
+    /// Plays one run; also how figures play it again.
+    fn episode(&self, job: &Job<'_>) -> Result<Option<Episode>, EpisodeError> {
+        let Some((trial, mut mind)) = self.cast(job)? else {
+            return Ok(None);
+        };
         episode::run(&trial, &mut mind, |_| {}).map(Some)
     }
 }
@@ -146,6 +155,10 @@ impl Experiment for Baselines {
 
     fn tables(&self) -> &[Table] {
         &self.tables
+    }
+
+    fn skipped(&self) -> Option<&str> {
+        self.skipped.as_deref()
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
@@ -204,5 +217,15 @@ impl Experiment for Baselines {
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         figures::of(self, runs)
+    }
+
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        let Some((trial, mut mind)) = self.cast(job)? else {
+            return Ok(None);
+        };
+        let mut recorder = Recorder::new(&trial);
+        let episode = episode::run(&trial, &mut mind, |moment| recorder.see(moment))?;
+        let title = format!("{} in {}, run {}", job.row, trial.course.name, job.run);
+        Ok(Some(recorder.finish(title, &episode)))
     }
 }
