@@ -4,11 +4,13 @@
 //! runs in it, one of the [`agents`] its mind, and an [`episode`] one run. An [`experiment`] plays
 //! every run of its tables, [`stats`] weighs the runs against each other and against the paper,
 //! [`draw`] makes pictures of them, [`replay`] plays them and [`report`] gathers everything on one page. [`data`] finds what
-//! other people measured, [`files`] writes ours; [`shell`] spells commands.
+//! other people measured, [`files`] writes ours; [`shell`] spells commands. In the [`competition`] a micromouse
+//! explores a maze for its speed run.
 
 extern crate alloc;
 
 pub mod agents;
+pub mod competition;
 pub mod course;
 pub mod data;
 pub mod draw;
