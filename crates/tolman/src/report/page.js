@@ -164,7 +164,10 @@
       const dot = event.detail === 0 ? event.target.closest("[data-run]") : nearest(dots, event.clientX, event.clientY);
       if (dot) { focusDot(plot, dot); open(dot); }
     });
-    plot.addEventListener("focusin", event => showTip(event.target));
+    plot.addEventListener("focusin", event => {
+      // Browsers may give the plot itself the focus.
+      if (event.target.matches("[data-run]")) showTip(event.target);
+    });
     plot.addEventListener("focusout", hideTip);
     plot.addEventListener("keydown", event => {
       const dot = event.target.closest("[data-run]");

@@ -21,20 +21,22 @@ pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure])
     html! {
         section id={ "table-" (number) } {
             h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
-            table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
-                thead { tr {
-                    (sortable("row", &html! { "row" }))
-                    @if columns.paper { (sortable("paper", &html! { "paper" })) }
-                    (sortable("ours", &html! { "ours" }))
-                    @if columns.also { th.also { "also" } }
-                    th.interval { "95 % interval" }
-                    @if let Some(Comparison { reference, correction }) = columns.comparison {
-                        (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
-                        (sortable("effect", &html! { "A" sub { "12" } }))
-                    }
-                    @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
-                } }
-                @for metric in &analysis.metrics { (group(analysis, &columns, metric)) }
+            div.wide {
+                table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
+                    thead { tr {
+                        (sortable("row", &html! { "row" }))
+                        @if columns.paper { (sortable("paper", &html! { "paper" })) }
+                        (sortable("ours", &html! { "ours" }))
+                        @if columns.also { th.also { "also" } }
+                        th.interval { "95 % interval" }
+                        @if let Some(Comparison { reference, correction }) = columns.comparison {
+                            (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
+                            (sortable("effect", &html! { "A" sub { "12" } }))
+                        }
+                        @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
+                    } }
+                    @for metric in &analysis.metrics { (group(analysis, &columns, metric)) }
+                }
             }
             @if !table.note.is_empty() { p.note { (table.note) } }
             (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
