@@ -165,6 +165,8 @@ fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
                 span.accepted {
                     (format!("{:.decimals$} – {:.decimals$}", accepted.low, accepted.high))
                 }
+                // Where they do not fit beside each other the line breaks here.
+                " "
                 span class=(if matches { "badge matches" } else { "badge differs" }) {
                     (if matches { "matches" } else { "differs" })
                 }
