@@ -60,19 +60,24 @@ fn a_replay_plays_pauses_and_goes_where_it_is_told() {
     tab.assert_content();
 }
 
+/// Waits until what was asked for is on the screen.
+const DRAWN: &str = "(async () => {
+  do for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+  while (tolmanReplay.asked);
+})()";
+
 #[test]
 #[ignore = "needs a browser"]
 fn layers_can_be_hidden() {
     let Some(mut tab) = tab() else { return };
     let (folder, page) = demo("replay-layers");
     tab.load(&page, "#t=60");
-    let settled = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))";
     let mut looks = Vec::new();
     for layer in ["", "trajectory", "beams"] {
         if !layer.is_empty() {
             tab.click(&format!("[data-layer={layer}]"));
         }
-        tab.eval(settled);
+        tab.eval(DRAWN);
         looks.push(
             tab.look(&folder.join(format!("without-{layer}.png")))
                 .ground,
@@ -88,12 +93,15 @@ fn layers_can_be_hidden() {
 fn a_replay_is_seen_in_every_light_and_on_every_width() {
     let Some(mut tab) = tab() else { return };
     let (folder, page) = demo("replay-look");
+    tab.load(&page, "#t=80");
+    tab.until("tolmanReplay.step === 80");
     for (width, height) in [(1200, 800), (375, 667), (320, 480)] {
         tab.resize(width, height);
         for scheme in [Scheme::Light, Scheme::Dark] {
             tab.prefer(scheme);
-            tab.load(&page, "#t=80");
-            tab.until("tolmanReplay.step === 80 && tolmanReplay.frames > 0");
+            let theme = format!("{scheme:?}").to_lowercase();
+            tab.until(&format!("tolmanReplay.root.dataset.theme === '{theme}'"));
+            tab.eval(DRAWN);
             tab.assert_seen(&folder, scheme, width);
             // Nothing of the controls is cut off, and the slider can be got hold of.
             tab.until("[...document.querySelectorAll('footer *')].every(part => part.getBoundingClientRect().right <= innerWidth)");
