@@ -7,8 +7,9 @@
 //! [`Arcs::reversed`].
 //!
 //! Grid mazes are searched without a graph, without allocation and some hundred times faster: on [`Passages`], taken
-//! from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`] counts cells and
-//! [`speed_run`] finds the fastest run of a micromouse. A [`PoseSet`] finds a mouse that has lost its way.
+//! from all that is known of their [`Walls`](tolman_maze::Walls), a [`StepMap`] counts cells,
+//! [`speed_run`] finds the fastest run of a micromouse, and [`moves`] the one of fewest steps under the simpler rules of
+//! a paper. A [`PoseSet`] finds a mouse that has lost its way.
 //!
 //! ```
 //! use tolman_planners::{Arcs, costs_from, steps_from};
@@ -34,6 +35,7 @@ mod compression;
 #[cfg(feature = "alloc")]
 mod dijkstra;
 mod graph;
+pub mod moves;
 mod passages;
 #[cfg(feature = "alloc")]
 mod path;

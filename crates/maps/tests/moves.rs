@@ -1,0 +1,163 @@
+//! The explorer of steps on the wall map: it ends with a run that no completion of the unknown walls undercuts.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a failed test")]
+
+use proptest::prelude::*;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maze::{Braided, Cell, Direction, Knowledge, Maze, Rooms, Walls};
+use tolman_planners::moves::{
+    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
+};
+use tolman_planners::{Passages, Unknown};
+
+fn mazes() -> impl Strategy<Value = Maze> {
+    (3..=11_u16, 3..=11_u16, 0..=10_u8, any::<u64>()).prop_map(|(width, height, share, seed)| {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let share = f64::from(share) / 10.0;
+        Braided {
+            width,
+            height,
+            share,
+        }
+        .generate(&mut rng)
+        .unwrap()
+    })
+}
+
+/// Fewest steps to each cell, written as plainly as it goes: up to three cells in a row without a wall between.
+fn fewest_steps(maze: &Maze, start: Cell) -> Vec<Option<u16>> {
+    let grid = maze.grid();
+    let mut steps = vec![None; grid.cell_count()];
+    steps[grid.index(start)] = Some(0);
+    for depth in 0.. {
+        let mut any = false;
+        for cell in grid
+            .cells()
+            .filter(|cell| steps[grid.index(*cell)] == Some(depth))
+            .collect::<Vec<_>>()
+        {
+            for direction in Direction::ALL {
+                let mut at = cell;
+                for _ in 0..3 {
+                    if !maze.is_open(at, direction) {
+                        break;
+                    }
+                    at = grid.neighbour(at, direction).unwrap();
+                    let slot = &mut steps[grid.index(at)];
+                    if slot.is_none() {
+                        *slot = Some(depth + 1);
+                        any = true;
+                    }
+                }
+            }
+        }
+        if !any {
+            break;
+        }
+    }
+    steps
+}
+
+fn look(map: &mut WallMap<16>, maze: &Maze, at: Cell, heading: Direction) {
+    let rays = [heading.left(), heading, heading.right()].map(|direction| {
+        let (mut cell, mut open) = (at, 0);
+        while maze.is_open(cell, direction) {
+            cell = maze.grid().neighbour(cell, direction).unwrap();
+            open += 1;
+        }
+        Ray::to_wall(direction, open)
+    });
+    map.observe(at, &rays).unwrap();
+}
+
+/// Explores `maze`; what is known in the end, the steps it took, the steps of the run that is proven.
+fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
+    let (start, mut heading) = maze.start().unwrap();
+    let mut map = WallMap::new(maze.grid(), ClosedCells::Possible).unwrap();
+    let mut explorer = MoveExplorer::<16>::new(MoveExplorerConfig::tuned(), start);
+    let (mut at, mut visited) = (start, maze.goals().contains(&start));
+    for steps in 0..5000 {
+        look(&mut map, maze, at, heading);
+        match explorer.decide(&map, maze.goals(), at) {
+            MoveDecision::Drive(leap) => {
+                let _ = MouseStep::of_leap(&mut heading, leap);
+                let known = Passages::<16>::new(&map, Unknown::Closed);
+                assert!(
+                    Leap::all(&known, at).any(|known| known == leap),
+                    "drives through no unknown wall"
+                );
+                at = leap.end;
+                visited |= maze.goals().contains(&at);
+            }
+            MoveDecision::Turn => heading = heading.right(),
+            MoveDecision::Finished { moves } => {
+                assert!(visited, "was at the goal");
+                return (map, steps, moves);
+            }
+            MoveDecision::Stuck => panic!("stuck at {at} in\n{map}"),
+        }
+    }
+    panic!("never ends in\n{maze}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn the_map_of_moves_counts_fewest_steps(maze in mazes(), target in any::<usize>()) {
+        let target = maze.grid().cells().nth(target % maze.grid().cell_count()).unwrap();
+        let passages = Passages::<16>::new(&maze, Unknown::Closed);
+        let map = MoveMap::new(&passages, [target]);
+        // A leap can be driven back, so the steps there are those from there.
+        let expect = fewest_steps(&maze, target);
+        for cell in maze.grid().cells() {
+            prop_assert_eq!(map.moves(cell), expect[maze.grid().index(cell)]);
+            let way: Vec<Leap> = map.way(&passages, cell).collect();
+            prop_assert_eq!(Some(way.len() as u16), map.moves(cell));
+            prop_assert_eq!(way.last().map_or(cell, |leap| leap.end), target);
+        }
+    }
+
+    #[test]
+    fn what_is_proven_holds_however_the_unknown_walls_turn_out(maze in mazes(), seed in any::<u64>()) {
+        let (map, _, moves) = explore(&maze);
+        let start = maze.grid().index(maze.start().unwrap().0);
+        let best = |maze: &Maze| {
+            maze.goals().iter().filter_map(|goal| fewest_steps(maze, *goal)[start]).min()
+        };
+        prop_assert_eq!(best(&maze), Some(moves));
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        for open_in_ten in [0, 3, 5, 8, 10_u32] {
+            let mut completed = maze.clone();
+            for cell in maze.grid().cells() {
+                for side in [Direction::North, Direction::East] {
+                    if map.knowledge(cell, side) == Knowledge::Unknown {
+                        completed.set_wall(cell, side, rng.random_range(0..10_u32) >= open_in_ten);
+                    }
+                }
+            }
+            prop_assert_eq!(best(&completed), Some(moves), "in\n{}\nknown\n{}", completed, map);
+        }
+    }
+
+    #[test]
+    fn it_explores_from_any_start_in_any_direction(maze in mazes(), start in any::<usize>(), side in 0..4_usize) {
+        let mut maze = maze;
+        let start = maze.grid().cells().nth(start % maze.grid().cell_count()).unwrap();
+        maze.set_start(Some((start, Direction::ALL[side])));
+        prop_assert_eq!(Some(explore(&maze).2), {
+            let steps = maze.goals().iter().filter_map(|goal| fewest_steps(&maze, *goal)[maze.grid().index(start)]);
+            steps.min()
+        });
+    }
+
+    #[test]
+    fn the_same_maze_is_explored_in_the_same_steps(seed in any::<u64>()) {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let rooms = Rooms { width: 12, height: 12, attempts: 20, smallest: 2, largest: 4, extra_doors: 3 };
+        let maze = rooms.generate(&mut rng).unwrap();
+        prop_assert_eq!(explore(&maze).1, explore(&maze).1);
+    }
+}

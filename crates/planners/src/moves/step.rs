@@ -1,0 +1,92 @@
+use tolman_maze::Direction;
+
+use super::Leap;
+
+/// What the mouse does in one step: first the turn, then the movement (the paper, section 1.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MouseStep {
+    /// The turn.
+    pub turn: Turn,
+    /// Cells to drive, −3 to 3; back where it is negative, without turning round.
+    pub cells: i8,
+}
+
+/// A quarter turn, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// −90°.
+    Left,
+    /// 0°.
+    None,
+    /// 90°.
+    Right,
+}
+
+impl Turn {
+    /// Degrees clockwise, as the paper counts them.
+    #[must_use]
+    pub const fn degrees(self) -> i32 {
+        match self {
+            Self::Left => -90,
+            Self::None => 0,
+            Self::Right => 90,
+        }
+    }
+
+    /// Where a mouse looks afterwards that has looked to `heading`.
+    #[must_use]
+    pub const fn applied_to(self, heading: Direction) -> Direction {
+        match self {
+            Self::Left => heading.left(),
+            Self::None => heading,
+            Self::Right => heading.right(),
+        }
+    }
+}
+
+impl MouseStep {
+    /// The step of a mouse that looks to `heading` and leaps; then it looks to where `heading` says.
+    #[must_use]
+    pub fn of_leap(heading: &mut Direction, leap: Leap) -> Self {
+        let cells = leap.cells.min(Leap::MOST_CELLS) as i8;
+        let (turn, cells) = if leap.direction == heading.opposite() {
+            (Turn::None, -cells)
+        } else if leap.direction == heading.left() {
+            (Turn::Left, cells)
+        } else if leap.direction == heading.right() {
+            (Turn::Right, cells)
+        } else {
+            (Turn::None, cells)
+        };
+        *heading = turn.applied_to(*heading);
+        Self { turn, cells }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tolman_maze::Cell;
+
+    #[test]
+    fn every_leap_is_one_step_whatever_the_heading() {
+        for before in Direction::ALL {
+            for direction in Direction::ALL {
+                let leap = Leap {
+                    direction,
+                    cells: 2,
+                    end: Cell::new(5, 5),
+                };
+                let mut heading = before;
+                let step = MouseStep::of_leap(&mut heading, leap);
+                assert_eq!(step.turn.applied_to(before), heading);
+                let driven = if step.cells < 0 {
+                    heading.opposite()
+                } else {
+                    heading
+                };
+                assert_eq!((driven, step.cells.abs()), (direction, 2));
+            }
+        }
+    }
+}
