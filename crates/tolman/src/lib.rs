@@ -17,6 +17,7 @@ pub mod draw;
 pub mod episode;
 pub mod experiment;
 pub mod files;
+pub mod micromouse;
 pub mod mms;
 pub mod pioneer;
 pub mod replay;

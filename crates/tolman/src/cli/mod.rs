@@ -13,6 +13,7 @@ mod interrupt;
 mod man;
 mod maze;
 mod mms_host;
+mod mouse;
 mod replay;
 mod replay_file;
 mod run;
@@ -39,6 +40,7 @@ Examples:
   tolman run wall-follow --maze mazes/large.maze --replay run.html
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman maze show mazes/j.maze
+  tolman mouse mazes/classic --worst 3
   tolman experiment baselines --quick
 
 Exit codes: 0 done, 1 failed, 2 bad input, 3 a table disagrees with the paper (only with
@@ -51,6 +53,7 @@ enum Verb {
     Demo(demo::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
+    Mouse(mouse::Arguments),
     MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
     Completions(completions::Arguments),
@@ -83,6 +86,7 @@ impl Verb {
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),
+            Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(&arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),

@@ -1,6 +1,6 @@
 //! The experiments there are.
 
-use super::{BoxError, Error, Experiment, Options, baselines, quantizers};
+use super::{BoxError, Error, Experiment, Options, baselines, micromouse, quantizers};
 
 /// One experiment of the catalogue.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +25,11 @@ pub const fn catalogue() -> &'static [Entry] {
             name: "quantizers",
             title: "Quantizers: states out of scans, clusters out of noise",
             open: quantizers::open,
+        },
+        Entry {
+            name: "micromouse",
+            title: "A micromouse in a virtual maze",
+            open: micromouse::open,
         },
     ]
 }

@@ -72,7 +72,9 @@ impl Folder {
         let (file, spare_file) = (self.path.join(RUNS), self.path.join(SPARE));
         let files = [file.as_path(), &spare_file];
         let known = runs_file::read(files, experiment, master_seed, runs, progress)?;
-        let (kept, spare): (Runs, Runs) = known.into_iter().partition(|(key, _)| key.2 < runs);
+        let (kept, spare): (Runs, Runs) = known
+            .into_iter()
+            .partition(|(key, _)| runs_file::is_wanted(*key, experiment, runs));
         // Spare runs are safe before they leave the other file.
         if !spare.is_empty() {
             runs_file::write(&spare_file, spare.values())?;

@@ -18,6 +18,7 @@ mod error;
 mod files;
 mod folder;
 mod hash;
+mod micromouse;
 mod options;
 mod plots;
 mod progress;

@@ -34,7 +34,7 @@ pub struct Outcome {
     pub command: String,
     /// The master seed.
     pub seed: u64,
-    /// Runs of each row.
+    /// Runs of each row that has no number of its own.
     pub runs_per_row: u32,
     /// The threads that played.
     pub jobs: u32,
@@ -162,7 +162,7 @@ fn jobs(experiment: &dyn Experiment, master_seed: u64, runs: u32) -> Vec<(Key, J
     let mut jobs = Vec::new();
     for (t, table) in experiment.tables().iter().enumerate() {
         for (r, row) in table.rows.iter().enumerate() {
-            jobs.extend((0..runs).map(|run| {
+            jobs.extend((0..row.runs_of(runs)).map(|run| {
                 let seed = run_seed(master_seed, &table.name, run);
                 (
                     (t, r, run),

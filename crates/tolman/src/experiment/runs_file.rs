@@ -82,9 +82,10 @@ fn tell(
     wanted: u32,
     progress: &dyn Progress,
 ) {
-    let rows: usize = experiment.tables().iter().map(|t| t.rows.len()).sum();
-    let there = runs.keys().filter(|key| key.2 < wanted).count();
-    let complete = there as u64 == rows as u64 * u64::from(wanted);
+    let rows = experiment.tables().iter().flat_map(|table| &table.rows);
+    let all: u64 = rows.map(|row| u64::from(row.runs_of(wanted))).sum();
+    let is_wanted = |key: &Key| is_wanted(*key, experiment, wanted);
+    let complete = runs.keys().filter(|key| is_wanted(key)).count() as u64 == all;
     for Broken {
         file,
         line,
@@ -93,7 +94,7 @@ fn tell(
     } in broken
     {
         let remedy = match key {
-            Some(key) if key.2 < wanted && !runs.contains_key(key) => Remedy::PlayedAgain,
+            Some(key) if is_wanted(key) && !runs.contains_key(key) => Remedy::PlayedAgain,
             None if !complete => Remedy::MissingPlayed,
             _ => Remedy::Ignored,
         };
@@ -104,6 +105,13 @@ fn tell(
             remedy,
         });
     }
+}
+
+/// Whether a run is one of those to be made when `runs` of each row are.
+pub(super) fn is_wanted((table, row, run): Key, experiment: &dyn Experiment, runs: u32) -> bool {
+    let table = experiment.tables().get(table);
+    let row = table.and_then(|table| table.rows.get(row));
+    row.is_some_and(|row| run < row.runs_of(runs))
 }
 
 /// The run of a line; or what is wrong with the line, and which run it was if it says so.

@@ -164,6 +164,9 @@ pub struct Row {
     pub name: String,
     /// The paper's values, at most one for each metric.
     pub paper: Vec<PaperValue>,
+    /// How many runs it has, whatever the caller asks for: those of something without chance, one for each
+    /// thing it is tried on. `None` leaves it to the caller.
+    pub runs: Option<u32>,
 }
 
 impl Row {
@@ -172,6 +175,7 @@ impl Row {
         Self {
             name: name.into(),
             paper: Vec::new(),
+            runs: None,
         }
     }
 
@@ -195,6 +199,19 @@ impl Row {
             sd: Some(sd),
         });
         self
+    }
+
+    /// Sets how many runs it has, whatever the caller asks for.
+    #[must_use]
+    pub fn runs(mut self, runs: u32) -> Self {
+        self.runs = Some(runs);
+        self
+    }
+
+    /// How many runs it has where the caller asks for `runs` of each row.
+    #[must_use]
+    pub fn runs_of(&self, runs: u32) -> u32 {
+        self.runs.unwrap_or(runs)
     }
 
     /// The paper's value of a metric.

@@ -57,7 +57,7 @@ pub(super) fn cards(outcome: &Outcome) -> Markup {
             }
             (card(
                 &grouped(total),
-                &format!("runs, {} of each row", grouped(u64::from(outcome.runs_per_row))),
+                &runs_of_rows(outcome),
             ))
             @if outcome.played < total {
                 (card(&grouped(total - outcome.played), "runs reused from before"))
@@ -92,6 +92,20 @@ pub(super) fn contents(outcome: &Outcome) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// How many runs the rows have, where all have the same number.
+fn runs_of_rows(outcome: &Outcome) -> String {
+    let tables = &outcome.analysis.tables;
+    let mut rows = tables.iter().flat_map(|table| &table.table.rows);
+    if rows.all(|row| row.runs.is_none()) {
+        format!(
+            "runs, {} of each row",
+            grouped(u64::from(outcome.runs_per_row))
+        )
+    } else {
+        "runs".to_owned()
     }
 }
 

@@ -1,0 +1,239 @@
+//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's rules.
+
+mod drawing;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::{Context, anyhow};
+use indicatif::{ParallelProgressIterator, ProgressBar};
+use rayon::prelude::*;
+use serde_json::json;
+use tolman::micromouse::{JudgeError, Judgement, Searcher, Trial};
+use tolman_maze::{Maze, MazeFile};
+
+use super::failure::OrBadInput;
+use super::{Failure, file, maze};
+
+/// Sends a micromouse through mazes: it explores, proves its run, and makes it
+#[derive(clap::Args)]
+#[command(after_help = "\
+The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs, each a quarter turn or none
+and then up to three cells; the score is a thirtieth of the steps of the first run and those of the second. The
+floor is the score of a mouse that knows the maze.
+
+Examples:
+  tolman mouse taiwan2016f.txt
+  tolman mouse mazes/classic --worst 3
+  tolman mouse test_maze_02.txt --steps steps.jsonl")]
+pub(super) struct Arguments {
+    /// A maze file of any format, or a folder of them
+    #[arg(value_name = "FILE|DIR")]
+    maze: PathBuf,
+    /// How to explore: certify (until the run is proven), or as the paper does: target, counter-50, counter-75, random
+    #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
+    search: Searcher,
+    /// What the chance of the searches that have any follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Write every step as JSON lines: {"rotation": -90|0|90|"Reset", "movement": -3…3|"Reset"}; one maze only
+    #[arg(long, value_name = "FILE")]
+    steps: Option<PathBuf>,
+    /// Draw so many of the mazes with the worst score above the floor
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    worst: usize,
+    /// Mazes at a time, instead of one a core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
+    /// Write one JSON object a maze and line
+    #[arg(long)]
+    json: bool,
+}
+
+/// One maze and what became of the mouse in it.
+struct Tried {
+    file: PathBuf,
+    maze: Maze,
+    trial: Trial,
+    judgement: Judgement,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let mut mazes = Vec::new();
+    let mut unsound = Vec::new();
+    let files = maze::files(&arguments.maze)?;
+    if arguments.steps.is_some() && files.len() > 1 {
+        return Err(Failure::BadInput(anyhow!(
+            "--steps is of one maze, and {} holds {}: name a file",
+            arguments.maze.display(),
+            files.len()
+        )));
+    }
+    for file in files {
+        match maze::read(&file) {
+            Ok(MazeFile { maze, .. }) => mazes.push((file, maze)),
+            Err(failure) => unsound.push(failure),
+        }
+    }
+    let tried = arguments.try_all(mazes)?;
+    for tried in &tried {
+        arguments.tell(tried, out)?;
+    }
+    if !arguments.json {
+        let drawn = if tried.len() > 1 { arguments.worst } else { 1 };
+        draw_worst(&tried, drawn, out)?;
+        if tried.len() > 1 {
+            writeln!(out, "{}", summary(&tried))?;
+        }
+    }
+    if let (Some(path), Some(tried)) = (&arguments.steps, tried.first()) {
+        file::write(path, &steps(&tried.trial)?)?;
+    }
+    out.flush()?;
+    complain(unsound, tried.len())
+}
+
+/// Tells of the mazes that could not be used.
+fn complain(mut unsound: Vec<Failure>, sound: usize) -> Result<(), Failure> {
+    let Some(last) = unsound.pop() else {
+        return Ok(());
+    };
+    if sound == 0 && unsound.is_empty() {
+        return Err(last);
+    }
+    unsound.iter().chain([&last]).for_each(Failure::complain);
+    let bad = unsound.len() + 1;
+    let all = bad + sound;
+    Err(Failure::BadInput(anyhow!(
+        "{bad} of {all} mazes are unsound"
+    )))
+}
+
+impl Arguments {
+    fn try_all(&self, mazes: Vec<(PathBuf, Maze)>) -> Result<Vec<Tried>, Failure> {
+        let threads = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.jobs.map_or(0, usize::from))
+            .build()
+            .context("no threads can be started")?;
+        let bar = if mazes.len() > 1 {
+            ProgressBar::new(mazes.len() as u64)
+        } else {
+            ProgressBar::hidden()
+        };
+        let tried: Result<Vec<Tried>, (PathBuf, JudgeError)> = threads.install(|| {
+            mazes
+                .into_par_iter()
+                .progress_with(bar)
+                .map(|(file, maze)| match self.search.try_on(&maze, self.seed) {
+                    Ok((trial, judgement)) => Ok(Tried {
+                        file,
+                        maze,
+                        trial,
+                        judgement,
+                    }),
+                    Err(error) => Err((file, error)),
+                })
+                .collect()
+        });
+        tried
+            .map_err(|(file, error)| anyhow::Error::new(error).context(maze::name(&file)))
+            .or_bad_input()
+    }
+
+    fn tell(&self, tried: &Tried, out: &mut dyn Write) -> Result<(), Failure> {
+        let name = maze::name(&tried.file);
+        let judgement = &tried.judgement;
+        if self.json {
+            let mut line = serde_json::to_value(judgement)?;
+            line["maze"] = json!(name);
+            line["search"] = json!(self.search.name());
+            line["above_floor"] = json!(judgement.above_floor());
+            line["gave_up"] = json!(tried.trial.gave_up.map(|error| error.to_string()));
+            writeln!(out, "{line}")?;
+            return Ok(());
+        }
+        match (judgement.run_1, judgement.run_2, judgement.score) {
+            (Some(run_1), Some(run_2), Some(score)) => writeln!(
+                out,
+                "{name}: {score:.3} = {run_1} / 30 + {run_2}, {:.3} above the floor{}",
+                score - judgement.floor,
+                if judgement.certified { ", proven" } else { "" }
+            )?,
+            _ => match tried.trial.gave_up {
+                Some(error) => writeln!(out, "{name}: {error}")?,
+                None => writeln!(
+                    out,
+                    "{name}: not done after {} steps",
+                    tried.trial.steps.len()
+                )?,
+            },
+        }
+        Ok(())
+    }
+}
+
+/// Those that did not finish first, then by how far they are above the floor.
+fn draw_worst(tried: &[Tried], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
+    let mut order: Vec<&Tried> = tried.iter().collect();
+    order.sort_by(|a, b| {
+        let above = |tried: &Tried| tried.judgement.above_floor().unwrap_or(f64::INFINITY);
+        above(b).total_cmp(&above(a))
+    });
+    for tried in order.into_iter().take(count) {
+        let name = maze::name(&tried.file);
+        let drawing = drawing::of(&tried.maze, &tried.trial);
+        writeln!(
+            out,
+            "\n{name}, with the stops of the first run (.) and of the second (*):\n{drawing}"
+        )?;
+    }
+    Ok(())
+}
+
+fn summary(tried: &[Tried]) -> String {
+    let count = tried.len();
+    let done: Vec<&Judgement> = tried
+        .iter()
+        .map(|tried| &tried.judgement)
+        .filter(|judgement| judgement.score.is_some())
+        .collect();
+    let mean = |value: fn(&Judgement) -> Option<f64>| {
+        done.iter()
+            .filter_map(|judgement| value(judgement))
+            .sum::<f64>()
+            / done.len().max(1) as f64
+    };
+    let certified = done.iter().filter(|judgement| judgement.certified).count();
+    format!(
+        "{count} mazes: {} finished, {certified} proven; mean score {:.3}, {:.3} above the floor",
+        done.len(),
+        mean(|judgement| judgement.score),
+        mean(Judgement::above_floor),
+    )
+}
+
+/// The orders, a line each.
+fn steps(trial: &Trial) -> Result<String, Failure> {
+    let mut text = String::new();
+    for step in &trial.steps {
+        text += &serde_json::to_string(&step.order)?;
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unsound_mazes_are_counted() {
+        let failure = complain(vec![Failure::BadInput(anyhow!("torn"))], 0);
+        assert!(matches!(failure, Err(Failure::BadInput(error)) if error.to_string() == "torn"));
+        assert!(complain(Vec::new(), 3).is_ok());
+        let failure = complain(vec![Failure::BadInput(anyhow!("torn"))], 3);
+        assert!(
+            matches!(failure, Err(Failure::BadInput(error)) if error.to_string() == "1 of 4 mazes are unsound")
+        );
+    }
+}

@@ -1,0 +1,140 @@
+//! Sets of mazes: those of others where they are found, ours, and those the caller names.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::{Braided, Maze};
+
+use crate::experiment::BoxError;
+use crate::micromouse::SIDE;
+
+/// Mazes under one name.
+#[derive(Debug)]
+pub(super) struct MazeSet {
+    /// The name of its row.
+    pub(super) name: String,
+    /// Names of files and mazes, by name.
+    pub(super) mazes: Vec<(String, Maze)>,
+}
+
+/// The sets of others, below the folder of data.
+const OTHERS: [(&str, &str); 6] = [
+    ("classic", "mazes/classic"),
+    ("generated 12", "mazes/generated/12"),
+    ("generated 14", "mazes/generated/14"),
+    ("generated 16", "mazes/generated/16"),
+    ("generated 18", "mazes/generated/18"),
+    ("generated 20", "mazes/generated/20"),
+];
+
+/// How many mazes we make ourselves.
+const OURS: u64 = 20;
+
+pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSet>, BoxError> {
+    let mut sets = Vec::new();
+    for (name, path) in OTHERS {
+        if let Some(path) = folder.map(|folder| folder.join(path))
+            && path.is_dir()
+        {
+            sets.push(MazeSet {
+                name: name.to_owned(),
+                mazes: in_folder(&path)?,
+            });
+        }
+    }
+    sets.push(ours()?);
+    for path in named {
+        let mazes = if path.is_dir() {
+            in_folder(path)?
+        } else {
+            vec![(stem(path), maze(path)?)]
+        };
+        if mazes.is_empty() {
+            return Err(format!("{} holds no maze: name another folder", path.display()).into());
+        }
+        sets.push(MazeSet {
+            name: told_apart(stem(path), &sets),
+            mazes,
+        });
+    }
+    Ok(sets)
+}
+
+/// Mazes with a few loops, the same ones every time.
+fn ours() -> Result<MazeSet, BoxError> {
+    let braided = Braided {
+        width: 16,
+        height: 16,
+        share: 0.5,
+    };
+    let mazes: Result<Vec<(String, Maze)>, BoxError> = (0..OURS)
+        .map(|seed| {
+            let maze = braided.generate(&mut ChaCha8Rng::seed_from_u64(seed))?;
+            Ok((format!("seed {seed}"), maze))
+        })
+        .collect();
+    Ok(MazeSet {
+        name: "braided 16".to_owned(),
+        mazes: mazes?,
+    })
+}
+
+/// All mazes of a folder that can be solved and fit a mouse, by name.
+fn in_folder(folder: &Path) -> Result<Vec<(String, Maze)>, BoxError> {
+    let listed = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+    let listed = listed
+        .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = listed.iter().map(fs::DirEntry::path).collect();
+    paths.sort();
+    let mut mazes = Vec::new();
+    for path in paths.iter().filter(|path| path.is_file()) {
+        let text = fs::read_to_string(path)
+            .map_err(|error| format!("the maze file {} cannot be read: {error}", path.display()))?;
+        // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
+        if let Ok(file) = tolman_maze::read(&text)
+            && fits(&file.maze)
+        {
+            mazes.push((stem(path), file.maze));
+        }
+    }
+    Ok(mazes)
+}
+
+fn maze(path: &Path) -> Result<Maze, BoxError> {
+    let text = fs::read_to_string(path)
+        .map_err(|error| format!("the maze file {} cannot be read: {error}", path.display()))?;
+    let maze = tolman_maze::read(&text)
+        .map_err(|error| format!("the maze file {} cannot be used: {error}", path.display()))?
+        .maze;
+    if !fits(&maze) {
+        let path = path.display();
+        return Err(
+            format!("the maze of {path} has no start or more than {SIDE} cells a side").into(),
+        );
+    }
+    Ok(maze)
+}
+
+fn fits(maze: &Maze) -> bool {
+    let side = maze.grid().width().max(maze.grid().height());
+    usize::from(side) <= SIDE && maze.start().is_some()
+}
+
+/// The name without folder and extension; control characters of it, which terminals obey, made visible.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or(path.as_os_str());
+    stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
+}
+
+fn told_apart(name: String, sets: &[MazeSet]) -> String {
+    let taken = |name: &str| sets.iter().any(|set| set.name == name);
+    if !taken(&name) {
+        return name;
+    }
+    let mut numbered = (2..).map(|count: u32| format!("{name} ({count})"));
+    numbered
+        .find(|candidate| !taken(candidate))
+        .unwrap_or_default()
+}

@@ -1,0 +1,288 @@
+//! The proof that no second run takes fewer steps, and its checker.
+
+use tolman_maps::wall_map::WallMap;
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Wall, Walls};
+use tolman_planners::moves::{Leap, MoveMap};
+use tolman_planners::{Passages, Unknown};
+
+use super::SIDE;
+
+/// What convinces others that a run is the best there can be, whatever the walls that nobody has looked at.
+///
+/// The run shows that it can be driven. That none is shorter is shown by a number for every cell: at most so many steps
+/// fewer than the run has are needed from here. Goals have 0, and no step over walls that are open or unknown leads to a
+/// cell whose number is smaller by more than one. So from a cell with number *k* the goal is at least *k* steps away,
+/// and all there is to check are single steps: no search.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Certificate {
+    /// The size of the maze.
+    pub grid: Grid,
+    /// Where the run begins.
+    pub start: Cell,
+    /// Where it may end.
+    pub goals: Vec<Cell>,
+    /// All walls that were looked at, and whether they stand, by number.
+    pub walls: Vec<(Wall, Knowledge)>,
+    /// The cells the run stops on, from the start to a goal.
+    pub run: Vec<Cell>,
+    /// The steps of the best run that is certain: those of `run`.
+    pub closed_cost: u32,
+    /// The steps of the best run that can be hoped for.
+    pub open_cost: u32,
+    /// For every cell, by [`Grid::index`], how many steps the goal is away at least.
+    pub at_least: Vec<u32>,
+}
+
+impl Certificate {
+    /// The proof that `run` is the best, if it is one.
+    pub(super) fn of(
+        map: &WallMap<SIDE>,
+        start: Cell,
+        goals: &[Cell],
+        run: &[Leap],
+    ) -> Option<Self> {
+        let grid = map.grid();
+        let hoped = Passages::<SIDE>::new(map, Unknown::Open);
+        let to_goal = MoveMap::new(&hoped, goals.iter().copied());
+        let open_cost = u32::from(to_goal.moves(start)?);
+        let closed_cost = u32::try_from(run.len()).ok()?;
+        if open_cost < closed_cost {
+            return None;
+        }
+        let walls = (0..grid.wall_count() as u32)
+            .map(|id| (Wall(id), map.wall(Wall(id))))
+            .filter(|(_, known)| known.is_known());
+        // What is farther than the start, or leads nowhere, needs no larger number than the start has.
+        let at_least = grid
+            .cells()
+            .map(|cell| to_goal.moves(cell).map_or(open_cost, u32::from));
+        Some(Self {
+            grid,
+            start,
+            goals: goals.to_vec(),
+            walls: walls.collect(),
+            run: core::iter::once(start)
+                .chain(run.iter().map(|leap| leap.end))
+                .collect(),
+            closed_cost,
+            open_cost,
+            at_least: at_least.map(|steps| steps.min(open_cost)).collect(),
+        })
+    }
+}
+
+/// What is wrong with a certificate.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CertificateError {
+    /// It is about another maze.
+    #[error("the certificate is of a maze of another size, start or goals")]
+    OtherMaze,
+    /// It says of a wall what is not so.
+    #[error(
+        "the certificate says that the {direction} side of {cell} is {known:?}, which it is not"
+    )]
+    FalseWall {
+        /// The cell.
+        cell: Cell,
+        /// The side of it.
+        direction: Direction,
+        /// What it says.
+        known: Knowledge,
+    },
+    /// It has no number for some cell, or tells of a wall the maze does not have.
+    #[error("the certificate has {found} numbers where the maze has {cells} cells")]
+    Size {
+        /// Numbers.
+        found: usize,
+        /// Cells.
+        cells: usize,
+    },
+    /// The run does not lead from the start to a goal.
+    #[error("the run does not begin at the start and end at a goal")]
+    Ends,
+    /// A step of the run is not known to be possible.
+    #[error("step {index} of the run, from {from} to {to}, is not known to be possible")]
+    Impossible {
+        /// Which, from 1.
+        index: usize,
+        /// Where it begins.
+        from: Cell,
+        /// Where it ends.
+        to: Cell,
+    },
+    /// The costs do not agree with the run, or with each other.
+    #[error(
+        "the costs disagree: the run takes {run} steps, {closed} are claimed, and {open} can be hoped for"
+    )]
+    Costs {
+        /// Steps of the run.
+        run: usize,
+        /// As claimed.
+        closed: u32,
+        /// As hoped for.
+        open: u32,
+    },
+    /// The bound has a hole.
+    #[error(
+        "the bound does not hold: a step from {from}, at least {at_least} from the goal, leads to {to}"
+    )]
+    Bound {
+        /// Where the step begins.
+        from: Cell,
+        /// The number there.
+        at_least: u32,
+        /// Where the step ends.
+        to: Cell,
+    },
+}
+
+/// The most cells of a step, written down again: the checker takes nothing from the planners.
+const MOST_CELLS: u32 = 3;
+
+/// Whether the certificate holds in this maze: all it says of walls is so, its run is possible, and no run is shorter
+/// in any maze that agrees with it. Uses nothing but the maze types. O(cells).
+///
+/// # Errors
+/// The first thing that is wrong.
+pub fn check(certificate: &Certificate, maze: &Maze) -> Result<(), CertificateError> {
+    let Certificate { grid, start, .. } = *certificate;
+    let mut goals = certificate.goals.clone();
+    goals.sort_unstable();
+    if grid != maze.grid()
+        || maze.start().map(|start| start.0) != Some(start)
+        || goals != maze.goals()
+    {
+        return Err(CertificateError::OtherMaze);
+    }
+    let mut known = vec![Knowledge::Unknown; grid.wall_count()];
+    for (cell, side) in grid.border() {
+        known[grid.wall(cell, side).0 as usize] = Knowledge::Wall;
+    }
+    for &(wall, told) in &certificate.walls {
+        let Some((cell, direction)) = grid.side(wall) else {
+            return Err(CertificateError::OtherMaze);
+        };
+        if told != Knowledge::of_standing(maze.stands(wall)) {
+            return Err(CertificateError::FalseWall {
+                cell,
+                direction,
+                known: told,
+            });
+        }
+        known[wall.0 as usize] = told;
+    }
+    let known = |cell, side| known[grid.wall(cell, side).0 as usize];
+    check_run(certificate, &known)?;
+    check_bound(certificate, &known)
+}
+
+fn check_run(
+    certificate: &Certificate,
+    known: &impl Fn(Cell, Direction) -> Knowledge,
+) -> Result<(), CertificateError> {
+    let Certificate {
+        grid,
+        start,
+        goals,
+        run,
+        closed_cost,
+        open_cost,
+        ..
+    } = certificate;
+    let ends_right = run.last().is_some_and(|end| goals.contains(end));
+    if run.first() != Some(start) || !ends_right {
+        return Err(CertificateError::Ends);
+    }
+    for (index, step) in (1..).zip(run.windows(2)) {
+        let (from, to) = (step[0], step[1]);
+        let possible = Direction::ALL.into_iter().any(|direction| {
+            reach(*grid, from, direction, |cell, side| {
+                known(cell, side) == Knowledge::Open
+            })
+            .contains(&to)
+        });
+        if !possible {
+            return Err(CertificateError::Impossible { index, from, to });
+        }
+    }
+    if run.len() != *closed_cost as usize + 1 || closed_cost != open_cost {
+        return Err(CertificateError::Costs {
+            run: run.len() - 1,
+            closed: *closed_cost,
+            open: *open_cost,
+        });
+    }
+    Ok(())
+}
+
+fn check_bound(
+    certificate: &Certificate,
+    known: &impl Fn(Cell, Direction) -> Knowledge,
+) -> Result<(), CertificateError> {
+    let Certificate {
+        grid,
+        start,
+        goals,
+        run,
+        closed_cost,
+        open_cost,
+        at_least,
+        ..
+    } = certificate;
+    if at_least.len() != grid.cell_count() {
+        return Err(CertificateError::Size {
+            found: at_least.len(),
+            cells: grid.cell_count(),
+        });
+    }
+    let number = |cell: Cell| at_least[grid.index(cell)];
+    if let Some(goal) = goals.iter().find(|goal| number(**goal) != 0) {
+        return Err(CertificateError::Bound {
+            from: *goal,
+            at_least: number(*goal),
+            to: *goal,
+        });
+    }
+    if number(*start) != *open_cost {
+        return Err(CertificateError::Costs {
+            run: run.len() - 1,
+            closed: *closed_cost,
+            open: number(*start),
+        });
+    }
+    for from in grid.cells() {
+        for direction in Direction::ALL {
+            let ends = reach(*grid, from, direction, |cell, side| {
+                known(cell, side) != Knowledge::Wall
+            });
+            if let Some(to) = ends.into_iter().find(|to| number(*to) + 1 < number(from)) {
+                return Err(CertificateError::Bound {
+                    from,
+                    at_least: number(from),
+                    to,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where one step in a direction may end.
+fn reach(
+    grid: Grid,
+    from: Cell,
+    direction: Direction,
+    passable: impl Fn(Cell, Direction) -> bool,
+) -> Vec<Cell> {
+    let mut ends = Vec::new();
+    let mut at = from;
+    for _ in 0..MOST_CELLS {
+        match grid.neighbour(at, direction) {
+            Some(next) if passable(at, direction) => at = next,
+            _ => break,
+        }
+        ends.push(at);
+    }
+    ends
+}

@@ -1,0 +1,59 @@
+use rand::{Rng, RngExt};
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::{Cell, Walls};
+use tolman_planners::moves::Leap;
+use tolman_planners::{Passages, Unknown};
+
+use super::SIDE;
+use super::driver::{Next, Search, View};
+
+/// The paper's *counter search* (section 3.3.2): to the adjacent cell that was visited least and is no dead end, until
+/// enough of the maze is visited; section 3.4: "the search will continue even the goal has already been
+/// visited until the threshold has been met".
+///
+/// The paper does not say how ties are broken, only that the method is stochastic: by chance. Of cells that are all
+/// dead ends the least visited one is taken.
+#[derive(Clone, Debug)]
+pub struct CounterSearch {
+    threshold_percent: u32,
+    rng: ChaCha8Rng,
+    arrived: bool,
+}
+
+impl CounterSearch {
+    /// A search that ends once `threshold_percent` of the cells were visited, and a goal.
+    #[must_use]
+    pub const fn new(threshold_percent: u32, rng: ChaCha8Rng) -> Self {
+        Self {
+            threshold_percent,
+            rng,
+            arrived: false,
+        }
+    }
+}
+
+impl Search for CounterSearch {
+    fn next(&mut self, view: &View<'_>) -> Next {
+        self.arrived |= view.goals.contains(&view.at);
+        let cells = view.map.grid().cell_count();
+        let visited = view.map.visited_count();
+        if self.arrived && 100 * visited >= self.threshold_percent as usize * cells {
+            return Next::Reset;
+        }
+        let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
+        let dead = |cell: Cell| view.map.is_dead_end(cell) && !view.goals.contains(&cell);
+        let beside = || Leap::all(&known, view.at).filter(|leap| leap.cells == 1);
+        let rank = |leap: &Leap| (dead(leap.end), view.map.visits(leap.end));
+        let Some(least) = beside().map(|leap| rank(&leap)).min() else {
+            return Next::Turn;
+        };
+        let ties: Vec<Leap> = beside().filter(|leap| rank(leap) == least).collect();
+        pick(&ties, &mut self.rng).map_or(Next::Turn, Next::Drive)
+    }
+}
+
+/// One of some leaps by chance.
+pub(super) fn pick(leaps: &[Leap], rng: &mut impl Rng) -> Option<Leap> {
+    let count = u32::try_from(leaps.len()).ok().filter(|count| *count > 0)?;
+    leaps.get(rng.random_range(0..count) as usize).copied()
+}

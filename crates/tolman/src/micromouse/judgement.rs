@@ -1,0 +1,79 @@
+//! A trial against what could be had.
+
+use serde::Serialize;
+use tolman_maze::Maze;
+use tolman_planners::moves::MoveMap;
+use tolman_planners::{Passages, Unknown};
+
+use super::{Mouse, MouseError, SIDE, Searcher, Trial, TrialError, check};
+
+/// How good a trial was.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Judgement {
+    /// Steps of the first run, the reset included; none if it did not end.
+    pub run_1: Option<u32>,
+    /// Steps of the second run; none if it did not end.
+    pub run_2: Option<u32>,
+    /// A thirtieth of the first and the whole second run; none if the mouse did not finish.
+    pub score: Option<f64>,
+    /// The fewest steps from the start to a goal.
+    pub optimum: u32,
+    /// The score of a mouse that knows the maze: there, a reset, and there again.
+    pub floor: f64,
+    /// Whether the mouse proved that its second run is the best, and the independent checker agrees.
+    pub certified: bool,
+}
+
+/// Why a mouse could not be judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum JudgeError {
+    /// No mouse for this maze.
+    #[error(transparent)]
+    Mouse(#[from] MouseError),
+    /// No trial.
+    #[error(transparent)]
+    Trial(#[from] TrialError),
+}
+
+impl Judgement {
+    /// Judges a trial that `mouse` has played in `maze`.
+    #[must_use]
+    pub fn of(maze: &Maze, mouse: &dyn Mouse, trial: &Trial) -> Self {
+        let passages = Passages::<SIDE>::new(maze, Unknown::Closed);
+        let map = MoveMap::new(&passages, maze.goals().iter().copied());
+        let optimum = maze.start().and_then(|(start, _)| map.moves(start));
+        let optimum = optimum.map_or(0, u32::from);
+        let verdict = trial.verdict;
+        let certified = mouse.certificate().is_some_and(|certificate| {
+            Some(certificate.closed_cost) == verdict.run_2 && check(&certificate, maze).is_ok()
+        });
+        Self {
+            run_1: verdict.run_1,
+            run_2: verdict.run_2,
+            score: verdict.score(),
+            optimum,
+            floor: f64::from(optimum) + f64::from(optimum + 1) / 30.0,
+            certified,
+        }
+    }
+
+    /// How far the score lies above the floor; none if the mouse did not finish.
+    #[must_use]
+    pub fn above_floor(&self) -> Option<f64> {
+        Some(self.score? - self.floor)
+    }
+}
+
+impl Searcher {
+    /// Sends a mouse with this search through `maze` and judges it.
+    ///
+    /// # Errors
+    /// If the maze is none a mouse can run in.
+    pub fn try_on(self, maze: &Maze, seed: u64) -> Result<(Trial, Judgement), JudgeError> {
+        let mut mouse = self.mouse(maze, seed)?;
+        let trial = Trial::play(maze, &mut *mouse)?;
+        let judgement = Judgement::of(maze, &*mouse, &trial);
+        Ok((trial, judgement))
+    }
+}

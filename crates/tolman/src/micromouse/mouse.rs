@@ -1,0 +1,51 @@
+//! What a mouse is to the referee.
+
+use tolman_maps::wall_map::{ObserveError, TooLarge};
+
+use super::{Certificate, Order};
+
+/// The largest maze our mice hold, columns or rows.
+pub const SIDE: usize = 32;
+
+/// What the three sensors of a mouse see: how many cells are open as far as the next wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sight {
+    /// To the left.
+    pub left: u16,
+    /// Ahead.
+    pub front: u16,
+    /// To the right.
+    pub right: u16,
+}
+
+/// What explores a maze and then runs.
+pub trait Mouse {
+    /// What to do next, in view of what the sensors see now. Called once a step.
+    ///
+    /// # Errors
+    /// If the mouse is at a loss.
+    fn next(&mut self, sight: Sight) -> Result<Order, MouseError>;
+
+    /// The proof that no second run is shorter, once the mouse has one.
+    fn certificate(&self) -> Option<Certificate> {
+        None
+    }
+}
+
+/// Why a mouse does not know what to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MouseError {
+    /// The maze is larger than its map.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
+    /// What it sees cannot be, where it thinks it is.
+    #[error("the mouse has lost its way")]
+    Observe(#[from] ObserveError),
+    /// No way leads to a goal.
+    #[error("the mouse has found that no way leads to a goal: open a wall")]
+    Stuck,
+    /// The maze does not say where the mouse starts.
+    #[error("the maze has no start: mark a cell with S")]
+    NoStart,
+}

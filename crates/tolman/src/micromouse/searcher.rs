@@ -1,0 +1,105 @@
+//! The searches by name.
+
+use core::fmt;
+use core::str::FromStr;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::Maze;
+use tolman_planners::moves::{MoveExplorer, MoveExplorerConfig};
+
+use super::{
+    Certify, CounterSearch, Driver, Mouse, MouseError, RandomSearch, RunTwo, TargetSearch,
+};
+
+/// A search that a mouse can be given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Searcher {
+    /// Ours, until the best run is proven.
+    Certify,
+    /// The paper's target search.
+    Target,
+    /// The paper's counter search, at least 50 %.
+    Counter50,
+    /// The paper's counter search, at least 75 %.
+    Counter75,
+    /// The paper's random exploration.
+    Random,
+}
+
+impl Searcher {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Certify,
+        Self::Target,
+        Self::Counter50,
+        Self::Counter75,
+        Self::Random,
+    ];
+
+    /// The name, as a command line takes it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Certify => "certify",
+            Self::Target => "target",
+            Self::Counter50 => "counter-50",
+            Self::Counter75 => "counter-75",
+            Self::Random => "random",
+        }
+    }
+
+    /// Whether the search makes the same run each time.
+    #[must_use]
+    pub const fn is_deterministic(self) -> bool {
+        matches!(self, Self::Certify | Self::Target)
+    }
+
+    /// A mouse with this search at the start of `maze`, of which it knows the size, the start and the goals.
+    ///
+    /// # Errors
+    /// If the maze is too large or has no start.
+    pub fn mouse(self, maze: &Maze, seed: u64) -> Result<Box<dyn Mouse>, MouseError> {
+        let rng = || ChaCha8Rng::seed_from_u64(seed);
+        let cells = RunTwo::FewestCells;
+        Ok(match self {
+            Self::Certify => {
+                let (start, _) = maze.start().ok_or(MouseError::NoStart)?;
+                let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start);
+                let search = Certify::new(explorer);
+                Box::new(Driver::new(maze, search, RunTwo::FewestMoves)?)
+            }
+            Self::Target => Box::new(Driver::new(maze, TargetSearch::new(), cells)?),
+            Self::Counter50 => Box::new(Driver::new(maze, CounterSearch::new(50, rng()), cells)?),
+            Self::Counter75 => Box::new(Driver::new(maze, CounterSearch::new(75, rng()), cells)?),
+            Self::Random => Box::new(Driver::new(maze, RandomSearch::new(rng()), cells)?),
+        })
+    }
+}
+
+impl fmt::Display for Searcher {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+/// A name that no search bears.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no search {name:?}: choose certify, target, counter-50, counter-75 or random")]
+pub struct UnknownSearcher {
+    /// The name as given.
+    pub name: String,
+}
+
+impl FromStr for Searcher {
+    type Err = UnknownSearcher;
+
+    fn from_str(name: &str) -> Result<Self, UnknownSearcher> {
+        let found = Self::ALL
+            .into_iter()
+            .find(|searcher| searcher.name() == name);
+        found.ok_or_else(|| UnknownSearcher {
+            name: name.to_owned(),
+        })
+    }
+}
