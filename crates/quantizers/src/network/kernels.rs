@@ -29,13 +29,16 @@ pub enum Search {
 impl Search {
     /// Whether an index shall be built for so many units.
     pub(crate) fn wants_tree(self, dimension: usize, units: usize) -> bool {
+        if dimension > MOST_FEATURES {
+            return false;
+        }
         let least = match self {
             Self::Scan => return false,
             Self::Index => 1,
             // Where both took as long when measured.
             Self::Automatic => 64 << dimension,
         };
-        dimension <= MOST_FEATURES && units >= least
+        units >= least
     }
 }
 

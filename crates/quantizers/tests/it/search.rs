@@ -112,3 +112,24 @@ fn one_point_many_times_is_found_by_its_smallest_id() {
         );
     }
 }
+
+#[test]
+fn many_features_are_no_matter() {
+    for dimension in [16, 63, 64, 65, 200] {
+        let inputs = cube(dimension, 400, 1);
+        let everything = vec![true; dimension];
+        for (search, lanes) in WAYS {
+            let config = GngConfig {
+                growth_period: 5,
+                ..GngConfig::fritzke()
+            };
+            let mut gng = Gng::new(dimension, config).unwrap();
+            gng.set_search(search, lanes);
+            for input in &inputs {
+                gng.observe(input).unwrap();
+            }
+            let found = gng.nearest_two(&inputs[7]).unwrap();
+            assert!(agrees(found, by_hand(&gng, &inputs[7], &everything)));
+        }
+    }
+}
