@@ -73,17 +73,22 @@ struct Tally {
     error: f64,
     /// M: how many those are.
     wins: f64,
+    /// The step at which it came, or the older of the two it was put between, from which it has wins.
+    since: u64,
     /// R: E / M after the last insertion it had part in.
     radius: f64,
 }
 
 impl Tally {
     /// Of a unit that was made of an input.
-    const NEW: Self = Self {
-        error: 0.0,
-        wins: 1.0,
-        radius: f64::INFINITY,
-    };
+    fn new(since: u64) -> Self {
+        Self {
+            error: 0.0,
+            wins: 1.0,
+            since,
+            radius: f64::INFINITY,
+        }
+    }
 
     fn mean_error(&self) -> f64 {
         self.error / self.wins
@@ -108,6 +113,7 @@ impl Tally {
         Self {
             error: (q.error + f.error) / 6.0,
             wins: 0.25 * (q.wins + f.wins),
+            since: q.since.min(f.since),
             radius: 0.25 * (q.radius + f.radius),
         }
     }
@@ -244,7 +250,7 @@ impl<S: Scalar> Soinn<S> {
     }
 
     fn insert(&mut self, input: &[S]) -> usize {
-        self.tallies.push(Tally::NEW);
+        self.tallies.push(Tally::new(self.steps));
         self.network.insert(input)
     }
 
@@ -335,20 +341,23 @@ impl<S: Scalar> Soinn<S> {
     /// # Complexity
     /// Units.
     pub fn remove_noise(&mut self) {
-        let Denoising::FewWins { c } = self.config.denoising else {
-            return;
+        let units = self.network.len().max(1) as f64;
+        let fewest = |tally: &Tally, mean: f64| match self.config.denoising {
+            Denoising::FewWins { c } => c * mean,
+            Denoising::LowRate { c } => c * ((self.steps - tally.since) as f64 / units),
+            Denoising::Off => 0.0,
         };
-        let wins: f64 = self
-            .network
-            .slots()
-            .map(|slot| self.tallies[slot].wins)
-            .sum();
-        let fewest = c * (wins / self.network.len().max(1) as f64);
+        if self.config.denoising == Denoising::Off {
+            return;
+        }
+        let wins = self.network.slots().map(|slot| self.tallies[slot].wins);
+        let mean = wins.sum::<f64>() / units;
         self.doomed.clear();
         for slot in self.network.slots() {
+            let tally = &self.tallies[slot];
             let is_noise = match self.network.links().degree(slot) {
                 0 => true,
-                1 => self.tallies[slot].wins < fewest,
+                1 => tally.wins < fewest(tally, mean),
                 _ => false,
             };
             if is_noise {

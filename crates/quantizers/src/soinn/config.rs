@@ -10,8 +10,7 @@ pub struct SoinnConfig {
     /// age_dead: edges older than that go; in inputs won by one of the edge's ends, at least 1.
     pub max_age: u32,
     /// λ: at every λ-th input a unit may be put where the error is large, then noise is removed; at least 1. A unit has to
-    /// find its place in the graph within about λ inputs, so λ has to be large against the number of
-    /// inputs from one end of the data to the other.
+    /// find a neighbour within less than λ inputs.
     pub period: u32,
     /// Whether units are put where the error is large.
     pub insertion: ErrorInsertion,
@@ -45,8 +44,19 @@ pub enum ErrorInsertion {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Denoising {
-    /// Units without a neighbour, and those with one that have won less than `c` times the mean of all units.
+    /// Units without a neighbour, and those with one that have won less than `c` times the mean of all units (Shen and Hasegawa 2006).
+    ///
+    /// It holds a newcomer against units that have won since the beginning: the longer a stream, the fewer stay, until the network
+    /// grows no more, and a curve of units that has a hole or an end is never continued.
     FewWins {
+        /// c: 0 to 1; the nearer to 1, the noisier the data are.
+        c: f64,
+    },
+    /// Units without a neighbour, and those with one that have won less than `c` times what a unit wins in the time since it came, which is
+    /// one of as many inputs as there are units. Ours, not the paper's: the same question, asked in proportion to age.
+    ///
+    /// What the stream has left for long is taken away from its loose ends on.
+    LowRate {
         /// c: 0 to 1; the nearer to 1, the noisier the data are.
         c: f64,
     },
@@ -80,15 +90,12 @@ impl SoinnConfig {
         }
     }
 
-    /// For noisy data: λ = 500, age_dead = 50, c = 1.
-    ///
-    /// With λ = 100 a newcomer is held against units that have won for the whole run, and goes before it has a second neighbour: growth
-    /// stops at about a hundred units, too coarse to see gaps between clusters. A larger λ gives it time; younger
+    /// For noisy data: the paper's λ = 100 and c = 1, but units are judged [by their age](Denoising::LowRate) and age_dead = 20, so that
     /// edges let go of noise (measured in docs/quantizers.md).
     pub fn noisy() -> Self {
         Self {
-            max_age: 50,
-            period: 500,
+            max_age: 20,
+            denoising: Denoising::LowRate { c: 1.0 },
             ..Self::shen_hasegawa()
         }
     }
@@ -126,7 +133,7 @@ impl SoinnConfig {
             at_least_1,
         )?;
         within("period", self.period.into(), self.period >= 1, at_least_1)?;
-        if let Denoising::FewWins { c } = self.denoising {
+        if let Denoising::FewWins { c } | Denoising::LowRate { c } = self.denoising {
             let holds = (0.0..=1.0).contains(&c);
             within("denoising.c", c, holds, "between 0 and 1")?;
         }

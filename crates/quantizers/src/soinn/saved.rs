@@ -4,6 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::{Soinn, SoinnConfig, Tally};
+use crate::error::check_header;
 use crate::{Network, Scalar, Snapshot, SnapshotError};
 
 const FORMAT: &str = "tolman-soinn";
@@ -37,6 +38,8 @@ pub struct SavedTally {
     pub error: f64,
     /// M: how many those are.
     pub wins: f64,
+    /// The step since which it has them, at most the inputs learnt.
+    pub since: u64,
     /// R: the mean error after the last insertion that it had part in; none if there was none.
     pub radius: Option<f64>,
 }
@@ -47,11 +50,13 @@ impl<S: Scalar> From<&Soinn<S>> for SavedSoinn<S> {
             let Tally {
                 error,
                 wins,
+                since,
                 radius,
             } = soinn.tallies[slot];
             SavedTally {
                 error,
                 wins,
+                since,
                 radius: radius.is_finite().then_some(radius),
             }
         });
@@ -77,18 +82,7 @@ impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
 
     /// Resumes what was saved. Search and events are as in a new network.
     fn try_from(saved: SavedSoinn<S>) -> Result<Self, SnapshotError> {
-        if saved.format != FORMAT {
-            return Err(SnapshotError::WrongFormat {
-                expected: FORMAT,
-                found: saved.format,
-            });
-        }
-        if saved.version != VERSION {
-            return Err(SnapshotError::WrongVersion {
-                newest: VERSION,
-                found: saved.version,
-            });
-        }
+        check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         let mut soinn = Self::around(Network::from_snapshot(&saved.network)?, saved.config)?;
         if saved.tallies.len() != soinn.network.len() {
             return Err(SnapshotError::WrongCount {
@@ -100,18 +94,26 @@ impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
         for SavedTally {
             error,
             wins,
+            since,
             radius,
         } in saved.tallies
         {
             in_range("the error of a unit", error, 0.0)?;
-            // A sixteenth of what one win leaves after thousands of insertions beside it.
             in_range("the wins of a unit", wins, f64::MIN_POSITIVE)?;
+            if since > saved.steps {
+                return Err(SnapshotError::BadNumber {
+                    field: "since of a unit",
+                    value: since as f64,
+                    range: "at most the steps",
+                });
+            }
             if let Some(radius) = radius {
                 in_range("the radius of a unit", radius, 0.0)?;
             }
             soinn.tallies.push(Tally {
                 error,
                 wins,
+                since,
                 radius: radius.unwrap_or(f64::INFINITY),
             });
         }

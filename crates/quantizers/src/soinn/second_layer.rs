@@ -49,10 +49,14 @@ impl SecondLayerConfig {
         }
     }
 
-    /// For noisy data: λ = 500, age_dead = 50, c = 1, T_c four times the mean length of the first layer's edges.
+    /// For noisy data: T_c four times the mean length of the first layer's edges; else the paper's, but λ = 500, since its units are few and
+    /// have to find neighbours among as few inputs (measured in docs/quantizers.md).
     pub fn noisy() -> Self {
         Self {
-            layer: SoinnConfig::noisy(),
+            layer: SoinnConfig {
+                period: 500,
+                ..SoinnConfig::shen_hasegawa()
+            },
             threshold: SecondThreshold::WithinClusters { factor: 4.0 },
             inputs: 25_000,
         }

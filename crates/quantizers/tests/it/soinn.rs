@@ -28,6 +28,7 @@ struct LiteralUnit {
     weights: Vec<f64>,
     error: f64,
     wins: f64,
+    since: u32,
     radius: f64,
 }
 
@@ -41,6 +42,7 @@ impl Literal {
             weights: weights.to_vec(),
             error: 0.0,
             wins: 1.0,
+            since: self.inputs,
             radius: f64::INFINITY,
         };
         self.units.insert(self.next, unit);
@@ -109,9 +111,7 @@ impl Literal {
         }
         if self.inputs.is_multiple_of(config.period) {
             self.insert(config.insertion);
-            if let Denoising::FewWins { c } = config.denoising {
-                self.denoise(c);
-            }
+            self.denoise(config.denoising);
         }
     }
 
@@ -144,6 +144,7 @@ impl Literal {
         unit.error = (uq.error + uf.error) / 6.0;
         unit.wins = (uq.wins + uf.wins) / 4.0;
         unit.radius = (uq.radius + uf.radius) / 4.0;
+        unit.since = uq.since.min(uf.since);
         for id in [q, f] {
             let unit = self.units.get_mut(&id).unwrap();
             unit.error *= 2.0;
@@ -172,12 +173,21 @@ impl Literal {
         self.ages.insert((f, r), 0);
     }
 
-    fn denoise(&mut self, c: f64) {
+    fn denoise(&mut self, denoising: Denoising) {
         let mean = self.units.values().map(|unit| unit.wins).sum::<f64>() / self.units.len() as f64;
-        let noise = |id: &u32| match self.neighbours(*id).len() {
-            0 => true,
-            1 => self.units[id].wins < c * mean,
-            _ => false,
+        let noise = |id: &u32| {
+            let (unit, neighbours) = (&self.units[id], self.neighbours(*id).len());
+            let age = f64::from(self.inputs - unit.since);
+            match denoising {
+                Denoising::FewWins { c } => {
+                    neighbours == 0 || neighbours == 1 && unit.wins < c * mean
+                }
+                Denoising::LowRate { c } => {
+                    let share = age / self.units.len() as f64;
+                    neighbours == 0 || neighbours == 1 && unit.wins < c * share
+                }
+                _ => false,
+            }
         };
         let doomed: Vec<u32> = self.units.keys().copied().filter(noise).collect();
         for id in doomed {
@@ -235,6 +245,7 @@ fn configs() -> impl Strategy<Value = SoinnConfig> {
     ];
     let denoising = prop_oneof![
         (0.0..=1.0).prop_map(|c| Denoising::FewWins { c }),
+        (0.0..=1.0).prop_map(|c| Denoising::LowRate { c }),
         Just(Denoising::Off)
     ];
     let threshold = prop_oneof![
@@ -387,6 +398,8 @@ fn refuses_what_is_no_network() {
         let error = refused(&|saved| saved.tallies[0].radius = Some(bad));
         assert!(matches!(error, E::BadNumber { .. }));
     }
+    let error = refused(&|saved| saved.tallies[0].since = saved.steps + 1);
+    assert!(matches!(error, E::BadNumber { .. }));
     let error = refused(&|saved| saved.tallies[0].wins = 0.0);
     assert!(matches!(error, E::BadNumber { .. }));
 }
@@ -481,19 +494,20 @@ fn the_second_layer_s_threshold_is_the_gap_between_clusters() {
 
 #[test]
 fn weights_hold_in_both_layers() {
-    // The second feature is noise, and does not count.
-    let mut soinn = Soinn::<f64>::weighted(&[1.0, 0.0], SoinnConfig::noisy()).unwrap();
+    // The third feature is noise, and does not count.
+    let weights = [1.0, 1.0, 0.0];
+    let mut soinn = Soinn::<f64>::weighted(&weights, SoinnConfig::noisy()).unwrap();
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     for step in 0..10_000_u32 {
-        let side = 3.0 * f64::from(step % 2);
-        soinn
-            .observe(&[side + rng.random::<f64>(), 1000.0 * rng.random::<f64>()])
-            .unwrap();
+        let mut at = || rng.random::<f64>();
+        let input = [4.0 * f64::from(step % 2) + at(), at(), 1000.0 * at()];
+        soinn.observe(&input).unwrap();
     }
+    soinn.remove_noise();
     let second = soinn
         .second_layer(&SecondLayerConfig::noisy(), &mut rng)
         .unwrap();
-    assert_eq!(second.network().weights(), Some(&[1.0, 0.0][..]));
+    assert_eq!(second.network().weights(), Some(&weights[..]));
     assert_eq!(second.network().clusters().count(), 2);
 }
 

@@ -17,7 +17,10 @@ use crate::pioneer;
 use crate::stats::{Interval, quantile};
 
 /// How many data points a picture shows at most.
-const SHOWN: usize = 2000;
+const SHOWN: usize = 700;
+
+/// The colour of data, the last one, which no cluster has.
+const DOTS: u32 = Series::COLOURS - 1;
 
 pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let first = |table: &str, row: &str| {
@@ -57,7 +60,7 @@ pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
                 "Networks of GNG, GNG-U, equilibrium GNG and SOINN over two rings and two squares.",
             ),
         )
-        .caption("Run 0. Grey: points they have learnt.")
+        .caption("Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.")
         .table(shapes::NAME),
     );
     figures.push(errors(runs));
@@ -116,7 +119,7 @@ fn layers(run: &Run, name: &str) -> Result<Figure, BoxError> {
     let description = format!("The two layers of {row} over their data.");
     Ok(Figure::new(name, title, tiles.drawing(description))
         .caption(
-            "Run 0. Each cluster has a colour of its own until colours begin again. Grey: points.",
+            "Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.",
         )
         .table(&run.table))
 }
@@ -132,13 +135,13 @@ fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
     let every = data.len().div_ceil(SHOWN).max(1);
     let points = data.iter().step_by(every);
     let points = points.map(|point| Point::new(point[0], point[1]));
-    chart.points(Points::new("", Series(6), points.collect()));
-    let mut graph = Graph::new().radius(1.8);
+    chart.points(Points::new("", Series(DOTS), points.collect()));
+    let mut graph = Graph::new().radius(2.6);
     let mut nodes = BTreeMap::new();
     for (id, cluster) in network.clusters().iter() {
         let mut at = network.prototype(id).into_iter().flatten();
         let position = Point::new(at.next().unwrap_or(f64::NAN), at.next().unwrap_or(f64::NAN));
-        let series = Series(cluster % (Series::COLOURS - 1));
+        let series = Series(cluster % DOTS);
         let node = GraphNode::at(position).series(series).mark(NodeMark::Disc);
         nodes.insert(id, (graph.node(node), series));
     }

@@ -85,7 +85,8 @@ pub(super) fn tables() -> Vec<Table> {
         .note(format!(
             "{POINTS} points a run. A run is right if each region's own points fall, but for 5 %, into a cluster of \
              their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = 100, c = 1, second layer's threshold by \
-             algorithm 3.3. SOINN: λ = 500, age_dead = 50, c = 1, that threshold four times the first layer's mean edge."
+             algorithm 3.3. SOINN: units judged by their age and age_dead = 20 in the first layer, λ = 500 and a \
+             threshold of four mean edges of the first layer in the second."
         )),
         rows(measured(Table::new(
             ONE_AFTER_ANOTHER,
