@@ -8,6 +8,7 @@
 
 mod golden;
 mod mazes;
+mod mslst;
 mod physics;
 mod replay;
 mod support;

@@ -3,15 +3,16 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use thiserror::Error;
-use tolman_control::{Outcome, Proposal, RingError, Stack, View};
+use tolman_control::{Outcome, RingError};
 use tolman_geom::Pose;
 use tolman_maze::Direction;
 use tolman_robot::{Body, Robot, TurnTranslate};
 use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{PlaceError, Solo, StepError, Zone};
+use tolman_sim::{PlaceError, Solo, StepError};
 
 use crate::agents::{Mind, Perception};
 use crate::course::Course;
+use crate::drive::Drive;
 
 /// Why a run could not be made.
 #[derive(Debug, Error)]
@@ -102,7 +103,7 @@ pub fn random_start(course: &Course, body: &Body, seed: u64) -> Pose {
     course.random_start(body, &mut stream(seed, START_STREAM))
 }
 
-fn stream(seed: u64, stream: u64) -> ChaCha8Rng {
+pub(crate) fn stream(seed: u64, stream: u64) -> ChaCha8Rng {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(stream);
     rng
@@ -119,14 +120,13 @@ pub fn run(
     mind: &mut Mind,
     mut watch: impl FnMut(&Step<'_>),
 ) -> Result<Episode, EpisodeError> {
-    let robot = LaserPioneer::new(trial.robot.clone())?;
-    let mut solo = Solo::new(trial.course.world.clone(), robot, trial.start, trial.seed)?;
-    let mut stack = Stack::paper(
-        trial.robot.ring,
-        2.0 * trial.robot.radius,
-        trial.course.corridor_width,
+    let mut drive = Drive::new(
+        trial.course,
+        &trial.robot,
+        trial.start,
+        trial.seed,
+        stream(trial.seed, LAYERS_STREAM),
     )?;
-    let mut layers_rng = stream(trial.seed, LAYERS_STREAM);
     let mut mind_rng = stream(trial.seed, MIND_STREAM);
 
     let mut episode = Episode {
@@ -137,20 +137,19 @@ pub fn run(
         bumps: 0,
         path: vec![trial.start],
     };
-    let destination = trial.course.destination();
     let mut last = None;
     while episode.steps < trial.step_limit && !episode.reached {
-        let action = choose(mind, last, &solo, &mut mind_rng);
-        stack.begin(action);
+        let action = choose(mind, last, drive.robot(), &mut mind_rng);
+        drive.begin(action);
         episode.actions += 1;
         while episode.steps < trial.step_limit && !episode.reached {
-            let proposal = step(&mut solo, &mut stack, &mut layers_rng, &mut episode)?;
-            episode.reached = is_in(destination, &solo);
+            let proposal = drive.step()?;
+            episode.record(&drive);
             watch(&Step {
                 action,
                 command: proposal.command,
                 ends: proposal.ends,
-                robot: &solo,
+                robot: drive.robot(),
             });
             if let Some(outcome) = proposal.ends {
                 episode.failed_actions += u32::from(!outcome.moved());
@@ -160,6 +159,17 @@ pub fn run(
         }
     }
     Ok(episode)
+}
+
+impl Episode {
+    /// Takes down the step that was just made.
+    fn record(&mut self, drive: &Drive<'_>) {
+        let truth = drive.robot().truth();
+        self.steps = drive.steps();
+        self.bumps += u32::from(truth.bump);
+        self.path.push(truth.pose);
+        self.reached = drive.is_in_destination();
+    }
 }
 
 fn choose(
@@ -180,32 +190,4 @@ fn choose(
             brain.choose(&perception, rng)
         }
     }
-}
-
-/// One time step of the action under way: what the layers proposed and the robot did.
-fn step(
-    solo: &mut Solo<LaserPioneer>,
-    stack: &mut Stack,
-    rng: &mut ChaCha8Rng,
-    episode: &mut Episode,
-) -> Result<Proposal, EpisodeError> {
-    let sensing = solo.sensing();
-    let proposal = match (&sensing.scan, sensing.compass) {
-        (Some(scan), Some(heading)) => stack.correct(View { scan, heading }, rng),
-        // Blind for a moment: stand still until the sensors are back.
-        _ => Proposal::default(),
-    };
-    solo.step(&proposal.command)
-        .map_err(|source| EpisodeError::Step {
-            step: episode.steps,
-            source,
-        })?;
-    episode.steps += 1;
-    episode.bumps += u32::from(solo.truth().bump);
-    episode.path.push(solo.truth().pose);
-    Ok(proposal)
-}
-
-fn is_in(zone: &Zone, solo: &Solo<LaserPioneer>) -> bool {
-    zone.contains(solo.truth().pose.position)
 }

@@ -15,9 +15,10 @@ pub struct Avoid {
     failed: Vec<Direction>,
 }
 
-impl Brain for Avoid {
-    fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
-        match perception.last {
+impl Avoid {
+    /// Takes in how the action before ended, whoever chose it.
+    pub(super) fn learn(&mut self, last: Option<(Direction, Outcome)>) {
+        match last {
             Some((action, Outcome::Completed)) => {
                 self.travelling = Some(action);
                 self.failed.clear();
@@ -25,6 +26,10 @@ impl Brain for Avoid {
             Some((action, _)) => self.failed.push(action),
             None => {}
         }
+    }
+
+    /// Draws the next action.
+    pub(super) fn wander(&mut self, rng: &mut dyn Rng) -> Direction {
         let back = self.travelling.map(Direction::opposite);
         let untried: Vec<Direction> = Direction::ALL
             .into_iter()
@@ -45,5 +50,12 @@ impl Brain for Avoid {
             Direction::ALL.to_vec()
         };
         choices[rng.random_range(0..choices.len() as u32) as usize]
+    }
+}
+
+impl Brain for Avoid {
+    fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
+        self.learn(perception.last);
+        self.wander(rng)
     }
 }

@@ -1,0 +1,43 @@
+use serde::{Deserialize, Serialize};
+
+/// What can be chosen about MSLST.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MslstConfig {
+    /// Phase I, the error threshold of the equilibrium GNG: squared robot units, above 0. The paper has 100 for the J
+    /// maze, 20 and 50 for the Large one.
+    pub threshold: f64,
+    /// Phase I, how long the robot wanders: time steps, at least 1. "Approximately 4000 time steps, on the large
+    /// maze."
+    pub scan_steps: u32,
+    /// Phase II, how long it wanders: actions, at least 1. The paper does not say: "chosen largely based on how much
+    /// time was available". See `docs/mslst.md`.
+    pub graph_actions: u32,
+    /// Phase III, how many pairs of state and action are remembered: at least 1. "The last eight … when solving
+    /// the large maze, and six for the J-maze."
+    pub memory: u32,
+    /// Phase III, for how many actions it acts randomly once it believes to have arrived. "Eight actions."
+    pub doubt: u32,
+}
+
+impl MslstConfig {
+    /// As in the J maze: threshold 100, a memory of six.
+    #[must_use]
+    pub const fn j() -> Self {
+        Self {
+            memory: 6,
+            ..Self::large(100.0)
+        }
+    }
+
+    /// As in the Large maze: a memory of eight, and a threshold of 20 or 50.
+    #[must_use]
+    pub const fn large(threshold: f64) -> Self {
+        Self {
+            threshold,
+            scan_steps: 4000,
+            graph_actions: 8000,
+            memory: 8,
+            doubt: 8,
+        }
+    }
+}

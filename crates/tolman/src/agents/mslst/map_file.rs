@@ -1,0 +1,190 @@
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use tolman_geom::Point;
+use tolman_maps::mslst_graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
+use tolman_maze::Direction;
+
+use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
+
+/// What `format` says in a file of ours.
+const FORMAT: &str = "tolman-mslst-map";
+/// The version that is written; all versions up to it are read.
+const VERSION: u32 = 1;
+
+/// A learned map as it lies in a file: JSON, read back to the bit.
+#[derive(Clone, Debug)]
+pub struct MapFile {
+    /// The maze it was learned in.
+    pub maze: String,
+    /// The seed it was learned from.
+    pub seed: u64,
+    /// How it was learned.
+    pub config: MslstConfig,
+    /// The map.
+    pub learned: Learned,
+}
+
+/// Why a file holds no map.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MapFileError {
+    /// It is no JSON of the right form. The message has line and column.
+    #[error("this is no map of MSLST: make one with `tolman learn`")]
+    Json(#[from] serde_json::Error),
+    /// It is another kind of file.
+    #[error("its format is {found:?}, expected {FORMAT:?}: make a map with `tolman learn`")]
+    Format {
+        /// What it says.
+        found: String,
+    },
+    /// It is of a later time.
+    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
+    Version {
+        /// What it says.
+        found: u32,
+    },
+    /// The states are none.
+    #[error("its states are none")]
+    States(#[from] StatesError),
+    /// The graph is none.
+    #[error("its nodes are no graph")]
+    Graph(#[from] GraphError),
+    /// A node's state is not among the states.
+    #[error("node {node}: there is no state {state}, only {count} of them")]
+    NoSuchState {
+        /// The node.
+        node: usize,
+        /// Its state.
+        state: u32,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+struct Header {
+    format: String,
+    version: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Body {
+    #[serde(flatten)]
+    header: Header,
+    maze: String,
+    seed: u64,
+    config: MslstConfig,
+    /// Ranges in robot units, beam 0 to the north, then counter-clockwise.
+    states: Vec<Vec<f64>>,
+    nodes: Vec<SavedNode>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedNode {
+    state: u32,
+    destination: bool,
+    /// Action and head; a failed action has none.
+    edges: Vec<(Direction, Option<u32>)>,
+    /// Where the robot truly was, m; for pictures only.
+    made_at: [f64; 2],
+    /// The action of Phase II that made it.
+    made_by: u32,
+}
+
+impl MapFile {
+    /// The text of the file, with a line end.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let Learned { map, survey } = &self.learned;
+        let surveyed = survey.positions.iter().zip(&survey.made_by);
+        let nodes = map.graph.nodes().iter().zip(surveyed);
+        let body = Body {
+            header: Header {
+                format: FORMAT.to_owned(),
+                version: VERSION,
+            },
+            maze: self.maze.clone(),
+            seed: self.seed,
+            config: self.config,
+            states: map.states.models().to_vec(),
+            nodes: nodes
+                .map(|(node, (position, made_by))| SavedNode {
+                    state: node.state,
+                    destination: node.zone == Zone::Destination,
+                    edges: node.edges.iter().map(saved).collect(),
+                    made_at: [position.x, position.y],
+                    made_by: *made_by,
+                })
+                .collect(),
+        };
+        // Plain fields and finite numbers always have a JSON form.
+        let mut text = serde_json::to_string(&body).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// [`MapFileError`] with the place and what to do about it.
+    pub fn from_json(text: &str) -> Result<Self, MapFileError> {
+        let header: Header = serde_json::from_str(text)?;
+        if header.format != FORMAT {
+            return Err(MapFileError::Format {
+                found: header.format,
+            });
+        }
+        if header.version > VERSION {
+            return Err(MapFileError::Version {
+                found: header.version,
+            });
+        }
+        let body: Body = serde_json::from_str(text)?;
+        let count = body.states.len();
+        for (index, node) in body.nodes.iter().enumerate() {
+            if node.state as usize >= count {
+                return Err(MapFileError::NoSuchState {
+                    node: index,
+                    state: node.state,
+                    count,
+                });
+            }
+        }
+        let positions = body.nodes.iter().map(|node| Point::from(node.made_at));
+        let survey = Survey {
+            positions: positions.collect(),
+            made_by: body.nodes.iter().map(|node| node.made_by).collect(),
+        };
+        let nodes = body.nodes.into_iter().map(restored).collect();
+        let map = MslstMap {
+            states: States::from_models(body.states)?,
+            graph: MslstGraph::from_nodes(nodes)?,
+        };
+        Ok(Self {
+            maze: body.maze,
+            seed: body.seed,
+            config: body.config,
+            learned: Learned { map, survey },
+        })
+    }
+}
+
+fn saved(edge: &Edge) -> (Direction, Option<u32>) {
+    (edge.action, (edge.head != DUMMY).then_some(edge.head))
+}
+
+fn restored(node: SavedNode) -> Node {
+    let edges = node.edges.into_iter().map(|(action, head)| Edge {
+        action,
+        head: head.unwrap_or(DUMMY),
+    });
+    Node {
+        state: node.state,
+        zone: if node.destination {
+            Zone::Destination
+        } else {
+            Zone::Elsewhere
+        },
+        edges: edges.collect(),
+    }
+}

@@ -1,0 +1,74 @@
+use thiserror::Error;
+use tolman_quantizers::{ConfigError, Gng, GngConfig, InputError, Quantizer};
+
+/// Why there are no states.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StatesError {
+    /// The quantizer cannot begin.
+    #[error("no states can be made")]
+    Config(#[from] ConfigError),
+    /// A scan cannot be used.
+    #[error("scan {scan} cannot be used")]
+    Scan {
+        /// Its number, from 0.
+        scan: usize,
+        /// Why.
+        source: InputError,
+    },
+}
+
+/// The states that Phase I learned: model scans, numbered from 0 in the order the GNG made them.
+#[derive(Clone, Debug)]
+pub struct States {
+    models: Vec<Vec<f64>>,
+    /// Holds the models and learns no more.
+    quantizer: Gng<f64>,
+}
+
+impl States {
+    /// "We then ran equilibrium GNG on the sensor data to categorize these vectors into discrete states." The scans
+    /// are shown once, in the order they were recorded.
+    ///
+    /// # Errors
+    /// If there are none, or they differ in length or hold what is no number.
+    pub fn learn(scans: &[Vec<f64>], threshold: f64) -> Result<Self, StatesError> {
+        let beams = scans.first().map_or(0, Vec::len);
+        let mut gng = Gng::new(beams, GngConfig::mslst(threshold))?;
+        for (index, scan) in scans.iter().enumerate() {
+            gng.observe(scan).map_err(|source| StatesError::Scan {
+                scan: index,
+                source,
+            })?;
+        }
+        let network = gng.network();
+        let prototypes = network.ids().filter_map(|id| network.prototype(id).ok());
+        Self::from_models(prototypes.map(Iterator::collect).collect())
+    }
+
+    /// States that were learned before.
+    ///
+    /// # Errors
+    /// If they are fewer than two, or differ in length or hold what is no number.
+    pub fn from_models(models: Vec<Vec<f64>>) -> Result<Self, StatesError> {
+        let beams = models.first().map_or(0, Vec::len);
+        let mut quantizer = Gng::new(beams, GngConfig::fritzke())?;
+        quantizer.begin_with(&models)?;
+        Ok(Self { models, quantizer })
+    }
+
+    /// "The number of the GNG state that most closely matches the current input vector"; ties go to the lower
+    /// number.
+    ///
+    /// # Errors
+    /// If the scan has another length than the models or holds what is no number.
+    pub fn nearest(&self, scan: &[f64]) -> Result<u32, InputError> {
+        Ok(self.quantizer.nearest(scan)?.id.0)
+    }
+
+    /// The model scans, robot units, beam 0 to the north.
+    #[must_use]
+    pub fn models(&self) -> &[Vec<f64>] {
+        &self.models
+    }
+}

@@ -1,0 +1,117 @@
+//! MSLST from its first scan to the destination.
+
+use std::sync::Arc;
+
+use tolman::agents::Mind;
+use tolman::agents::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
+use tolman::episode::{self, Episode};
+use tolman::pioneer::calibrated;
+use tolman_maps::mslst_graph::DUMMY;
+
+use crate::support::{own_course, trial};
+
+/// A short apprenticeship, so that the tests are quick.
+fn config() -> MslstConfig {
+    MslstConfig {
+        scan_steps: 2000,
+        graph_actions: 600,
+        ..MslstConfig::j()
+    }
+}
+
+fn learned() -> Learned {
+    learn(&own_course("j.maze"), &calibrated(), &config(), 5).unwrap()
+}
+
+fn solve(learned: Learned, seed: u64) -> Episode {
+    let course = own_course("j.maze");
+    let mind = Mslst::new(Arc::new(learned.map), &config());
+    let mut mind = Mind::Brain(Box::new(mind));
+    episode::run(&trial(&course, seed), &mut mind, |_| {}).unwrap()
+}
+
+#[test]
+fn a_saved_map_is_the_same_map_and_makes_the_same_run() {
+    let file = MapFile {
+        maze: "J".to_owned(),
+        seed: 5,
+        config: config(),
+        learned: learned(),
+    };
+    let text = file.to_json();
+    let read = MapFile::from_json(&text).unwrap();
+    assert_eq!(read.to_json(), text);
+    assert_eq!(read.learned.map.graph, file.learned.map.graph);
+    assert_eq!(read.learned.survey, file.learned.survey);
+    // The very bits, which equal texts of rounded numbers would not prove.
+    let bits = |learned: &Learned| -> Vec<u64> {
+        let models = learned.map.states.models().iter().flatten();
+        models.map(|range| range.to_bits()).collect()
+    };
+    assert_eq!(bits(&read.learned), bits(&file.learned));
+    assert_eq!(solve(read.learned, 3), solve(file.learned, 3));
+}
+
+#[test]
+fn the_same_seed_learns_the_same_and_another_one_does_not() {
+    let (once, again) = (learned(), learned());
+    assert_eq!(once.map.graph, again.map.graph);
+    assert_eq!(once.map.states.models(), again.map.states.models());
+    let other = learn(&own_course("j.maze"), &calibrated(), &config(), 6).unwrap();
+    assert_ne!(once.map.graph, other.map.graph);
+}
+
+#[test]
+fn the_survey_says_where_each_node_was_made() {
+    let course = own_course("j.maze");
+    let Learned { map, survey } = learned();
+    assert_eq!(survey.positions.len(), map.graph.len());
+    assert!(survey.made_by.is_sorted());
+    let mut destinations = 0;
+    for (id, node) in map.graph.ids().zip(map.graph.nodes()) {
+        let here = survey.positions[id as usize];
+        let inside = course.destination().contains(here);
+        assert_eq!(map.graph.is_destination(id), inside, "node {id}");
+        destinations += u32::from(inside);
+        for edge in node.edges.iter().filter(|edge| edge.head != DUMMY) {
+            // An action is two translations of half a unit on average, with 25 % of noise.
+            let way = (survey.positions[edge.head as usize] - here).norm();
+            assert!(way < 3.0, "node {id}, {}: {way} m", edge.action);
+        }
+    }
+    assert!(destinations > 0, "the wanderer has come to the destination");
+}
+
+#[test]
+fn it_finds_out_of_the_j_maze() {
+    let reached = (0..10).filter(|seed| solve(learned(), *seed).reached).count();
+    assert!(reached >= 9, "{reached} of 10");
+}
+
+#[test]
+fn files_that_hold_no_map_say_why() {
+    let good = MapFile {
+        maze: "J".to_owned(),
+        seed: 5,
+        config: config(),
+        learned: learned(),
+    }
+    .to_json();
+    let damaged = |from: &str, to: &str| {
+        assert!(good.contains(from), "{from}");
+        let error = MapFile::from_json(&good.replacen(from, to, 1)).unwrap_err();
+        let source = std::error::Error::source(&error).map(ToString::to_string);
+        format!("{error}: {}", source.unwrap_or_default())
+    };
+    for (from, to, expected) in [
+        ("{", "", "line 1 column"),
+        ("tolman-mslst-map", "soup", "\"soup\""),
+        ("\"version\":1", "\"version\":9", "version is 9"),
+        ("\"nodes\":[{\"state\":", "\"nodes\":[{\"state\":99", "there is no state 99"),
+        ("\"states\":[[", "\"states\":[[1.0,", "unit 1"),
+        ("[\"north\",", "[\"up\",", "unknown variant `up`"),
+    ] {
+        let told = damaged(from, to);
+        assert!(told.contains(expected), "{from} → {to}: {told}");
+    }
+}
