@@ -84,7 +84,9 @@ fn the_survey_says_where_each_node_was_made() {
 
 #[test]
 fn it_finds_out_of_the_j_maze() {
-    let reached = (0..10).filter(|seed| solve(learned(), *seed).reached).count();
+    let reached = (0..10)
+        .filter(|seed| solve(learned(), *seed).reached)
+        .count();
     assert!(reached >= 9, "{reached} of 10");
 }
 
@@ -100,14 +102,23 @@ fn files_that_hold_no_map_say_why() {
     let damaged = |from: &str, to: &str| {
         assert!(good.contains(from), "{from}");
         let error = MapFile::from_json(&good.replacen(from, to, 1)).unwrap_err();
-        let source = std::error::Error::source(&error).map(ToString::to_string);
-        format!("{error}: {}", source.unwrap_or_default())
+        let mut told = error.to_string();
+        let mut cause: Option<&dyn std::error::Error> = std::error::Error::source(&error);
+        while let Some(error) = cause {
+            told = format!("{told}: {error}");
+            cause = error.source();
+        }
+        told
     };
     for (from, to, expected) in [
         ("{", "", "line 1 column"),
         ("tolman-mslst-map", "soup", "\"soup\""),
         ("\"version\":1", "\"version\":9", "version is 9"),
-        ("\"nodes\":[{\"state\":", "\"nodes\":[{\"state\":99", "there is no state 99"),
+        (
+            "\"nodes\":[{\"state\":",
+            "\"nodes\":[{\"state\":99",
+            "there is no state 99",
+        ),
         ("\"states\":[[", "\"states\":[[1.0,", "unit 1"),
         ("[\"north\",", "[\"up\",", "unknown variant `up`"),
     ] {

@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 
 use tolman_sim::robots::LaserPioneerConfig;
 
-use super::{Avoid, Mind, Oracle, Policy, Random, WallFollow};
+use super::{Avoid, Chart, Mind, Oracle, Policy, Random, UnlocalizedOracle, WallFollow};
 use crate::course::Course;
 use crate::episode::EpisodeError;
 
@@ -18,11 +18,19 @@ pub enum Agent {
     Random,
     /// [`Oracle`].
     Oracle,
+    /// [`UnlocalizedOracle`].
+    UnlocalizedOracle,
 }
 
 impl Agent {
-    /// All of them: the paper's in its order, then floor and ceiling.
-    pub const ALL: [Self; 4] = [Self::Avoid, Self::WallFollow, Self::Random, Self::Oracle];
+    /// All of them: the paper's in its order, then floor and ceilings.
+    pub const ALL: [Self; 5] = [
+        Self::Avoid,
+        Self::WallFollow,
+        Self::Random,
+        Self::Oracle,
+        Self::UnlocalizedOracle,
+    ];
 
     /// The name in tables.
     #[must_use]
@@ -32,6 +40,7 @@ impl Agent {
             Self::WallFollow => "Wall-follow",
             Self::Random => "Random",
             Self::Oracle => "Oracle",
+            Self::UnlocalizedOracle => "Unlocalized oracle",
         }
     }
 
@@ -43,6 +52,9 @@ impl Agent {
             Self::WallFollow => "MSLST's follower of the wall on its right",
             Self::Random => "Any direction, each time anew: the floor",
             Self::Oracle => "Knows the maze and where it is: the ceiling",
+            Self::UnlocalizedOracle => {
+                "Knows the maze but not where it starts: the ceiling of localizing"
+            }
         }
     }
 
@@ -57,6 +69,7 @@ impl Agent {
 #[derive(Debug, Default)]
 pub struct Cast {
     policy: OnceLock<Arc<Policy>>,
+    chart: OnceLock<Arc<Chart>>,
 }
 
 impl Cast {
@@ -75,7 +88,24 @@ impl Cast {
             Agent::WallFollow => Mind::Brain(Box::new(WallFollow::new(course.corridor_width))),
             Agent::Random => Mind::Brain(Box::new(Random)),
             Agent::Oracle => Mind::Yardstick(Box::new(Oracle::new(self.policy(course, robot)?))),
+            Agent::UnlocalizedOracle => {
+                let chart = self.chart(course, robot)?;
+                Mind::Brain(Box::new(UnlocalizedOracle::new(chart)))
+            }
         })
+    }
+
+    fn chart(
+        &self,
+        course: &Course,
+        robot: &LaserPioneerConfig,
+    ) -> Result<Arc<Chart>, EpisodeError> {
+        if let Some(chart) = self.chart.get() {
+            return Ok(Arc::clone(chart));
+        }
+        let chart = Chart::new(course, robot, self.policy(course, robot)?)?;
+        // As with the policy.
+        Ok(Arc::clone(self.chart.get_or_init(|| Arc::new(chart))))
     }
 
     fn policy(

@@ -8,6 +8,7 @@ mod cast;
 pub mod mslst;
 mod oracle;
 mod random;
+mod unlocalized;
 mod wall_follow;
 
 use core::fmt::Debug;
@@ -23,6 +24,7 @@ pub use avoid::Avoid;
 pub use cast::{Agent, Cast};
 pub use oracle::{Oracle, Policy};
 pub use random::Random;
+pub use unlocalized::{Chart, UnlocalizedOracle};
 pub use wall_follow::WallFollow;
 
 /// What a brain is told when its next action is due.

@@ -45,6 +45,17 @@ impl Yardstick for Oracle {
         truth: &Truth,
         _rng: &mut dyn Rng,
     ) -> Direction {
+        self.choose_at(truth.pose, last)
+    }
+}
+
+impl Oracle {
+    /// The next action of a robot at `pose` whose last action ended so.
+    pub(super) fn choose_at(
+        &mut self,
+        pose: Pose,
+        last: Option<(Direction, Outcome)>,
+    ) -> Direction {
         match last {
             Some((action, Outcome::Failed)) => self.failed.push(action),
             _ => self.failed.clear(),
@@ -52,7 +63,7 @@ impl Yardstick for Oracle {
         if self.failed.len() == Direction::ALL.len() {
             self.failed.clear();
         }
-        let costs = self.policy.costs(truth.pose);
+        let costs = self.policy.costs(pose);
         // Ties go to the first, clockwise from north: the same on every run.
         Direction::ALL
             .into_iter()
@@ -73,6 +84,8 @@ pub struct Policy {
     lattice: Lattice,
     /// For each node and action, the steps from there to the destination that begin with the action.
     costs: Vec<[Option<u32>; 4]>,
+    /// For each node and action, the node it leads to without noise; none where it fails.
+    ends: Vec<[Option<u32>; 4]>,
 }
 
 /// Positions of the lattice per corridor width.
@@ -133,7 +146,7 @@ impl Policy {
         }
         let to_destination = costs_from(&Arcs::new(lattice.node_count(), &arcs).reversed(), goals);
         let costs = ends
-            .into_iter()
+            .iter()
             .map(|actions| {
                 actions.map(|end| {
                     let (head, steps) = end?;
@@ -141,7 +154,15 @@ impl Policy {
                 })
             })
             .collect();
-        Ok(Self { lattice, costs })
+        let ends = ends
+            .into_iter()
+            .map(|actions| actions.map(|end| end.map(|(head, _)| head)))
+            .collect();
+        Ok(Self {
+            lattice,
+            costs,
+            ends,
+        })
     }
 
     /// The steps to the destination from about `pose`, by the action they begin with; none where it would
@@ -149,6 +170,25 @@ impl Policy {
     #[must_use]
     pub fn costs(&self, pose: Pose) -> [Option<u32>; 4] {
         self.costs[self.lattice.nearest(pose) as usize]
+    }
+
+    /// Where an action leads from about `pose` without noise; none where it fails.
+    pub(super) fn end(&self, pose: Pose, action: Direction) -> Option<Point> {
+        let head = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
+        Some(self.lattice.pose(head).position)
+    }
+
+    /// The positions it knows, by [`Self::position_index`].
+    pub(super) fn positions(&self) -> impl Iterator<Item = Point> + '_ {
+        let axes = AXES.len() as u32;
+        let count = self.lattice.node_count() as u32 / axes;
+        (0..count).map(move |index| self.lattice.pose(index * axes).position)
+    }
+
+    /// The index of the position nearest to `position`.
+    pub(super) fn position_index(&self, position: Point) -> usize {
+        let node = self.lattice.nearest(Pose::new(position, AXES[0]));
+        node as usize / AXES.len()
     }
 }
 

@@ -10,13 +10,16 @@ mod experiment;
 mod failure;
 mod file;
 mod interrupt;
+mod learn;
 mod man;
+mod map;
 mod maze;
 mod mms_host;
 mod mouse;
 mod replay;
 mod replay_file;
 mod run;
+mod solve;
 mod stdout;
 
 use std::io::Write;
@@ -39,6 +42,8 @@ Examples:
   tolman demo
   tolman run wall-follow --maze mazes/large.maze --replay run.html
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
+  tolman learn --maze mazes/j.maze --out j-map.json
+  tolman solve --map j-map.json --maze mazes/j.maze --seed 7
   tolman maze show mazes/j.maze
   tolman mouse mazes/classic --worst 3
   tolman experiment baselines --quick
@@ -49,6 +54,10 @@ Exit codes: 0 done, 1 failed, 2 bad input, 3 a table disagrees with the paper (o
 #[derive(Subcommand)]
 enum Verb {
     Run(run::Arguments),
+    Learn(learn::Arguments),
+    Solve(solve::Arguments),
+    #[command(subcommand)]
+    Map(map::Verb),
     Replay(replay::Arguments),
     Demo(demo::Arguments),
     #[command(subcommand)]
@@ -83,6 +92,9 @@ impl Verb {
     fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
             Self::Run(arguments) => run::carry_out(&arguments, out),
+            Self::Learn(arguments) => learn::carry_out(&arguments, out),
+            Self::Solve(arguments) => solve::carry_out(&arguments, out),
+            Self::Map(verb) => verb.carry_out(out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),

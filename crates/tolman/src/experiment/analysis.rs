@@ -1,7 +1,7 @@
 //! What the runs say: every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
-use super::{Experiment, Metric, PaperValue, Run, Table, Verdict, run_seed};
+use super::{Experiment, Metric, Pair, PaperValue, Run, Statistic, Table, Verdict, run_seed};
 use crate::stats::{self, Interval, Method, PValue};
 
 /// All tables of an experiment, measured.
@@ -18,6 +18,8 @@ pub struct TableAnalysis {
     pub table: Table,
     /// In the table's order.
     pub metrics: Vec<MetricAnalysis>,
+    /// The rows that are compared each with each; empty if none are.
+    pub pairs: Vec<Pair>,
 }
 
 /// One metric of a table, measured.
@@ -92,6 +94,10 @@ impl Analysis {
                     .iter()
                     .map(|metric| measure(table, metric, runs, master_seed))
                     .collect(),
+                pairs: table
+                    .pairwise
+                    .as_ref()
+                    .map_or_else(Vec::new, |pairwise| pairwise.compare(table, runs)),
                 table: table.clone(),
             })
             .collect();
@@ -132,13 +138,17 @@ impl Analysis {
 }
 
 fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> MetricAnalysis {
+    let runs_of = |row: &str| -> Vec<&Run> {
+        let of_row = |run: &&Run| run.table == table.name && run.row == row;
+        runs.iter().filter(of_row).collect()
+    };
+    let others = match &metric.statistic {
+        Statistic::Multiple { of, .. } => runs_of(of),
+        _ => Vec::new(),
+    };
     let mut samples = Vec::new();
     for row in &table.rows {
-        let runs: Vec<&Run> = runs
-            .iter()
-            .filter(|run| run.table == table.name && run.row == row.name)
-            .collect();
-        if let Some(sample) = Sample::of(&metric.statistic, &runs) {
+        if let Some(sample) = Sample::of(&metric.statistic, &runs_of(&row.name), &others) {
             samples.push((row, sample));
         }
     }

@@ -1,6 +1,8 @@
 //! The experiments there are.
 
-use super::{BoxError, Error, Experiment, Options, baselines, micromouse, quantizers};
+use super::{
+    BoxError, Error, Experiment, Options, baselines, micromouse, mslst, mslst_sweeps, quantizers,
+};
 
 /// One experiment of the catalogue.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +27,16 @@ pub const fn catalogue() -> &'static [Entry] {
             name: "quantizers",
             title: "Quantizers: states out of scans, clusters out of noise",
             open: quantizers::open,
+        },
+        Entry {
+            name: "mslst",
+            title: "MSLST: maze solving by learning state topologies",
+            open: mslst::open,
+        },
+        Entry {
+            name: "mslst-sweeps",
+            title: "MSLST under other settings and in other worlds",
+            open: mslst_sweeps::open,
         },
         Entry {
             name: "micromouse",

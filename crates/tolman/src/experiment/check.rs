@@ -78,6 +78,20 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 "{place} is compared with {reference:?}, which is no row"
             ));
         }
+        let others = table
+            .metrics
+            .iter()
+            .filter_map(|metric| match &metric.statistic {
+                Statistic::Multiple { of, .. } => Some(of),
+                _ => None,
+            });
+        let compared = table.pairwise.iter().flat_map(|pairwise| &pairwise.rows);
+        let is_row = |name: &&String| table.rows.iter().any(|row| row.name == **name);
+        if let Some(name) = others.chain(compared).find(|name| !is_row(name)) {
+            return refuse(format!(
+                "{place} is compared with {name:?}, which is no row"
+            ));
+        }
         if let Some(name) = repeated(table.fields.iter().map(|field| &field.name)) {
             return refuse(format!("{place} has two fields named {name:?}"));
         }
@@ -97,6 +111,7 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 }
                 Statistic::Mean { field } | Statistic::Median { field } => (&[field], NUMERIC),
                 Statistic::Ratio { over, under } => (&[over, under], NUMERIC),
+                Statistic::Multiple { field, .. } => (&[field], NUMERIC),
             };
             let measured = |name: &String| {
                 let mut fields = table.fields.iter();

@@ -30,8 +30,9 @@ pub(super) enum Centre {
 }
 
 impl Sample {
-    /// What a statistic measures of runs; `None` if no run has the field.
-    pub(super) fn of(statistic: &Statistic, runs: &[&Run]) -> Option<Self> {
+    /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of the row
+    /// that [`Statistic::Multiple`] names, sorted by index.
+    pub(super) fn of(statistic: &Statistic, runs: &[&Run], others: &[&Run]) -> Option<Self> {
         let number = |run: &Run, field: &str| run.fields.get(field).and_then(Field::as_number);
         let flags = |field: &str, whole: f64| Self::Flags {
             flags: runs
@@ -52,6 +53,14 @@ impl Sample {
             Statistic::Ratio { over, under } => Self::Pairs(
                 runs.iter()
                     .filter_map(|run| Some((number(run, over)?, number(run, under)?)))
+                    .collect(),
+            ),
+            Statistic::Multiple { field, .. } => Self::Pairs(
+                runs.iter()
+                    .filter_map(|run| {
+                        let place = others.binary_search_by_key(&run.run, |other| other.run);
+                        Some((number(run, field)?, number(others[place.ok()?], field)?))
+                    })
                     .collect(),
             ),
         };

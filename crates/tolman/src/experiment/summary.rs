@@ -4,6 +4,9 @@ use serde::Serialize;
 
 use super::Analysis;
 
+/// The table of all p-values of rows compared each with each.
+const P_TABLE: &str = "p";
+
 /// The contents of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
@@ -59,6 +62,17 @@ impl Summary {
                     );
                 }
             }
+        }
+        for table in &analysis.tables {
+            rows.extend(table.pairs.iter().map(|pair| SummaryRow {
+                table: P_TABLE.to_owned(),
+                row: format!("{}: {}", table.table.name, pair.name()),
+                metric: "p".to_owned(),
+                value: pair.p.value(),
+                sd: None,
+                n: pair.n,
+                paper: pair.paper,
+            }));
         }
         Self {
             experiment: experiment.to_owned(),

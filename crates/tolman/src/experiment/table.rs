@@ -1,6 +1,6 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
-use super::Kind;
+use super::{Kind, Pairwise};
 use crate::stats::{self, PValue};
 
 /// One table of a paper.
@@ -20,6 +20,8 @@ pub struct Table {
     pub paper_runs: Option<u32>,
     /// How the rows are compared with each other; `None` compares none.
     pub comparison: Option<Comparison>,
+    /// Which rows are compared each with each; `None` compares none.
+    pub pairwise: Option<Pairwise>,
     /// What a reader must know to read the values, such as how runs without success count; empty if
     /// there is nothing.
     pub note: String,
@@ -36,6 +38,7 @@ impl Table {
             metrics: Vec::new(),
             paper_runs: None,
             comparison: None,
+            pairwise: None,
             note: String::new(),
         }
     }
@@ -87,6 +90,13 @@ impl Table {
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
+        self
+    }
+
+    /// Compares rows each with each by Mann–Whitney's U.
+    #[must_use]
+    pub fn pairwise(mut self, pairwise: Pairwise) -> Self {
+        self.pairwise = Some(pairwise);
         self
     }
 
@@ -310,6 +320,17 @@ impl Metric {
         Self::new(name, 2, Statistic::Ratio { over, under })
     }
 
+    /// The sum of a numeric field over all runs divided by its sum over the runs of the row named `of` that
+    /// bear the same index: how many times that row's value.
+    pub fn multiple(
+        name: impl Into<String>,
+        field: impl Into<String>,
+        of: impl Into<String>,
+    ) -> Self {
+        let (field, of) = (field.into(), of.into());
+        Self::new(name, 2, Statistic::Multiple { field, of })
+    }
+
     /// Sets the name shown on a page.
     #[must_use]
     pub fn titled(mut self, title: impl Into<String>) -> Self {
@@ -372,6 +393,13 @@ pub enum Statistic {
         /// The numeric field of the denominator.
         under: String,
     },
+    /// The ratio of a sum to that of another row, over the runs that both have.
+    Multiple {
+        /// A numeric field.
+        field: String,
+        /// The name of the other row.
+        of: String,
+    },
 }
 
 /// How far our value may lie from the paper's and still match it.
@@ -384,4 +412,7 @@ pub enum Tolerance {
     /// By this factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half of
     /// it.
     Factor(f64),
+    /// By the paper's own standard deviation: within the spread of its runs. Where the paper gives none,
+    /// nothing is judged.
+    Spread,
 }

@@ -103,6 +103,12 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
         }
         let _ = writeln!(text, "{}", line.trim_end());
     }
+    for pair in &analysis.pairs {
+        let paper = pair
+            .paper
+            .map_or_else(String::new, |p| format!(", paper {p}"));
+        let _ = writeln!(text, "p = {} for {}{paper}", pair.p, pair.name());
+    }
     text
 }
 

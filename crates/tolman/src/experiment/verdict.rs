@@ -43,6 +43,7 @@ impl Verdict {
             Some(Tolerance::Relative(share)) => {
                 (around(share * paper.value.abs()), Basis::Tolerance)
             }
+            Some(Tolerance::Spread) => (around(paper.sd?), Basis::Tolerance),
             Some(Tolerance::Factor(factor)) => {
                 let (one, other) = (paper.value / factor, paper.value * factor);
                 let accepted = Interval {
@@ -57,7 +58,9 @@ impl Verdict {
                     Statistic::Count { whole, .. } => {
                         own_binomial(paper.value, f64::from(whole), whole)?
                     }
-                    Statistic::Mean { .. } | Statistic::Ratio { .. } => {
+                    Statistic::Mean { .. }
+                    | Statistic::Ratio { .. }
+                    | Statistic::Multiple { .. } => {
                         around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
                     }
                     // A spread says nothing of a median's error.

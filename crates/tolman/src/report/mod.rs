@@ -8,6 +8,7 @@
 mod figures;
 mod header;
 mod notes;
+mod pairs;
 mod replays;
 mod table;
 

@@ -26,7 +26,12 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
     let count = has(|statistic| matches!(statistic, Statistic::Count { .. }));
     let median = has(|statistic| matches!(statistic, Statistic::Median { .. }));
     let mean = has(|statistic| matches!(statistic, Statistic::Mean { .. }));
-    let ratio = has(|statistic| matches!(statistic, Statistic::Ratio { .. }));
+    let ratio = has(|statistic| {
+        matches!(
+            statistic,
+            Statistic::Ratio { .. } | Statistic::Multiple { .. }
+        )
+    });
     let compared = analysis
         .tables
         .iter()
@@ -107,6 +112,9 @@ fn tolerances(metrics: &[&Metric]) -> String {
             (Tolerance::Absolute(by), _) => format!("{} within ± {by:.decimals$}", heading(metric)),
             (Tolerance::Relative(share), _) => {
                 format!("{} within ± {:.0} %", metric.title, 100.0 * share)
+            }
+            (Tolerance::Spread, _) => {
+                format!("{} within the paper's standard deviation", metric.title)
             }
             (Tolerance::Factor(factor), _) => {
                 format!("{} within a factor of {factor}", metric.title)

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::figures;
 use super::header::SIGNIFICANT;
+use super::{figures, pairs};
 use crate::draw::{Figure, Series};
 use crate::experiment::{
     Comparison, Measured, Metric, MetricAnalysis, Statistic, TableAnalysis, Verdict, heading, ours,
@@ -38,6 +38,7 @@ pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure])
                     @for metric in &analysis.metrics { (group(analysis, &columns, metric)) }
                 }
             }
+            @if !analysis.pairs.is_empty() { (pairs::table(analysis)) }
             @if !table.note.is_empty() { p.note { (table.note) } }
             (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
         }

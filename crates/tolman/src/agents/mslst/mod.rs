@@ -7,9 +7,10 @@
 //!
 //! - [`learn`] is Phases I and II: an [`MslstConfig`] and a course make a [`MslstMap`].
 //! - [`Mslst`] is Phase III: the brain that navigates by one.
-//! - [`MapFile`] keeps one.
+//! - [`MapFile`] keeps one, [`drawing`] shows it.
 
 mod config;
+pub mod drawing;
 mod learn;
 mod map;
 mod map_file;

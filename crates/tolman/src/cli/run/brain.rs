@@ -1,7 +1,5 @@
 //! The agents by the names the command line has for them.
 
-use core::fmt;
-
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use tolman::agents::Agent;
@@ -11,19 +9,14 @@ use tolman::agents::Agent;
 pub(super) struct Brain(pub(super) Agent);
 
 impl Brain {
-    const fn word(self) -> &'static str {
+    pub(super) const fn word(self) -> &'static str {
         match self.0 {
             Agent::Avoid => "avoid",
             Agent::WallFollow => "wall-follow",
             Agent::Random => "random",
             Agent::Oracle => "oracle",
+            Agent::UnlocalizedOracle => "unlocalized-oracle",
         }
-    }
-}
-
-impl fmt::Display for Brain {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.word())
     }
 }
 
@@ -35,6 +28,7 @@ impl ValueEnum for Brain {
                 Brain(Agent::ALL[1]),
                 Brain(Agent::ALL[2]),
                 Brain(Agent::ALL[3]),
+                Brain(Agent::ALL[4]),
             ]
         }
     }

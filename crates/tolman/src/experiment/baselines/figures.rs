@@ -2,7 +2,7 @@
 
 use tolman_geom::Point;
 
-use super::{Baselines, Venue};
+use super::{Baselines, ROWS, Venue};
 use crate::agents::Agent;
 use crate::draw::{Figure, Plan, Series};
 use crate::experiment::{BoxError, Field, Run};
@@ -16,7 +16,7 @@ const WIDTH: f64 = 420.0;
 pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (number, venue) in (1_u32..).zip(&experiment.venues) {
-        for (series, row) in (0_u32..).zip(Agent::ALL.map(Agent::name)) {
+        for (series, row) in (0_u32..).zip(ROWS.map(Agent::name)) {
             let of_row: Vec<&Run> = runs
                 .iter()
                 .filter(|run| run.table == venue.table && run.row == row)

@@ -1,4 +1,4 @@
-//! Where the baselines run: the paper's two mazes, or the files that the caller names.
+//! Where MSLST and its baselines run: the paper's two mazes, or the files that the caller names.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,24 +12,24 @@ use crate::pioneer;
 
 /// One world with its table.
 #[derive(Debug)]
-pub(super) struct Venue {
+pub(in crate::experiment) struct Venue {
     /// The name of its table in `summary.json`.
-    pub(super) table: String,
+    pub(in crate::experiment) table: String,
     /// The title of its table.
-    pub(super) title: String,
-    pub(super) course: Course,
-    pub(super) step_limit: u32,
+    pub(in crate::experiment) title: String,
+    pub(in crate::experiment) course: Course,
+    pub(in crate::experiment) step_limit: u32,
     /// What the paper says of it.
-    pub(super) paper: &'static [PaperRow],
+    pub(in crate::experiment) paper: &'static [PaperRow],
 }
 
 /// A row of the paper's tables 2 and 3; means with their standard deviations.
 #[derive(Debug)]
-pub(super) struct PaperRow {
-    pub(super) row: &'static str,
-    pub(super) success_percent: f64,
-    pub(super) actions: (f64, f64),
-    pub(super) steps: (f64, f64),
+pub(in crate::experiment) struct PaperRow {
+    pub(in crate::experiment) row: &'static str,
+    pub(in crate::experiment) success_percent: f64,
+    pub(in crate::experiment) actions: (f64, f64),
+    pub(in crate::experiment) steps: (f64, f64),
 }
 
 const TABLE_2: &[PaperRow] = &[
@@ -44,6 +44,12 @@ const TABLE_2: &[PaperRow] = &[
         success_percent: 92.0,
         actions: (43.68, 26.24),
         steps: (91.76, 56.421),
+    },
+    PaperRow {
+        row: "MSLST 100",
+        success_percent: 100.0,
+        actions: (17.08, 16.088),
+        steps: (38.12, 34.003),
     },
 ];
 
@@ -60,6 +66,18 @@ const TABLE_3: &[PaperRow] = &[
         actions: (130.04, 83.414),
         steps: (278.52, 162.169),
     },
+    PaperRow {
+        row: "MSLST 20",
+        success_percent: 92.0,
+        actions: (69.72, 130.205),
+        steps: (117.08, 130.452),
+    },
+    PaperRow {
+        row: "MSLST 50",
+        success_percent: 100.0,
+        actions: (42.72, 41.733),
+        steps: (103.2, 99.839),
+    },
 ];
 
 /// The paper's limits, time steps.
@@ -73,29 +91,13 @@ const COMPETITION: [&str; 2] = [
 ];
 
 /// The worlds for these files, or the default ones, and a remark on what is not there.
-pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
-    let large = built_in("Large", include_str!("../../../../../mazes/large.maze"))?;
+pub(in crate::experiment) fn venues(
+    files: &[PathBuf],
+) -> Result<(Vec<Venue>, Option<String>), BoxError> {
     if !files.is_empty() {
-        let venues: Result<Vec<Venue>, BoxError> =
-            files.iter().map(|path| from_file(path)).collect();
-        return Ok((told_apart(venues?), None));
+        return Ok((from_files(files)?, None));
     }
-    let mut venues = vec![
-        Venue {
-            table: "2 (J)".into(),
-            title: "The J maze".into(),
-            course: built_in("J", include_str!("../../../../../mazes/j.maze"))?,
-            step_limit: J_STEPS,
-            paper: TABLE_2,
-        },
-        Venue {
-            table: "3 (Large)".into(),
-            title: "The Large maze".into(),
-            course: large,
-            step_limit: LARGE_STEPS,
-            paper: TABLE_3,
-        },
-    ];
+    let mut venues = papers()?;
     let Some(folder) = data::folder() else {
         return Ok((venues, Some(data::missing("competition mazes"))));
     };
@@ -106,6 +108,32 @@ pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), 
         }
     }
     Ok((venues, None))
+}
+
+/// The worlds of these files, each under a name of its own.
+pub(in crate::experiment) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
+    let venues: Result<Vec<Venue>, BoxError> = files.iter().map(|path| from_file(path)).collect();
+    Ok(told_apart(venues?))
+}
+
+/// The paper's own worlds.
+pub(in crate::experiment) fn papers() -> Result<Vec<Venue>, BoxError> {
+    Ok(vec![
+        Venue {
+            table: "2 (J)".into(),
+            title: "The J maze".into(),
+            course: built_in("J", include_str!("../../../../../mazes/j.maze"))?,
+            step_limit: J_STEPS,
+            paper: TABLE_2,
+        },
+        Venue {
+            table: "3 (Large)".into(),
+            title: "The Large maze".into(),
+            course: built_in("Large", include_str!("../../../../../mazes/large.maze"))?,
+            step_limit: LARGE_STEPS,
+            paper: TABLE_3,
+        },
+    ])
 }
 
 fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {

@@ -1,0 +1,253 @@
+use alloc::sync::Arc;
+
+use rand::Rng;
+use tolman_control::Outcome;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::Direction;
+use tolman_robot::{Robot, TurnTranslate};
+use tolman_sim::Solo;
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+
+use super::oracle::{Oracle, Policy};
+use super::{Brain, Perception};
+use crate::course::Course;
+use crate::episode::EpisodeError;
+use crate::pioneer::{heading_free, without_noise};
+
+/// The ceiling for those who start they know not where: it has the true map, and finds out where it is by a
+/// Bayes filter over all positions; then it does what the [`Oracle`] would do at the most likely one.
+/// Not in the paper.
+///
+/// The filter is exact on the positions of the policy's lattice. Heading is what the compass says. A completed
+/// action moves each position as the policy's noise-free robot moved, spread along the direction of travel;
+/// an action of other outcome than that robot's is held to be unlikely, not impossible.
+#[derive(Clone, Debug)]
+pub struct UnlocalizedOracle {
+    chart: Arc<Chart>,
+    oracle: Oracle,
+    /// The probability of each place of the chart.
+    belief: Vec<f64>,
+    heading: Heading,
+}
+
+/// What the filter knows before it begins: every place of a course, and what is seen there.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    policy: Arc<Policy>,
+    /// Positions where the robot can stand and from which a way leads to the destination.
+    places: Vec<Place>,
+    /// The number of the place of each position of the policy's lattice.
+    numbers: Vec<Option<u32>>,
+    /// How far a completed action's way scatters, m (standard deviation).
+    scatter: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Place {
+    position: Point,
+    /// Ranges in robot units, beam 0 to the north.
+    scan: Vec<f64>,
+}
+
+/// What the probability of an action is worth that ended otherwise than the noise-free robot's.
+const SURPRISE: f64 = 0.02;
+
+/// By how much a range may differ from what is seen at the nearest place, robot units (standard
+/// deviation): about half a spacing of the lattice across, and half a beam beside.
+const RANGE_SD: f64 = 0.15;
+
+/// Beyond so many standard deviations a beam met another wall; how far off says no more.
+const OUTLIER: f64 = 3.0;
+
+/// Beams see the same walls, so that all of them together say no more than so many.
+const INDEPENDENT_BEAMS: f64 = 12.0;
+
+impl Chart {
+    /// Looks round from every place of a course. A scan for each: about 2 µs per place.
+    ///
+    /// # Errors
+    /// If the robot cannot be built for the course.
+    pub fn new(
+        course: &Course,
+        robot: &LaserPioneerConfig,
+        policy: Arc<Policy>,
+    ) -> Result<Self, EpisodeError> {
+        let model = LaserPioneer::new(without_noise(robot))?;
+        let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::NORTH);
+        let mut solo = Solo::new(course.world.clone(), model, somewhere, 0)?;
+        let mut places = Vec::new();
+        let mut numbers = Vec::new();
+        for position in policy.positions() {
+            let stands = course.leads_on(position)
+                && solo.place(Pose::new(position, Heading::NORTH)).is_ok();
+            if !stands {
+                numbers.push(None);
+                continue;
+            }
+            // It was lifted here: one step at rest and it sees where it is.
+            let rest = solo.step(&TurnTranslate::STOP);
+            rest.map_err(|source| EpisodeError::Step { step: 0, source })?;
+            let scan = solo.sensing().scan.as_ref();
+            numbers.push(Some(places.len() as u32));
+            places.push(Place {
+                position,
+                scan: scan.map_or_else(Vec::new, |scan| heading_free(scan, Heading::NORTH)),
+            });
+        }
+        let noise = robot.motor_noise.translate.relative_sd;
+        Ok(Self {
+            policy,
+            places,
+            numbers,
+            // An action is two steps of half its way, each with noise of its own.
+            scatter: noise * ACTION_WAY / core::f64::consts::SQRT_2,
+        })
+    }
+
+    /// The probability, but for a factor, of seeing `scan` at a place.
+    fn likelihood(&self, place: &Place, scan: &[f64]) -> f64 {
+        if scan.is_empty() || scan.len() != place.scan.len() {
+            return 1.0;
+        }
+        let squares = scan.iter().zip(&place.scan).map(|(seen, expected)| {
+            let deviation = ((seen - expected).abs() / RANGE_SD).min(OUTLIER);
+            deviation * deviation
+        });
+        let mean = squares.sum::<f64>() / scan.len() as f64;
+        libm::exp(-0.5 * INDEPENDENT_BEAMS * mean)
+    }
+
+    /// The belief after an action that ended so.
+    fn moved(
+        &self,
+        belief: &[f64],
+        action: Direction,
+        outcome: Outcome,
+        heading: Heading,
+    ) -> Vec<f64> {
+        let mut after = vec![0.0; belief.len()];
+        for (place, mass) in self.places.iter().zip(belief) {
+            if *mass < NEGLIGIBLE {
+                continue;
+            }
+            let from = Pose::new(place.position, heading);
+            let expected = self.policy.end(from, action);
+            let (end, mass) = match (outcome.moved(), expected) {
+                (true, Some(end)) => (end, *mass),
+                (true, None) => (nominal(place.position, action), mass * SURPRISE),
+                (false, None) => (place.position, *mass),
+                (false, Some(_)) => (place.position, mass * SURPRISE),
+            };
+            if outcome.moved() {
+                self.spread(end, action, mass, &mut after);
+            } else if let Some(number) = self.number(end) {
+                after[number as usize] += mass;
+            }
+        }
+        after
+    }
+
+    /// Adds probability around an end, along the direction of travel.
+    fn spread(&self, end: Point, action: Direction, mass: f64, after: &mut [f64]) {
+        let (east, north) = action.step();
+        let step = tolman_geom::Vector::new(f64::from(east), f64::from(north)) * SPREAD_STEP;
+        for offset in -SPREAD_STEPS..=SPREAD_STEPS {
+            let way = f64::from(offset) * SPREAD_STEP / self.scatter.max(SPREAD_STEP);
+            if let Some(number) = self.number(end + step * f64::from(offset)) {
+                after[number as usize] += mass * libm::exp(-0.5 * way * way);
+            }
+        }
+    }
+
+    fn number(&self, position: Point) -> Option<u32> {
+        self.numbers[self.policy.position_index(position)]
+    }
+}
+
+/// About a robot unit, m.
+const ACTION_WAY: f64 = crate::pioneer::ROBOT_UNIT;
+
+/// How finely, m, and how far, in such steps, the end of an action is spread.
+const SPREAD_STEP: f64 = 0.06;
+const SPREAD_STEPS: i32 = 6;
+
+/// Places less probable than that are not followed.
+const NEGLIGIBLE: f64 = 1e-9;
+
+fn nominal(position: Point, action: Direction) -> Point {
+    let (east, north) = action.step();
+    position + tolman_geom::Vector::new(f64::from(east), f64::from(north)) * ACTION_WAY
+}
+
+impl UnlocalizedOracle {
+    /// One that has no idea yet where it is.
+    #[must_use]
+    pub fn new(chart: Arc<Chart>) -> Self {
+        let count = chart.places.len();
+        Self {
+            oracle: Oracle::new(Arc::clone(&chart.policy)),
+            belief: vec![1.0 / count.max(1) as f64; count],
+            heading: Heading::NORTH,
+            chart,
+        }
+    }
+
+    /// Every place with its probability.
+    pub fn belief(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
+        let places = self.chart.places.iter();
+        let positions = places.map(|place| place.position);
+        positions.zip(self.belief.iter().copied())
+    }
+
+    fn update(&mut self, perception: &Perception<'_>) {
+        // Headed as it was when the action began, for what the action led to.
+        if let Some((action, outcome)) = perception.last {
+            self.belief = self
+                .chart
+                .moved(&self.belief, action, outcome, self.heading);
+        }
+        self.heading = perception.heading.unwrap_or(self.heading);
+        if let (Some(scan), Some(heading)) = (perception.scan, perception.heading) {
+            let scan = heading_free(scan, heading);
+            for (place, mass) in self.chart.places.iter().zip(&mut self.belief) {
+                if *mass >= NEGLIGIBLE {
+                    *mass *= self.chart.likelihood(place, &scan);
+                }
+            }
+        }
+        self.normalize();
+    }
+
+    fn normalize(&mut self) {
+        let sum: f64 = self.belief.iter().sum();
+        if sum > 0.0 {
+            for mass in &mut self.belief {
+                *mass /= sum;
+            }
+        } else {
+            // Nothing it could imagine fits: it begins anew.
+            let count = self.belief.len().max(1);
+            self.belief.fill(1.0 / count as f64);
+        }
+    }
+
+    /// The most likely place; the first of equals.
+    fn most_likely(&self) -> Option<Point> {
+        let mut best: Option<(Point, f64)> = None;
+        for (position, mass) in self.belief() {
+            if best.is_none_or(|(_, most)| mass > most) {
+                best = Some((position, mass));
+            }
+        }
+        best.map(|(position, _)| position)
+    }
+}
+
+impl Brain for UnlocalizedOracle {
+    fn choose(&mut self, perception: &Perception<'_>, _rng: &mut dyn Rng) -> Direction {
+        self.update(perception);
+        let position = self.most_likely().unwrap_or_else(Point::origin);
+        let pose = Pose::new(position, self.heading);
+        self.oracle.choose_at(pose, perception.last)
+    }
+}

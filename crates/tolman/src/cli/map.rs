@@ -1,0 +1,44 @@
+//! `tolman map`: looks at learned maps.
+
+mod show;
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::Context;
+use clap::Subcommand;
+use tolman::agents::mslst::MapFile;
+
+use super::Failure;
+use super::failure::OrBadInput;
+
+/// Looks at learned maps
+#[derive(Subcommand)]
+pub(super) enum Verb {
+    Show(show::Arguments),
+}
+
+impl Verb {
+    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+        match self {
+            Self::Show(arguments) => show::carry_out(&arguments, out),
+        }
+    }
+}
+
+/// Reads a map that `tolman learn` wrote.
+///
+/// # Errors
+/// Bad input with the file's name.
+pub(super) fn read(path: &Path) -> Result<MapFile, Failure> {
+    let text = fs::read_to_string(path)
+        .with_context(|| {
+            let path = path.display();
+            format!("cannot read {path}; give a file that `tolman learn` wrote")
+        })
+        .or_bad_input()?;
+    MapFile::from_json(&text)
+        .with_context(|| path.display().to_string())
+        .or_bad_input()
+}

@@ -1,0 +1,196 @@
+//! What `tolman run` and `tolman solve` have in common: one robot, one maze, one seed.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use serde_json::json;
+use tolman::agents::Mind;
+use tolman::course::Course;
+use tolman::episode::{self, Episode, EpisodeError, Trial};
+use tolman::pioneer::{body, calibrated};
+use tolman::replay::{Fact, Recorder};
+use tolman_sim::robots::LaserPioneerConfig;
+
+use super::live::Live;
+use super::start::Start;
+use super::{picture, trace};
+use crate::cli::failure::OrBadInput;
+use crate::cli::replay_file::{self, Overwrite};
+use crate::cli::{Failure, called, file, maze};
+
+/// Where and how a robot runs, and what is kept of it.
+#[derive(clap::Args)]
+pub(in crate::cli) struct Outing {
+    /// The maze file, of any format; - reads standard input
+    #[arg(long, value_name = "FILE")]
+    maze: PathBuf,
+    /// What all chance of the run follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
+    /// and degrees from the south-west corner, counter-clockwise from east
+    #[arg(
+        long,
+        value_name = "WHERE",
+        default_value = "random",
+        allow_hyphen_values = true
+    )]
+    start: Start,
+    /// Give up after so many time steps; if not given, in proportion to the length of the corridors, as
+    /// many for each metre as the Large maze's 500
+    #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
+    steps: Option<u32>,
+    /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops looking
+    #[arg(long)]
+    live: bool,
+    /// Draw its way over the maze
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write the run down step by step, as JSON lines: world, robot, and every command, true pose, bump and
+    /// scan
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Write a replay: one HTML file that plays the run in any browser
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+    /// Overwrite the replay's file even if it is no replay
+    #[arg(long, requires = "replay")]
+    force: bool,
+    /// Write the outcome as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What a brain is called.
+#[derive(Clone, Copy)]
+pub(in crate::cli) struct Name {
+    /// On the command line and in sentences.
+    pub(in crate::cli) word: &'static str,
+    /// In tables and titles.
+    pub(in crate::cli) title: &'static str,
+}
+
+/// Reads a maze file as a course for the calibrated robot.
+///
+/// # Errors
+/// Bad input if there is no maze, or the robot does not fit.
+pub(in crate::cli) fn course(path: &Path) -> Result<Course, Failure> {
+    let read = maze::read(path)?;
+    Course::new(&maze::name(path), &read, &body())
+        .with_context(|| maze::name(path))
+        .or_bad_input()
+}
+
+/// Sends the mind that `mind` makes out, and tells what became of it.
+///
+/// # Errors
+/// Bad input if maze, start or files do not serve; what the mind's maker says.
+pub(in crate::cli) fn carry_out(
+    arguments: &Outing,
+    name: Name,
+    mind: impl FnOnce(&Course, &LaserPioneerConfig) -> Result<Mind, Failure>,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let overwrite = Overwrite::if_forced(arguments.force);
+    if let Some(path) = &arguments.replay {
+        replay_file::check(path, overwrite)?;
+    }
+    let robot = calibrated();
+    let course = course(&arguments.maze)?;
+    let start = arguments.start.on(&course, arguments.seed)?;
+    let trial = Trial {
+        course: &course,
+        robot: robot.clone(),
+        start,
+        step_limit: arguments.steps.unwrap_or_else(|| course.step_limit()),
+        seed: arguments.seed,
+    };
+    let mut mind = mind(&course, &robot)?;
+    let mut live = match arguments.live {
+        true => Some(Live::open(&trial, name.word)?),
+        false => None,
+    };
+    let mut commands = Vec::new();
+    let mut recorder = Recorder::new(&trial);
+    let episode = episode::run(&trial, &mut mind, |step| {
+        commands.push(step.command);
+        recorder.see(step);
+        if let Some(live) = &mut live {
+            live.watch(step);
+        }
+    })
+    .map_err(classify)?;
+    let told = told(name.word, &episode);
+    if let Some(live) = live {
+        live.close(&told).context("the terminal has gone")?;
+    }
+    if let Some(path) = &arguments.trace {
+        file::write_bytes(path, &trace::of(&trial, &commands)?)?;
+    }
+    if let Some(path) = &arguments.svg {
+        file::write(path, &picture::of(&course, &episode, &told))?;
+    }
+    if let Some(path) = &arguments.replay {
+        let title = format!("{} in {}", name.title, course.name);
+        let mut replay = recorder.finish(title, &episode);
+        let brain = Fact::new("brain", name.title);
+        replay.facts.insert(1, brain);
+        let replay = replay.fact("made by", called::command());
+        replay_file::write(path, &replay, overwrite)?;
+    }
+    if arguments.json {
+        let json = json!({
+            "brain": name.word,
+            "maze": course.name,
+            "seed": arguments.seed,
+            "start": {
+                "x": start.position.x,
+                "y": start.position.y,
+                "heading_deg": start.heading.degrees(),
+            },
+            "reached": episode.reached,
+            "actions": episode.actions,
+            "failed_actions": episode.failed_actions,
+            "steps": episode.steps,
+            "step_limit": trial.step_limit,
+            "bumps": episode.bumps,
+        });
+        writeln!(out, "{json:#}")?;
+        return Ok(());
+    }
+    writeln!(out, "{told}")?;
+    if let Some(path) = &arguments.replay {
+        writeln!(out, "replay: {}", replay_file::address(path))?;
+    }
+    Ok(())
+}
+
+/// The outcome in words.
+fn told(word: &str, episode: &Episode) -> String {
+    let Episode {
+        actions,
+        failed_actions,
+        steps,
+        bumps,
+        ..
+    } = episode;
+    let came = if episode.reached {
+        "reached the destination"
+    } else {
+        "did not arrive"
+    };
+    format!(
+        "{word} {came}: {steps} steps, {actions} actions of which {failed_actions} failed, {bumps} bumps"
+    )
+}
+
+/// A start or a maze that does not serve is the caller's to mend.
+pub(super) fn classify(error: EpisodeError) -> Failure {
+    match error {
+        EpisodeError::Start(_) | EpisodeError::Layers(_) | EpisodeError::Policy { .. } => {
+            Failure::BadInput(error.into())
+        }
+        _ => Failure::Failed(error.into()),
+    }
+}
