@@ -26,13 +26,20 @@ fn nobody_beats_the_oracle_and_nobody_is_worse_than_chance() {
         let course = own_course(maze);
         let cast = Cast::default();
         let means = Agent::ALL.map(|agent| mean_steps(&course, &cast, agent));
-        let [.., random, oracle, _] = means;
-        for (name, steps) in Agent::ALL.map(Agent::name).into_iter().zip(means) {
+        let [.., random, oracle, unlocalized] = means;
+        let names = Agent::ALL.map(Agent::name);
+        for (name, steps) in names.into_iter().zip(means).take(4) {
             assert!(
                 oracle <= steps && steps <= random,
                 "{maze}: {name} of {means:?}"
             );
         }
+        // Both have one plan, which reckons without noise, so that either may be the luckier; but it takes
+        // time to find out where one is only where places look alike.
+        assert!(
+            (0.9 * oracle..1.5 * oracle).contains(&unlocalized),
+            "{maze}: {means:?}"
+        );
         assert!(oracle < 0.5 * random, "{maze}: {means:?}");
     }
 }

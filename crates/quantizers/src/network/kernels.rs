@@ -74,3 +74,22 @@ impl Kernels {
         kernel()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_features_want_no_index() {
+        for dimension in [MOST_FEATURES + 1, 63, 64, 72, 100_000] {
+            for search in [Search::Automatic, Search::Scan, Search::Index] {
+                assert!(
+                    !search.wants_tree(dimension, usize::MAX),
+                    "{search:?}, {dimension}"
+                );
+            }
+        }
+        assert!(Search::Automatic.wants_tree(2, 256));
+        assert!(!Search::Automatic.wants_tree(2, 255));
+    }
+}
