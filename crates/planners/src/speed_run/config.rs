@@ -32,7 +32,7 @@ pub struct Drive {
     pub top_speed_mm_s: f64,
 }
 
-/// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Turn`](super::Turn) says from where to where
+/// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom) says from where to where
 /// they lead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlalomTimes {
