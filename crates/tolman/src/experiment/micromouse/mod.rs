@@ -2,8 +2,10 @@
 //! mazes.
 //!
 //! The searches of tables 1 to 3 that leave things to chance have as many runs as the caller asks for, all others
-//! make the same run each time and have one. In the table `sets` a run is a maze of the set.
+//! make the same run each time and have one. In the tables `sets` and `competition` a run is a maze of the set; the
+//! latter is of the competition model, which the paper does not know.
 
+mod competition;
 mod figures;
 mod paper;
 mod sets;
@@ -18,8 +20,9 @@ use crate::data;
 use crate::draw::Figure;
 use crate::micromouse::{MAX_STEPS, Searcher};
 
+use competition::COMPETITION;
 use paper::PaperTable;
-use sets::MazeSet;
+use sets::{HALF_SIZE, MazeSet};
 
 /// The experiment, ready to run.
 #[derive(Debug)]
@@ -49,6 +52,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         table.note = format!("{} {}", table.note, data::missing("the mazes of others"));
     }
     tables.push(table);
+    tables.push(competition::table(&sets));
     Ok(Box::new(Micromouse {
         paper,
         sets,
@@ -67,7 +71,7 @@ fn sets_table(sets: &[MazeSet]) -> Table {
             "One run a maze. The floor is the score of a mouse that knows the maze. A mouse that has not \
              finished after {MAX_STEPS} steps has no score."
         ));
-    for set in sets {
+    for set in sets.iter().filter(|set| set.name != HALF_SIZE) {
         let mazes = u32::try_from(set.mazes.len()).unwrap_or(u32::MAX);
         table = table.row(Row::new(&set.name).runs(mazes));
     }
@@ -87,10 +91,14 @@ fn fields(table: Table) -> Table {
 }
 
 impl Micromouse {
+    fn set(&self, name: &str) -> Option<&MazeSet> {
+        self.sets.iter().find(|set| set.name == name)
+    }
+
     /// What is played: by whom, in which maze, and how the maze is called.
     fn cast(&self, job: &Job<'_>) -> Option<(Searcher, &Maze, &str)> {
         if job.table == SETS {
-            let set = self.sets.iter().find(|set| set.name == job.row)?;
+            let set = self.set(job.row)?;
             let (name, maze) = set.mazes.get(job.run as usize)?;
             return Some((Searcher::Certify, maze, name));
         }
@@ -143,6 +151,10 @@ impl Experiment for Micromouse {
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        if job.table == COMPETITION {
+            let set = self.set(job.row).ok_or("there is no such row")?;
+            return competition::run(set, job.run as usize);
+        }
         let (searcher, maze, name) = self.cast(job).ok_or("there is no such run")?;
         let (_, judgement) = searcher.try_on(maze, job.seed)?;
         let mut fields = Fields::new()
@@ -166,6 +178,10 @@ impl Experiment for Micromouse {
     }
 
     fn check(&self, run: &Run) -> Result<(), BoxError> {
+        if run.table == COMPETITION {
+            let set = self.set(&run.row).ok_or("there is no such row")?;
+            return competition::check(set, run);
+        }
         let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
         let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);
         if let Some((_, _, name)) = self.cast(&run.job())

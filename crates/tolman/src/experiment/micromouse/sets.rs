@@ -19,9 +19,13 @@ pub(super) struct MazeSet {
     pub(super) mazes: Vec<(String, Maze)>,
 }
 
+/// The set that is for the competition model alone.
+pub(super) const HALF_SIZE: &str = "half-size";
+
 /// The sets of others, below the folder of data.
-const OTHERS: [(&str, &str); 6] = [
+const OTHERS: [(&str, &str); 7] = [
     ("classic", "mazes/classic"),
+    (HALF_SIZE, "mazes/halfsize"),
     ("generated 12", "mazes/generated/12"),
     ("generated 14", "mazes/generated/14"),
     ("generated 16", "mazes/generated/16"),
