@@ -3,6 +3,7 @@
 use alloc::sync::Arc;
 use std::sync::OnceLock;
 
+use tolman_control::Outcome;
 use tolman_maze::Direction;
 use tolman_sim::robots::LaserPioneerConfig;
 
@@ -210,7 +211,7 @@ impl Contest {
         };
         let mut bounces = Bounces::default();
         let episode = episode::run(&trial, &mut mind, |step| {
-            if step.ends.is_some_and(|outcome| outcome.moved()) {
+            if step.ends.is_some_and(Outcome::moved) {
                 bounces.moved(step.action);
             }
         })?;

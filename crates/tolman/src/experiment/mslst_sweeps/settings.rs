@@ -177,7 +177,7 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
             name: "worlds",
             title: "Other worlds",
             axis: None,
-            settings: worlds(j, large)?,
+            settings: worlds(j, &large)?,
             note: "Threshold 50 and a memory of eight, in the J maze 100 and six. Random mazes are new in each run, \
                    and give time in proportion to their corridors.",
         },
@@ -207,7 +207,7 @@ fn noisy(times: f64) -> LaserPioneerConfig {
     robot
 }
 
-fn worlds(j: World, large: World) -> Result<Vec<Setting>, BoxError> {
+fn worlds(j: World, large: &World) -> Result<Vec<Setting>, BoxError> {
     let row = |row: &str, world: World| Setting {
         row: row.to_owned(),
         value: 0.0,
@@ -227,7 +227,7 @@ fn worlds(j: World, large: World) -> Result<Vec<Setting>, BoxError> {
         },
     ];
     for units in [1.85, 2.1, 2.5] {
-        let world = widened(&large, units)?;
+        let world = widened(large, units)?;
         rows.push(row(&format!("Large, {units} units wide"), world));
     }
     rows.push(row("open room 6 × 6", room(6)?));
