@@ -8,7 +8,6 @@ mod shapes;
 mod sonar;
 mod states;
 mod streams;
-mod wander;
 
 use tolman_quantizers::{GngConfig, SecondLayerConfig, SoinnConfig};
 

@@ -2,7 +2,7 @@
 
 use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
-use super::wander::scans;
+use crate::agents::mslst;
 use crate::course::Course;
 use crate::experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table, Tolerance};
 use crate::pioneer;
@@ -97,7 +97,7 @@ impl Mazes {
 
     /// The scans of phase I in the Large maze.
     pub(super) fn large_scans(&self, seed: u64) -> Result<Vec<Vec<f64>>, BoxError> {
-        scans(&self.large, STEPS, seed)
+        scans(&self.large, seed)
     }
 
     /// The network of a run of the table, and the scans it learned.
@@ -105,7 +105,7 @@ impl Mazes {
         let setting = SETTINGS.iter().find(|setting| setting.row == job.row);
         let (maze, threshold) = setting.map_or(("", 0.0), |s| (s.maze, s.threshold));
         let course = if maze == "J" { &self.j } else { &self.large };
-        let scans = scans(course, STEPS, job.seed)?;
+        let scans = scans(course, job.seed)?;
         let beams = pioneer::ring().beams as usize;
         let mut gng = Gng::new(beams, GngConfig::mslst(threshold))?;
         for scan in &scans {
@@ -121,4 +121,9 @@ impl Mazes {
             .count("states", gng.network().len() as u64)
             .number("rms_error", libm::sqrt(error.mean_squared)))
     }
+}
+
+/// The scans of phase I.
+fn scans(course: &Course, seed: u64) -> Result<Vec<Vec<f64>>, BoxError> {
+    Ok(mslst::scans(course, &pioneer::calibrated(), STEPS, seed)?)
 }
