@@ -6,6 +6,8 @@
     reason = "a scenario that cannot be set up has failed"
 )]
 
+extern crate alloc;
+
 mod golden;
 mod mazes;
 mod mslst;

@@ -1,6 +1,6 @@
 //! MSLST from its first scan to the destination.
 
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use tolman::agents::Mind;
 use tolman::agents::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
@@ -103,7 +103,7 @@ fn files_that_hold_no_map_say_why() {
         assert!(good.contains(from), "{from}");
         let error = MapFile::from_json(&good.replacen(from, to, 1)).unwrap_err();
         let mut told = error.to_string();
-        let mut cause: Option<&dyn std::error::Error> = std::error::Error::source(&error);
+        let mut cause: Option<&dyn core::error::Error> = core::error::Error::source(&error);
         while let Some(error) = cause {
             told = format!("{told}: {error}");
             cause = error.source();
