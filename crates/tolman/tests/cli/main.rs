@@ -7,6 +7,7 @@
 
 mod experiment;
 mod help;
+mod learn;
 mod maze;
 #[cfg(unix)]
 mod mms_host;

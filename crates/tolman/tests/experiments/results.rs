@@ -3,8 +3,10 @@
 use std::fs;
 
 use tolman::experiment::{
-    Error, Ink, Metric, Options, Program, Row, Run, Tolerance, open, tables_as_text, write_replay,
+    Correction, Error, Ink, Metric, Options, Pair, Pairwise, Program, Row, Run, Tolerance, open,
+    tables_as_text, write_replay,
 };
+use tolman::stats::{self, Method};
 
 use crate::darts::Darts;
 use crate::support::{fresh, options, read, run};
@@ -102,6 +104,93 @@ fn medians_and_counts_are_those_of_the_runs() {
     assert!(page.contains("hits of 20") && text.contains("hits of 20"));
     // The mean and the median of throws share one plot.
     assert_eq!(outcome.figures.len(), 3);
+}
+
+#[test]
+fn rows_are_compared_each_with_each_and_with_one_among_them() {
+    let out = fresh("pairs").join("out");
+    let mut darts = Darts::new();
+    let table = darts.tables.swap_remove(0);
+    let rows = ["Novice", "Adept", "Master"].map(String::from);
+    darts.tables = vec![
+        table
+            .metric(Metric::multiple("throws_of_master", "throws", "Master"))
+            .pairwise(Pairwise {
+                field: "throws".into(),
+                rows: rows.to_vec(),
+                correction: Correction::Bonferroni,
+                paper: vec![("Master".into(), "Novice".into(), 0.004)],
+            }),
+    ];
+    let outcome = run(&darts, &options(&out)).0.unwrap();
+    let throws = |row: &str| -> Vec<f64> {
+        let of_row = outcome.runs.iter().filter(|run| run.row == row);
+        of_row
+            .map(|run| run.fields.get("throws").unwrap().as_number().unwrap())
+            .collect()
+    };
+    let pairs = &outcome.analysis.tables[0].pairs;
+    let names: Vec<String> = pairs.iter().map(Pair::name).collect();
+    assert_eq!(
+        names,
+        ["Novice – Adept", "Novice – Master", "Adept – Master"]
+    );
+    assert_eq!(
+        pairs[1].paper,
+        Some(0.004),
+        "whichever row the paper names first"
+    );
+    let alone = stats::mann_whitney(&throws("Novice"), &throws("Adept"), Method::Auto).unwrap();
+    assert!((pairs[0].p.value() - (3.0 * alone.p.value()).min(1.0)).abs() < 1e-12);
+
+    let summary: serde_json::Value = serde_json::from_str(&read(&out, "summary.json")).unwrap();
+    let rows = summary["rows"].as_array().unwrap();
+    let p: Vec<_> = rows.iter().filter(|row| row["table"] == "p").collect();
+    assert_eq!(p.len(), 3);
+    assert_eq!(
+        (&p[1]["row"], &p[1]["metric"], &p[1]["paper"]),
+        (
+            &"1 (near): Novice – Master".into(),
+            &"p".into(),
+            &0.004.into()
+        )
+    );
+    let multiple = |row: &str| {
+        let mut values = outcome.analysis.values();
+        let found = values.find(|(_, of, m)| of.name == "throws_of_master" && m.row == row);
+        found.unwrap().2.value
+    };
+    let sum = |row: &str| throws(row).iter().sum::<f64>();
+    assert!((multiple("Novice") - sum("Novice") / sum("Master")).abs() < 1e-12);
+    assert!((multiple("Master") - 1.0).abs() < 1e-12);
+    for text in [
+        read(&out, "report.html"),
+        tables_as_text(&outcome.analysis, Ink::Plain),
+    ] {
+        assert!(text.contains("Novice – Master"));
+    }
+}
+
+#[test]
+fn rows_that_are_not_there_are_compared_with_nothing() {
+    for table in [
+        Darts::new().tables[0]
+            .clone()
+            .metric(Metric::multiple("of", "throws", "Nobody")),
+        Darts::new().tables[0].clone().pairwise(Pairwise {
+            field: "throws".into(),
+            rows: vec!["Nobody".into()],
+            correction: Correction::Holm,
+            paper: vec![],
+        }),
+    ] {
+        let mut darts = Darts::new();
+        darts.tables = vec![table];
+        let error = run(&darts, &options(&fresh("nobody").join("out")))
+            .0
+            .unwrap_err();
+        assert!(error.to_string().contains("Nobody"), "{error}");
+    }
 }
 
 #[test]

@@ -17,6 +17,7 @@ use crate::experiment::{
     run_seed,
 };
 use crate::pioneer;
+use crate::replay::{Recorder, Replay};
 
 /// One world, the brains that compete in it, and what they share.
 #[derive(Debug)]
@@ -183,12 +184,12 @@ impl Contest {
         })
     }
 
-    /// One run and how often the robot bounced in it.
-    pub(super) fn episode(
+    /// Where a run takes place, and who drives.
+    fn cast(
         &self,
         job: &Job<'_>,
         robot: &LaserPioneerConfig,
-    ) -> Result<(Episode, u32), BoxError> {
+    ) -> Result<(Trial<'_>, Mind), BoxError> {
         let course = &self.venue.course;
         let trial = Trial {
             course,
@@ -197,7 +198,7 @@ impl Contest {
             step_limit: self.venue.step_limit,
             seed: job.seed,
         };
-        let mut mind = match self.apprentice(job.row) {
+        let mind = match self.apprentice(job.row) {
             Some(apprentice) => {
                 let learned = apprentice.learned(self, robot, job.run % MAPS)?;
                 let map = Arc::new(learned.map.clone());
@@ -209,6 +210,16 @@ impl Contest {
                 self.cast.mind(agent, course, robot)?
             }
         };
+        Ok((trial, mind))
+    }
+
+    /// One run and how often the robot bounced in it.
+    pub(super) fn episode(
+        &self,
+        job: &Job<'_>,
+        robot: &LaserPioneerConfig,
+    ) -> Result<(Episode, u32), BoxError> {
+        let (trial, mut mind) = self.cast(job, robot)?;
         let mut bounces = Bounces::default();
         let episode = episode::run(&trial, &mut mind, |step| {
             if step.ends.is_some_and(Outcome::moved) {
@@ -216,6 +227,19 @@ impl Contest {
             }
         })?;
         Ok((episode, bounces.count))
+    }
+
+    /// One run as it can be watched.
+    pub(super) fn replay(
+        &self,
+        job: &Job<'_>,
+        robot: &LaserPioneerConfig,
+    ) -> Result<Replay, BoxError> {
+        let (trial, mut mind) = self.cast(job, robot)?;
+        let mut recorder = Recorder::new(&trial);
+        let episode = episode::run(&trial, &mut mind, |step| recorder.see(step))?;
+        let title = format!("{} in {}, run {}", job.row, trial.course.name, job.run);
+        Ok(recorder.finish(title, &episode))
     }
 
     /// Refuses what no run can measure.

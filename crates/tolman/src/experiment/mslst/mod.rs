@@ -14,6 +14,7 @@ use super::baselines::worlds;
 use super::{BoxError, Experiment, Fields, Job, Options, Run, Table};
 use crate::draw::Figure;
 use crate::pioneer;
+use crate::replay::Replay;
 
 use contest::Contest;
 
@@ -109,5 +110,12 @@ impl Experiment for Mslst {
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         figures::of(self, runs)
+    }
+
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        let contest = self.contest(job.table);
+        contest
+            .map(|contest| contest.replay(job, &self.robot))
+            .transpose()
     }
 }
