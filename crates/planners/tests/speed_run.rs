@@ -94,6 +94,9 @@ fn configs() -> impl Strategy<Value = SpeedRunConfig> {
             config
         }),
     ]
+    .prop_filter("moves that last too differently are refused", |config| {
+        SpeedRunTimes::<16>::new(config).is_ok()
+    })
 }
 
 fn start_of(cell: Cell, heading: Direction) -> RunState {
