@@ -76,7 +76,7 @@ fn look(map: &mut WallMap<16>, maze: &Maze, at: Cell, heading: Direction) {
 fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
     let (start, mut heading) = maze.start().unwrap();
     let mut map = WallMap::new(maze.grid(), ClosedCells::Possible).unwrap();
-    let mut explorer = MoveExplorer::<16>::new(MoveExplorerConfig::tuned(), start);
+    let mut explorer = MoveExplorer::<16>::new(MoveExplorerConfig::tuned(), start).unwrap();
     let (mut at, mut visited) = (start, maze.goals().contains(&start));
     for steps in 0..5000 {
         look(&mut map, maze, at, heading);

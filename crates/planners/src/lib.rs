@@ -2,7 +2,8 @@
 //!
 //! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know nothing of
 //! maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`] sums their costs
-//! (Dijkstra), [`path_to`] lists the nodes of a shortest path. [`compressed`] takes detours out of the actions
+//! (Dijkstra), [`path_to`] lists the nodes of a shortest path, [`a_star`] those of a cheapest one
+//! with a guess of what is left, [`best_first`] of any by that guess alone. [`compressed`] takes detours out of the actions
 //! along one. To ask how far every node is *from a goal's point of view*, search the graph turned round:
 //! [`Arcs::reversed`].
 //!
@@ -29,6 +30,8 @@ extern crate alloc;
 #[cfg(feature = "alloc")]
 mod arcs;
 #[cfg(feature = "alloc")]
+mod best_first;
+#[cfg(feature = "alloc")]
 mod breadth_first;
 #[cfg(feature = "alloc")]
 mod compression;
@@ -45,6 +48,8 @@ mod step_map;
 
 #[cfg(feature = "alloc")]
 pub use arcs::Arcs;
+#[cfg(feature = "alloc")]
+pub use best_first::{Found, a_star, best_first};
 #[cfg(feature = "alloc")]
 pub use breadth_first::steps_from;
 #[cfg(feature = "alloc")]

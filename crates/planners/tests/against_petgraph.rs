@@ -3,7 +3,7 @@
 use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
-use tolman_planners::{Arcs, Graph, costs_from, path_to, steps_from};
+use tolman_planners::{Arcs, Graph, a_star, best_first, costs_from, path_to, steps_from};
 
 const NODES: u32 = 24;
 
@@ -36,6 +36,35 @@ proptest! {
     fn costs_agree(list in arcs(), source in 0..NODES) {
         let ours = costs_from(&Arcs::new(NODES as usize, &list), [source]);
         prop_assert_eq!(ours, theirs(&list, source, |weight| weight));
+    }
+
+    #[test]
+    fn a_star_finds_a_cheapest_path(list in arcs(), source in 0..NODES, goal in 0..NODES, share in 0..=4_u32) {
+        let graph = Arcs::new(NODES as usize, &list);
+        let costs = costs_from(&graph.reversed(), [goal]);
+        // A share of the true cost never guesses too high.
+        let guess = |node: u32| costs[node as usize].map_or(0, |cost| cost / 4 * share);
+        let found = a_star(&graph, source, |node| node == goal, guess);
+        prop_assert_eq!(found.as_ref().map(|found| found.cost), costs[source as usize]);
+        let blind = a_star(&graph, source, |node| node == goal, |_| 0);
+        prop_assert_eq!(blind.map(|found| found.cost), costs[source as usize]);
+        let greedy = best_first(&graph, source, |node| node == goal, guess);
+        prop_assert_eq!(greedy.is_some(), found.is_some());
+        for found in found.into_iter().chain(greedy) {
+            prop_assert_eq!((found.path[0], found.path[found.path.len() - 1]), (source, goal));
+            prop_assert!(found.cost >= costs[source as usize].unwrap());
+            let mut cost = 0;
+            for pair in found.path.windows(2) {
+                let mut least = None;
+                graph.for_each_arc(pair[0], |head, step| {
+                    if head == pair[1] {
+                        least = Some(least.map_or(step, |least: u32| least.min(step)));
+                    }
+                });
+                cost += least.unwrap();
+            }
+            prop_assert_eq!(cost, found.cost);
+        }
     }
 
     #[test]

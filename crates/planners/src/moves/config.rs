@@ -1,3 +1,5 @@
+use thiserror::Error;
+
 /// How a [`MoveExplorer`](super::MoveExplorer) weighs what it could do next.
 ///
 /// None of this touches the proof: whatever the weights, the explorer stops only when no better run is
@@ -5,38 +7,92 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoveExplorerConfig {
     /// While no way to the goal is known: how much a step on known ground counts against a step of the way
-    /// that is hoped for beyond it. ≥ 0.
+    /// that is hoped for beyond it. > 0.
     pub known_step: f32,
     /// While no way to the goal is known: steps that each unknown wall on the hoped-for way counts as. ≥ 0.
     pub unknown_wall: f32,
     /// While no way to the goal is known: steps that seeing one more unknown side of a cell is worth. ≥ 0.
     pub sight: f32,
-    /// While no way to the goal is known: steps that it is worth if that side lies on one of the best runs
-    /// that can be hoped for. ≥ 0.
-    pub relevant_sight: f32,
+    /// While no way to the goal is known: what a stop must tell, divided by its distance, to come before the
+    /// way to the goal. ≥ 0.
+    pub early_proof: f32,
     /// Once a way is known: by how much less a wall counts for each step that the best run hoped for
     /// through it is longer than the best of all. Within 0 … 1.
     pub patience: f32,
-    /// Once a way is known: what every wall on a run better than the known one counts at least, where
-    /// those on the best run count 1. ≥ 0.
+    /// What every wall on a run better than the known one counts at least, where those on the best run
+    /// count 1. ≥ 0.
     pub base: f32,
-    /// Once a way is known: the power of the distance in steps that what a stop would tell is divided by. ≥ 0.
+    /// The power of the distance in steps that what a stop would tell is divided by. > 0.
     pub nearness: f32,
 }
 
 impl MoveExplorerConfig {
-    /// The one configuration that all our figures are made with, chosen on every second of the mazes we
-    /// have (`docs/micromouse.md`).
+    /// The one configuration that all our figures are made with. How it was chosen: `docs/micromouse.md`.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
-            known_step: 1.11,
+            known_step: 1.0,
             unknown_wall: 0.1,
-            sight: 0.5,
-            relevant_sight: 0.23,
-            patience: 0.595,
-            base: 0.034,
-            nearness: 1.74,
+            sight: 1.0,
+            early_proof: 0.75,
+            patience: 0.3,
+            base: 0.04,
+            nearness: 1.5,
         }
+    }
+
+    pub(super) fn check(&self) -> Result<(), MoveExplorerConfigError> {
+        let fields = [
+            ("known_step", self.known_step, self.known_step > 0.0),
+            ("unknown_wall", self.unknown_wall, self.unknown_wall >= 0.0),
+            ("sight", self.sight, self.sight >= 0.0),
+            ("early_proof", self.early_proof, self.early_proof >= 0.0),
+            (
+                "patience",
+                self.patience,
+                (0.0..=1.0).contains(&self.patience),
+            ),
+            ("base", self.base, self.base >= 0.0),
+            ("nearness", self.nearness, self.nearness > 0.0),
+        ];
+        let wrong = fields
+            .into_iter()
+            .find(|(_, value, holds)| !(*holds && value.is_finite()));
+        match wrong {
+            Some((field, value, _)) => Err(MoveExplorerConfigError { field, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A weight out of its range.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("{field} is {value}: give a finite number in the range that its documentation states")]
+pub struct MoveExplorerConfigError {
+    /// The name of the field.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_out_of_range_are_refused() {
+        let check = |change: fn(&mut MoveExplorerConfig)| {
+            let mut config = MoveExplorerConfig::tuned();
+            change(&mut config);
+            config.check().map_err(|error| error.field)
+        };
+        assert_eq!(check(|_| ()), Ok(()));
+        assert_eq!(check(|config| config.known_step = 0.0), Err("known_step"));
+        assert_eq!(check(|config| config.sight = f32::NAN), Err("sight"));
+        assert_eq!(check(|config| config.patience = 1.1), Err("patience"));
+        assert_eq!(
+            check(|config| config.nearness = f32::INFINITY),
+            Err("nearness")
+        );
     }
 }

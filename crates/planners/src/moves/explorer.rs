@@ -2,7 +2,7 @@ use tolman_maze::{Cell, Walls};
 
 use super::hopes::Hopes;
 use super::outlook::Outlook;
-use super::{Leap, MoveExplorerConfig, MoveMap};
+use super::{Leap, MoveExplorerConfig, MoveExplorerConfigError, MoveMap};
 use crate::{Passages, Unknown};
 
 /// Explores a maze until the best run is known for certain.
@@ -13,12 +13,14 @@ use crate::{Passages, Unknown};
 ///
 /// Which wall to look at next is our own:
 ///
-/// - While no way to the goal is known, the mouse makes for it by the way that takes fewest steps if all unknown
-///   walls are open. Where it could stop and look on the way there, unknown sides that it would see are worth a
-///   detour, those on the best runs from the *start* more so.
-/// - Then only walls matter that lie on a run better than the known one. The mouse looks first at those that the
-///   best runs of all depend on (they have to be looked at whatever else turns up), and at near ones before far
-///   ones.
+/// - Walls matter that lie on a run better than the best known one. The mouse looks first at those that the best
+///   runs of all depend on (they have to be looked at whatever else turns up), and at near ones before far ones.
+/// - While no way to the goal is known, it does so only where it is as good as on its way; else it makes for the
+///   goal by the way that takes fewest steps if all unknown walls are open. Where it could stop and look on the way,
+///   unknown sides that it would see are worth a detour.
+///
+/// It always ends: each stop it makes for shows a wall nobody has looked at, and on the way there that stop only gets more
+/// attractive.
 ///
 /// The explorer remembers nothing but whether it has been at the goal; it compares everything else with `walls` at each
 /// call, so walls may be forgotten again at any time.
@@ -54,13 +56,16 @@ pub enum MoveDecision {
 
 impl<const N: usize> MoveExplorer<N> {
     /// An explorer for a mouse that makes its runs from `start` and has seen nothing.
-    #[must_use]
-    pub const fn new(config: MoveExplorerConfig, start: Cell) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// If a weight is out of its range.
+    pub fn new(config: MoveExplorerConfig, start: Cell) -> Result<Self, MoveExplorerConfigError> {
+        config.check()?;
+        Ok(Self {
             config,
             start,
             goal: Goal::Ahead,
-        }
+        })
     }
 
     /// What to do in the cell `at`, once what is seen from there is in `walls`, to reach one of `goals`. O(N²).
@@ -95,8 +100,18 @@ impl<const N: usize> MoveExplorer<N> {
                 return MoveDecision::Finished { moves };
             }
             (Some(moves), Goal::Ahead) if moves == open => nearest(goals, &here),
-            (Some(closed), _) => self.best_proof(&hopes, &here, open, closed),
-            (None, _) => self.best_approach(&hopes, &here, open),
+            (Some(closed), _) => {
+                let proof = self.best_proof(&hopes, &here, open, closed);
+                proof.map(|(_, cell)| cell)
+            }
+            (None, _) => {
+                // Nobody knows yet which runs matter besides the best ones.
+                let proof = self.best_proof(&hopes, &here, open, open + 1);
+                proof
+                    .filter(|(worth, _)| *worth > self.config.early_proof)
+                    .map(|(_, cell)| cell)
+                    .or_else(|| self.best_approach(&hopes, &here))
+            }
         };
         let Some(target) = target else {
             return MoveDecision::Stuck;
@@ -111,37 +126,27 @@ impl<const N: usize> MoveExplorer<N> {
     }
 
     /// Where to look while no way to the goal is known.
-    fn best_approach<W: Walls>(
-        &self,
-        hopes: &Hopes<'_, N, W>,
-        here: &MoveMap<N>,
-        open: u16,
-    ) -> Option<Cell> {
+    fn best_approach<W: Walls>(&self, hopes: &Hopes<'_, N, W>, here: &MoveMap<N>) -> Option<Cell> {
         let config = &self.config;
         let outlook = Outlook::new(hopes);
-        best(hopes, here, |cell, moves| {
-            let (mut unknown, mut relevant) = (0.0, 0.0);
-            for side in hopes.unknown_sides(cell) {
-                unknown += 1.0;
-                if hopes.run_through(cell, side) == Some(open) {
-                    relevant += 1.0;
-                }
-            }
+        let approach = best(hopes, here, |cell, moves| {
             let onward = f32::from(hopes.to_goal.moves(cell)?)
                 + config.unknown_wall * f32::from(outlook.unknown_walls(cell));
-            let worth = config.sight * unknown + config.relevant_sight * relevant;
-            Some(worth - config.known_step * f32::from(moves) - onward)
-        })
+            let seen = hopes.unknown_sides(cell).count() as f32;
+            Some(config.sight * seen - config.known_step * f32::from(moves) - onward)
+        });
+        approach.map(|(_, cell)| cell)
     }
 
-    /// Where to look once a way of `closed` steps is known, which can be undercut by one of `open` steps.
+    /// What to look at for the proof, and what it is worth, when runs of `closed` steps and more do not matter
+    /// and the best that can be hoped for takes `open`.
     fn best_proof<W: Walls>(
         &self,
         hopes: &Hopes<'_, N, W>,
         here: &MoveMap<N>,
         open: u16,
         closed: u16,
-    ) -> Option<Cell> {
+    ) -> Option<(f32, Cell)> {
         let config = &self.config;
         best(hopes, here, |cell, moves| {
             let mut told = 0.0;
@@ -149,7 +154,7 @@ impl<const N: usize> MoveExplorer<N> {
                 if let Some(run) = hopes.run_through(cell, side)
                     && run < closed
                 {
-                    told += config.base + libm::powf(config.patience, f32::from(run - open));
+                    told += config.base + power(config.patience, run - open);
                 }
             }
             (told > 0.0).then(|| told / libm::powf(f32::from(moves), config.nearness))
@@ -163,13 +168,13 @@ fn nearest<const N: usize>(goals: &[Cell], here: &MoveMap<N>) -> Option<Cell> {
     reached.min_by_key(|goal| here.moves(**goal)).copied()
 }
 
-/// The cell that scores highest among those the mouse can drive to and see something new from. `score` is given a
+/// The highest score, and the cell that has it, those the mouse can drive to and see something new from. `score` is given a
 /// cell and the steps to it. Of equals the first by [`tolman_maze::Grid::index`].
 fn best<const N: usize, W: Walls>(
     hopes: &Hopes<'_, N, W>,
     here: &MoveMap<N>,
     score: impl Fn(Cell, u16) -> Option<f32>,
-) -> Option<Cell> {
+) -> Option<(f32, Cell)> {
     let mut best: Option<(f32, Cell)> = None;
     for cell in hopes.walls.grid().cells() {
         if let Some(moves @ 1..) = here.moves(cell)
@@ -180,5 +185,10 @@ fn best<const N: usize, W: Walls>(
             best = Some((score, cell));
         }
     }
-    best.map(|(_, cell)| cell)
+    best
+}
+
+/// A whole power.
+fn power(base: f32, exponent: u16) -> f32 {
+    (0..exponent).fold(1.0, |power, _| power * base)
 }

@@ -46,7 +46,7 @@ mod outlook;
 mod queue;
 mod step;
 
-pub use config::MoveExplorerConfig;
+pub use config::{MoveExplorerConfig, MoveExplorerConfigError};
 pub use explorer::{MoveDecision, MoveExplorer};
 pub use leap::Leap;
 pub use map::{MoveMap, Way};

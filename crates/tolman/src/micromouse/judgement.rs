@@ -25,7 +25,7 @@ pub struct Judgement {
 }
 
 /// Why a mouse could not be judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JudgeError {
     /// No mouse for this maze.

@@ -1,6 +1,7 @@
 //! What a mouse is to the referee.
 
 use tolman_maps::wall_map::{ObserveError, TooLarge};
+use tolman_planners::moves::MoveExplorerConfigError;
 
 use super::{Certificate, Order};
 
@@ -33,7 +34,7 @@ pub trait Mouse {
 }
 
 /// Why a mouse does not know what to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseError {
     /// The maze is larger than its map.
@@ -42,6 +43,9 @@ pub enum MouseError {
     /// What it sees cannot be, where it thinks it is.
     #[error("the mouse has lost its way")]
     Observe(#[from] ObserveError),
+    /// It cannot search with these weights.
+    #[error(transparent)]
+    Config(#[from] MoveExplorerConfigError),
     /// No way leads to a goal.
     #[error("the mouse has found that no way leads to a goal: open a wall")]
     Stuck,

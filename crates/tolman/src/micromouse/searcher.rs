@@ -65,7 +65,7 @@ impl Searcher {
         Ok(match self {
             Self::Certify => {
                 let (start, _) = maze.start().ok_or(MouseError::NoStart)?;
-                let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start);
+                let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start)?;
                 let search = Certify::new(explorer);
                 Box::new(Driver::new(maze, search, RunTwo::FewestMoves)?)
             }

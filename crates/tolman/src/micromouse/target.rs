@@ -1,65 +1,26 @@
-use tolman_maze::{Cell, Direction, Knowledge, Walls};
+use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::Leap;
 use tolman_planners::{Passages, StepMap, Unknown};
 
 use super::SIDE;
 use super::driver::{Next, Search, View};
 
-/// The paper's *target search* (section 3.3.2): by the shortest path, unknown walls taken for open, to the nearest of the
-/// cells of largest uncertainty; another target as soon as a wall turns up on the path. It ends when a goal was
-/// visited and the open path is as short as the close path, both in cells.
+/// The paper's *target search* (section 3.3.2): "in each timestamp" to the nearest of the cells of largest uncertainty, by
+/// the shortest path, unknown walls taken for open. It ends when a goal was visited and the open path is as short as the
+/// close path, both in cells.
 ///
 /// The paper leaves open which shortest path is taken: here one that goes on straight where it can.
 #[derive(Clone, Debug, Default)]
 pub struct TargetSearch {
-    /// The rest of the path to the target, last cell first.
-    path: Vec<Cell>,
+    /// Whether a goal was visited.
     arrived: bool,
 }
 
 impl TargetSearch {
-    /// A search that has no target yet.
+    /// A search that has not been anywhere.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
-    }
-
-    /// The path to the nearest of the cells of largest uncertainty, last cell first.
-    fn path_to_target(view: &View<'_>) -> Vec<Cell> {
-        let hoped = Passages::<SIDE>::new(view.map, Unknown::Open);
-        let steps = StepMap::new(&hoped, [view.at]);
-        let cells = view.map.grid().cells();
-        let reached = cells.filter_map(|cell| Some((steps.steps(cell)?, cell)));
-        // The most uncertain, then the nearest, then the first.
-        let target = reached
-            .filter(|(_, cell)| view.map.uncertainty(*cell) > 0)
-            .min_by_key(|(steps, cell)| (u8::MAX - view.map.uncertainty(*cell), *steps));
-        target.map_or_else(Vec::new, |(_, cell)| path(&hoped, view.at, &[cell]))
-    }
-
-    /// Whether a wall has turned up on the path.
-    fn is_blocked(&self, view: &View<'_>) -> bool {
-        let mut at = view.at;
-        self.path.iter().rev().any(|next| {
-            let known = side(at, *next).map(|side| view.map.knowledge(at, side));
-            at = *next;
-            known.is_none_or(|known| known == Knowledge::Wall)
-        })
-    }
-
-    /// As far along the path as one step goes.
-    fn leap(&mut self, view: &View<'_>) -> Option<Leap> {
-        let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
-        let direction = side(view.at, *self.path.last()?)?;
-        let mut last = None;
-        for leap in Leap::along(&known, view.at, direction) {
-            if self.path.last() != Some(&leap.end) {
-                break;
-            }
-            self.path.pop();
-            last = Some(leap);
-        }
-        last
     }
 }
 
@@ -73,24 +34,48 @@ impl Search for TargetSearch {
         let Some(open) = cells(Unknown::Open) else {
             return Next::Stuck;
         };
-        if cells(Unknown::Closed) == Some(open) {
+        let path = if cells(Unknown::Closed) == Some(open) {
             if self.arrived {
                 return Next::Reset;
             }
             // "let the robot goes to any of the goal location if the goal is never actually visited"
             let known = Passages::new(view.map, Unknown::Closed);
-            self.path = path(&known, view.at, view.goals);
-        } else if self.path.is_empty() || self.is_blocked(view) {
-            self.path = Self::path_to_target(view);
-        }
-        match self.leap(view) {
+            path(&known, view.at, view.goals)
+        } else {
+            path_to_target(view)
+        };
+        match leap(view, &path) {
             Some(leap) => Next::Drive(leap),
             None => Next::Turn,
         }
     }
 }
 
-/// A shortest path to the nearest of `targets`, straight on where it can, last cell first and without `from`.
+/// The path to the nearest of the cells of largest uncertainty.
+fn path_to_target(view: &View<'_>) -> Vec<Cell> {
+    let hoped = Passages::<SIDE>::new(view.map, Unknown::Open);
+    let steps = StepMap::new(&hoped, [view.at]);
+    let cells = view.map.grid().cells();
+    let reached = cells.filter_map(|cell| Some((steps.steps(cell)?, cell)));
+    // The most uncertain, then the nearest, then the first.
+    let target = reached
+        .filter(|(_, cell)| view.map.uncertainty(*cell) > 0)
+        .min_by_key(|(steps, cell)| (u8::MAX - view.map.uncertainty(*cell), *steps));
+    target.map_or_else(Vec::new, |(_, cell)| path(&hoped, view.at, &[cell]))
+}
+
+/// As far along the path as one step goes.
+fn leap(view: &View<'_>, path: &[Cell]) -> Option<Leap> {
+    let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
+    let direction = side(view.at, *path.first()?)?;
+    let leaps = Leap::along(&known, view.at, direction).zip(path);
+    leaps
+        .take_while(|(leap, cell)| leap.end == **cell)
+        .map(|(leap, _)| leap)
+        .last()
+}
+
+/// A shortest path to the nearest of `targets`, straight on where it can, without `from`.
 fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Cell> {
     let steps = StepMap::new(passages, targets.iter().copied());
     let mut cells = Vec::new();
@@ -108,7 +93,6 @@ fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Cell> {
         at = leap.end;
         ahead = Some(direction);
     }
-    cells.reverse();
     cells
 }
 

@@ -11,6 +11,7 @@ mod learn;
 mod maze;
 #[cfg(unix)]
 mod mms_host;
+mod mouse;
 mod replay;
 mod run;
 

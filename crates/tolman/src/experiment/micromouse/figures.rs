@@ -101,7 +101,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);
     };
-    let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start);
+    let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start)?;
     let mut mouse = Driver::new(maze, Certify::new(explorer), RunTwo::FewestMoves)?;
     let mut referee = Referee::new(maze)?;
     while !referee.is_over() {

@@ -5,6 +5,7 @@
 //! make the same run each time and have one. In the tables `sets` and `competition` a run is a maze of the set; the
 //! latter is of the competition model, which the paper does not know.
 
+mod comparisons;
 mod competition;
 mod figures;
 mod paper;
@@ -18,7 +19,7 @@ use super::{
 };
 use crate::data;
 use crate::draw::Figure;
-use crate::micromouse::{MAX_STEPS, Searcher};
+use crate::micromouse::{MAX_STEPS, QLearningConfig, Searcher};
 
 use competition::COMPETITION;
 use paper::PaperTable;
@@ -47,6 +48,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     };
     let sets = sets::all(folder.as_deref(), &options.mazes)?;
     let mut tables: Vec<Table> = paper.iter().map(PaperTable::table).collect();
+    tables.extend(comparisons::tables(&paper));
     let mut table = sets_table(&sets);
     if folder.is_none() {
         table.note = format!("{} {}", table.note, data::missing("the mazes of others"));
@@ -135,6 +137,10 @@ impl Experiment for Micromouse {
             "search".into(),
             format!("{:?}", MoveExplorerConfig::tuned()).into(),
         );
+        config.insert(
+            "q_learning".into(),
+            format!("{:?}", QLearningConfig::usual()).into(),
+        );
         let mut mazes = toml::Table::new();
         for table in &self.paper {
             for (row, maze) in table.mazes() {
@@ -154,6 +160,10 @@ impl Experiment for Micromouse {
         if job.table == COMPETITION {
             let set = self.set(job.row).ok_or("there is no such row")?;
             return competition::run(set, job.run as usize);
+        }
+        let compared = comparisons::run(&self.paper, job.table, job.row, job.run, job.seed)?;
+        if let Some(fields) = compared {
+            return Ok(fields);
         }
         let (searcher, maze, name) = self.cast(job).ok_or("there is no such run")?;
         let (_, judgement) = searcher.try_on(maze, job.seed)?;
@@ -181,6 +191,9 @@ impl Experiment for Micromouse {
         if run.table == COMPETITION {
             let set = self.set(&run.row).ok_or("there is no such row")?;
             return competition::check(set, run);
+        }
+        if let Some(checked) = comparisons::check(run) {
+            return checked;
         }
         let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
         let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);

@@ -1,0 +1,117 @@
+use alloc::collections::BinaryHeap;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
+
+use crate::Graph;
+
+/// A path to a goal, and what it took to find it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// From the source to a goal, both ends included.
+    pub path: Vec<u32>,
+    /// The sum of arc costs along it.
+    pub cost: u32,
+    /// How many nodes' arcs were listed.
+    pub expanded: u32,
+}
+
+/// The cheapest path from `source` to a goal, none where no way leads to one: A* (Hart, Nilsson, Raphael 1968).
+///
+/// `heuristic` guesses the cost from a node to the nearest goal. If it never guesses too high, the path is a cheapest
+/// one; the better it guesses, the fewer nodes are expanded. With a heuristic of 0 this is Dijkstra's
+/// algorithm. Ties go to the node that is guessed nearer to a goal, then to the lower id.
+/// O(arcs · log arcs) if the heuristic falls along no arc by more than the arc costs.
+///
+/// ```
+/// use tolman_planners::{Arcs, a_star};
+///
+/// let arcs = Arcs::new(4, &[(0, 1, 1), (1, 3, 5), (0, 2, 2), (2, 3, 2)]);
+/// let guess = |node: u32| if node == 3 { 0 } else { 2 };
+/// let found = a_star(&arcs, 0, |node| node == 3, guess).unwrap();
+/// assert_eq!((found.path.as_slice(), found.cost), ([0, 2, 3].as_slice(), 4));
+/// ```
+#[must_use]
+pub fn a_star(
+    graph: &impl Graph,
+    source: u32,
+    is_goal: impl Fn(u32) -> bool,
+    heuristic: impl Fn(u32) -> u32,
+) -> Option<Found> {
+    search(graph, source, is_goal, |node, cost| {
+        let guess = heuristic(node);
+        (cost.saturating_add(guess), guess)
+    })
+}
+
+/// Some path from `source` to a goal, none where no way leads to one: greedy best-first search, which always goes on
+/// from the node that `heuristic` guesses nearest to a goal, whatever it has cost to get there. O(arcs · log arcs).
+///
+/// ```
+/// use tolman_planners::{Arcs, best_first};
+///
+/// // It follows the promising node 1 and misses the cheaper way over 2.
+/// let arcs = Arcs::new(4, &[(0, 1, 1), (1, 3, 5), (0, 2, 2), (2, 3, 2)]);
+/// let guess = |node: u32| [9, 1, 2, 0][node as usize];
+/// let found = best_first(&arcs, 0, |node| node == 3, guess).unwrap();
+/// assert_eq!((found.cost, found.expanded), (6, 2));
+/// ```
+#[must_use]
+pub fn best_first(
+    graph: &impl Graph,
+    source: u32,
+    is_goal: impl Fn(u32) -> bool,
+    heuristic: impl Fn(u32) -> u32,
+) -> Option<Found> {
+    search(graph, source, is_goal, |node, _| (heuristic(node), 0))
+}
+
+/// Expands the node of least `priority`, which is given a node and the cost of the way to it.
+fn search(
+    graph: &impl Graph,
+    source: u32,
+    is_goal: impl Fn(u32) -> bool,
+    priority: impl Fn(u32, u32) -> (u32, u32),
+) -> Option<Found> {
+    // By node: the least cost so far, and the node before it on that way.
+    let mut reached: Vec<Option<(u32, u32)>> = vec![None; graph.node_count()];
+    *reached.get_mut(source as usize)? = Some((0, source));
+    let mut frontier = BinaryHeap::from([Reverse((priority(source, 0), source, 0))]);
+    let mut expanded = 0;
+    while let Some(Reverse((_, node, cost))) = frontier.pop() {
+        if reached[node as usize].is_some_and(|(best, _)| best < cost) {
+            continue; // A cheaper way was found after this entry was queued.
+        }
+        if is_goal(node) {
+            let path = trace_back(&reached, source, node);
+            return Some(Found {
+                path,
+                cost,
+                expanded,
+            });
+        }
+        expanded += 1;
+        graph.for_each_arc(node, |head, step| {
+            let (Some(cost), Some(slot)) = (cost.checked_add(step), reached.get_mut(head as usize))
+            else {
+                return;
+            };
+            if slot.is_none_or(|(best, _)| cost < best) {
+                *slot = Some((cost, node));
+                frontier.push(Reverse((priority(head, cost), head, cost)));
+            }
+        });
+    }
+    None
+}
+
+fn trace_back(reached: &[Option<(u32, u32)>], source: u32, goal: u32) -> Vec<u32> {
+    let mut path = vec![goal];
+    let mut node = goal;
+    while let Some((_, before)) = reached[node as usize].filter(|_| node != source) {
+        path.push(before);
+        node = before;
+    }
+    path.reverse();
+    path
+}

@@ -1,0 +1,133 @@
+//! A micromouse under the paper's rules.
+
+use serde_json::Value;
+use tolman_maze::{Cell, Direction, Maze};
+
+use crate::{folder, tolman_in};
+
+const MAZE: &str = "\
+o---o---o---o---o---o
+|                   |
+o   o---o---o---o   o
+|   |       | G |   |
+o   o   o   o   o   o
+|   |   |       |   |
+o   o   o---o---o   o
+| S |               |
+o---o---o---o---o---o
+";
+
+/// The rules once more, as short as they go: the steps of both runs.
+fn replay(maze: &Maze, text: &str) -> Option<(u32, u32)> {
+    let start = maze.start()?;
+    let (mut at, mut heading) = start;
+    let (mut steps, mut hit, mut run_1) = (0, false, None);
+    for line in text.lines() {
+        let order: Value = serde_json::from_str(line).unwrap();
+        steps += 1;
+        if order["rotation"] == "Reset" && order["movement"] == "Reset" {
+            assert!(hit && run_1.is_none(), "a reset the rules do not allow");
+            run_1 = Some(steps);
+            (at, heading) = start;
+            continue;
+        }
+        heading = match order["rotation"].as_i64().unwrap() {
+            -90 => heading.left(),
+            90 => heading.right(),
+            other => {
+                assert_eq!(other, 0, "a quarter turn or none");
+                heading
+            }
+        };
+        let cells = order["movement"].as_i64().unwrap();
+        assert!((-3..=3).contains(&cells));
+        let ahead: Direction = if cells < 0 {
+            heading.opposite()
+        } else {
+            heading
+        };
+        for _ in 0..cells.abs() {
+            assert!(maze.is_open(at, ahead), "it runs into no wall");
+            at = maze.grid().neighbour(at, ahead)?;
+        }
+        hit |= maze.goals().contains(&at);
+        if let Some(run_1) = run_1
+            && maze.goals().contains(&at)
+        {
+            return Some((run_1, steps - run_1));
+        }
+    }
+    None
+}
+
+fn with_maze(name: &str) -> std::path::PathBuf {
+    let folder = folder(name);
+    std::fs::write(folder.join("a.maze"), MAZE).unwrap();
+    folder
+}
+
+#[test]
+fn the_steps_it_writes_make_the_score_it_tells() {
+    let maze: Maze = tolman_maze::read(MAZE).unwrap().maze;
+    assert!(maze.goals().contains(&Cell::new(3, 2)));
+    for search in ["certify", "target", "counter-50", "random"] {
+        let folder = with_maze(&format!("mouse-steps-{search}"));
+        let arguments = [
+            "mouse", "a.maze", "--search", search, "--steps", "s.jsonl", "--json",
+        ];
+        let told = tolman_in(&folder, &arguments).done();
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let steps = std::fs::read_to_string(folder.join("s.jsonl")).unwrap();
+        let (run_1, run_2) = replay(&maze, &steps).unwrap();
+        assert_eq!(
+            (told["run_1"].as_u64(), told["run_2"].as_u64()),
+            (Some(run_1.into()), Some(run_2.into()))
+        );
+        assert_eq!(
+            told["score"].as_f64(),
+            Some(f64::from(run_1) / 30.0 + f64::from(run_2))
+        );
+        if search == "certify" {
+            assert_eq!(
+                (&told["certified"], &told["optimum"]),
+                (&Value::Bool(true), &told["run_2"])
+            );
+        }
+    }
+}
+
+#[test]
+fn a_folder_ends_in_a_drawing_and_a_summary() {
+    let folder = with_maze("mouse-folder");
+    std::fs::create_dir(folder.join("mazes")).unwrap();
+    for name in ["b.maze", "c.maze"] {
+        std::fs::write(folder.join("mazes").join(name), MAZE).unwrap();
+    }
+    let told = tolman_in(&folder, &["mouse", "mazes", "--jobs", "2"]);
+    assert_eq!(told.code, Some(0), "{}", told.err);
+    let lines: Vec<&str> = told.out.lines().collect();
+    assert!(lines[0].starts_with("mazes/b.maze: ") && lines[0].ends_with(", proven"));
+    assert!(
+        told.out
+            .contains("mazes/b.maze, with the stops of the first run")
+    );
+    let last = lines[lines.len() - 1];
+    assert!(
+        last.starts_with("2 mazes: 2 finished, 2 proven; mean score "),
+        "{last}"
+    );
+    tolman_in(&folder, &["mouse", "mazes", "--steps", "s.jsonl"]).refused(2, &["--steps", "2"]);
+}
+
+#[test]
+fn what_no_mouse_can_run_in_is_refused() {
+    let folder = with_maze("mouse-refused");
+    let large = tolman_maze::Maze::open(tolman_maze::Grid::new(40, 3));
+    let mut large = large;
+    large.set_start(Some((Cell::new(0, 0), Direction::North)));
+    large.set_goals(vec![Cell::new(9, 1)]);
+    std::fs::write(folder.join("large.maze"), large.to_string()).unwrap();
+    tolman_in(&folder, &["mouse", "large.maze"]).refused(2, &["large.maze", "40 × 3", "32 × 32"]);
+    tolman_in(&folder, &["mouse", "none.maze"]).refused(2, &["none.maze"]);
+    tolman_in(&folder, &["mouse", "a.maze", "--search", "luck"]).refused(2, &["luck", "certify"]);
+}
