@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::cmp::Reverse;
 
 use crate::Graph;
+use crate::path::trace_back;
 
 /// A path to a goal, and what it took to find it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,9 +84,9 @@ fn search(
             continue; // A cheaper way was found after this entry was queued.
         }
         if is_goal(node) {
-            let path = trace_back(&reached, source, node);
+            let came_from = |node: u32| reached[node as usize].map(|(_, before)| before);
             return Some(Found {
-                path,
+                path: trace_back(source, node, came_from),
                 cost,
                 expanded,
             });
@@ -103,15 +104,4 @@ fn search(
         });
     }
     None
-}
-
-fn trace_back(reached: &[Option<(u32, u32)>], source: u32, goal: u32) -> Vec<u32> {
-    let mut path = vec![goal];
-    let mut node = goal;
-    while let Some((_, before)) = reached[node as usize].filter(|_| node != source) {
-        path.push(before);
-        node = before;
-    }
-    path.reverse();
-    path
 }

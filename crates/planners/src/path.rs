@@ -16,7 +16,7 @@ pub fn path_to(graph: &impl Graph, source: u32, is_goal: impl Fn(u32) -> bool) -
     while let Some(&node) = queue.get(next) {
         next += 1;
         if is_goal(node) {
-            return Some(trace_back(&came_from, source, node));
+            return Some(trace_back(source, node, |node| came_from[node as usize]));
         }
         graph.for_each_arc(node, |head, _| {
             if let Some(origin @ None) = came_from.get_mut(head as usize) {
@@ -28,10 +28,15 @@ pub fn path_to(graph: &impl Graph, source: u32, is_goal: impl Fn(u32) -> bool) -
     None
 }
 
-fn trace_back(came_from: &[Option<u32>], source: u32, goal: u32) -> Vec<u32> {
+/// The nodes from `source` to `goal`, by the node that each was reached from.
+pub(crate) fn trace_back(
+    source: u32,
+    goal: u32,
+    came_from: impl Fn(u32) -> Option<u32>,
+) -> Vec<u32> {
     let mut path = vec![goal];
     let mut node = goal;
-    while let Some(origin) = came_from[node as usize].filter(|_| node != source) {
+    while let Some(origin) = came_from(node).filter(|_| node != source) {
         path.push(origin);
         node = origin;
     }
