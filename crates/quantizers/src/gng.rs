@@ -320,10 +320,7 @@ impl<S: Scalar> Gng<S> {
         let Some(f) = worst(&mut self.network.links().neighbours(q)) else {
             return;
         };
-        let r = self.network.insert_between(q, f);
-        self.network.cut(q, f);
-        self.network.link(q, r, 0);
-        self.network.link(r, f, 0);
+        self.network.split_edge(q, f);
         self.sums[q].error *= self.config.split_factor;
         self.sums[f].error *= self.config.split_factor;
         self.sums.push(Sums {

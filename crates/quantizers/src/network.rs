@@ -335,15 +335,18 @@ impl<S: Scalar> Network<S> {
         self.enter(None)
     }
 
-    /// A new unit half-way between two, without edges; its slot is the last.
-    pub(crate) fn insert_between(&mut self, a: usize, b: usize) -> usize {
+    /// Puts a new unit half-way between two, joined to both in place of their edge; its slot is the last.
+    pub(crate) fn split_edge(&mut self, a: usize, b: usize) {
         let half = S::from_f64(0.5);
         let slot = self.prototypes.push();
         for feature in 0..self.dimension() {
             let middle = half * (self.prototypes.at(a, feature) + self.prototypes.at(b, feature));
             self.prototypes.put(slot, feature, middle);
         }
-        self.enter(Some((self.ids[a], self.ids[b])))
+        self.enter(Some((self.ids[a], self.ids[b])));
+        self.cut(a, b);
+        self.link(a, slot, 0);
+        self.link(slot, b, 0);
     }
 
     fn enter(&mut self, between: Option<(UnitId, UnitId)>) -> usize {

@@ -314,10 +314,7 @@ impl<S: Scalar> Soinn<S> {
         if undone {
             return;
         }
-        let r = self.network.insert_between(q, f);
-        self.network.cut(q, f);
-        self.network.link(q, r, 0);
-        self.network.link(r, f, 0);
+        self.network.split_edge(q, f);
         let [q_tally, f_tally, r_tally] = tallies.map(Tally::remembering);
         self.tallies[q] = q_tally;
         self.tallies[f] = f_tally;
