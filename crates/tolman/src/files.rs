@@ -1,8 +1,8 @@
-//! Files that are whole or not there.
+//! Files that are whole or not there, and the files of a folder.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Writes a file beside its place and moves it there, so that a reader sees the former file or the
 /// new one, never a part. The data are on the disk before the move.
@@ -44,6 +44,18 @@ fn move_into_place(path: &Path, contents: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+/// The files in a folder, not those in folders below it, sorted by name.
+///
+/// # Errors
+/// What the system says.
+pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let listed = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
+    let mut files: Vec<PathBuf> = listed.iter().map(fs::DirEntry::path).collect();
+    files.retain(|path| path.is_file());
+    files.sort();
+    Ok(files)
 }
 
 #[cfg(all(test, unix))]

@@ -4,14 +4,12 @@ use core::time::Duration;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow};
-use indicatif::{ParallelProgressIterator, ProgressBar};
-use rayon::prelude::*;
+use anyhow::anyhow;
 use serde_json::json;
-use tolman::mms::{Ended, HostError, Hosted, Limits, Log, host};
-use tolman_maze::{Maze, MazeFile};
+use tolman::mms::{Ended, Hosted, Limits, Log, host};
 
 use super::failure::OrBadInput;
+use super::maze::Collection;
 use super::{Failure, maze};
 
 /// Hosts a mouse that speaks the protocol of the simulator mms, without a window, and scores it
@@ -61,20 +59,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         })
         .or_bad_input()?;
     let limits = arguments.limits()?;
-    let mut mazes = Vec::new();
-    let mut unsound = Vec::new();
-    for file in maze::files(&arguments.maze)? {
-        match maze::read(&file) {
-            Ok(MazeFile { maze, .. }) => mazes.push((file, maze)),
-            Err(failure) => unsound.push(failure),
-        }
-    }
+    let Collection { mazes, unsound } = Collection::read(&arguments.maze)?;
     let log = if arguments.log {
         Log::Shown
     } else {
         Log::Dropped
     };
-    let hosted = arguments.host_all(&words, &mazes, &limits, log)?;
+    let hosted = maze::each(&mazes, arguments.jobs, |_, maze| {
+        host(&words, maze, &limits, log).or_bad_input()
+    })?;
     for ((file, _), hosted) in mazes.iter().zip(&hosted) {
         arguments.tell(file, hosted, out)?;
     }
@@ -83,17 +76,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
     // What was hosted stands before what could not be, wherever the two streams end up.
     out.flush()?;
-    let Some(last) = unsound.pop() else {
-        return Ok(());
-    };
-    if mazes.is_empty() && unsound.is_empty() {
-        return Err(last);
-    }
-    unsound.iter().chain([&last]).for_each(Failure::complain);
-    let (bad, all) = (unsound.len() + 1, unsound.len() + 1 + mazes.len());
-    Err(Failure::BadInput(anyhow!(
-        "{bad} of {all} mazes are unsound"
-    )))
+    unsound.complain(mazes.len())
 }
 
 impl Arguments {
@@ -114,32 +97,6 @@ impl Arguments {
             movements: self.move_limit,
             reset_after: self.reset_after,
         })
-    }
-
-    fn host_all(
-        &self,
-        words: &[String],
-        mazes: &[(PathBuf, Maze)],
-        limits: &Limits,
-        log: Log,
-    ) -> Result<Vec<Hosted>, Failure> {
-        let threads = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.jobs.map_or(0, usize::from))
-            .build()
-            .context("no threads can be started")?;
-        let bar = if mazes.len() > 1 {
-            ProgressBar::new(mazes.len() as u64)
-        } else {
-            ProgressBar::hidden()
-        };
-        let hosted: Result<Vec<Hosted>, HostError> = threads.install(|| {
-            mazes
-                .par_iter()
-                .progress_with(bar)
-                .map(|(_, maze)| host(words, maze, limits, log))
-                .collect()
-        });
-        hosted.or_bad_input()
     }
 
     fn tell(&self, file: &Path, hosted: &Hosted, out: &mut dyn Write) -> Result<(), Failure> {

@@ -3,16 +3,15 @@
 mod drawing;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use indicatif::{ParallelProgressIterator, ProgressBar};
-use rayon::prelude::*;
 use serde_json::json;
-use tolman::micromouse::{JudgeError, Judgement, Searcher, Trial};
-use tolman_maze::{Maze, MazeFile};
+use tolman::micromouse::{Judgement, Searcher, Trial};
+use tolman_maze::Maze;
 
 use super::failure::OrBadInput;
+use super::maze::Collection;
 use super::{Failure, file, maze};
 
 /// Sends a micromouse through mazes: it explores, proves its run, and makes it
@@ -59,23 +58,17 @@ struct Tried {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let mut mazes = Vec::new();
-    let mut unsound = Vec::new();
-    let files = maze::files(&arguments.maze)?;
-    if arguments.steps.is_some() && files.len() > 1 {
+    let Collection { mazes, unsound } = Collection::read(&arguments.maze)?;
+    let files = mazes.len() + unsound.len();
+    if arguments.steps.is_some() && files > 1 {
         return Err(Failure::BadInput(anyhow!(
-            "--steps is of one maze, and {} holds {}: name a file",
-            arguments.maze.display(),
-            files.len()
+            "--steps is of one maze, and {} holds {files}: name a file",
+            arguments.maze.display()
         )));
     }
-    for file in files {
-        match maze::read(&file) {
-            Ok(MazeFile { maze, .. }) => mazes.push((file, maze)),
-            Err(failure) => unsound.push(failure),
-        }
-    }
-    let tried = arguments.try_all(mazes)?;
+    let tried = maze::each(&mazes, arguments.jobs, |file, maze| {
+        arguments.try_on(file, maze)
+    })?;
     for tried in &tried {
         arguments.tell(tried, out)?;
     }
@@ -90,54 +83,22 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         file::write(path, &steps(&tried.trial)?)?;
     }
     out.flush()?;
-    complain(unsound, tried.len())
-}
-
-/// Tells of the mazes that could not be used.
-fn complain(mut unsound: Vec<Failure>, sound: usize) -> Result<(), Failure> {
-    let Some(last) = unsound.pop() else {
-        return Ok(());
-    };
-    if sound == 0 && unsound.is_empty() {
-        return Err(last);
-    }
-    unsound.iter().chain([&last]).for_each(Failure::complain);
-    let bad = unsound.len() + 1;
-    let all = bad + sound;
-    Err(Failure::BadInput(anyhow!(
-        "{bad} of {all} mazes are unsound"
-    )))
+    unsound.complain(tried.len())
 }
 
 impl Arguments {
-    fn try_all(&self, mazes: Vec<(PathBuf, Maze)>) -> Result<Vec<Tried>, Failure> {
-        let threads = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.jobs.map_or(0, usize::from))
-            .build()
-            .context("no threads can be started")?;
-        let bar = if mazes.len() > 1 {
-            ProgressBar::new(mazes.len() as u64)
-        } else {
-            ProgressBar::hidden()
-        };
-        let tried: Result<Vec<Tried>, (PathBuf, JudgeError)> = threads.install(|| {
-            mazes
-                .into_par_iter()
-                .progress_with(bar)
-                .map(|(file, maze)| match self.search.try_on(&maze, self.seed) {
-                    Ok((trial, judgement)) => Ok(Tried {
-                        file,
-                        maze,
-                        trial,
-                        judgement,
-                    }),
-                    Err(error) => Err((file, error)),
-                })
-                .collect()
-        });
-        tried
-            .map_err(|(file, error)| anyhow::Error::new(error).context(maze::name(&file)))
-            .or_bad_input()
+    fn try_on(&self, file: &Path, maze: &Maze) -> Result<Tried, Failure> {
+        let (trial, judgement) = self
+            .search
+            .try_on(maze, self.seed)
+            .with_context(|| maze::name(file))
+            .or_bad_input()?;
+        Ok(Tried {
+            file: file.to_owned(),
+            maze: maze.clone(),
+            trial,
+            judgement,
+        })
     }
 
     fn tell(&self, tried: &Tried, out: &mut dyn Write) -> Result<(), Failure> {
@@ -220,20 +181,4 @@ fn steps(trial: &Trial) -> Result<String, Failure> {
         text.push('\n');
     }
     Ok(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unsound_mazes_are_counted() {
-        let failure = complain(vec![Failure::BadInput(anyhow!("torn"))], 0);
-        assert!(matches!(failure, Err(Failure::BadInput(error)) if error.to_string() == "torn"));
-        assert!(complain(Vec::new(), 3).is_ok());
-        let failure = complain(vec![Failure::BadInput(anyhow!("torn"))], 3);
-        assert!(
-            matches!(failure, Err(Failure::BadInput(error)) if error.to_string() == "1 of 4 mazes are unsound")
-        );
-    }
 }

@@ -3,8 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::anyhow;
-
+use super::collection::Unsound;
 use super::{Failure, input, summary::Summary};
 
 /// Reads mazes and checks that a way leads to the goal; exits 2 if one is unsound
@@ -22,10 +21,12 @@ pub(crate) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let mut unsound = Vec::new();
+    let mut unsound = Unsound::default();
+    let mut sound = 0;
     for file in &arguments.files {
         match input::read(file) {
             Ok(read) => {
+                sound += 1;
                 let summary = Summary::of(input::name(file), &read);
                 if arguments.json {
                     writeln!(out, "{}", serde_json::to_string(&summary)?)?;
@@ -36,17 +37,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             Err(failure) => unsound.push(failure),
         }
     }
-    let Some(last) = unsound.pop() else {
-        return Ok(());
-    };
     // What was found sound stands before what was not, wherever the two streams end up.
     out.flush()?;
-    let (bad, all) = (unsound.len() + 1, arguments.files.len());
-    if all == 1 {
-        return Err(last);
-    }
-    unsound.iter().chain([&last]).for_each(Failure::complain);
-    Err(Failure::BadInput(anyhow!(
-        "{bad} of {all} mazes are unsound"
-    )))
+    unsound.complain(sound)
 }

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
+use tolman::files::files_in;
 use tolman_maze::MazeFile;
 
 use super::Failure;
@@ -36,20 +37,18 @@ pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
 ///
 /// # Errors
 /// If the folder cannot be read or holds no file.
-pub(in crate::cli) fn files(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
-    let listed = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
-    let mut files: Vec<PathBuf> = listed
+    let is_hidden = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default();
+        name.as_encoded_bytes().starts_with(b".")
+    };
+    let mut files = files_in(path)
         .with_context(|| format!("cannot list {}", path.display()))
-        .or_bad_input()?
-        .iter()
-        .filter(|entry| !entry.file_name().as_encoded_bytes().starts_with(b"."))
-        .map(fs::DirEntry::path)
-        .filter(|path| path.is_file())
-        .collect();
-    files.sort();
+        .or_bad_input()?;
+    files.retain(|file| !is_hidden(file));
     if files.is_empty() {
         return Err(Failure::BadInput(anyhow!(
             "{} holds no file: name a folder of mazes",

@@ -1,6 +1,7 @@
 //! `tolman maze`: looks at mazes, checks, converts and makes them.
 
 mod check;
+mod collection;
 mod convert;
 mod generate;
 mod input;
@@ -13,7 +14,8 @@ use std::io::Write;
 use clap::Subcommand;
 
 use super::failure::Failure;
-pub(super) use input::{files, name, read};
+pub(super) use collection::{Collection, each};
+pub(super) use input::{name, read};
 
 /// Looks at mazes, checks, converts and makes them
 #[derive(Subcommand)]

@@ -8,6 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
 use crate::experiment::BoxError;
+use crate::files::files_in;
 use crate::micromouse::SIDE;
 
 /// Mazes under one name.
@@ -87,15 +88,11 @@ fn ours() -> Result<MazeSet, BoxError> {
 
 /// All mazes of a folder that can be solved and fit a mouse, by name.
 fn in_folder(folder: &Path) -> Result<Vec<(String, Maze)>, BoxError> {
-    let listed = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
-    let listed = listed
+    let files = files_in(folder)
         .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
-    let mut paths: Vec<PathBuf> = listed.iter().map(fs::DirEntry::path).collect();
-    paths.sort();
     let mut mazes = Vec::new();
-    for path in paths.iter().filter(|path| path.is_file()) {
-        let text = fs::read_to_string(path)
-            .map_err(|error| format!("the maze file {} cannot be read: {error}", path.display()))?;
+    for path in &files {
+        let text = text(path)?;
         // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
         if let Ok(file) = tolman_maze::read(&text)
             && fits(&file.maze)
@@ -106,10 +103,14 @@ fn in_folder(folder: &Path) -> Result<Vec<(String, Maze)>, BoxError> {
     Ok(mazes)
 }
 
-fn maze(path: &Path) -> Result<Maze, BoxError> {
+fn text(path: &Path) -> Result<String, BoxError> {
     let text = fs::read_to_string(path)
         .map_err(|error| format!("the maze file {} cannot be read: {error}", path.display()))?;
-    let maze = tolman_maze::read(&text)
+    Ok(text)
+}
+
+fn maze(path: &Path) -> Result<Maze, BoxError> {
+    let maze = tolman_maze::read(&text(path)?)
         .map_err(|error| format!("the maze file {} cannot be used: {error}", path.display()))?
         .maze;
     if !fits(&maze) {
