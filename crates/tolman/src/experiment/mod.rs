@@ -37,6 +37,7 @@ mod summary;
 mod table;
 mod terminal;
 mod text;
+mod venue;
 mod verdict;
 
 pub use analysis::{Analysis, Contrast, Disagreement, Measured, MetricAnalysis, TableAnalysis};

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::Analysis;
 
 /// The table of all p-values of rows compared each with each.
-const P_TABLE: &str = "p";
+pub(super) const P_TABLE: &str = "p";
 
 /// The contents of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -6,21 +6,19 @@
 
 mod detector;
 mod figures;
-pub(super) mod worlds;
+mod worlds;
 
 use tolman_sim::robots::LaserPioneerConfig;
 
+use super::venue::{self, Venue};
 use super::{
-    BoxError, Comparison, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row,
-    Run, Table, Tolerance,
+    BoxError, Correction, Experiment, Fields, Job, Metric, Options, Run, Table, Tolerance,
 };
 use crate::agents::{Agent, Cast, Mind};
 use crate::draw::Figure;
 use crate::episode::{self, Episode, EpisodeError, Trial};
 use crate::pioneer;
-use crate::replay::{Recorder, Replay};
-
-use worlds::Venue;
+use crate::replay::Replay;
 
 /// The rows: the paper's brains in its order, then floor and ceiling.
 const ROWS: [Agent; 4] = [
@@ -61,13 +59,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
 }
 
 fn table(venue: &Venue) -> Table {
-    let mut table = Table::new(&venue.table, &venue.title)
-        .field("reached", Kind::Flag)
-        .field("outcome", Kind::Text)
-        .field("actions", Kind::Count)
-        .field("failed_actions", Kind::Count)
-        .field("steps", Kind::Count)
-        .field("bumps", Kind::Count)
+    let mut table = venue
+        .table()
         .metric(
             Metric::percent("success_percent", "reached")
                 .titled("success")
@@ -81,33 +74,14 @@ fn table(venue: &Venue) -> Table {
                 .tolerance(Tolerance::Relative(0.2)),
         );
     for name in ROWS.map(Agent::name) {
-        let row = Row::new(name);
-        table = table.row(match venue.paper.iter().find(|paper| paper.row == name) {
-            Some(paper) => row
-                .paper("success_percent", paper.success_percent)
-                .paper_mean("actions", paper.actions.0, paper.actions.1)
-                .paper_mean("steps", paper.steps.0, paper.steps.1)
-                .paper("steps_per_action", paper.steps.0 / paper.actions.0),
+        let row = venue.row(name);
+        let paper = |metric| Some(row.paper_value(metric)?.value);
+        table = table.row(match paper("steps").zip(paper("actions")) {
+            Some((steps, actions)) => row.paper("steps_per_action", steps / actions),
             None => row,
         });
     }
-    if !venue.paper.is_empty() {
-        table = table.paper_runs(25);
-    }
-    table.comparison = Some(Comparison {
-        reference: ROWS[0].name().into(),
-        correction: Correction::Bonferroni,
-    });
-    table.note(format!(
-        "A run ends when the robot's centre lies in the destination, or fails after {} time steps, which \
-         then count as its steps.",
-        venue.step_limit
-    ))
-}
-
-/// How a run ended, in words.
-const fn outcome(reached: bool) -> &'static str {
-    if reached { "reached" } else { "timed out" }
+    table.compared_with(ROWS[0].name(), Correction::Bonferroni)
 }
 
 impl Baselines {
@@ -124,13 +98,7 @@ impl Baselines {
         else {
             return Ok(None);
         };
-        let trial = Trial {
-            course: &venue.course,
-            robot: self.robot.clone(),
-            start: episode::random_start(&venue.course, &pioneer::body(), job.seed),
-            step_limit: venue.step_limit,
-            seed: job.seed,
-        };
+        let trial = venue.trial(&self.robot, job.seed);
         let mind = self.casts[index].mind(agent, &venue.course, &self.robot)?;
         Ok(Some((trial, mind)))
     }
@@ -174,53 +142,24 @@ impl Experiment for Baselines {
         config.insert("robot".into(), toml::Value::try_from(&self.robot)?);
         let mut worlds = toml::Table::new();
         for venue in &self.venues {
-            let mut world = toml::Table::new();
-            world.insert("maze".into(), venue.course.maze.to_string().into());
-            world.insert("corridor_width".into(), venue.course.corridor_width.into());
-            world.insert("step_limit".into(), i64::from(venue.step_limit).into());
-            worlds.insert(venue.table.clone(), world.into());
+            worlds.insert(venue.table.clone(), venue.config().into());
         }
         config.insert("worlds".into(), worlds.into());
         Ok(config)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let Some(episode) = self.episode(job)? else {
-            return detector::run(job);
-        };
-        Ok(Fields::new()
-            .flag("reached", episode.reached)
-            .text("outcome", outcome(episode.reached))
-            .count("actions", u64::from(episode.actions))
-            .count("failed_actions", u64::from(episode.failed_actions))
-            .count("steps", u64::from(episode.steps))
-            .count("bumps", u64::from(episode.bumps)))
+        match self.episode(job)? {
+            Some(episode) => Ok(venue::fields(&episode)),
+            None => detector::run(job),
+        }
     }
 
     fn check(&self, run: &Run) -> Result<(), BoxError> {
-        let Some((_, venue)) = self.venue(&run.table) else {
-            return detector::check(run);
-        };
-        let count = |name: &str| match run.fields.get(name) {
-            Some(Field::Count(count)) => *count,
-            _ => 0,
-        };
-        let reached = run.fields.get("reached").and_then(Field::as_flag);
-        let (actions, steps) = (count("actions"), count("steps"));
-        let told = run.fields.get("outcome").and_then(Field::as_text);
-        if told != reached.map(outcome) {
-            return Err("outcome and reached contradict each other".into());
+        match self.venue(&run.table) {
+            Some((_, venue)) => venue.check(run),
+            None => detector::check(run),
         }
-        if steps > u64::from(venue.step_limit) {
-            return Err(format!("steps is {steps}, the limit {}", venue.step_limit).into());
-        }
-        if !(1..=steps).contains(&actions) {
-            return Err(format!("actions is {actions} in {steps} steps").into());
-        }
-        if count("failed_actions") > actions || count("bumps") > steps {
-            return Err("more failed actions or bumps than actions or steps".into());
-        }
-        Ok(())
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -231,9 +170,6 @@ impl Experiment for Baselines {
         let Some((trial, mut mind)) = self.cast(job)? else {
             return Ok(None);
         };
-        let mut recorder = Recorder::new(&trial);
-        let episode = episode::run(&trial, &mut mind, |moment| recorder.see(moment))?;
-        let title = format!("{} in {}, run {}", job.row, trial.course.name, job.run);
-        Ok(Some(recorder.finish(title, &episode)))
+        Ok(Some(venue::replay(job, &trial, &mut mind)?))
     }
 }

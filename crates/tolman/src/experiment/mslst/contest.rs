@@ -11,13 +11,12 @@ use super::MAPS;
 use crate::agents::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
 use crate::agents::{Agent, Cast, Mind};
 use crate::episode::{self, Episode, Trial};
-use crate::experiment::baselines::worlds::Venue;
+use crate::experiment::venue::{self, Venue};
 use crate::experiment::{
-    BoxError, Correction, Field, Fields, Job, Kind, Metric, Pairwise, Row, Run, Table, Tolerance,
+    BoxError, Correction, Field, Fields, Job, Kind, Metric, Pairwise, Run, Table, Tolerance,
     run_seed,
 };
-use crate::pioneer;
-use crate::replay::{Recorder, Replay};
+use crate::replay::Replay;
 
 /// One world, the brains that compete in it, and what they share.
 #[derive(Debug)]
@@ -82,13 +81,9 @@ impl Contest {
     pub(super) fn table(&self) -> Table {
         let oracle = Agent::Oracle.name();
         let unlocalized = Agent::UnlocalizedOracle.name();
-        let mut table = Table::new(&self.venue.table, &self.venue.title)
-            .field("reached", Kind::Flag)
-            .field("outcome", Kind::Text)
-            .field("actions", Kind::Count)
-            .field("failed_actions", Kind::Count)
-            .field("steps", Kind::Count)
-            .field("bumps", Kind::Count)
+        let mut table = self
+            .venue
+            .table()
             .field("bounces", Kind::Count)
             .optional_field("map", Kind::Count)
             .metric(Metric::percent("success_percent", "reached").titled("success"))
@@ -108,19 +103,8 @@ impl Contest {
         rows.extend(self.apprentices.iter().map(|one| one.row.clone()));
         let competitors = rows.clone();
         rows.extend(names(yardsticks));
-        for name in rows {
-            let row = Row::new(&name);
-            let paper = self.venue.paper.iter().find(|paper| paper.row == name);
-            table = table.row(match paper {
-                Some(paper) => row
-                    .paper("success_percent", paper.success_percent)
-                    .paper_mean("actions", paper.actions.0, paper.actions.1)
-                    .paper_mean("steps", paper.steps.0, paper.steps.1),
-                None => row,
-            });
-        }
-        if !self.venue.paper.is_empty() {
-            table = table.paper_runs(25);
+        for name in &rows {
+            table = table.row(self.venue.row(name));
         }
         let own = |row: &str| competitors.iter().any(|name| name == row);
         let paper = PAPER_P
@@ -128,6 +112,11 @@ impl Contest {
             .filter(|(row, ..)| own(row))
             .map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
         let paper = paper.collect();
+        let note = format!(
+            "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
+             after another such.",
+            table.note
+        );
         table
             .pairwise(Pairwise {
                 field: "steps".to_owned(),
@@ -135,23 +124,12 @@ impl Contest {
                 correction: Correction::Bonferroni,
                 paper,
             })
-            .note(format!(
-                "A run ends when the robot's centre lies in the destination, or fails after {} time steps, \
-                 which then count as its steps. Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that \
-                 takes back the one before, soon after another such.",
-                self.venue.step_limit
-            ))
+            .note(note)
     }
 
     /// What the runs depend on.
     pub(super) fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut world = toml::Table::new();
-        world.insert("maze".into(), self.venue.course.maze.to_string().into());
-        world.insert(
-            "corridor_width".into(),
-            self.venue.course.corridor_width.into(),
-        );
-        world.insert("step_limit".into(), i64::from(self.venue.step_limit).into());
+        let mut world = self.venue.config();
         for apprentice in &self.apprentices {
             let config = toml::Value::try_from(apprentice.config)?;
             world.insert(apprentice.row.clone(), config);
@@ -170,14 +148,7 @@ impl Contest {
         robot: &LaserPioneerConfig,
     ) -> Result<Fields, BoxError> {
         let (episode, bounces) = self.episode(job, robot)?;
-        let fields = Fields::new()
-            .flag("reached", episode.reached)
-            .text("outcome", outcome(episode.reached))
-            .count("actions", u64::from(episode.actions))
-            .count("failed_actions", u64::from(episode.failed_actions))
-            .count("steps", u64::from(episode.steps))
-            .count("bumps", u64::from(episode.bumps))
-            .count("bounces", u64::from(bounces));
+        let fields = venue::fields(&episode).count("bounces", u64::from(bounces));
         Ok(match self.apprentice(job.row) {
             Some(_) => fields.count("map", u64::from(job.run % MAPS)),
             None => fields,
@@ -190,14 +161,7 @@ impl Contest {
         job: &Job<'_>,
         robot: &LaserPioneerConfig,
     ) -> Result<(Trial<'_>, Mind), BoxError> {
-        let course = &self.venue.course;
-        let trial = Trial {
-            course,
-            robot: robot.clone(),
-            start: episode::random_start(course, &pioneer::body(), job.seed),
-            step_limit: self.venue.step_limit,
-            seed: job.seed,
-        };
+        let trial = self.venue.trial(robot, job.seed);
         let mind = match self.apprentice(job.row) {
             Some(apprentice) => {
                 let learned = apprentice.learned(self, robot, job.run % MAPS)?;
@@ -207,7 +171,7 @@ impl Contest {
             None => {
                 let agent = Agent::named(job.row)
                     .ok_or_else(|| format!("there is no brain {:?}", job.row))?;
-                self.cast.mind(agent, course, robot)?
+                self.cast.mind(agent, &self.venue.course, robot)?
             }
         };
         Ok((trial, mind))
@@ -236,34 +200,15 @@ impl Contest {
         robot: &LaserPioneerConfig,
     ) -> Result<Replay, BoxError> {
         let (trial, mut mind) = self.cast(job, robot)?;
-        let mut recorder = Recorder::new(&trial);
-        let episode = episode::run(&trial, &mut mind, |step| recorder.see(step))?;
-        let title = format!("{} in {}, run {}", job.row, trial.course.name, job.run);
-        Ok(recorder.finish(title, &episode))
+        Ok(venue::replay(job, &trial, &mut mind)?)
     }
 
     /// Refuses what no run can measure.
     pub(super) fn check(&self, run: &Run) -> Result<(), BoxError> {
-        let count = |name: &str| match run.fields.get(name) {
-            Some(Field::Count(count)) => *count,
-            _ => 0,
-        };
-        let reached = run.fields.get("reached").and_then(Field::as_flag);
-        let told = run.fields.get("outcome").and_then(Field::as_text);
-        let (actions, steps) = (count("actions"), count("steps"));
-        if told != reached.map(outcome) {
-            return Err("outcome and reached contradict each other".into());
-        }
-        let limit = self.venue.step_limit;
-        if steps > u64::from(limit) {
-            return Err(format!("steps is {steps}, the limit {limit}").into());
-        }
-        if !(1..=steps).contains(&actions) {
-            return Err(format!("actions is {actions} in {steps} steps").into());
-        }
-        if count("failed_actions") > actions || count("bumps") > steps || count("bounces") > actions
-        {
-            return Err("more failed actions, bounces or bumps than actions or steps".into());
+        self.venue.check(run)?;
+        let count = |name: &str| run.fields.get(name).and_then(Field::as_number);
+        if count("bounces") > count("actions") {
+            return Err("more bounces than actions".into());
         }
         let map = run.fields.get("map");
         let expected = self.apprentice(&run.row).map(|_| run.run % MAPS);
@@ -291,11 +236,6 @@ impl Apprentice {
         // Two threads may learn it at once; they learn the same.
         Ok(Arc::clone(cell.get_or_init(|| Arc::new(learned))))
     }
-}
-
-/// How a run ended, in words.
-const fn outcome(reached: bool) -> &'static str {
-    if reached { "reached" } else { "timed out" }
 }
 
 /// Counts how often a robot goes back and forth between two ways ("this process of bouncing between two

@@ -10,7 +10,8 @@ mod states;
 
 use tolman_sim::robots::LaserPioneerConfig;
 
-use super::baselines::worlds;
+use super::summary::P_TABLE;
+use super::venue;
 use super::{BoxError, Experiment, Fields, Job, Options, Run, Table};
 use crate::draw::Figure;
 use crate::pioneer;
@@ -35,9 +36,9 @@ struct Mslst {
 /// If a maze cannot be read, or the robot does not fit its corridors.
 pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     let venues = if options.mazes.is_empty() {
-        worlds::papers()?
+        venue::papers()?
     } else {
-        worlds::from_files(&options.mazes)?
+        venue::from_files(&options.mazes, &[P_TABLE])?
     };
     let contests: Vec<Contest> = venues
         .into_iter()

@@ -9,7 +9,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 use crate::agents::mslst::MslstConfig;
 use crate::course::Course;
 use crate::experiment::BoxError;
-use crate::experiment::baselines::worlds;
+use crate::experiment::venue;
 use crate::pioneer::{self, ROBOT_UNIT};
 
 /// One table.
@@ -186,7 +186,7 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
 
 /// The paper's two worlds with its limits.
 fn fixed() -> Result<[World; 2], BoxError> {
-    let mut venues = worlds::papers()?.into_iter();
+    let mut venues = venue::papers()?.into_iter();
     let mut next = || -> Result<World, BoxError> {
         let venue = venues.next().ok_or("the paper has two mazes")?;
         Ok(World::Fixed {
