@@ -14,6 +14,8 @@
 //! 4. [`Center`]: in a corridor, steer to its middle.
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
 //!
+//! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`].
+//!
 //! Each layer stands alone behind [`Layer`]; a stack is any list of them. Lengths are metres; the
 //! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which [`Stack::paper`]
 //! takes and converts once.
@@ -58,6 +60,7 @@ extern crate alloc;
 mod avoid;
 mod center;
 mod corridor;
+pub mod epuck;
 mod layer;
 mod move_layer;
 mod orient;

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use tolman_geom::{Heading, Point, Pose};
+use tolman_geom::{Heading, Point, Pose, Twist};
 
 /// Radius of the body, m.
 pub const BODY_RADIUS: f64 = 0.037;
@@ -68,6 +68,30 @@ impl WheelSpeeds {
         left: 0.0,
         right: 0.0,
     };
+
+    /// The speeds at which the robot moves like this (m/s, rad/s); where a wheel cannot turn so fast both are slowed alike, so that
+    /// the path is the same.
+    ///
+    /// ```
+    /// use tolman_geom::Twist;
+    /// use tolman_robot::epuck::{MOST_WHEEL_SPEED, WheelSpeeds};
+    ///
+    /// let spin = WheelSpeeds::of_twist(Twist { linear: 0.0, angular: 100.0 });
+    /// assert_eq!((spin.left, spin.right), (-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED));
+    /// ```
+    #[must_use]
+    pub fn of_twist(twist: Twist) -> Self {
+        let apart = twist.angular * TRACK / 2.0;
+        let (left, right) = (
+            (twist.linear - apart) / WHEEL_RADIUS,
+            (twist.linear + apart) / WHEEL_RADIUS,
+        );
+        let slow = (MOST_WHEEL_SPEED / left.abs().max(right.abs())).min(1.0);
+        Self {
+            left: left * slow,
+            right: right * slow,
+        }
+    }
 }
 
 /// How far each wheel turned in a time step, rad, whether the robot moved or not.

@@ -1,0 +1,48 @@
+use tolman_geom::Point;
+use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
+
+use super::RangeCurve;
+
+/// What the eight proximity sensors meet right now: a point each in the robot's frame, m, or nothing within reach.
+///
+/// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 half aside, 2 and 5 aside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Echoes {
+    points: [Option<Point>; PROXIMITY_SENSORS],
+}
+
+impl Echoes {
+    /// The echoes behind these raw values.
+    #[must_use]
+    pub fn of(values: &[f64; PROXIMITY_SENSORS], curve: &RangeCurve) -> Self {
+        let mounts = proximity_mounts();
+        let point = |sensor: usize| {
+            let mount = mounts[sensor];
+            let range = curve.range(values[sensor])?;
+            Some(mount.position + mount.heading.unit() * range)
+        };
+        Self {
+            points: core::array::from_fn(point),
+        }
+    }
+
+    /// What one sensor meets.
+    #[must_use]
+    pub fn of_sensor(&self, sensor: usize) -> Option<Point> {
+        self.points.get(sensor).copied().flatten()
+    }
+
+    /// All that is met.
+    pub fn iter(&self) -> impl Iterator<Item = Point> + '_ {
+        self.points.iter().copied().flatten()
+    }
+
+    /// How much room is straight ahead of the robot's middle, m; none if neither sensor that looks ahead meets anything.
+    #[must_use]
+    pub fn ahead(&self) -> Option<f64> {
+        let ahead = [0, 7]
+            .into_iter()
+            .filter_map(|sensor| self.of_sensor(sensor));
+        ahead.map(|point| point.x).min_by(f64::total_cmp)
+    }
+}

@@ -1,0 +1,135 @@
+use tolman_geom::{Point, Twist};
+
+use super::Echoes;
+
+/// Layer 1: drives forward along the path (section 3.2), in the middle of the corridor and round its bends.
+///
+/// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it sees. Where a wall stands across the
+/// way, it turns on the spot to the side with more room, and keeps to that side until the way ahead is free. It knows no
+/// junctions: those are layer 3's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forward {
+    config: ForwardConfig,
+    /// The side of the bend it is turning in.
+    bend: Option<Side>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// The gains of layer 1. The paper gives none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForwardConfig {
+    /// How fast it drives, m/s.
+    pub speed: f64,
+    /// How fast it turns in a bend, rad/s.
+    pub turn: f64,
+    /// Half the width of a corridor, m.
+    pub half_width: f64,
+    /// Turn for a metre off the middle, rad/s.
+    pub to_middle: f64,
+    /// Turn for a radian off the direction of the walls, rad/s.
+    pub along: f64,
+}
+
+impl ForwardConfig {
+    /// For corridors of this width, m: 12 cm/s, and gains that bring the robot back to the middle without a swing.
+    #[must_use]
+    pub const fn for_width(width: f64) -> Self {
+        Self {
+            speed: 0.12,
+            turn: 3.0,
+            half_width: width / 2.0,
+            to_middle: 30.0,
+            along: 4.0,
+        }
+    }
+}
+
+/// A wall beside the robot.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    /// How far it is, m.
+    distance: f64,
+    /// Its direction in the robot's frame, rad; none if only one sensor sees it.
+    angle: Option<f64>,
+}
+
+impl Forward {
+    /// A layer 1 at rest.
+    #[must_use]
+    pub const fn new(config: ForwardConfig) -> Self {
+        Self { config, bend: None }
+    }
+
+    /// What it would do now.
+    pub fn propose(&mut self, echoes: &Echoes) -> Twist {
+        let (left, right) = (self.beside(echoes, 5, 6), self.beside(echoes, 2, 1));
+        let ahead = echoes.ahead().unwrap_or(f64::INFINITY);
+        // A wall across the way is met at half a width behind the middle of a bend.
+        let blocked = self.config.half_width + 0.01;
+        let free = self.config.half_width * 1.6;
+        self.bend = match self.bend {
+            Some(side) if ahead < free => Some(side),
+            None if ahead < blocked => {
+                let room =
+                    |beside: Option<Beside>| beside.map_or(f64::INFINITY, |beside| beside.distance);
+                Some(if room(left) >= room(right) {
+                    Side::Left
+                } else {
+                    Side::Right
+                })
+            }
+            _ => None,
+        };
+        match self.bend {
+            Some(Side::Left) => Twist {
+                linear: 0.0,
+                angular: self.config.turn,
+            },
+            Some(Side::Right) => Twist {
+                linear: 0.0,
+                angular: -self.config.turn,
+            },
+            None => self.keep_to_the_middle(left, right),
+        }
+    }
+
+    fn keep_to_the_middle(&self, left: Option<Beside>, right: Option<Beside>) -> Twist {
+        let half = self.config.half_width;
+        // Positive: there is more room on the left.
+        let off = match (left, right) {
+            (Some(left), Some(right)) => (left.distance - right.distance) / 2.0,
+            (Some(left), None) => left.distance - half,
+            (None, Some(right)) => half - right.distance,
+            (None, None) => 0.0,
+        };
+        let angles = [left, right].map(|beside| beside.and_then(|beside| beside.angle));
+        let (sum, count) = angles
+            .into_iter()
+            .flatten()
+            .fold((0.0, 0.0), |(sum, count), angle| (sum + angle, count + 1.0));
+        let angle = if count > 0.0 { sum / count } else { 0.0 };
+        let turn = self.config.to_middle * off.clamp(-0.03, 0.03) + self.config.along * angle;
+        Twist {
+            linear: self.config.speed,
+            angular: turn.clamp(-self.config.turn, self.config.turn),
+        }
+    }
+
+    /// The wall beside, by the sensor that looks straight aside and the one half ahead of it.
+    fn beside(&self, echoes: &Echoes, aside: usize, half_ahead: usize) -> Option<Beside> {
+        let near = |point: &Point| point.y.abs() < self.config.half_width * 1.6;
+        let aside = echoes.of_sensor(aside).filter(near)?;
+        let along = echoes.of_sensor(half_ahead).map(|point| point - aside);
+        // Seen too steeply, it is a wall across the way, or a far one.
+        let angle = along
+            .map(|along| libm::atan2(along.y, along.x))
+            .filter(|angle| angle.abs() < 0.6);
+        let distance = aside.y.abs() * libm::cos(angle.unwrap_or(0.0));
+        Some(Beside { distance, angle })
+    }
+}

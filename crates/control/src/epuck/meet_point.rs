@@ -1,0 +1,74 @@
+use alloc::vec::Vec;
+
+use tolman_geom::{Heading, Point};
+use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
+
+use super::{Profile, RangeCurve};
+
+/// Where the middle of a junction is looked for. The paper does not say how a junction is entered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeetPointConfig {
+    /// How far from the robot it may be, m.
+    pub reach: f64,
+    /// How fine positions are told apart, m.
+    pub resolution: f64,
+}
+
+impl MeetPointConfig {
+    /// For corridors of this width, m: up to half of it away, to 5 mm.
+    #[must_use]
+    pub const fn for_width(width: f64) -> Self {
+        Self {
+            reach: 0.5 * width,
+            resolution: 0.005,
+        }
+    }
+}
+
+impl Profile {
+    /// The position with the most room round it, in the robot's frame, m: at a junction the point as far from one wall or corner as from two
+    /// others, a meet point of the generalized Voronoi graph (Choset and Nagatani 2001).
+    ///
+    /// What the sensors cannot see counts as walls, so from afar it is a step towards that point.
+    ///
+    /// # Complexity
+    /// (reach / resolution)² · values.
+    #[must_use]
+    pub fn meet_point(&self, curve: &RangeCurve, config: &MeetPointConfig) -> Point {
+        // The sensors sit on a circle.
+        let mounts = proximity_mounts();
+        let rim = mounts
+            .iter()
+            .map(|mount| mount.position.coords.norm())
+            .sum::<f64>()
+            / PROXIMITY_SENSORS as f64;
+        let seen: Vec<Point> = (0_u32..)
+            .zip(self.values())
+            .map(|(index, value)| {
+                // Where nothing is met, what lies beyond the reach is as good as a wall.
+                let range = curve.range(*value).unwrap_or(curve.reach());
+                let bearing = Heading::from_radians(self.bearing(f64::from(index)));
+                Point::origin() + bearing.unit() * (rim + range)
+            })
+            .collect();
+        let room = |at: Point| {
+            let gaps = seen.iter().map(|point| (point - at).norm_squared());
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        let steps = libm::floor(config.reach / config.resolution) as i32;
+        let mut best = (room(Point::origin()), Point::origin());
+        for x in -steps..=steps {
+            for y in -steps..=steps {
+                let at = Point::new(f64::from(x), f64::from(y)) * config.resolution;
+                if at.coords.norm() > config.reach {
+                    continue;
+                }
+                let room = room(at);
+                if room > best.0 {
+                    best = (room, at);
+                }
+            }
+        }
+        best.1
+    }
+}

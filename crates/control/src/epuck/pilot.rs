@@ -1,0 +1,196 @@
+use core::f64::consts::TAU;
+
+use thiserror::Error;
+use tolman_geom::{Point, Twist};
+use tolman_robot::Robot;
+use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
+
+use super::{Echoes, Forward, ForwardConfig, KeepOff, KeepOffConfig, RangeCurve, Sweep};
+
+/// Drives an e-puck for layer 3: sweeps, half seconds of path, turns.
+#[derive(Clone, Debug)]
+pub struct Pilot<R> {
+    robot: R,
+    config: PilotConfig,
+    forward: Forward,
+    keep_off: KeepOff,
+}
+
+/// What a pilot holds to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PilotConfig {
+    /// Length of the robot's time step, µs.
+    pub step_us: u64,
+    /// Samples of a sweep; the paper takes 100.
+    pub samples: u32,
+    /// How fast the robot turns in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real robot had 3π/5.
+    pub sweep_speed: f64,
+    /// What the raw values of the proximity sensors mean.
+    pub curve: RangeCurve,
+    /// Layer 1.
+    pub forward: ForwardConfig,
+    /// Layer 0.
+    pub keep_off: KeepOffConfig,
+}
+
+impl<R> Pilot<R>
+where
+    R: Robot<Command = WheelSpeeds, Sensing = EpuckSensing>,
+{
+    /// A pilot of this robot.
+    pub fn new(robot: R, config: PilotConfig) -> Self {
+        Self {
+            forward: Forward::new(config.forward),
+            keep_off: KeepOff::new(config.keep_off),
+            robot,
+            config,
+        }
+    }
+
+    /// The robot.
+    pub const fn robot(&self) -> &R {
+        &self.robot
+    }
+
+    /// What it holds to.
+    pub const fn config(&self) -> &PilotConfig {
+        &self.config
+    }
+
+    /// Turns once round on the spot, counter-clockwise, and reads all sensors at every sample's bearing (section 4.1).
+    ///
+    /// # Errors
+    /// If the robot fails, or its wheels do not say how far they turned.
+    pub fn sweep(&mut self) -> Result<Sweep, PilotError<R::Error>> {
+        let mut sweep = Sweep::new();
+        let spacing = TAU / f64::from(self.config.samples.max(1));
+        let mut turned = 0.0;
+        for sample in 0..self.config.samples {
+            turned += self.turn_on(
+                spacing * f64::from(sample) - turned,
+                self.config.sweep_speed,
+            )?;
+            sweep.push(self.robot.sensing().proximity);
+        }
+        self.turn_on(TAU - turned, self.config.sweep_speed)?;
+        Ok(sweep)
+    }
+
+    /// Follows the path for about so many seconds: layer 1 proposes, layer 0 corrects.
+    ///
+    /// # Errors
+    /// If the robot fails, or its proximity sensors give nothing.
+    pub fn follow(&mut self, seconds: f64) -> Result<(), PilotError<R::Error>> {
+        let steps = libm::round(seconds * 1e6 / self.config.step_us as f64) as u64;
+        for _ in 0..steps {
+            let echoes = self.echoes()?;
+            let proposal = self.forward.propose(&echoes);
+            self.drive(self.keep_off.correct(proposal, &echoes), 1.0)?;
+        }
+        Ok(())
+    }
+
+    /// Turns on the spot by so many radians, counter-clockwise.
+    ///
+    /// # Errors
+    /// If the robot fails, or its wheels do not say how far they turned.
+    pub fn turn(&mut self, radians: f64) -> Result<(), PilotError<R::Error>> {
+        self.turn_on(radians, self.config.sweep_speed).map(|_| ())
+    }
+
+    /// Drives straight to a point of its own frame, m, ahead or backward, whichever needs the smaller turn, as far as layer 0 lets it; then
+    /// looks again where it looked before.
+    ///
+    /// # Errors
+    /// If the robot fails, or its sensors give nothing.
+    pub fn go_to(&mut self, point: Point) -> Result<(), PilotError<R::Error>> {
+        let mut way = point.coords;
+        let mut speed = self.config.forward.speed;
+        if way.x < 0.0 {
+            (way, speed) = (-way, -speed);
+        }
+        let turn = libm::atan2(way.y, way.x);
+        self.turn(turn)?;
+        let step = speed.abs() * self.step_seconds();
+        let mut left = way.norm();
+        while left > 1e-6 {
+            let share = (left / step).min(1.0);
+            let twist = Twist {
+                linear: speed * share,
+                angular: 0.0,
+            };
+            let corrected = self.keep_off.correct(twist, &self.echoes()?);
+            if speed > 0.0 && corrected.linear <= 0.0 {
+                break;
+            }
+            self.drive(twist, 1.0)?;
+            left -= step * share;
+        }
+        self.turn(-turn)
+    }
+
+    /// Turns by `radians` and gives how far it turned by its wheels.
+    fn turn_on(&mut self, radians: f64, speed: f64) -> Result<f64, PilotError<R::Error>> {
+        let step = speed * self.step_seconds();
+        let mut turned = 0.0;
+        // Every step but the last is a whole one.
+        while (radians - turned).abs() > 1e-9 {
+            let left = radians - turned;
+            let share = (left.abs() / step).min(1.0);
+            let twist = Twist {
+                linear: 0.0,
+                angular: speed * left.signum(),
+            };
+            self.drive(twist, share)?;
+            let encoders = self
+                .robot
+                .sensing()
+                .encoders
+                .ok_or(PilotError::NoEncoders)?;
+            let by = (encoders.right - encoders.left) * WHEEL_RADIUS / TRACK;
+            if by.abs() < 1e-12 {
+                return Err(PilotError::Stuck);
+            }
+            turned += by;
+        }
+        Ok(turned)
+    }
+
+    /// One time step at this twist times `share`.
+    fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
+        let speeds = WheelSpeeds::of_twist(Twist {
+            linear: twist.linear * share,
+            angular: twist.angular * share,
+        });
+        self.robot.step(&speeds).map_err(PilotError::Robot)
+    }
+
+    fn echoes(&self) -> Result<Echoes, PilotError<R::Error>> {
+        let values = self.robot.sensing().proximity.ok_or(PilotError::Blind)?;
+        Ok(Echoes::of(&values, &self.config.curve))
+    }
+
+    fn step_seconds(&self) -> f64 {
+        self.config.step_us as f64 * 1e-6
+    }
+}
+
+/// Why the robot stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum PilotError<E> {
+    /// The robot failed.
+    #[error("the robot failed: {0}")]
+    Robot(E),
+    /// The proximity sensors give nothing.
+    #[error(
+        "the proximity sensors give no values, and nothing else keeps the robot off the walls; check them"
+    )]
+    Blind,
+    /// The wheels do not say how far they turned.
+    #[error("the wheels do not say how far they turned; check the encoders")]
+    NoEncoders,
+    /// The wheels were told to turn and did not.
+    #[error("the wheels do not turn though they are told to; check the motors")]
+    Stuck,
+}

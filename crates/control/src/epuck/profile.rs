@@ -1,0 +1,119 @@
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+
+use thiserror::Error;
+use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
+
+use super::Sweep;
+
+/// What is round the robot: one value for each bearing, the mean over all sensors of a [`Sweep`]; the larger the nearer.
+///
+/// Value *k* of *n* belongs to the bearing *k* · 360°/*n*, counter-clockwise from ahead. The last is the neighbour of the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    values: Vec<f64>,
+}
+
+/// How the eight vectors of a sweep become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Alignment {
+    /// Each sensor's vector is turned by the angle it is mounted at first, so that one bearing is averaged with itself.
+    #[default]
+    Mounts,
+    /// Sample by sample as the paper says ("these vectors are reduced to one single vector by averaging"), which mixes eight bearings.
+    Literal,
+}
+
+impl Profile {
+    /// Averages a sweep. A sensor's missing samples are left out.
+    ///
+    /// # Errors
+    /// If the sweep has no samples, a value is not finite, or a bearing was seen by no sensor.
+    pub fn of(sweep: &Sweep, alignment: Alignment) -> Result<Self, ProfileError> {
+        let samples = sweep.samples();
+        if samples.is_empty() {
+            return Err(ProfileError::Empty);
+        }
+        let count = samples.len();
+        let mut sums = alloc::vec![(0.0, 0.0); count];
+        let shifts = proximity_mounts().map(|mount| match alignment {
+            Alignment::Mounts => mount.heading.radians() / TAU * count as f64,
+            Alignment::Literal => 0.0,
+        });
+        for (index, sample) in samples.iter().enumerate() {
+            let Some(values) = sample else { continue };
+            for sensor in 0..PROXIMITY_SENSORS {
+                let value = values[sensor];
+                if !value.is_finite() {
+                    return Err(ProfileError::NotFinite { sensor, index });
+                }
+                // A sample belongs to the two bearings beside its own, to each the more the nearer it is.
+                let bearing = (index as f64 + shifts[sensor] + count as f64) % count as f64;
+                let (below, share) = (libm::floor(bearing), bearing - libm::floor(bearing));
+                for (at, weight) in [(below, 1.0 - share), (below + 1.0, share)] {
+                    let (sum, weights) = &mut sums[at as usize % count];
+                    *sum += weight * value;
+                    *weights += weight;
+                }
+            }
+        }
+        let mut values = Vec::with_capacity(count);
+        for (index, (sum, weights)) in sums.into_iter().enumerate() {
+            if weights <= 0.0 {
+                return Err(ProfileError::Blind { index });
+            }
+            values.push(sum / weights);
+        }
+        Ok(Self { values })
+    }
+
+    /// A profile of these values, from ahead counter-clockwise.
+    ///
+    /// # Errors
+    /// If there are none or one is not finite.
+    pub fn from_values(values: Vec<f64>) -> Result<Self, ProfileError> {
+        if values.is_empty() {
+            return Err(ProfileError::Empty);
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            Some(index) => Err(ProfileError::NotFinite { sensor: 0, index }),
+            None => Ok(Self { values }),
+        }
+    }
+
+    /// The values, from ahead counter-clockwise.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The bearing of the value at a fractional index, rad, from -π to π.
+    #[must_use]
+    pub fn bearing(&self, index: f64) -> f64 {
+        let turns = index / self.values.len() as f64;
+        (turns - libm::round(turns)) * TAU
+    }
+}
+
+/// Why a sweep makes no [`Profile`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ProfileError {
+    /// There is nothing to average.
+    #[error("the sweep has no samples; sweep first")]
+    Empty,
+    /// A value is none.
+    #[error("sample {index} of sensor {sensor} is not finite; give finite values")]
+    NotFinite {
+        /// Which sensor.
+        sensor: usize,
+        /// Which sample, from 0.
+        index: usize,
+    },
+    /// No sensor looked there.
+    #[error("no sensor gave a value for bearing {index} of the sweep; check the proximity sensors")]
+    Blind {
+        /// Which bearing, from 0.
+        index: usize,
+    },
+}

@@ -1,0 +1,91 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+/// How far a surface is, by the raw value of a proximity sensor: straight lines between measured points, nearest first.
+///
+/// ```
+/// use tolman_control::epuck::RangeCurve;
+///
+/// let curve = RangeCurve::new(vec![(0.0, 3800.0), (0.05, 500.0), (0.25, 0.0)])?;
+/// assert!((curve.range(250.0).unwrap() - 0.15).abs() < 1e-12);
+/// assert_eq!(curve.range(0.0), None, "nothing is within reach");
+/// # Ok::<(), tolman_control::epuck::RangeCurveError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct RangeCurve {
+    /// Range, m, and value there.
+    points: Vec<(f64, f64)>,
+}
+
+impl RangeCurve {
+    /// A curve through points of a range, m, and the value read there.
+    ///
+    /// # Errors
+    /// If there are fewer than two points, a number is not finite, ranges do not grow or values do not fall.
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, RangeCurveError> {
+        if points.len() < 2 {
+            return Err(RangeCurveError::TooFew {
+                points: points.len(),
+            });
+        }
+        for (index, (range, value)) in points.iter().enumerate() {
+            if !(range.is_finite() && value.is_finite()) {
+                return Err(RangeCurveError::NotFinite { index });
+            }
+        }
+        for (index, pair) in points.windows(2).enumerate() {
+            if pair[1].0 <= pair[0].0 || pair[1].1 >= pair[0].1 {
+                return Err(RangeCurveError::Order { index: index + 1 });
+            }
+        }
+        Ok(Self { points })
+    }
+
+    /// The range of what reads `value`, m; none at or below the value of the farthest point, which is also read where nothing is near.
+    #[must_use]
+    pub fn range(&self, value: f64) -> Option<f64> {
+        let far = self.points.partition_point(|(_, at)| *at > value);
+        let (_, (range, at)) = (far, *self.points.get(far)?);
+        let Some(nearer) = far.checked_sub(1).and_then(|near| self.points.get(near)) else {
+            return Some(range);
+        };
+        if far + 1 == self.points.len() && value <= at {
+            return None;
+        }
+        let share = (nearer.1 - value) / (nearer.1 - at);
+        Some(nearer.0 + share * (range - nearer.0))
+    }
+
+    /// The farthest range that can be told, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.points.last().map_or(0.0, |point| point.0)
+    }
+}
+
+/// Why points are no [`RangeCurve`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum RangeCurveError {
+    /// A line needs two points.
+    #[error("the curve has {points} points; give at least two")]
+    TooFew {
+        /// How many there are.
+        points: usize,
+    },
+    /// A number is none.
+    #[error("point {index} of the curve has a number that is not finite; give finite numbers")]
+    NotFinite {
+        /// Which point, from 0.
+        index: usize,
+    },
+    /// Ranges must grow and values fall.
+    #[error(
+        "point {index} of the curve is not farther and darker than the one before; sort them by range"
+    )]
+    Order {
+        /// Which point, from 0.
+        index: usize,
+    },
+}

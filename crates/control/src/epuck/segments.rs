@@ -1,0 +1,318 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::Profile;
+
+/// Elements of a [`feature`](Segments::feature): the means of up to ten segments, and the landmark (section 4.1).
+pub const FEATURES: usize = 11;
+
+/// The parts of a [`Profile`] between the places where it changes (section 4.1).
+///
+/// The profile is cyclic. The first segment is the one behind the robot, which on a path is the way it came by, the others follow
+/// counter-clockwise; so a bend to the left has another feature than one to the right.
+///
+/// ```
+/// use tolman_control::epuck::{Place, Profile, SegmentConfig};
+///
+/// // Walls to the left and to the right, with sharp ends.
+/// let wall = |index: usize| if (10..40).contains(&index) || (60..90).contains(&index) { 200.0 } else { 0.0 };
+/// let profile = Profile::from_values((0..100).map(wall).collect())?;
+/// let segments = profile.segments(&SegmentConfig::paper())?;
+/// assert_eq!(segments.place(), Place::Path);
+/// assert_eq!(segments.feature(0.0)?[..5], [0.0, 200.0, 0.0, 200.0, 0.0]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segments {
+    segments: Vec<Segment>,
+    space_below: f64,
+}
+
+/// A part of a profile that does not change much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Its mean value.
+    pub mean: f64,
+    /// Where its middle is, rad, counter-clockwise from ahead, from -π to π.
+    pub bearing: f64,
+}
+
+/// How a profile is segmented.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentConfig {
+    /// δ: over how many samples a change is averaged, at least 1. The paper calls it the estimated error and gives no value.
+    pub window: u32,
+    /// Raw values are cut to this before steps between them are taken, so that the sharp edge of a near wall does not hide all other
+    /// boundaries. The paper cuts nothing, which is `f64::INFINITY`.
+    pub ceiling: f64,
+    /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no value.
+    pub space_below: f64,
+}
+
+impl SegmentConfig {
+    /// The paper's to the letter, with ours where it is silent: δ = 5; a space reads less than 12 on average, as nothing within
+    /// 23 cm does.
+    #[must_use]
+    pub const fn paper() -> Self {
+        Self {
+            window: 5,
+            ceiling: f64::INFINITY,
+            space_below: 12.0,
+        }
+    }
+
+    /// The paper's, with values above 60 cut, which are those of walls within 17 cm.
+    #[must_use]
+    pub const fn cut() -> Self {
+        Self {
+            ceiling: 60.0,
+            ..Self::paper()
+        }
+    }
+}
+
+/// What a place is by its spaces (section 4.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// No space at all.
+    Closed,
+    /// One space: a dead end.
+    DeadEnd,
+    /// Two: on a path.
+    Path,
+    /// More than two.
+    Junction,
+}
+
+impl Profile {
+    /// Segments it: a value is where it changes if the mean of the steps to the δ values after it exceeds (S_max + S_min)/2, the
+    /// middle between the largest and the smallest step from one value to the next. Neighbouring such values are one boundary; what
+    /// lies between two boundaries is a segment, the first the one that is behind or follows it.
+    ///
+    /// # Errors
+    /// If the window is empty or longer than the profile.
+    ///
+    /// # Complexity
+    /// Values × δ.
+    pub fn segments(&self, config: &SegmentConfig) -> Result<Segments, SegmentError> {
+        let values = self.values();
+        let (count, window) = (values.len(), config.window as usize);
+        if window == 0 || window >= count {
+            return Err(SegmentError::Window {
+                window: config.window,
+                values: count,
+            });
+        }
+        let cut = |index: usize| values[index % count].min(config.ceiling);
+        let step = |from: usize, by: usize| (cut(from) - cut(from + by)).abs();
+        let steps = || (0..count).map(|index| step(index, 1));
+        let largest = steps().fold(0.0, f64::max);
+        let smallest = steps().fold(f64::INFINITY, f64::min);
+        let threshold = (largest + smallest) / 2.0;
+        let changes: Vec<bool> = (0..count)
+            .map(|index| {
+                let mean = (1..=window).map(|by| step(index, by)).sum::<f64>() / window as f64;
+                mean > threshold
+            })
+            .collect();
+        Ok(Segments {
+            segments: runs(&changes, count / 2)
+                .map(|(start, length)| Segment {
+                    mean: (0..length)
+                        .map(|by| values[(start + by) % count])
+                        .sum::<f64>()
+                        / length as f64,
+                    bearing: self.bearing(start as f64 + (length - 1) as f64 / 2.0),
+                })
+                .collect(),
+            space_below: config.space_below,
+        })
+    }
+}
+
+/// Start and length of the cyclic runs of values that do not change. The first is the one that holds `origin`, or else the next.
+fn runs(changes: &[bool], origin: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let count = changes.len();
+    let quiet = move |index: usize| !changes[index % count];
+    // Back to where the run begins, if it does.
+    let back = (0..count).find(|back| !quiet(origin + count - back));
+    let first = match back {
+        None | Some(0) => origin,
+        Some(back) => origin + count + 1 - back,
+    };
+    let mut at = 0;
+    core::iter::from_fn(move || {
+        while at < count && !quiet(first + at) {
+            at += 1;
+        }
+        let start = at;
+        while at < count && quiet(first + at) {
+            at += 1;
+        }
+        (at > start).then_some(((first + start) % count, at - start))
+    })
+}
+
+impl Segments {
+    /// The segments, counter-clockwise from behind.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The bearings of the spaces, rad, counter-clockwise from behind: the branches of a junction in their order, first that
+    /// by which the robot came. Where no space is behind, the first is the next to the left.
+    pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
+        let spaces = self
+            .segments
+            .iter()
+            .filter(|segment| segment.mean < self.space_below);
+        spaces.map(|segment| segment.bearing)
+    }
+
+    /// What the place is by how many spaces there are.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        match self.spaces().count() {
+            0 => Place::Closed,
+            1 => Place::DeadEnd,
+            2 => Place::Path,
+            _ => Place::Junction,
+        }
+    }
+
+    /// The input of SOINN: the means, filled up to ten with zeros, and what is known of a landmark here (0 for none).
+    ///
+    /// # Errors
+    /// If there are more than ten segments: "the vector's size might be more than ten if the junction size is larger than five ways".
+    pub fn feature(&self, landmark: f64) -> Result<[f64; FEATURES], SegmentError> {
+        let most = FEATURES - 1;
+        if self.segments.len() > most {
+            return Err(SegmentError::TooMany {
+                segments: self.segments.len(),
+                most,
+            });
+        }
+        let mut feature = [0.0; FEATURES];
+        for (element, segment) in feature.iter_mut().zip(&self.segments) {
+            *element = segment.mean;
+        }
+        feature[most] = landmark;
+        Ok(feature)
+    }
+}
+
+/// Why a profile cannot be segmented, or segments are no feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SegmentError {
+    /// The window cannot be averaged over.
+    #[error("the window of {window} samples does not fit a profile of {values}; give 1 to {}", values.saturating_sub(1))]
+    Window {
+        /// How long the window is.
+        window: u32,
+        /// How many values the profile has.
+        values: usize,
+    },
+    /// There are more segments than a feature has elements for.
+    #[error(
+        "the profile has {segments} segments, a feature holds {most}; junctions may have five ways at most"
+    )]
+    TooMany {
+        /// How many there are.
+        segments: usize,
+        /// How many fit.
+        most: usize,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sharp walls of 200 at these indices, nothing between.
+    fn profile(walls: &[(usize, usize)]) -> Profile {
+        let mut values = alloc::vec![0.0; 100];
+        for (start, end) in walls {
+            for index in *start..*end {
+                values[index % 100] = 200.0;
+            }
+        }
+        Profile::from_values(values).unwrap()
+    }
+
+    fn check(walls: &[(usize, usize)], place: Place, spaces: &[f64]) {
+        let segments = profile(walls).segments(&SegmentConfig::paper()).unwrap();
+        assert_eq!(segments.place(), place, "{segments:?}");
+        let found: Vec<f64> = segments.spaces().map(f64::to_degrees).collect();
+        assert_eq!(found.len(), spaces.len());
+        for (found, expected) in found.iter().zip(spaces) {
+            // A boundary lies within δ samples before the step.
+            let off = (found - expected + 540.0).rem_euclid(360.0) - 180.0;
+            assert!(off.abs() < 2.5 * 3.6, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn spaces_are_counted_and_numbered_counter_clockwise() {
+        check(&[(0, 100)], Place::Closed, &[]);
+        check(&[(10, 90)], Place::DeadEnd, &[0.0]);
+        check(&[(10, 40), (60, 90)], Place::Path, &[180.0, 0.0]);
+        let from_left = [(60, 90), (10, 20), (30, 40)];
+        check(&from_left, Place::Junction, &[180.0, 0.0, 90.0]);
+        let crossing = [(10, 15), (35, 40), (60, 65), (85, 90)];
+        check(&crossing, Place::Junction, &[180.0, -90.0, 0.0, 90.0]);
+        // A wall behind: the first way is the next to its left, which is the robot's right.
+        check(&[(90, 110), (30, 80)], Place::Path, &[-54.0, 72.0]);
+    }
+
+    #[test]
+    fn a_step_a_turn_later_is_the_same_segment_later() {
+        let straight = profile(&[(10, 40), (60, 90)]);
+        let turned = profile(&[(35, 65), (85, 115)]);
+        let feature = |profile: &Profile| {
+            profile
+                .segments(&SegmentConfig::paper())
+                .unwrap()
+                .feature(0.0)
+                .unwrap()
+        };
+        assert_eq!(feature(&straight)[..5], [0.0, 200.0, 0.0, 200.0, 0.0]);
+        assert_eq!(feature(&turned)[..5], [200.0, 0.0, 200.0, 0.0, 0.0]);
+        // A way to the left and one to the right differ.
+        let left = feature(&profile(&[(60, 115), (30, 40)]));
+        let right = feature(&profile(&[(85, 140), (60, 70)]));
+        assert_eq!(
+            (&left[..4], &right[..4]),
+            (&[0.0, 200.0, 0.0, 200.0][..], &[0.0, 200.0, 0.0, 200.0][..])
+        );
+    }
+
+    #[test]
+    fn landmarks_are_the_last_element() {
+        let segments = profile(&[(10, 90)])
+            .segments(&SegmentConfig::paper())
+            .unwrap();
+        assert!((segments.feature(1.0).unwrap()[10] - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_cannot_be_segmented_is_refused() {
+        let config = |window| SegmentConfig {
+            window,
+            ..SegmentConfig::paper()
+        };
+        let all_round = profile(&[(0, 100)]);
+        for window in [0, 100] {
+            let error = all_round.segments(&config(window)).unwrap_err();
+            assert!(matches!(error, SegmentError::Window { .. }));
+        }
+        let comb: Vec<(usize, usize)> = (0..6).map(|tooth| (tooth * 16, tooth * 16 + 8)).collect();
+        let segments = profile(&comb).segments(&SegmentConfig::paper()).unwrap();
+        assert!(matches!(
+            segments.feature(0.0),
+            Err(SegmentError::TooMany { segments: 12, .. })
+        ));
+    }
+}

@@ -1,0 +1,217 @@
+//! CPM's e-puck on the simulator: it follows paths, looks round, finds the middle of junctions, and touches nothing.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot set itself up has failed"
+)]
+
+use core::f64::consts::{PI, TAU};
+
+use tolman_control::epuck::{
+    Alignment, ForwardConfig, KeepOffConfig, MeetPointConfig, Pilot, PilotConfig, Place, Profile,
+    RangeCurve, SegmentConfig, Segments,
+};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::{Direction, Maze};
+use tolman_robot::Robot;
+use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
+use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::robots::{Epuck, EpuckConfig};
+use tolman_sim::sensors::ResponseCurve;
+use tolman_sim::{CorridorSize, Solo, StepError, World};
+
+const WIDTH: f64 = 0.25;
+/// A sweep of 100 samples at 4.83 rad/s takes one sample a step.
+const STEP_US: u64 = 13_000;
+
+/// Counts what it touches.
+struct Careful {
+    solo: Solo<Epuck>,
+    bumps: u32,
+}
+
+impl Robot for Careful {
+    type Command = WheelSpeeds;
+    type Sensing = EpuckSensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &EpuckSensing {
+        self.solo.sensing()
+    }
+
+    fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
+        self.solo.step(command)?;
+        self.bumps += u32::from(self.solo.truth().bump);
+        Ok(())
+    }
+}
+
+fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Careful> {
+    let size = CorridorSize {
+        corridor_width: WIDTH,
+        wall_thickness: 0.0,
+    };
+    let world = World::from_maze(maze, &size).unwrap();
+    let (cell, direction) = maze.start().unwrap();
+    let heading = match direction {
+        Direction::North => Heading::NORTH,
+        Direction::East => Heading::EAST,
+        Direction::South => Heading::SOUTH,
+        Direction::West => Heading::WEST,
+    };
+    let start = Pose::new(world.cell_centre(cell), heading);
+    let robot = Epuck::new(EpuckConfig {
+        step_us: STEP_US,
+        wheels: vec![Fault::Slip(Slip { share: slip })],
+        ..EpuckConfig::cpm()
+    })
+    .unwrap();
+    let solo = Solo::new(world, robot, start, seed).unwrap();
+    let response = ResponseCurve::cpm();
+    let points = (0..=250).map(|millimetre| f64::from(millimetre) * 1e-3);
+    let config = PilotConfig {
+        step_us: STEP_US,
+        samples: 100,
+        sweep_speed: TAU / 100.0 / (STEP_US as f64 * 1e-6),
+        curve: RangeCurve::new(
+            points
+                .map(|range| (range, response.at(range).value))
+                .collect(),
+        )
+        .unwrap(),
+        forward: ForwardConfig::for_width(WIDTH),
+        keep_off: KeepOffConfig::ours(),
+    };
+    Pilot::new(Careful { solo, bumps: 0 }, config)
+}
+
+fn look(pilot: &mut Pilot<Careful>) -> (Profile, Segments) {
+    let sweep = pilot.sweep().unwrap();
+    let profile = Profile::of(&sweep, Alignment::Mounts).unwrap();
+    let segments = profile.segments(&SegmentConfig::cut()).unwrap();
+    (profile, segments)
+}
+
+/// Where the robot is in its cell, and how many ways lead out of that.
+fn truth(pilot: &Pilot<Careful>, maze: &Maze) -> (Point, usize) {
+    let solo = &pilot.robot().solo;
+    let (world, pose) = (solo.simulation().world(), solo.truth().pose);
+    let cell = world.cell_at(pose.position).unwrap();
+    let off = pose.position - world.cell_centre(cell);
+    (Point::from(off), maze.degree(cell))
+}
+
+/// Drives for so many observations, at junctions always on by the next branch to the right; checks what it sees where it
+/// stands near the middle of a cell.
+fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
+    let mut pilot = pilot(maze, slip, seed);
+    let (mut right, mut wrong) = (0, 0);
+    for _ in 0..observations {
+        let (profile, segments) = look(&mut pilot);
+        let (off, degree) = truth(&pilot, maze);
+        if off.coords.norm() < 0.06 {
+            let seen = match segments.place() {
+                Place::Closed => 0,
+                Place::DeadEnd => 1,
+                Place::Path => 2,
+                Place::Junction => segments.spaces().count(),
+            };
+            *(if seen == degree {
+                &mut right
+            } else {
+                &mut wrong
+            }) += 1;
+        }
+        match segments.place() {
+            Place::Junction => {
+                let config = MeetPointConfig::for_width(WIDTH);
+                let mut seen = (profile, segments);
+                for _ in 0..3 {
+                    let middle = seen.0.meet_point(&pilot.config().curve, &config);
+                    pilot.go_to(middle).unwrap();
+                    seen = look(&mut pilot);
+                }
+                let (off, _) = truth(&pilot, maze);
+                assert!(off.coords.norm() < 0.05, "{off} is not the middle");
+                let segments = seen.1;
+                let way = segments.spaces().nth(1).unwrap_or(0.0);
+                pilot.turn(way).unwrap();
+                pilot.follow(1.0).unwrap();
+            }
+            Place::DeadEnd if segments.spaces().all(|way| way.abs() > PI / 2.0) => {
+                let way = segments.spaces().next().unwrap();
+                pilot.turn(way).unwrap();
+                pilot.follow(0.5).unwrap();
+            }
+            _ => pilot.follow(0.5).unwrap(),
+        }
+    }
+    assert_eq!(pilot.robot().bumps, 0, "slip {slip}, seed {seed}");
+    assert!(
+        wrong * 25 <= right,
+        "{wrong} of {} seen wrongly",
+        right + wrong
+    );
+}
+
+/// Every maze of the project that is drawn for this robot.
+fn mazes() -> Vec<Maze> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../mazes");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| {
+            path.file_name()
+                .unwrap()
+                .to_string_lossy()
+                .starts_with("cpm-")
+        })
+        .collect();
+    files.sort();
+    assert!(!files.is_empty());
+    let read = |path| tolman_maze::read(&std::fs::read_to_string(path).unwrap()).unwrap();
+    files.iter().map(|path| read(path).maze).collect()
+}
+
+#[test]
+fn it_follows_every_path_without_touching_a_wall() {
+    for maze in mazes() {
+        for seed in 0..2 {
+            drive(&maze, 0.1, seed, 100);
+        }
+    }
+}
+
+#[test]
+fn wheels_that_slip_by_half_still_touch_nothing() {
+    for maze in mazes() {
+        drive(&maze, 0.5, 7, 60);
+    }
+}
+
+#[test]
+fn a_sweep_ends_where_it_began() {
+    let maze = mazes().remove(0);
+    let mut pilot = pilot(&maze, 0.0, 1);
+    let before = pilot.robot().solo.truth().pose;
+    let sweep = pilot.sweep().unwrap();
+    let after = pilot.robot().solo.truth();
+    assert_eq!(sweep.samples().len(), 100);
+    assert!((after.pose.position - before.position).norm() < 1e-9);
+    assert!(before.heading.turn_to(after.pose.heading).abs() < 1e-6);
+    // One sample a step: the 1.3 s of wheels that turn no faster.
+    assert_eq!(after.tick, 100);
+}
+
+#[test]
+fn literal_averages_mix_the_bearings() {
+    let maze = mazes().remove(0);
+    let mut pilot = pilot(&maze, 0.0, 1);
+    let sweep = pilot.sweep().unwrap();
+    let contrast = |alignment| {
+        let profile = Profile::of(&sweep, alignment).unwrap();
+        let values = || profile.values().iter().copied();
+        values().fold(0.0, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    assert!(contrast(Alignment::Literal) < 0.6 * contrast(Alignment::Mounts));
+}
