@@ -17,6 +17,8 @@
 //! 6. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all a brain
 //!    gets to see. The [`Truth`] lies beside it, for scoring.
 //!
+//! Mappers that see places alone have a world of their own, without bodies and time: [`abstract_world`].
+//!
 //! Metres, radians, microseconds; x is east, y is north, angles grow counter-clockwise.
 //!
 //! ```
@@ -54,6 +56,7 @@ mod solo;
 mod surroundings;
 mod world;
 
+pub mod abstract_world;
 pub mod casters;
 pub mod noise;
 pub mod robots;

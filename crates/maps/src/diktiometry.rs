@@ -1,0 +1,81 @@
+//! The diktiometry: the map as an adaptive planning resource (Engelson and McDermott).
+//!
+//! "The world is modelled as a set of places with relative positions and known actions that get the robot from place to
+//! place." An [`Observer`] watches the moves of any robot and keeps a [`Diktiometry`]: a *path graph* of places and actions, a
+//! *reference graph* of local frames with bounds on where they lie, and reference links between the two.
+//!
+//! In the order data flows (the paper's figure 1):
+//!
+//! 1. A [`Move`] comes in: action, odometry within bounds, percept, how it ended.
+//! 2. The *projector* (`projector`) moves every [`Track`].
+//! 3. The *indexer* (`indexing`) proposes places it may be at: expected, near, or looking alike.
+//! 4. The *matching engine* (`matching`) asks the [`Matcher`]s, in an order that depends on what is known of the area.
+//! 5. The *updater* (`updater`) narrows boxes and counts links.
+//! 6. The *restructurer* (`restructuring`) merges, splits and elides.
+//! 7. A [`StepReport`] says what was done; [`Observer::opportunities`] what would help.
+//!
+//! ```
+//! use tolman_geom::{Interval, Point, PointBox, PoseBox};
+//! use tolman_maps::diktiometry::{Action, Config, Exits, Matcher, Move, Observer, Outcome, Start};
+//!
+//! // Places are a metre apart and look alike; the robot can go north, east, south and west.
+//! let config = Config::new(Config::compass_actions(), 1.0);
+//! let mut observer = Observer::new(config, Start::default())?;
+//! let home = observer.place();
+//! let go = |action, x, y| Move {
+//!     action: Action(action),
+//!     odometry: PoseBox::new(PointBox::about(Point::new(x, y), 0.1).unwrap(), Interval::ZERO),
+//!     percept: None,
+//!     exits: Exits::Unknown,
+//!     outcome: Outcome::Arrived,
+//! };
+//! // East and back: it cannot be anywhere but where it began.
+//! let out = observer.step(&go(1, 1.0, 0.0))?;
+//! assert_eq!(out.tracks[0].matcher, Some(Matcher::NewPlace));
+//! let back = observer.step(&go(3, -1.05, 0.02))?;
+//! assert_eq!(back.tracks[0].matcher, Some(Matcher::Link));
+//! assert_eq!(back.tracks[0].place, home);
+//! // Two estimates of one way have narrowed it.
+//! let way = back.tracks[0].motion.unwrap();
+//! assert!(way.x.width() < 0.2);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+mod config;
+mod error;
+mod grid;
+mod ids;
+mod indexing;
+mod map;
+mod matching;
+mod observation;
+mod observer;
+mod path_graph;
+mod projector;
+mod reference_graph;
+mod report;
+mod restructuring;
+mod signature;
+mod track;
+mod updater;
+
+pub use config::{
+    ActionKind, Config, ConfigError, GeometricIndexing, GeometricMerge, Identity, Indexing,
+    JournalLength, Matching, Opportunities, Order, Percepts, Restructuring, Rotation, SearchLimits,
+    SignatureKind, Tracking, Transients, Use,
+};
+pub use error::{StartError, StepError};
+pub use grid::Grid;
+pub use ids::{Action, FrameId, LinkId, PlaceId, TrackId};
+pub use indexing::ActiveFrame;
+pub use map::{Diktiometry, Drawn, Flaw};
+pub use matching::Matcher;
+pub use observation::{Exits, Move, Outcome, Start};
+pub use observer::Observer;
+pub use path_graph::{Estim, Fate, Link, Note, PathGraph, Place, Standing, Successor};
+pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
+pub use report::{
+    Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport,
+};
+pub use signature::{Signature, SignatureError};
+pub use track::{Match, Track};

@@ -1,0 +1,503 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::ids::Action;
+
+/// What the observer is told of the robot and the world, and which parts of it are at work.
+///
+/// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no `Default`;
+/// [`Config::new`] has the values proposed here, each with its reason. Lengths are in metres of the odometry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// The robot's control routines.
+    pub actions: Vec<ActionKind>,
+    /// δ_sep: two places are never nearer than this, m, > 0. (*Geometric constraints*)
+    pub separation: f64,
+    /// Two places that look alike are never nearer than this, m, at least `separation`. Where views tell, this is what
+    /// lets boxes be wider.
+    pub alike_separation: f64,
+    /// The robot ends a move within this of the place's point, m, ≥ 0.
+    pub place_radius: f64,
+    /// Bound of an error of scale that all odometry shares, as a share of the distance, 0 ≤ … < 1. It cancels round every
+    /// loop, so it widens no box and only brings places nearer together: the map is in metres of the odometry.
+    pub shared_scale: f64,
+    /// Whether percepts come with moves.
+    pub percepts: Percepts,
+    /// A new place whose box in the frame it was reached from would be wider than twice this, m, ≥ 0, opens a frame of
+    /// its own. At 0 every place has one.
+    pub frame_half_width: f64,
+    /// How far the reference graph is searched.
+    pub search: SearchLimits,
+    /// *Indexing places*.
+    pub indexing: Indexing,
+    /// *Matching and updating*.
+    pub matching: Matching,
+    /// How many hypotheses are followed.
+    pub tracks: Tracking,
+    /// *Transients*.
+    pub transients: Transients,
+    /// *Place restructuring*.
+    pub restructuring: Restructuring,
+    /// *Opportunistic mapping*.
+    pub opportunities: Opportunities,
+    /// What is remembered to be undone.
+    pub journal: JournalLength,
+}
+
+/// What is known of an action beforehand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ActionKind {
+    /// The action that usually leads back. Only advice uses it; the map believes what it saw.
+    pub reverse: Option<Action>,
+}
+
+/// Whether a part is at work; off for ablations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    /// It is at work.
+    On,
+    /// It is left out.
+    Off,
+}
+
+/// What the robot sees of a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Percepts {
+    /// Nothing.
+    None,
+    /// A signature with every move.
+    Signatures(SignatureKind),
+}
+
+/// The form of the signatures, and when two are views of one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignatureKind {
+    /// Values in a column, ≥ 1.
+    pub rows: usize,
+    /// Columns, ≥ 1.
+    pub columns: usize,
+    /// Values of two views of one place differ by no more than this, in units of the values, ≥ 0: twice the bound of the
+    /// sensor's noise.
+    pub tolerance: f64,
+    /// Share of the columns that have to agree, 0 < … ≤ 1.
+    pub share: f64,
+    /// Whether views may be turned against each other.
+    pub rotation: Rotation,
+    /// How many views a place keeps, ≥ 1.
+    pub views: usize,
+}
+
+/// Whether views of one place may be turned against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rotation {
+    /// No: a compass turns them all north.
+    Aligned,
+    /// By any number of columns.
+    Free,
+}
+
+/// Limits of a search of the reference graph from a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchLimits {
+    /// Frames whose position is known less well than this are not reached: the box's longer side, m, > 0.
+    pub width: f64,
+    /// Frames reached at most, ≥ 1.
+    pub frames: usize,
+    /// Relations followed at most, one after the other.
+    pub depth: u32,
+}
+
+/// Which modules propose candidates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Indexing {
+    /// Places predicted by the last action.
+    pub expectational: Use,
+    /// Places near the projected position.
+    pub geometric: GeometricIndexing,
+    /// Places that look like the percept.
+    pub perceptual: Use,
+}
+
+/// The two methods of *Geometric Indexing*.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GeometricIndexing {
+    /// None.
+    Off,
+    /// Depth-limited search from the track's frame, anew each time.
+    Search,
+    /// The set of active frames is carried along from move to move.
+    ActiveFrames,
+}
+
+/// How places are matched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matching {
+    /// What an unexpected place has to show.
+    pub identity: Identity,
+    /// How matchers take precedence.
+    pub order: Order,
+    /// α-MATCH.
+    pub alpha: Use,
+    /// β-MATCH.
+    pub beta: Use,
+    /// α-MATCH goes before a new place while the old one has fewer visits than this: young boxes are the ones poisoned.
+    pub alpha_visits: u32,
+    /// β-MATCH snaps to places nearer than this share of the distance since the last CONTINUE, ≥ 0, and never farther
+    /// than `separation`.
+    pub beta_reach: f64,
+    /// Cells of the grid that were traversed this often are well traversed.
+    pub well_traversed: u32,
+}
+
+/// When an unexpected place is taken for one that is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Identity {
+    /// As the paper has it: the boxes meet. A wide box meets the neighbours as well, so that different places are confused.
+    Meets,
+    /// The box of the difference is so narrow that two places cannot both be in it; what merely meets is noted, and
+    /// merged when the box has become narrow.
+    Certain,
+}
+
+/// How matchers take precedence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// One order for all: CONTINUE, LINK, α, new place, β. The paper's prototype.
+    Static,
+    /// By what is known of the area and by the track's confidence.
+    Dynamic,
+}
+
+/// How many hypotheses are followed, and when one is given up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tracking {
+    /// Tracks at most, ≥ 1.
+    pub cap: usize,
+    /// Tracks with less confidence die, 0 … 1.
+    pub least_confidence: f64,
+    /// A track of at least this confidence is confident, 0 … 1.
+    pub high: f64,
+    /// A track of at most this confidence is not, 0 … `high`.
+    pub low: f64,
+    /// How many matches a history holds.
+    pub history: usize,
+}
+
+/// When links and places are taken for hallucinations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transients {
+    /// Whether they are elided.
+    pub elision: Use,
+    /// Elided when they are met, for certain, in less than this share of the times they are expected, 0 … 1.
+    pub rate: f64,
+    /// … and were expected at least this often.
+    pub expected: f64,
+    /// Factor by which older counts fade with each expectation, 0 < … ≤ 1; below 1 in worlds that change.
+    pub fading: f64,
+}
+
+/// The three restructurers and the veto among them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Restructuring {
+    /// Geometric constraints on merging.
+    pub geometric_merge: GeometricMerge,
+    /// Geometric constraints on splitting.
+    pub geometric_split: Use,
+    /// Local path constraints on merging.
+    pub local_merge: Use,
+    /// Local path constraints on splitting.
+    pub local_split: Use,
+    /// Non-local path constraints on merging.
+    pub non_local_merge: Use,
+    /// W: the weight of an estim that counts.
+    pub weight: f64,
+    /// Q: two estims split a place when their weights' ratio, larger to smaller, is below this.
+    pub ratio: f64,
+    /// φ: places merge when the weight of every other estim of the union is below this share of the first's.
+    pub minority: f64,
+    /// Share of common links that proposes a merge; below the second, it is rejected.
+    pub links: [f64; 2],
+    /// Visits that links have to rest on.
+    pub visits: u32,
+    /// h: consistent histories that propose a merge.
+    pub histories: usize,
+}
+
+/// What geometry asks for before two places are merged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GeometricMerge {
+    /// Geometry says nothing.
+    Off,
+    /// As the paper has it: the union of their estims has one mode.
+    Estims,
+    /// The box of their difference is so narrow that two places cannot both be in it.
+    Narrow,
+}
+
+/// What is advised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opportunities {
+    /// Going where no robot has gone before.
+    pub unknown: Use,
+    /// Priming the pump.
+    pub priming: Use,
+    /// Going back and forth on a new link.
+    pub shuttle: Use,
+    /// Going round a cycle again whose ends may be one place.
+    pub close_loop: Use,
+    /// A link that was traversed this often needs no shuttle.
+    pub traversals: u32,
+    /// Longest way to where a script begins, moves.
+    pub reach: u32,
+}
+
+/// How far back the journal goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JournalLength {
+    /// Nothing is kept.
+    Off,
+    /// All moves from the first on.
+    All,
+}
+
+impl Config {
+    /// The values proposed here, for places at least `separation` metres apart, that all look the same.
+    #[must_use]
+    pub fn new(actions: Vec<ActionKind>, separation: f64) -> Self {
+        Self {
+            actions,
+            separation,
+            alike_separation: separation,
+            place_radius: 0.0,
+            shared_scale: 0.0,
+            percepts: Percepts::None,
+            frame_half_width: 0.0,
+            search: SearchLimits {
+                width: 4.0 * separation,
+                frames: 128,
+                depth: u32::MAX,
+            },
+            indexing: Indexing {
+                expectational: Use::On,
+                geometric: GeometricIndexing::Search,
+                perceptual: Use::On,
+            },
+            matching: Matching {
+                identity: Identity::Certain,
+                order: Order::Dynamic,
+                alpha: Use::On,
+                beta: Use::On,
+                alpha_visits: 5,
+                beta_reach: 0.25,
+                well_traversed: 3,
+            },
+            tracks: Tracking {
+                cap: 8,
+                least_confidence: 0.05,
+                high: 0.7,
+                low: 0.3,
+                history: 10,
+            },
+            transients: Transients {
+                elision: Use::On,
+                rate: 0.05,
+                expected: 20.0,
+                fading: 1.0,
+            },
+            restructuring: Restructuring {
+                geometric_merge: GeometricMerge::Narrow,
+                geometric_split: Use::On,
+                local_merge: Use::On,
+                local_split: Use::On,
+                non_local_merge: Use::On,
+                weight: 5.0,
+                ratio: 3.0,
+                minority: 0.2,
+                links: [0.8, 0.4],
+                visits: 5,
+                histories: 2,
+            },
+            opportunities: Opportunities {
+                unknown: Use::On,
+                priming: Use::On,
+                shuttle: Use::On,
+                close_loop: Use::On,
+                traversals: 2,
+                reach: 32,
+            },
+            journal: JournalLength::Off,
+        }
+    }
+
+    /// Four actions, each two the reverse of each other: 0 and 2, 1 and 3, as north, east, south and west in
+    /// [`Direction::ALL`](tolman_maze::Direction::ALL).
+    #[must_use]
+    pub fn compass_actions() -> Vec<ActionKind> {
+        [2, 3, 0, 1]
+            .map(|reverse| ActionKind {
+                reverse: Some(Action(reverse)),
+            })
+            .to_vec()
+    }
+
+    /// Metres of odometry that two places are apart at the least, if they look alike or if it is not known how they
+    /// look.
+    pub(super) fn least_distance(&self) -> f64 {
+        self.alike_separation * (1.0 - self.shared_scale)
+    }
+
+    /// Whether the fields are in their ranges.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the first field that is not.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        let unknown = |action: &&Action| action.0 as usize >= self.actions.len();
+        let mut reverses = self.actions.iter().filter_map(|kind| kind.reverse.as_ref());
+        if let Some(&reverse) = reverses.find(unknown) {
+            return Err(ConfigError::NoSuchReverse {
+                reverse,
+                actions: self.actions.len(),
+            });
+        }
+        let share = 0.0..=1.0;
+        let mut fields = Vec::from([
+            ("separation", self.separation, self.separation > 0.0),
+            (
+                "alike_separation",
+                self.alike_separation,
+                self.alike_separation >= self.separation,
+            ),
+            ("place_radius", self.place_radius, self.place_radius >= 0.0),
+            (
+                "shared_scale",
+                self.shared_scale,
+                (0.0..1.0).contains(&self.shared_scale),
+            ),
+            (
+                "frame_half_width",
+                self.frame_half_width,
+                self.frame_half_width >= 0.0,
+            ),
+            ("search.width", self.search.width, self.search.width > 0.0),
+            (
+                "matching.beta_reach",
+                self.matching.beta_reach,
+                self.matching.beta_reach >= 0.0,
+            ),
+            (
+                "tracks.least_confidence",
+                self.tracks.least_confidence,
+                share.contains(&self.tracks.least_confidence),
+            ),
+            (
+                "tracks.high",
+                self.tracks.high,
+                share.contains(&self.tracks.high),
+            ),
+            (
+                "tracks.low",
+                self.tracks.low,
+                (0.0..=self.tracks.high).contains(&self.tracks.low),
+            ),
+            (
+                "transients.rate",
+                self.transients.rate,
+                share.contains(&self.transients.rate),
+            ),
+            (
+                "transients.expected",
+                self.transients.expected,
+                self.transients.expected >= 1.0,
+            ),
+            (
+                "transients.fading",
+                self.transients.fading,
+                self.transients.fading > 0.0 && self.transients.fading <= 1.0,
+            ),
+            (
+                "restructuring.weight",
+                self.restructuring.weight,
+                self.restructuring.weight > 0.0,
+            ),
+            (
+                "restructuring.ratio",
+                self.restructuring.ratio,
+                self.restructuring.ratio >= 1.0,
+            ),
+            (
+                "restructuring.minority",
+                self.restructuring.minority,
+                share.contains(&self.restructuring.minority),
+            ),
+            (
+                "restructuring.links[0]",
+                self.restructuring.links[0],
+                share.contains(&self.restructuring.links[0]),
+            ),
+            (
+                "restructuring.links[1]",
+                self.restructuring.links[1],
+                (0.0..=self.restructuring.links[0]).contains(&self.restructuring.links[1]),
+            ),
+        ]);
+        if let Percepts::Signatures(kind) = self.percepts {
+            fields.push(("tolerance", kind.tolerance, kind.tolerance >= 0.0));
+            fields.push(("share", kind.share, kind.share > 0.0 && kind.share <= 1.0));
+        }
+        let finite = fields
+            .iter()
+            .find(|(_, value, right)| !right || !value.is_finite());
+        if let Some(&(field, value, _)) = finite {
+            return Err(ConfigError::OutOfRange { field, value });
+        }
+        let counts = [
+            ("search.frames", self.search.frames),
+            ("tracks.cap", self.tracks.cap),
+        ];
+        let shape = match self.percepts {
+            Percepts::None => [("rows", 1), ("columns", 1), ("views", 1)],
+            Percepts::Signatures(kind) => [
+                ("rows", kind.rows),
+                ("columns", kind.columns),
+                ("views", kind.views),
+            ],
+        };
+        let mut all = counts.into_iter().chain(shape);
+        match all.find(|(_, count)| *count == 0) {
+            Some((field, _)) => Err(ConfigError::Zero { field }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Why a configuration is none.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// An action's reverse does not exist.
+    #[error(
+        "action {} is given as a reverse, and there are only {actions}; name one of them or none",
+        reverse.0
+    )]
+    NoSuchReverse {
+        /// What is named.
+        reverse: Action,
+        /// How many actions there are.
+        actions: usize,
+    },
+    /// A number is out of the range its field names.
+    #[error("`{field}` is {value}; see the field's range")]
+    OutOfRange {
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A count is 0.
+    #[error("`{field}` is 0; give at least 1")]
+    Zero {
+        /// The field.
+        field: &'static str,
+    },
+}

@@ -1,0 +1,64 @@
+use thiserror::Error;
+use tolman_geom::PoseBox;
+
+use super::config::ConfigError;
+use super::ids::Action;
+
+/// Why a move is none. The observer is as it was before.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The robot has no such action.
+    #[error("action {} is not one of the {actions} of the configuration", action.0)]
+    UnknownAction {
+        /// What the move names.
+        action: Action,
+        /// How many there are.
+        actions: usize,
+    },
+    /// An exit names no action.
+    #[error("exit {} is not one of the {actions} actions of the configuration", action.0)]
+    UnknownExit {
+        /// What the exits name.
+        action: Action,
+        /// How many there are.
+        actions: usize,
+    },
+    /// A bound is missing: the odometry says nothing.
+    #[error(
+        "the odometry {odometry:?} has no bound on some side; give one, or tell no move until the robot knows"
+    )]
+    Unbounded {
+        /// What the move says.
+        odometry: PoseBox,
+    },
+    /// The percept is not of the configured form.
+    #[error(
+        "the percept has {rows} rows and {columns} columns, the configuration {expected_rows} and {expected_columns}"
+    )]
+    PerceptSize {
+        /// Rows of the percept.
+        rows: usize,
+        /// Its columns.
+        columns: usize,
+        /// Rows of the configuration, 0 if it has no percepts.
+        expected_rows: usize,
+        /// Its columns, 0 if it has no percepts.
+        expected_columns: usize,
+    },
+    /// The configuration has percepts, and the move brings none.
+    #[error("the percept is missing; tell what the robot sees, or configure no percepts")]
+    PerceptMissing,
+}
+
+/// Why there is no observer.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// The configuration is none.
+    #[error("the configuration is out of its bounds")]
+    Config(#[from] ConfigError),
+    /// What the robot sees at first does not fit the configuration.
+    #[error("what the robot sees at the start does not fit the configuration")]
+    Start(#[from] StepError),
+}

@@ -1,0 +1,102 @@
+//! "Local grid-based methods to maintain estimates of how well areas have been visited or traversed."
+
+use alloc::vec::Vec;
+
+use tolman_geom::{Point, Vector};
+
+/// What is known of the area around a frame's origin, in square cells of the length that its user names.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Grid {
+    /// Cells that the robot was in, by their number.
+    cells: Vec<(CellNumber, CellKnowledge)>,
+}
+
+/// Column and row.
+type CellNumber = (i32, i32);
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct CellKnowledge {
+    visits: u32,
+    /// Traversals heading east, north, west, south.
+    traversals: [u32; 4],
+}
+
+impl Grid {
+    /// The robot was at a place here.
+    pub(super) fn visit(&mut self, at: Point, cell: f64) {
+        let visits = &mut self.entry(number(at, cell)).visits;
+        *visits = visits.saturating_add(1);
+    }
+
+    /// The robot went straight from one point to the other.
+    pub(super) fn traverse(&mut self, from: Point, to: Point, cell: f64) {
+        let heading = quadrant(to - from);
+        crossed(from, to, cell, |number| {
+            let count = &mut self.entry(number).traversals[heading];
+            *count = count.saturating_add(1);
+        });
+    }
+
+    /// How often the cell around a point was visited.
+    #[must_use]
+    pub fn visits(&self, at: Point, cell: f64) -> u32 {
+        self.knowledge(number(at, cell)).visits
+    }
+
+    /// How often the way between two points was gone, in this direction: the least over the cells it crosses.
+    #[must_use]
+    pub fn traversals(&self, from: Point, to: Point, cell: f64) -> u32 {
+        let heading = quadrant(to - from);
+        let mut least = u32::MAX;
+        crossed(from, to, cell, |number| {
+            least = least.min(self.knowledge(number).traversals[heading]);
+        });
+        least
+    }
+
+    fn knowledge(&self, number: CellNumber) -> CellKnowledge {
+        let at = self.cells.binary_search_by_key(&number, |(key, _)| *key);
+        at.map_or_else(|_| CellKnowledge::default(), |at| self.cells[at].1)
+    }
+
+    fn entry(&mut self, number: CellNumber) -> &mut CellKnowledge {
+        let at = match self.cells.binary_search_by_key(&number, |(key, _)| *key) {
+            Ok(at) => at,
+            Err(at) => {
+                self.cells.insert(at, (number, CellKnowledge::default()));
+                at
+            }
+        };
+        &mut self.cells[at].1
+    }
+}
+
+fn number(at: Point, cell: f64) -> CellNumber {
+    // The cell of the origin has it in its middle. Casts saturate, so that nothing is out of range.
+    let along = |coordinate: f64| libm::floor(coordinate / cell + 0.5) as i32;
+    (along(at.x), along(at.y))
+}
+
+fn quadrant(way: Vector) -> usize {
+    match (way.x.abs() >= way.y.abs(), way.x >= 0.0, way.y >= 0.0) {
+        (true, true, _) => 0,
+        (false, _, true) => 1,
+        (true, false, _) => 2,
+        (false, _, false) => 3,
+    }
+}
+
+/// The cells along a straight way, sampled twice a cell, each at most once in a row; at most 64 samples, so that
+/// a way of any length costs no more.
+fn crossed(from: Point, to: Point, cell: f64, mut visit: impl FnMut(CellNumber)) {
+    let way = to - from;
+    let samples = (libm::ceil(2.0 * way.norm() / cell) as u32).clamp(1, 64);
+    let mut last = None;
+    for sample in 0..=samples {
+        let at = number(from + way * (f64::from(sample) / f64::from(samples)), cell);
+        if last != Some(at) {
+            visit(at);
+            last = Some(at);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! "Indexing, to find likely candidate states to feed to the matcher": streams of sets of candidates, the best set first.
+
+mod active_frames;
+mod expectational;
+mod geometric;
+
+use tolman_geom::{Point, PointBox};
+
+pub use active_frames::ActiveFrame;
+pub(super) use active_frames::moved;
+pub(super) use expectational::expected;
+pub(super) use geometric::plies;
+
+use super::ids::PlaceId;
+
+/// A place that the robot may be at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Candidate {
+    pub(super) place: PlaceId,
+    /// Where the track projects the robot to be in the place's own frame, m.
+    pub(super) robot: PointBox,
+    /// The place as seen from there, m: 0 lies inside if the robot may be at it.
+    pub(super) offset: PointBox,
+    pub(super) expectation: Expectation,
+}
+
+/// Whether the path graph predicted the place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Expectation {
+    Expected,
+    Unexpected,
+}
+
+impl Candidate {
+    /// Whether the robot may be at the place.
+    pub(super) fn is_possible(&self) -> bool {
+        self.offset.contains(Point::origin())
+    }
+
+    /// Whether the robot can be at no other place than this, if no other is within `least_distance` of it.
+    pub(super) fn is_certain(&self, least_distance: f64) -> bool {
+        self.is_possible() && self.offset.norm().high() < least_distance
+    }
+}

@@ -1,0 +1,86 @@
+use tolman_geom::PointBox;
+
+use crate::diktiometry::config::{Config, Identity, Use};
+use crate::diktiometry::indexing::{Candidate, Expectation};
+use crate::diktiometry::map::Diktiometry;
+use crate::diktiometry::signature::Signature;
+
+use super::view::agrees;
+
+/// How a track came to its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Matcher {
+    /// "Matches a place that was expected with consistent position estimate and view."
+    Continue,
+    /// "Matches a place with consistent position estimate and view which was unexpected."
+    Link,
+    /// α-MATCH "matches a place such that the projected robot position is consistent with the place's nominal envelope".
+    Alpha,
+    /// "A new place is added with a track's projected state."
+    NewPlace,
+    /// β-MATCH "allows a match with a place near the track's projected position; the track is then 'snapped' to the place".
+    Beta,
+}
+
+/// What matchers look at beside the candidate.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::diktiometry) struct Situation<'a> {
+    pub(in crate::diktiometry) map: &'a Diktiometry,
+    pub(in crate::diktiometry) config: &'a Config,
+    pub(in crate::diktiometry) percept: Option<&'a Signature>,
+    /// Distance since the last CONTINUE, m.
+    pub(in crate::diktiometry) astray: f64,
+}
+
+/// What a candidate turned out to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::diktiometry) enum Applicable {
+    /// A matcher applies.
+    Matcher(Matcher),
+    /// None does, but the robot may be there: the box is too wide to tell.
+    Doubtful,
+    /// The robot is elsewhere.
+    None,
+}
+
+/// The matcher that applies to a candidate.
+pub(in crate::diktiometry) fn applicable(
+    candidate: &Candidate,
+    situation: &Situation<'_>,
+) -> Applicable {
+    let Situation { map, config, .. } = *situation;
+    let place = &map.paths.places[candidate.place.index()];
+    if !agrees(place, situation.percept, &config.percepts) {
+        return Applicable::None;
+    }
+    let expected = candidate.expectation == Expectation::Expected;
+    if candidate.is_possible() {
+        return match config.matching.identity {
+            _ if expected => Applicable::Matcher(Matcher::Continue),
+            Identity::Meets => Applicable::Matcher(Matcher::Link),
+            Identity::Certain if candidate.is_certain(config.least_distance()) => {
+                Applicable::Matcher(Matcher::Link)
+            }
+            Identity::Certain => Applicable::Doubtful,
+        };
+    }
+    let grown = place.envelope.hull(place.position);
+    if config.matching.alpha == Use::On && grown.meets(candidate.robot) {
+        let near = (grown - candidate.robot).norm().high() < config.least_distance();
+        if config.matching.identity == Identity::Meets || expected || near {
+            return Applicable::Matcher(Matcher::Alpha);
+        }
+    }
+    let reach = config
+        .separation
+        .min(config.matching.beta_reach * situation.astray);
+    if config.matching.beta == Use::On && gap(candidate.offset) <= reach {
+        return Applicable::Matcher(Matcher::Beta);
+    }
+    Applicable::None
+}
+
+/// The least length of a displacement, m.
+fn gap(offset: PointBox) -> f64 {
+    offset.norm().low()
+}

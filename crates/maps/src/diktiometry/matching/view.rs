@@ -1,0 +1,45 @@
+use crate::diktiometry::config::{Percepts, Rotation, SignatureKind};
+use crate::diktiometry::path_graph::Place;
+use crate::diktiometry::signature::Signature;
+
+/// Whether a place may look like this: one of its views does, or none is known.
+pub(in crate::diktiometry) fn agrees(
+    place: &Place,
+    percept: Option<&Signature>,
+    percepts: &Percepts,
+) -> bool {
+    let (Percepts::Signatures(kind), Some(percept)) = (percepts, percept) else {
+        return true;
+    };
+    place.views.is_empty() || place.views.iter().any(|view| alike(view, percept, kind))
+}
+
+/// Whether two signatures may be views of one place.
+pub(in crate::diktiometry) fn alike(
+    view: &Signature,
+    other: &Signature,
+    kind: &SignatureKind,
+) -> bool {
+    // Of 8 columns at a share of 0.6, 5 have to agree.
+    let enough = libm::ceil(kind.share * kind.columns as f64 - 1e-9) as usize;
+    let offsets = match kind.rotation {
+        Rotation::Aligned => 1,
+        Rotation::Free => kind.columns,
+    };
+    (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= enough)
+}
+
+/// Adds a percept to a place's view set, if it has none like it and room is left.
+pub(in crate::diktiometry) fn remember(
+    place: &mut Place,
+    percept: Option<&Signature>,
+    percepts: &Percepts,
+) {
+    let (Percepts::Signatures(kind), Some(percept)) = (percepts, percept) else {
+        return;
+    };
+    let known = place.views.iter().any(|view| alike(view, percept, kind));
+    if !known && place.views.len() < kind.views {
+        place.views.push(percept.clone());
+    }
+}

@@ -1,0 +1,55 @@
+//! What the robot tells its observer.
+
+use alloc::vec::Vec;
+
+use tolman_geom::PoseBox;
+
+use super::ids::Action;
+use super::signature::Signature;
+
+/// One move: "a sequence of actions ending with the robot in a distinguished place", told after it ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// The control routine.
+    pub action: Action,
+    /// The displacement from where the move began to where it ended, along the axes of the compass (x east, y north), m,
+    /// and the heading by the compass, rad: bounds that hold the truth.
+    ///
+    /// A robot whose odometry is in its own axes turns it by its compass:
+    /// `PoseBox::new(PointBox::ORIGIN, heading).transform(displacement)`.
+    pub odometry: PoseBox,
+    /// What the place looks like that it ended at.
+    pub percept: Option<Signature>,
+    /// What could be tried there.
+    pub exits: Exits,
+    /// How it ended.
+    pub outcome: Outcome,
+}
+
+/// How a move ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// At a distinctive place.
+    Arrived,
+    /// The action was not possible: the robot is where it was.
+    Blocked,
+}
+
+/// Which actions the robot sees that it could try. It serves advice alone; no place is recognized by it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Exits {
+    /// It cannot tell: any action may be worth a try.
+    #[default]
+    Unknown,
+    /// These.
+    Seen(Vec<Action>),
+}
+
+/// How the robot begins: what it sees of the first place.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Start {
+    /// What it looks like.
+    pub percept: Option<Signature>,
+    /// What could be tried.
+    pub exits: Exits,
+}

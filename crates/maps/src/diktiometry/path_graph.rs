@@ -1,0 +1,258 @@
+//! The path graph: "nodes represent places, and arcs represent action transitions".
+
+use alloc::vec::Vec;
+
+use tolman_geom::{Point, PointBox};
+use tolman_planners::Graph;
+
+use super::ids::{Action, FrameId, LinkId, PlaceId};
+use super::observation::Exits;
+use super::signature::Signature;
+use super::track::Match;
+
+/// A place, with its reference link: where it lies in its canonical frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Whether it is still part of the map.
+    pub fate: Fate,
+    /// The frame its position is given in.
+    pub frame: FrameId,
+    /// Where it is in its frame, m.
+    pub position: PointBox,
+    /// The *nominal envelope*: the least box that holds all estimates that its position was updated with, m.
+    pub envelope: PointBox,
+    /// Where it seemed to be, weighted, m.
+    pub estims: Vec<Estim>,
+    /// What it looks like.
+    pub views: Vec<Signature>,
+    /// Links that leave it, by id.
+    pub outgoing: Vec<LinkId>,
+    /// Links that lead to it, by id.
+    pub incoming: Vec<LinkId>,
+    /// Actions that were tried here and led nowhere.
+    pub blocked: Vec<Action>,
+    /// Actions that the robot says it could try here.
+    pub exits: Exits,
+    /// How often the robot was thought to be here.
+    pub visits: u32,
+    /// How often it was expected to be here, fading.
+    pub expected: f64,
+    /// How often of these it was, fading.
+    pub met: f64,
+    /// Histories of tracks left here, the oldest first.
+    pub histories: Vec<Vec<Match>>,
+    /// Delayed gratification: what is to be decided once more is known.
+    pub notes: Vec<Note>,
+}
+
+/// What became of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It is part of the map.
+    Standing,
+    /// It turned out to be the same as another, made earlier.
+    MergedInto(PlaceId),
+    /// It turned out not to exist.
+    Elided,
+}
+
+/// "A weighted point-estimate of the place's position (in its canonical reference frame)."
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estim {
+    /// Where, m.
+    pub position: Point,
+    /// How many estimates it stands for.
+    pub weight: f64,
+}
+
+/// "A note is made of the operation to be performed": a merge that waits for a narrower box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// The place that may be the same as the one the note is left at.
+    pub other: PlaceId,
+}
+
+/// An action link: the action led from one place to another. Several links may bear the same action.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Where it begins.
+    pub from: PlaceId,
+    /// The action.
+    pub action: Action,
+    /// Where it leads.
+    pub to: PlaceId,
+    /// How often the robot is thought to have gone along it.
+    pub traversed: u32,
+    /// How often it was expected to, fading.
+    pub expected: f64,
+    /// How often of these it did, fading.
+    pub met: f64,
+    /// Which link was taken after it, and how often.
+    pub then: Vec<Successor>,
+    /// Whether it is still part of the map.
+    pub standing: Standing,
+}
+
+/// How often a link was followed by another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Successor {
+    /// The link taken next.
+    pub link: LinkId,
+    /// How often.
+    pub count: u32,
+}
+
+/// Whether a link is still part of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It is.
+    Standing,
+    /// It is not.
+    Removed,
+}
+
+/// Places and the actions between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathGraph {
+    pub(super) places: Vec<Place>,
+    pub(super) links: Vec<Link>,
+}
+
+impl PathGraph {
+    /// The place of an id, whether it still stands or not; none for ids never given.
+    #[must_use]
+    pub fn place(&self, id: PlaceId) -> Option<&Place> {
+        self.places.get(id.index())
+    }
+
+    /// The link of an id, whether it still stands or not; none for ids never given.
+    #[must_use]
+    pub fn link(&self, id: LinkId) -> Option<&Link> {
+        self.links.get(id.index())
+    }
+
+    /// The places that stand, by id.
+    pub fn places(&self) -> impl Iterator<Item = (PlaceId, &Place)> {
+        let all = (0..).map(PlaceId).zip(&self.places);
+        all.filter(|(_, place)| place.fate == Fate::Standing)
+    }
+
+    /// The links that stand, by id.
+    pub fn links(&self) -> impl Iterator<Item = (LinkId, &Link)> {
+        let all = (0..).map(LinkId).zip(&self.links);
+        all.filter(|(_, link)| link.standing == Standing::Standing)
+    }
+
+    /// What a place is called now, after all merges; none if it was elided or never was.
+    #[must_use]
+    pub fn resolve(&self, id: PlaceId) -> Option<PlaceId> {
+        let mut id = id;
+        loop {
+            match self.place(id)?.fate {
+                Fate::Standing => return Some(id),
+                Fate::MergedInto(other) => id = other,
+                Fate::Elided => return None,
+            }
+        }
+    }
+
+    /// Links that leave a place, by id.
+    pub fn outgoing(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
+        let ids = self.place(place).map_or(&[][..], |place| &place.outgoing);
+        ids.iter().map(|&id| (id, &self.links[id.index()]))
+    }
+
+    /// Links that lead to a place, by id.
+    pub fn incoming(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
+        let ids = self.place(place).map_or(&[][..], |place| &place.incoming);
+        ids.iter().map(|&id| (id, &self.links[id.index()]))
+    }
+
+    /// Where an action has led from a place so far, by id of the link.
+    pub fn along(&self, place: PlaceId, action: Action) -> impl Iterator<Item = (LinkId, &Link)> {
+        self.outgoing(place)
+            .filter(move |(_, link)| link.action == action)
+    }
+
+    /// The link that an action took most often from a place; of equals the older.
+    #[must_use]
+    pub fn likeliest(&self, place: PlaceId, action: Action) -> Option<LinkId> {
+        let best = self
+            .along(place, action)
+            .max_by_key(|(id, link)| (link.traversed, core::cmp::Reverse(*id)));
+        best.map(|(id, _)| id)
+    }
+
+    pub(super) fn add_place(&mut self, frame: FrameId, position: PointBox) -> PlaceId {
+        let id = PlaceId(self.places.len() as u32);
+        self.places.push(Place {
+            fate: Fate::Standing,
+            frame,
+            position,
+            envelope: position,
+            estims: Vec::new(),
+            views: Vec::new(),
+            outgoing: Vec::new(),
+            incoming: Vec::new(),
+            blocked: Vec::new(),
+            exits: Exits::Unknown,
+            visits: 0,
+            expected: 0.0,
+            met: 0.0,
+            histories: Vec::new(),
+            notes: Vec::new(),
+        });
+        id
+    }
+
+    /// The link for an action between two places, made where there is none.
+    pub(super) fn link_to(&mut self, from: PlaceId, action: Action, to: PlaceId) -> LinkId {
+        let known = self
+            .along(from, action)
+            .find(|(_, link)| link.to == to)
+            .map(|(id, _)| id);
+        if let Some(known) = known {
+            return known;
+        }
+        let id = LinkId(self.links.len() as u32);
+        self.links.push(Link {
+            from,
+            action,
+            to,
+            traversed: 0,
+            expected: 0.0,
+            met: 0.0,
+            then: Vec::new(),
+            standing: Standing::Standing,
+        });
+        self.places[from.index()].outgoing.push(id);
+        self.places[to.index()].incoming.push(id);
+        id
+    }
+
+    /// Takes a link out of the graph.
+    pub(super) fn remove_link(&mut self, id: LinkId) {
+        let link = &mut self.links[id.index()];
+        link.standing = Standing::Removed;
+        link.then.clear();
+        let (from, to) = (link.from, link.to);
+        self.places[from.index()].outgoing.retain(|&out| out != id);
+        self.places[to.index()].incoming.retain(|&into| into != id);
+    }
+}
+
+/// For planning: from every place, each action along its likeliest link. The nodes are the ids of places.
+impl Graph for PathGraph {
+    fn node_count(&self) -> usize {
+        self.places.len()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let place = PlaceId(node);
+        for (id, link) in self.outgoing(place) {
+            if self.likeliest(place, link.action) == Some(id) {
+                visit(link.to.0, 1);
+            }
+        }
+    }
+}

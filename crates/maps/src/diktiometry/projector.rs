@@ -1,0 +1,42 @@
+use tolman_geom::{Interval, PointBox};
+
+use super::config::Config;
+use super::ids::FrameId;
+use super::map::Diktiometry;
+use super::observation::Move;
+use super::track::Track;
+
+/// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
+/// estimates and control inputs".
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Projection {
+    /// The frame of the place that was left.
+    pub(super) frame: FrameId,
+    /// The displacement between the points of the two places, m.
+    pub(super) displacement: PointBox,
+    /// The point of the place arrived at, in the frame, m.
+    pub(super) position: PointBox,
+}
+
+pub(super) fn project(
+    map: &Diktiometry,
+    track: &Track,
+    step: &Move,
+    config: &Config,
+) -> Projection {
+    let place = &map.paths.places[track.place.index()];
+    let displacement = between_places(step.odometry.position, config);
+    Projection {
+        frame: place.frame,
+        displacement,
+        position: place.position + displacement,
+    }
+}
+
+/// The robot's displacement is the places' up to where in the places it stopped.
+fn between_places(robot: PointBox, config: &Config) -> PointBox {
+    let Ok(stops) = Interval::about(0.0, 2.0 * config.place_radius) else {
+        return robot; // Its radius was checked to be a number, and not negative.
+    };
+    robot + PointBox::new(stops, stops)
+}

@@ -1,0 +1,153 @@
+//! The reference graph: "nodes represent local coordinate frames, with links giving known geometric relations".
+
+mod search;
+
+use alloc::vec::Vec;
+
+use tolman_geom::PointBox;
+
+use super::grid::Grid;
+use super::ids::{FrameId, PlaceId};
+pub(super) use search::{Reached, search};
+
+/// A local frame. All frames lie along the axes of the compass, so that a relation is a displacement.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// The places whose position is given in it, by id.
+    pub places: Vec<PlaceId>,
+    /// What is known of other frames, by their id; each is kept from both sides.
+    pub relations: Vec<Relation>,
+    /// How well its area is known.
+    pub grid: Grid,
+}
+
+/// What is known of where another frame lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relation {
+    /// The other frame.
+    pub to: FrameId,
+    /// Its origin in this frame, m: what all estimates allow.
+    pub position: PointBox,
+    /// The least box that holds all estimates, m.
+    pub envelope: PointBox,
+    /// How many estimates there were.
+    pub estimates: u32,
+}
+
+/// Two estimates of one displacement that exclude each other: a bound was broken, or two places were confused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excluded {
+    /// What was known, m.
+    pub known: PointBox,
+    /// What came, m.
+    pub estimate: PointBox,
+}
+
+/// Frames and the relations between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReferenceGraph {
+    pub(super) frames: Vec<Frame>,
+}
+
+impl ReferenceGraph {
+    /// All frames, by id. Those that no place is left in have no relations either.
+    #[must_use]
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
+    }
+
+    /// What is known of `to` from `from`.
+    #[must_use]
+    pub fn relation(&self, from: FrameId, to: FrameId) -> Option<&Relation> {
+        let relations = &self.frames.get(from.index())?.relations;
+        let at = relations.binary_search_by_key(&to, |relation| relation.to);
+        at.ok().map(|at| &relations[at])
+    }
+
+    pub(super) fn add_frame(&mut self) -> FrameId {
+        let id = FrameId(self.frames.len() as u32);
+        self.frames.push(Frame::default());
+        id
+    }
+
+    /// Whether an estimate of where `to` lies in `from` agrees with what is known.
+    pub(super) fn allows(
+        &self,
+        from: FrameId,
+        to: FrameId,
+        estimate: PointBox,
+    ) -> Result<(), Excluded> {
+        let known = if from == to {
+            PointBox::ORIGIN
+        } else {
+            match self.relation(from, to) {
+                Some(relation) => relation.position,
+                None => return Ok(()),
+            }
+        };
+        if known.meets(estimate) {
+            Ok(())
+        } else {
+            Err(Excluded { known, estimate })
+        }
+    }
+
+    /// Takes in an estimate of where `to` lies in `from`. One that what is known excludes changes nothing but the
+    /// envelope.
+    pub(super) fn relate(
+        &mut self,
+        from: FrameId,
+        to: FrameId,
+        estimate: PointBox,
+    ) -> Result<(), Excluded> {
+        let allowed = self.allows(from, to, estimate);
+        if from != to {
+            self.relate_one_way(from, to, estimate);
+            self.relate_one_way(to, from, -estimate);
+        }
+        allowed
+    }
+
+    fn relate_one_way(&mut self, from: FrameId, to: FrameId, estimate: PointBox) {
+        let relations = &mut self.frames[from.index()].relations;
+        match relations.binary_search_by_key(&to, |relation| relation.to) {
+            Ok(at) => {
+                let relation = &mut relations[at];
+                if let Some(both) = relation.position.intersection(estimate) {
+                    relation.position = both;
+                }
+                relation.envelope = relation.envelope.hull(estimate);
+                relation.estimates = relation.estimates.saturating_add(1);
+            }
+            Err(at) => relations.insert(
+                at,
+                Relation {
+                    to,
+                    position: estimate,
+                    envelope: estimate,
+                    estimates: 1,
+                },
+            ),
+        }
+    }
+
+    /// Opens a relation to all that it was ever estimated to be: one of the estimates was wrong.
+    pub(super) fn open(&mut self, from: FrameId, to: FrameId) {
+        for (from, to) in [(from, to), (to, from)] {
+            let relations = &mut self.frames[from.index()].relations;
+            if let Ok(at) = relations.binary_search_by_key(&to, |relation| relation.to) {
+                relations[at].position = relations[at].envelope;
+            }
+        }
+    }
+
+    /// Takes all relations from a frame that no place is left in.
+    pub(super) fn clear(&mut self, id: FrameId) {
+        let relations = core::mem::take(&mut self.frames[id.index()].relations);
+        for relation in relations {
+            let others = &mut self.frames[relation.to.index()].relations;
+            others.retain(|other| other.to != id);
+        }
+        self.frames[id.index()].grid = Grid::default();
+    }
+}

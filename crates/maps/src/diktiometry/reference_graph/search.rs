@@ -1,0 +1,114 @@
+use alloc::collections::BinaryHeap;
+use alloc::vec::Vec;
+use core::cmp::{Ordering, Reverse};
+
+use tolman_geom::PointBox;
+
+use super::ReferenceGraph;
+use crate::diktiometry::config::SearchLimits;
+use crate::diktiometry::ids::FrameId;
+
+/// A frame that a search reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::diktiometry) struct Reached {
+    pub(in crate::diktiometry) frame: FrameId,
+    /// Its origin in the frame where the search began, m.
+    pub(in crate::diktiometry) position: PointBox,
+    /// Relations followed on the way.
+    pub(in crate::diktiometry) hops: u32,
+}
+
+/// The frames around `start`, those of best known position first, `start` itself before all.
+///
+/// Dijkstra's algorithm on the width of the box; where several ways lead to a frame from frames reached before, its
+/// position is what they all allow. O(frames · degree · log frames).
+///
+/// The paper searches the graph by plies and says that "the farther a frame is in the reference graph, the less useful
+/// information (in general) it gives"; width is that information itself.
+pub(in crate::diktiometry) fn search(
+    graph: &ReferenceGraph,
+    start: FrameId,
+    limits: &SearchLimits,
+) -> Vec<Reached> {
+    let mut reached: Vec<Reached> = Vec::new();
+    // Where a frame stands in `reached`, by id of the frame.
+    let mut settled: Vec<(FrameId, usize)> = Vec::new();
+    let mut frontier = BinaryHeap::new();
+    frontier.push(Reverse(Entry {
+        width: 0.0,
+        frame: start,
+        hops: 0,
+        position: PointBox::ORIGIN,
+    }));
+    while let Some(Reverse(entry)) = frontier.pop() {
+        let Err(slot) = settled.binary_search_by_key(&entry.frame, |(frame, _)| *frame) else {
+            continue; // It was reached by a narrower way.
+        };
+        let mut position = entry.position;
+        let relations = &graph.frames[entry.frame.index()].relations;
+        for relation in relations {
+            let there = settled.binary_search_by_key(&relation.to, |(frame, _)| *frame);
+            if let Ok(there) = there {
+                let there = reached[settled[there].1].position - relation.position;
+                position = position.intersection(there).unwrap_or(position);
+            }
+        }
+        settled.insert(slot, (entry.frame, reached.len()));
+        reached.push(Reached {
+            frame: entry.frame,
+            position,
+            hops: entry.hops,
+        });
+        if reached.len() >= limits.frames {
+            break;
+        }
+        if entry.hops >= limits.depth {
+            continue;
+        }
+        for relation in relations {
+            let there = settled.binary_search_by_key(&relation.to, |(frame, _)| *frame);
+            let next = position + relation.position;
+            let width = next.width();
+            if there.is_err() && width <= limits.width {
+                frontier.push(Reverse(Entry {
+                    width,
+                    frame: relation.to,
+                    hops: entry.hops + 1,
+                    position: next,
+                }));
+            }
+        }
+    }
+    reached
+}
+
+/// A frame to be reached, ordered by the width of its box, then by id.
+struct Entry {
+    width: f64,
+    frame: FrameId,
+    hops: u32,
+    position: PointBox,
+}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let width = self.width.total_cmp(&other.width);
+        width
+            .then(self.frame.cmp(&other.frame))
+            .then(self.hops.cmp(&other.hops))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Entry {}

@@ -1,0 +1,108 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+/// What a place looks like: an image signature, "an array of values, each computed by a measurement function from a
+/// subset of the image". Columns stand side by side around the robot, counter-clockwise from the north or, without a
+/// compass, from wherever the robot looked.
+///
+/// Source: paper, *Perceptual Indexing*.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signature {
+    rows: usize,
+    /// One column after the other.
+    values: Vec<f64>,
+}
+
+/// Why values are no signature.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SignatureError {
+    /// There is nothing in it.
+    #[error("the signature has {values} values in {rows} rows; give at least one of each")]
+    Empty {
+        /// Rows asked for.
+        rows: usize,
+        /// Values given.
+        values: usize,
+    },
+    /// The columns are not of one length.
+    #[error("{values} values do not make columns of {rows} rows; give a multiple of {rows}")]
+    Ragged {
+        /// Rows asked for.
+        rows: usize,
+        /// Values given.
+        values: usize,
+    },
+    /// A value is NaN or infinite.
+    #[error("column {column}, row {row} is {value}; give a finite number")]
+    NotFinite {
+        /// The column.
+        column: usize,
+        /// The row in it.
+        row: usize,
+        /// The value.
+        value: f64,
+    },
+}
+
+impl Signature {
+    /// A signature of columns of `rows` values each, one column after the other.
+    ///
+    /// # Errors
+    /// [`SignatureError`] if there are no values, the last column is not full, or a value is not finite.
+    pub fn new(rows: usize, values: Vec<f64>) -> Result<Self, SignatureError> {
+        if rows == 0 || values.is_empty() {
+            return Err(SignatureError::Empty {
+                rows,
+                values: values.len(),
+            });
+        }
+        if !values.len().is_multiple_of(rows) {
+            return Err(SignatureError::Ragged {
+                rows,
+                values: values.len(),
+            });
+        }
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            return Err(SignatureError::NotFinite {
+                column: at / rows,
+                row: at % rows,
+                value: values[at],
+            });
+        }
+        Ok(Self { rows, values })
+    }
+
+    /// Values in a column.
+    #[must_use]
+    pub const fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// How many columns there are.
+    #[must_use]
+    pub const fn columns(&self) -> usize {
+        self.values.len() / self.rows
+    }
+
+    /// The values of a column, from the first row on; empty beyond the last column.
+    #[must_use]
+    pub fn column(&self, number: usize) -> &[f64] {
+        let from = number * self.rows;
+        self.values.get(from..from + self.rows).unwrap_or_default()
+    }
+
+    /// How many columns differ nowhere by more than `tolerance` from those of `other`, which is turned by `offset`
+    /// columns: column c is compared with column c + offset there.
+    pub(super) fn agreement(&self, other: &Self, offset: usize, tolerance: f64) -> usize {
+        let columns = self.columns();
+        (0..columns)
+            .filter(|&number| {
+                let there = other.column((number + offset) % columns);
+                let mut pairs = self.column(number).iter().zip(there);
+                pairs.all(|(a, b)| (a - b).abs() <= tolerance)
+            })
+            .count()
+    }
+}

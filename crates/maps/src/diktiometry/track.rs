@@ -1,0 +1,44 @@
+use alloc::vec::Vec;
+
+use super::ids::{Action, LinkId, PlaceId, TrackId};
+use super::indexing::ActiveFrame;
+
+/// A track: one state estimate ("each tracks a possible true state").
+///
+/// A track is at a place: matching puts it there, and its box is then the place's own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// Its name.
+    pub id: TrackId,
+    /// Where the robot is if the track is right.
+    pub place: PlaceId,
+    /// How far it is trusted, 0 … 1; by its recent matches.
+    pub confidence: f64,
+    /// The link it came along; none where it began or came along none.
+    pub link: Option<LinkId>,
+    /// Distance gone since the last CONTINUE, m.
+    pub astray: f64,
+    /// What it matched lately, the newest last.
+    pub history: Vec<Match>,
+    /// Frames that its position tells something about.
+    pub active: Vec<ActiveFrame>,
+}
+
+/// One entry of a track's history.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Match {
+    /// The place that was matched.
+    pub place: PlaceId,
+    /// The action that led there; none where the track began.
+    pub action: Option<Action>,
+    /// Places that "were considered as matches but rejected" and could be the same still.
+    pub doubts: Vec<PlaceId>,
+}
+
+impl Track {
+    pub(super) fn remember(&mut self, entry: Match, length: usize) {
+        self.history.push(entry);
+        let surplus = self.history.len().saturating_sub(length);
+        self.history.drain(..surplus);
+    }
+}

@@ -1,0 +1,130 @@
+//! The updater: it "adjusts the parameters of states in the representation, for example, the position of a known point".
+
+use alloc::vec::Vec;
+
+use tolman_geom::{Point, PointBox};
+
+use super::config::Config;
+use super::ids::{Action, LinkId, PlaceId};
+use super::map::Diktiometry;
+use super::path_graph::{Estim, Place};
+use super::projector::Projection;
+use super::reference_graph::Excluded;
+
+/// The track went from one place to another: the link between them is counted, and the boxes at both its ends are narrowed,
+/// that of the place arrived at by the one it left (as in the paper) and back.
+///
+/// `robot` is where the robot was projected to be in the frame of the place arrived at.
+///
+/// # Errors
+/// [`Excluded`] if the displacement contradicts what is known of the two frames; the boxes then stay as they were.
+pub(super) fn arrive(
+    map: &mut Diktiometry,
+    from: PlaceId,
+    action: Action,
+    to: PlaceId,
+    projection: &Projection,
+    robot: PointBox,
+    config: &Config,
+) -> (LinkId, Result<(), Excluded>) {
+    let link = map.paths.link_to(from, action, to);
+    count(map, from, action, link, config);
+    let place = &mut map.paths.places[to.index()];
+    estimate(place, robot, config.separation);
+    (link, narrow(map, from, to, projection.displacement))
+}
+
+/// Narrows what is known of two places by an estimate of the displacement between them.
+pub(super) fn narrow(
+    map: &mut Diktiometry,
+    from: PlaceId,
+    to: PlaceId,
+    displacement: PointBox,
+) -> Result<(), Excluded> {
+    let [start, end] = [from, to].map(|place| {
+        let place = &map.paths.places[place.index()];
+        (place.frame, place.position)
+    });
+    let frames = start.1 + displacement - end.1;
+    map.reference.relate(start.0, end.0, frames)?;
+    let end_from_start = if start.0 == end.0 {
+        PointBox::ORIGIN
+    } else {
+        let relation = map.reference.relation(start.0, end.0);
+        relation.map_or(frames, |relation| relation.position)
+    };
+    // Forward, as the paper does, and backward.
+    let arrived = start.1 + displacement - end_from_start;
+    contract(&mut map.paths.places[to.index()], arrived);
+    let left = end.1 + end_from_start - displacement;
+    contract(&mut map.paths.places[from.index()], left);
+    Ok(())
+}
+
+fn contract(place: &mut Place, estimate: PointBox) {
+    if let Some(both) = place.position.intersection(estimate) {
+        place.position = both;
+    }
+}
+
+/// Takes an estimate of a place's position into its nominal envelope and its estims.
+fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
+    place.envelope = place.envelope.hull(robot);
+    place.estims.push(Estim {
+        position: robot.middle(),
+        weight: 1.0,
+    });
+    merge_estims(&mut place.estims, separation);
+}
+
+/// "All estims within δ_sep of each other are merged, with new positions gotten by weighted averaging, and new weights
+/// the sum of the component's weights."
+///
+/// Averaging lets an estim swallow a mode exactly δ_sep away, so estims merge within half of it, the closest pair first, of
+/// equal pairs the older.
+pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
+    loop {
+        let mut closest: Option<(f64, usize, usize)> = None;
+        for (second, b) in estims.iter().enumerate() {
+            for (first, a) in estims[..second].iter().enumerate() {
+                let distance = (a.position - b.position).norm();
+                if distance < 0.5 * separation
+                    && closest.is_none_or(|(least, _, _)| distance < least)
+                {
+                    closest = Some((distance, first, second));
+                }
+            }
+        }
+        let Some((_, first, second)) = closest else {
+            return;
+        };
+        let b = estims.remove(second);
+        let a = &mut estims[first];
+        let weight = a.weight + b.weight;
+        a.position =
+            Point::from((a.position.coords * a.weight + b.position.coords * b.weight) / weight);
+        a.weight = weight;
+    }
+}
+
+/// Counts what was expected and what was met.
+fn count(map: &mut Diktiometry, from: PlaceId, action: Action, link: LinkId, config: &Config) {
+    let fading = config.transients.fading;
+    for at in 0..map.paths.places[from.index()].outgoing.len() {
+        let id = map.paths.places[from.index()].outgoing[at];
+        let one = &mut map.paths.links[id.index()];
+        if one.action != action {
+            continue;
+        }
+        let met = if id == link { 1.0 } else { 0.0 };
+        one.expected = one.expected * fading + 1.0;
+        one.met = one.met * fading + met;
+        let place = &mut map.paths.places[one.to.index()];
+        place.expected = place.expected * fading + 1.0;
+        place.met = place.met * fading + met;
+    }
+    let link = &mut map.paths.links[link.index()];
+    link.traversed = link.traversed.saturating_add(1);
+    let place = &mut map.paths.places[link.to.index()];
+    place.visits = place.visits.saturating_add(1);
+}

@@ -1,0 +1,10 @@
+//! The diktiometry on worlds of places, whose truth is known.
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot set itself up has failed"
+)]
+
+extern crate alloc;
+
+mod learning;
+mod walk;

@@ -1,0 +1,153 @@
+//! A robot in an abstract world, its observer, and how right the observer is.
+
+use alloc::collections::BTreeMap;
+
+use tolman_maps::diktiometry::{
+    Action, Config, Exits, Move, Observer, Outcome, PlaceId, Signature, Start, StepReport,
+};
+use tolman_maze::{Direction, Grid, Maze};
+use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveError};
+
+pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
+
+/// 10 % of the distance, and a compass of ± 4°.
+pub(crate) const ODOMETRY: MoveError = MoveError {
+    distance: 0.1,
+    compass: COMPASS,
+    ..MoveError::NONE
+};
+
+pub(crate) fn open(side: u16) -> AbstractWorld {
+    AbstractWorld::from_maze(&Maze::open(Grid::new(side, side)), 1.0)
+}
+
+pub(crate) struct Walk {
+    pub(crate) robot: AbstractRobot,
+    pub(crate) observer: Observer,
+    /// The true place of every move's end, and what the observer called it then.
+    pub(crate) log: Vec<(u32, PlaceId)>,
+    sees: bool,
+}
+
+/// What the map is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Score {
+    pub(crate) purity: f64,
+    pub(crate) places: usize,
+    pub(crate) visited: usize,
+    pub(crate) link_precision: f64,
+    /// Of the links that were really taken.
+    pub(crate) link_recall: f64,
+}
+
+impl Walk {
+    pub(crate) fn new(world: AbstractWorld, errors: MoveError, config: Config, seed: u64) -> Self {
+        let sees = config.percepts != tolman_maps::diktiometry::Percepts::None;
+        let robot = AbstractRobot::new(world.into(), 0, errors, seed).unwrap();
+        let start = Start {
+            percept: sees.then(|| percept(robot.look())),
+            exits: exits(&robot),
+        };
+        let observer = Observer::new(config, start).unwrap();
+        let log = Vec::from([(robot.at(), observer.place())]);
+        Self {
+            robot,
+            observer,
+            log,
+            sees,
+        }
+    }
+
+    pub(crate) fn go(&mut self, direction: Direction) -> (AbstractMove, StepReport) {
+        let moved = self.robot.go(direction).unwrap();
+        let step = self.told(&moved);
+        let report = self.observer.step(&step).unwrap();
+        self.log.push((moved.to, self.observer.place()));
+        (moved, report)
+    }
+
+    pub(crate) fn told(&self, moved: &AbstractMove) -> Move {
+        Move {
+            action: Action(moved.direction as u32),
+            odometry: moved.odometry,
+            percept: self.sees.then(|| percept(moved.look)),
+            exits: exits(&self.robot),
+            outcome: Outcome::Arrived,
+        }
+    }
+
+    pub(crate) fn wander(&mut self, moves: usize) {
+        for _ in 0..moves {
+            let direction = self.robot.wander().unwrap();
+            self.go(direction);
+        }
+    }
+
+    pub(crate) fn score(&self) -> Score {
+        let paths = &self.observer.map().paths;
+        let mut counts: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();
+        let mut visited: BTreeMap<u32, usize> = BTreeMap::new();
+        for &(truth, place) in &self.log {
+            *visited.entry(truth).or_default() += 1;
+            if let Some(place) = paths.resolve(place) {
+                *counts.entry(place).or_default().entry(truth).or_default() += 1;
+            }
+        }
+        let majority: BTreeMap<PlaceId, u32> = counts
+            .iter()
+            .map(|(place, truths)| {
+                let most = truths.iter().max_by_key(|(_, count)| **count);
+                (*place, *most.unwrap().0)
+            })
+            .collect();
+        let right: usize = counts
+            .values()
+            .map(|truths| truths.values().max().unwrap())
+            .sum();
+        let all: usize = counts.values().flat_map(BTreeMap::values).sum();
+        let mut taken: Vec<(u32, u32)> = self
+            .log
+            .windows(2)
+            .map(|pair| (pair[0].0, pair[1].0))
+            .collect();
+        taken.sort_unstable();
+        taken.dedup();
+        let mut known: Vec<(u32, u32)> = Vec::new();
+        let mut wrong = 0;
+        for (_, link) in paths.links() {
+            let ends = [link.from, link.to].map(|end| majority.get(&end).copied());
+            let [Some(from), Some(to)] = ends else {
+                continue;
+            };
+            let direction = Direction::ALL[link.action.0 as usize];
+            if self.robot.world().neighbour(from, direction) == Some(to) {
+                known.push((from, to));
+            } else {
+                wrong += 1;
+            }
+        }
+        let right_links = known.len();
+        known.sort_unstable();
+        known.dedup();
+        let met = taken
+            .iter()
+            .filter(|link| known.binary_search(link).is_ok())
+            .count();
+        Score {
+            purity: right as f64 / all as f64,
+            places: paths.places().count(),
+            visited: visited.len(),
+            link_precision: right_links as f64 / (right_links + wrong) as f64,
+            link_recall: met as f64 / taken.len() as f64,
+        }
+    }
+}
+
+pub(crate) fn percept(look: [f64; 4]) -> Signature {
+    Signature::new(1, look.to_vec()).unwrap()
+}
+
+fn exits(robot: &AbstractRobot) -> Exits {
+    let exits = robot.world().exits(robot.at());
+    Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
+}

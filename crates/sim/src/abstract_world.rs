@@ -1,0 +1,283 @@
+//! A world without bodies and time: places, and moves that lead from one to the next.
+//!
+//! What a mapper of places sees of a robot, some thousand times faster than the raycast world: each move ends at the next
+//! place, and its odometry is wrong within known bounds. The truth stands beside what is told, for scoring.
+
+use alloc::sync::Arc;
+
+use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox, Vector};
+use tolman_maze::{Direction, Maze};
+
+use crate::chance::{Chance, Channel};
+
+/// Places and where each direction leads from them.
+///
+/// ```
+/// use tolman_maze::{Direction, Grid, Maze};
+/// use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
+///
+/// let world = AbstractWorld::from_maze(&Maze::open(Grid::new(5, 5)), 1.0);
+/// let errors = MoveError { distance: 0.1, compass: 4_f64.to_radians(), ..MoveError::NONE };
+/// let mut robot = AbstractRobot::new(world.into(), 0, errors, 7)?;
+/// let moved = robot.go(Direction::East).unwrap();
+/// assert_eq!((moved.from, moved.to), (0, 1));
+/// assert!(moved.odometry.position.contains(moved.truth.into()));
+/// # Ok::<(), tolman_geom::IntervalError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct AbstractWorld {
+    places: Vec<Point>,
+    /// Per place, in the order of [`Direction::ALL`].
+    neighbours: Vec<[Option<u32>; 4]>,
+    /// Per place, what is seen to each direction.
+    looks: Vec<[f64; 4]>,
+}
+
+impl AbstractWorld {
+    /// One place a cell, `spacing` metres apart, numbered as the grid numbers its cells; a move leads to the next cell
+    /// where no wall stands. All places look alike.
+    #[must_use]
+    pub fn from_maze(maze: &Maze, spacing: f64) -> Self {
+        let cells: Vec<_> = maze.grid().cells().collect();
+        let places = cells
+            .iter()
+            .map(|cell| Point::new(f64::from(cell.x) * spacing, f64::from(cell.y) * spacing));
+        let neighbours = cells.iter().map(|&cell| {
+            let mut to = [None; 4];
+            for (direction, next) in maze.neighbours(cell) {
+                to[direction as usize] = Some(maze.grid().index(next) as u32);
+            }
+            to
+        });
+        Self {
+            places: places.collect(),
+            neighbours: neighbours.collect(),
+            looks: vec![[0.0; 4]; cells.len()],
+        }
+    }
+
+    /// Paints every wall around a place in one of `colours` colours, drawn evenly from `seed`: 0, 1, …
+    #[must_use]
+    pub fn painted(mut self, colours: u32, seed: u64) -> Self {
+        let mut draws = Chance::of_run(seed).draws(Channel::named("abstract paint"));
+        for look in self.looks.iter_mut().flatten() {
+            *look = (draws.uniform() * f64::from(colours)).floor();
+        }
+        self
+    }
+
+    /// Where the places are, m, by number.
+    #[must_use]
+    pub fn places(&self) -> &[Point] {
+        &self.places
+    }
+
+    /// Where a direction leads from a place; none where it is blocked or the place does not exist.
+    #[must_use]
+    pub fn neighbour(&self, place: u32, direction: Direction) -> Option<u32> {
+        self.neighbours.get(place as usize)?[direction as usize]
+    }
+
+    /// The directions that lead somewhere, in the order of [`Direction::ALL`].
+    pub fn exits(&self, place: u32) -> impl Iterator<Item = Direction> + '_ {
+        let all = Direction::ALL.into_iter();
+        all.filter(move |&direction| self.neighbour(place, direction).is_some())
+    }
+
+    /// How many links there are, each direction for itself.
+    #[must_use]
+    pub fn link_count(&self) -> usize {
+        self.neighbours.iter().flatten().flatten().count()
+    }
+}
+
+/// How wrong moves are told. All errors are drawn evenly from within their bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MoveError {
+    /// Bound of the error of each distance, as a share of it, 0 ≤ … < 1.
+    pub distance: f64,
+    /// Bound of the error of each heading of the compass, rad.
+    pub compass: f64,
+    /// Bound of an error of scale, as a share of the distance, that is drawn once and shared by all moves. It is not in the
+    /// bounds that are told.
+    pub shared_scale: f64,
+    /// How far from the place's point the robot stops at most, m, along each axis.
+    pub stop: f64,
+    /// Share of moves whose errors are `outlier_factor` times as large and break the bounds.
+    pub outliers: f64,
+    /// How many times.
+    pub outlier_factor: f64,
+    /// Bound of the error of what is seen.
+    pub look: f64,
+}
+
+impl MoveError {
+    /// Everything is told as it is.
+    pub const NONE: Self = Self {
+        distance: 0.0,
+        compass: 0.0,
+        shared_scale: 0.0,
+        stop: 0.0,
+        outliers: 0.0,
+        outlier_factor: 1.0,
+        look: 0.0,
+    };
+}
+
+/// A robot in an [`AbstractWorld`].
+#[derive(Clone, Debug)]
+pub struct AbstractRobot {
+    world: Arc<AbstractWorld>,
+    errors: MoveError,
+    chance: Chance,
+    scale: f64,
+    at: u32,
+    /// Where in the place it stopped.
+    stop: Vector,
+    moves: u64,
+}
+
+/// A move with its truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AbstractMove {
+    /// The place it began at.
+    pub from: u32,
+    /// The direction that was gone.
+    pub direction: Direction,
+    /// The place it ended at.
+    pub to: u32,
+    /// How the robot really moved, m.
+    pub truth: Vector,
+    /// How its odometry says that it moved, m, along the axes of its compass.
+    pub measured: Vector,
+    /// What follows for how it moved, but for the shared scale and outliers: the displacement along the true axes, m, and the heading.
+    pub odometry: PoseBox,
+    /// What it sees to each direction, in the order of [`Direction::ALL`].
+    pub look: [f64; 4],
+}
+
+impl AbstractRobot {
+    /// A robot at a place; all its chance comes from `seed`.
+    ///
+    /// # Errors
+    /// If an error's bound is negative or no number.
+    pub fn new(
+        world: Arc<AbstractWorld>,
+        at: u32,
+        errors: MoveError,
+        seed: u64,
+    ) -> Result<Self, IntervalError> {
+        for bound in [errors.distance, errors.compass, errors.stop, errors.look] {
+            Interval::about(0.0, bound)?;
+        }
+        let chance = Chance::of_run(seed);
+        let mut draws = chance.draws(Channel::named("abstract scale"));
+        let scale = 1.0 + errors.shared_scale * (2.0 * draws.uniform() - 1.0);
+        Ok(Self {
+            world,
+            errors,
+            chance,
+            scale,
+            at,
+            stop: Vector::zeros(),
+            moves: 0,
+        })
+    }
+
+    /// The world.
+    #[must_use]
+    pub fn world(&self) -> &AbstractWorld {
+        &self.world
+    }
+
+    /// The place it is at.
+    #[must_use]
+    pub const fn at(&self) -> u32 {
+        self.at
+    }
+
+    /// By how much its odometry is too long at every move, as a factor.
+    #[must_use]
+    pub const fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// What it sees now.
+    #[must_use]
+    pub fn look(&self) -> [f64; 4] {
+        let mut draws = self
+            .chance
+            .at(0, self.moves)
+            .draws(Channel::named("abstract look"));
+        let look = self.world.looks.get(self.at as usize).copied();
+        look.unwrap_or_default()
+            .map(|value| value + self.errors.look * (2.0 * draws.uniform() - 1.0))
+    }
+
+    /// One of the directions that lead somewhere, each as likely as the others; none if there are none.
+    #[must_use]
+    pub fn wander(&self) -> Option<Direction> {
+        let mut draws = self
+            .chance
+            .at(0, self.moves)
+            .draws(Channel::named("abstract walk"));
+        let exits: Vec<Direction> = self.world.exits(self.at).collect();
+        let drawn = (draws.uniform() * exits.len() as f64) as usize;
+        exits.get(drawn).copied()
+    }
+
+    /// Goes to the next place; none, and it stays, if the direction is blocked.
+    pub fn go(&mut self, direction: Direction) -> Option<AbstractMove> {
+        let from = self.at;
+        let to = self.world.neighbour(from, direction)?;
+        self.moves += 1;
+        self.at = to;
+        let mut draws = self
+            .chance
+            .at(0, self.moves)
+            .draws(Channel::named("abstract odometry"));
+        let mut within = |bound: f64| bound * (2.0 * draws.uniform() - 1.0);
+        let stop = Vector::new(within(self.errors.stop), within(self.errors.stop));
+        let points = [from, to].map(|place| self.world.places[place as usize]);
+        let truth = (points[1] + stop) - (points[0] + self.stop);
+        self.stop = stop;
+
+        let longer = within(self.errors.distance);
+        let turned = within(self.errors.compass);
+        let factor = if within(0.5) + 0.5 < self.errors.outliers {
+            self.errors.outlier_factor
+        } else {
+            1.0
+        };
+        let distance = truth.norm() * self.scale * (1.0 + factor * longer);
+        let heading = libm::atan2(truth.y, truth.x) + factor * turned;
+        let measured = Vector::new(distance * libm::cos(heading), distance * libm::sin(heading));
+        Some(AbstractMove {
+            from,
+            direction,
+            to,
+            truth,
+            measured,
+            odometry: self.bounds(measured, heading)?,
+            look: self.look(),
+        })
+    }
+
+    /// All moves that may have been measured so.
+    fn bounds(&self, measured: Vector, heading: f64) -> Option<PoseBox> {
+        let MoveError {
+            distance, compass, ..
+        } = self.errors;
+        let factor = Interval::of(1.0).ok()? + Interval::about(0.0, distance).ok()?;
+        // The rounding of the measurement itself is less than this.
+        let rounding = Interval::about(0.0, 1e-12 * (1.0 + measured.norm())).ok()?;
+        // The length in the frame of the measured heading, then turned by the compass's error.
+        let length = Interval::of(measured.norm()).ok()?.checked_div(factor)?;
+        let heading = Interval::about(heading, compass).ok()?;
+        let position = PointBox::new(length, Interval::ZERO).rotated(heading);
+        Some(PoseBox::new(
+            PointBox::new(position.x + rounding, position.y + rounding),
+            heading,
+        ))
+    }
+}
