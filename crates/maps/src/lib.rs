@@ -1,6 +1,7 @@
 //! What a robot has learned of its surroundings, one module per kind of map.
 //!
 //! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
+//! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how junctions join them.
 //! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of any robot's moves.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
@@ -12,6 +13,8 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+#[cfg(feature = "alloc")]
+pub mod cpm;
 #[cfg(feature = "alloc")]
 pub mod diktiometry;
 #[cfg(feature = "alloc")]

@@ -1,0 +1,65 @@
+//! CPM, the common-pattern map: path fragments between junctions, each a sequence of common patterns.
+//!
+//! Kawewong, Honda, Tsuboyama, Hasegawa: "Reasoning on the Self-Organizing Incremental Associative Memory for Online Robot
+//! Path Planning" (2010). In the order data flows:
+//!
+//! - a [`Dictionary`] holds the common patterns (CPs), which a quantizer has found; a [`PatternId`] is one of them;
+//! - a [`Traversal`] is what a robot observed along one fragment, between two [`Sighting`]s of junctions, dead ends or landmarks;
+//! - a [`Turn`] (Δ) is what it did at a junction;
+//! - an [`Explorer`] takes both in and decides what to do next, as a [`CpmConfig`] says;
+//! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`Matching`], are one;
+//! - a [`Plan`] is a way through it.
+//!
+//! [`world`] has mazes of corridors and junctions to try all this in without a robot, in microseconds.
+//!
+//! ```
+//! use rand::SeedableRng;
+//! use rand_chacha::ChaCha8Rng;
+//! use tolman_maps::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Landmark};
+//! use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+//!
+//! let mut rng = ChaCha8Rng::seed_from_u64(1);
+//! let world = World::random(&MazeConfig::small(), &mut rng)?;
+//! let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+//! let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting())?;
+//! let done = loop {
+//!     match explorer.decide(Aim::Find(Landmark::Goal), &mut rng) {
+//!         Decision::Done(done) => break done,
+//!         Decision::Go(leg) => match rover.go(leg.turn, leg.give_up_after, &mut rng)? {
+//!             Outcome::Arrived(walk) => {
+//!                 explorer.arrive(leg.turn, &walk, world.dictionary())?;
+//!             }
+//!             Outcome::TurnedBack(patterns) => {
+//!                 explorer.turned_back(leg.turn, patterns.len() as u32)?;
+//!             }
+//!         },
+//!     }
+//! };
+//! assert_eq!(done, Done::Reached);
+//! assert!(explorer.map().has_goal());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod config;
+mod explorer;
+mod map;
+mod mapper;
+mod pattern;
+mod plan;
+mod similarity;
+mod theorem;
+mod traversal;
+mod turn;
+mod unify;
+pub mod world;
+
+pub use config::{CpmConfig, Mapping, Onward};
+pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
+pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
+pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
+pub use plan::{Plan, PlanLeg};
+pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};
+pub use theorem::theorem_1;
+pub use traversal::{Landmark, Motion, Sighting, Traversal};
+pub use turn::{NoSuchTurn, Turn};
+pub use unify::Conflict;

@@ -1,0 +1,61 @@
+use super::similarity::{Matching, Similarity};
+
+/// How an [`Explorer`](super::Explorer) maps and decides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CpmConfig {
+    /// When the map is looked at.
+    pub mapping: Mapping,
+    /// How fragments are compared.
+    pub matching: Matching,
+    /// What to do at a junction without unknown ports.
+    pub onward: Onward,
+    /// The end of all patience: after so many fragments the explorer gives up and says so.
+    pub most_traversals: u32,
+}
+
+/// When the map is optimized and looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Mapping {
+    /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is optimized once the goal is
+    /// found.
+    Offline {
+        /// After so many fragments without the goal it goes on *online*, so that no loop can hold it for ever; with
+        /// `u32::MAX` it does as the paper, whose robot "might be locked in infinite loops of duplicated path-fragments".
+        patience: u32,
+    },
+    /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
+    Online,
+}
+
+/// What a robot does online at a junction that "has no unknown ports left".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Onward {
+    /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
+    ShortestKnownWay,
+    /// "It continues forward until reaching a junction that has some remaining unknown ports", to the letter: by a port taken
+    /// at random, which can go round in circles and breaks the proof of Theorem 1.
+    GoOn,
+}
+
+impl CpmConfig {
+    /// Section 6, online CPM: positions compared with μ = 0.9; gives up after 10 000 fragments, of which the paper says nothing.
+    #[must_use]
+    pub const fn online() -> Self {
+        Self {
+            mapping: Mapping::Online,
+            matching: Matching::Positions(Similarity::paper()),
+            onward: Onward::ShortestKnownWay,
+            most_traversals: 10_000,
+        }
+    }
+
+    /// Section 4, offline CPM; the rest as [`online`](Self::online).
+    #[must_use]
+    pub const fn offline() -> Self {
+        Self {
+            mapping: Mapping::Offline { patience: u32::MAX },
+            ..Self::online()
+        }
+    }
+}

@@ -1,0 +1,347 @@
+use alloc::collections::BTreeMap;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::pattern::{Dictionary, PatternId, Version};
+use super::similarity::Matching;
+use super::traversal::{Landmark, Motion, Sighting};
+use super::turn::Turn;
+
+/// A fragment of a map. It stays the same as long as the fragment is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FragmentId(pub u32);
+
+/// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as that is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JunctionId(pub u32);
+
+/// "The minus sign (−) denotes the entrance …, whereas a plus sign (+) denotes the exit. For any path-fragment, the signs
+/// are assigned only at the *first* time of traversal."
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Sign {
+    /// Where the robot entered when it first walked the fragment.
+    Minus,
+    /// Where it left then.
+    Plus,
+}
+
+impl Sign {
+    pub(super) const BOTH: [Self; 2] = [Self::Minus, Self::Plus];
+
+    /// The sign of the other end.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Minus => Self::Plus,
+            Self::Plus => Self::Minus,
+        }
+    }
+}
+
+/// One end of a fragment, such as 𝔸⁺.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct End {
+    /// The fragment.
+    pub fragment: FragmentId,
+    /// Which of its ends.
+    pub sign: Sign,
+}
+
+impl End {
+    /// The fragment's other end.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        Self {
+            fragment: self.fragment,
+            sign: self.sign.opposite(),
+        }
+    }
+}
+
+/// A port of a junction. As the place of a robot: it came in here, so that this port lies behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Port {
+    /// The junction.
+    pub junction: JunctionId,
+    /// Counter-clockwise, from the port of the junction's first entry, which is 0.
+    pub number: u32,
+}
+
+/// What is known of a port.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PortState {
+    /// Nobody has been there, or not to its end.
+    Open {
+        /// So many observations were made in it before the robot turned round.
+        at_least: u32,
+    },
+    /// A fragment begins or ends here.
+    Filled(End),
+}
+
+/// A junction node: "keeps only the fragments connecting to it, including the direction (−, +)", each at its port.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Junction {
+    /// Counter-clockwise.
+    pub ports: Vec<PortState>,
+    /// What stands there.
+    pub landmark: Option<Landmark>,
+}
+
+impl Junction {
+    /// How many ports it has; 1 makes it a dead end.
+    #[must_use]
+    pub const fn degree(&self) -> u32 {
+        self.ports.len() as u32
+    }
+
+    /// How the robot saw it.
+    #[must_use]
+    pub const fn sighting(&self) -> Sighting {
+        Sighting {
+            degree: self.degree(),
+            landmark: self.landmark,
+        }
+    }
+
+    /// The numbers of the ports nobody has been through, ascending.
+    pub fn open_ports(&self) -> impl Iterator<Item = u32> {
+        let open = |port: &&PortState| matches!(port, PortState::Open { .. });
+        let numbered = (0..).zip(&self.ports);
+        numbered.filter_map(move |(number, port)| open(&port).then_some(number))
+    }
+}
+
+/// A fragment node: "contains three properties", its sequence, its length and its transitions. The transitions follow
+/// from the ports of its two ends: [`CpMap::transition`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fragment {
+    /// 𝔸, as observed from − to +.
+    pub patterns: Vec<PatternId>,
+    /// What dead reckoning says of a walk from − to +, all such walks taken together.
+    pub motion: Option<Motion>,
+    /// How often the robot has walked it, either way.
+    pub traversals: u32,
+    /// Where 𝔸⁻ is: junc(𝔸⁻).
+    pub minus: Port,
+    /// Where 𝔸⁺ is: junc(𝔸⁺).
+    pub plus: Port,
+}
+
+impl Fragment {
+    /// ℓ(𝔸): its length in observations, at least 1, as a fragment costs time even where it is too short for one.
+    #[must_use]
+    pub const fn length(&self) -> u32 {
+        let length = self.patterns.len() as u32;
+        if length == 0 { 1 } else { length }
+    }
+
+    /// Where an end is.
+    #[must_use]
+    pub const fn port(&self, sign: Sign) -> Port {
+        match sign {
+            Sign::Minus => self.minus,
+            Sign::Plus => self.plus,
+        }
+    }
+}
+
+/// ℳ: the common-pattern map. Fragments, and the junctions that join them.
+///
+/// Every fragment has each of its ends at a port that says so. Ids ascend in the order of making and are not used again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CpMap {
+    pub(super) fragments: BTreeMap<FragmentId, Fragment>,
+    pub(super) junctions: BTreeMap<JunctionId, Junction>,
+    pub(super) next_fragment: u32,
+    pub(super) next_junction: u32,
+    pub(super) version: Option<Version>,
+}
+
+impl CpMap {
+    /// The fragments by id.
+    pub fn fragments(&self) -> impl ExactSizeIterator<Item = (FragmentId, &Fragment)> {
+        self.fragments.iter().map(|(id, fragment)| (*id, fragment))
+    }
+
+    /// The junctions by id.
+    pub fn junctions(&self) -> impl ExactSizeIterator<Item = (JunctionId, &Junction)> {
+        self.junctions.iter().map(|(id, junction)| (*id, junction))
+    }
+
+    /// A fragment; none where it was merged into another.
+    #[must_use]
+    pub fn fragment(&self, id: FragmentId) -> Option<&Fragment> {
+        self.fragments.get(&id)
+    }
+
+    /// A junction; none where it was unified with another.
+    #[must_use]
+    pub fn junction(&self, id: JunctionId) -> Option<&Junction> {
+        self.junctions.get(&id)
+    }
+
+    /// How many ports a junction has; 0 if it is not there.
+    #[must_use]
+    pub fn degree(&self, junction: JunctionId) -> u32 {
+        self.junctions.get(&junction).map_or(0, Junction::degree)
+    }
+
+    /// The newest version of the dictionary that its sequences need; none of an empty map.
+    #[must_use]
+    pub const fn version(&self) -> Option<Version> {
+        self.version
+    }
+
+    /// What is known of a port; none if it is not there.
+    #[must_use]
+    pub fn port(&self, port: Port) -> Option<PortState> {
+        let junction = self.junctions.get(&port.junction)?;
+        junction.ports.get(port.number as usize).copied()
+    }
+
+    /// The end of a fragment at a port; none if nobody has been there.
+    #[must_use]
+    pub fn end_at(&self, port: Port) -> Option<End> {
+        match self.port(port)? {
+            PortState::Filled(end) => Some(end),
+            PortState::Open { .. } => None,
+        }
+    }
+
+    /// Where one arrives who leaves by a port; none if that is not known.
+    #[must_use]
+    pub fn beyond(&self, port: Port) -> Option<Port> {
+        let end = self.end_at(port)?.opposite();
+        Some(self.fragment(end.fragment)?.port(end.sign))
+    }
+
+    /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one end and shall enter
+    /// another at another end; none if the two ends are not at one junction.
+    ///
+    /// As ports are kept, not transitions, all that (7) to (10) derive is there at once.
+    #[must_use]
+    pub fn transition(&self, from: End, to: End) -> Option<Turn> {
+        let from = self.fragment(from.fragment)?.port(from.sign);
+        let to = self.fragment(to.fragment)?.port(to.sign);
+        let junction = self.junction(from.junction)?;
+        let turn = Turn::between(from.number, to.number, junction.degree());
+        turn.ok().filter(|_| from.junction == to.junction)
+    }
+
+    /// The junctions with a landmark, by id.
+    pub fn landmarks(&self, landmark: Landmark) -> impl Iterator<Item = JunctionId> {
+        let marked = self
+            .junctions()
+            .filter(move |(_, junction)| junction.landmark == Some(landmark));
+        marked.map(|(id, _)| id)
+    }
+
+    /// The ports nobody has been through, by id.
+    pub fn open_ports(&self) -> impl Iterator<Item = Port> {
+        self.junctions().flat_map(|(id, place)| {
+            place.open_ports().map(move |number| Port {
+                junction: id,
+                number,
+            })
+        })
+    }
+
+    /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are similar, either way.
+    /// O(fragments²) comparisons.
+    #[must_use]
+    pub fn is_optimized(&self, matching: &Matching, dictionary: &Dictionary) -> bool {
+        let mut pairs = self.fragments.values().enumerate().flat_map(|(i, first)| {
+            let others = self.fragments.values().skip(i + 1);
+            others.map(move |second| (first, second))
+        });
+        pairs.all(|(first, second)| {
+            matching
+                .matches(dictionary, &first.patterns, &second.patterns)
+                .is_none()
+        })
+    }
+
+    /// Definition 3: "every port (gateway) … has been filled, and ℳ contains an A-Pattern which represents the goal
+    /// path-fragment", one that ends at the goal.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.is_explored() && self.has_goal()
+    }
+
+    /// Definition 3, 1): "every port (gateway) has been filled".
+    #[must_use]
+    pub fn is_explored(&self) -> bool {
+        self.open_ports().next().is_none()
+    }
+
+    /// Definition 3, 2): a fragment leads to the goal.
+    #[must_use]
+    pub fn has_goal(&self) -> bool {
+        let mut ends = self.fragments.values();
+        ends.any(|fragment| {
+            [fragment.minus, fragment.plus].iter().any(|port| {
+                let place = self.junction(port.junction);
+                place.is_some_and(|place| place.landmark == Some(Landmark::Goal))
+            })
+        })
+    }
+
+    pub(super) fn add_junction(&mut self, sighting: Sighting) -> JunctionId {
+        let id = JunctionId(self.next_junction);
+        self.next_junction += 1;
+        let open = PortState::Open { at_least: 0 };
+        let junction = Junction {
+            ports: vec![open; sighting.degree as usize],
+            landmark: sighting.landmark,
+        };
+        self.junctions.insert(id, junction);
+        id
+    }
+
+    pub(super) fn add_fragment(
+        &mut self,
+        patterns: Vec<PatternId>,
+        motion: Option<Motion>,
+        minus: Port,
+        plus: Port,
+    ) -> FragmentId {
+        let fragment = FragmentId(self.next_fragment);
+        self.next_fragment += 1;
+        self.fill(
+            minus,
+            End {
+                fragment,
+                sign: Sign::Minus,
+            },
+        );
+        self.fill(
+            plus,
+            End {
+                fragment,
+                sign: Sign::Plus,
+            },
+        );
+        let traversals = 1;
+        let new = Fragment {
+            patterns,
+            motion,
+            traversals,
+            minus,
+            plus,
+        };
+        self.fragments.insert(fragment, new);
+        fragment
+    }
+
+    pub(super) fn fill(&mut self, port: Port, end: End) {
+        if let Some(state) = self.port_state_mut(port) {
+            *state = PortState::Filled(end);
+        }
+    }
+
+    pub(super) fn port_state_mut(&mut self, port: Port) -> Option<&mut PortState> {
+        let junction = self.junctions.get_mut(&port.junction)?;
+        junction.ports.get_mut(port.number as usize)
+    }
+}

@@ -1,0 +1,181 @@
+use alloc::vec::Vec;
+
+use super::config::CpmConfig;
+use super::map::{CpMap, End, Fragment, FragmentId, Port, PortState};
+use super::pattern::Dictionary;
+use super::similarity::{Matching, Sense};
+use super::traversal::{Sighting, Traversal};
+use super::turn::{NoSuchTurn, Turn};
+use super::unify::Merges;
+
+/// A map and where on it the robot is.
+#[derive(Clone, Debug)]
+pub(super) struct Mapper {
+    pub(super) map: CpMap,
+    /// The port behind the robot.
+    pub(super) at: Port,
+}
+
+/// What a walk was, as far as the map knew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Walked {
+    /// Through an open port.
+    New(FragmentId),
+    /// Along a fragment of the map, which led where it should.
+    Known(FragmentId),
+    /// Along a fragment of the map, which turned out to be another: the map is wrong somewhere, or what was sighted is.
+    Contradicted(FragmentId),
+}
+
+impl Mapper {
+    pub(super) fn new(start: Sighting) -> Self {
+        let mut map = CpMap::default();
+        let junction = map.add_junction(start);
+        let at = Port {
+            junction,
+            number: 0,
+        };
+        Self { map, at }
+    }
+
+    /// Takes in a walk. What is new is joined to the last junction, "together with the performed transition"; the junction
+    /// it led to is new as well, until unified with another.
+    pub(super) fn walk(
+        &mut self,
+        exit: Port,
+        walk: &Traversal,
+        trust: impl Fn(&Fragment, Sense) -> bool,
+    ) -> Walked {
+        let Some(end) = self.map.end_at(exit) else {
+            return Walked::New(self.append(exit, walk));
+        };
+        let sense = match end.sign {
+            super::map::Sign::Minus => Sense::Same,
+            super::map::Sign::Plus => Sense::Inverted,
+        };
+        let expected = self.map.beyond(exit);
+        let place = expected.and_then(|port| self.map.junction(port.junction));
+        let known = self.map.fragment(end.fragment);
+        if let (Some(place), Some(known), Some(port)) = (place, known, expected)
+            && place.sighting() == walk.sighting
+            && trust(known, sense)
+        {
+            self.at = port;
+            self.confirm(end, walk);
+            return Walked::Known(end.fragment);
+        }
+        // The robot is not where the map has it. What it has walked hangs on nothing then, until it is recognized.
+        let sighting = self
+            .map
+            .junction(exit.junction)
+            .map(super::map::Junction::sighting);
+        let degree = sighting.map_or(1, |sighting| sighting.degree);
+        let turn = Turn::between(self.at.number, exit.number, degree).unwrap_or(Turn::BACK);
+        let landmark = None;
+        let adrift = self
+            .map
+            .add_junction(sighting.unwrap_or(Sighting { degree, landmark }));
+        let exit = Port {
+            junction: adrift,
+            number: turn.0,
+        };
+        Walked::Contradicted(self.append(exit, walk))
+    }
+
+    fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
+        let junction = self.map.add_junction(walk.sighting);
+        self.at = Port {
+            junction,
+            number: 0,
+        };
+        self.map
+            .add_fragment(walk.patterns.clone(), walk.motion, exit, self.at)
+    }
+
+    fn confirm(&mut self, end: End, walk: &Traversal) {
+        let Some(fragment) = self.map.fragments.get_mut(&end.fragment) else {
+            return;
+        };
+        fragment.traversals += 1;
+        let motion = match end.sign {
+            super::map::Sign::Minus => walk.motion,
+            super::map::Sign::Plus => walk.motion.map(super::traversal::Motion::reversed),
+        };
+        // Bounds that contradict each other were no bounds; the older ones stay.
+        fragment.motion = match (fragment.motion, motion) {
+            (Some(a), Some(b)) => a.intersection(b).or(Some(a)),
+            (a, b) => a.or(b),
+        };
+    }
+
+    /// The robot has turned round in a fragment and is back, after so many observations in it.
+    pub(super) fn came_back(&mut self, exit: Port, observations: u32) {
+        if let Some(PortState::Open { at_least }) = self.map.port_state_mut(exit) {
+            *at_least = observations.max(*at_least);
+        }
+        self.at = exit;
+    }
+
+    /// The port that a turn leads to.
+    pub(super) fn exit(&self, turn: Turn) -> Result<Port, NoSuchTurn> {
+        let Port { junction, number } = self.at;
+        let degree = self.map.degree(junction);
+        let number = turn.exit(number, degree)?;
+        Ok(Port { junction, number })
+    }
+
+    /// The fragment that another one is a duplicate of: the most similar one with which it can be unified, which it then is.
+    pub(super) fn unify_with_similar(
+        &mut self,
+        new: FragmentId,
+        matching: &Matching,
+        dictionary: &Dictionary,
+    ) -> Option<Merges> {
+        let fragment = self.map.fragment(new)?;
+        let mut similar: Vec<(f64, FragmentId, Sense)> = Vec::new();
+        for (id, other) in self.map.fragments().filter(|(id, _)| *id != new) {
+            let found = matching.matches(dictionary, &fragment.patterns, &other.patterns);
+            similar.extend(found.map(|found| (found.score, id, found.sense)));
+        }
+        // The sort is stable: of equals the older first.
+        similar.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+        let agree = |a: &Fragment, b: &Fragment, sense: Sense| {
+            matching.agrees(dictionary, &a.patterns, &b.patterns, sense)
+        };
+        similar.into_iter().find_map(|(_, other, sense)| {
+            let merges = self.map.unify(new, other, sense, &agree).ok()?;
+            self.at = merges.port(self.at);
+            Some(merges)
+        })
+    }
+
+    /// "The robot repeats checking the similar A-Pattern and fills the new path-fragments to the junction … until no similar
+    /// pattern remains." Returns how many were found to be duplicates.
+    pub(super) fn optimize(&mut self, matching: &Matching, dictionary: &Dictionary) -> usize {
+        let before = self.map.fragments.len();
+        let ids: Vec<FragmentId> = self.map.fragments.keys().copied().collect();
+        for id in ids {
+            while self.unify_with_similar(id, matching, dictionary).is_some() {}
+        }
+        before - self.map.fragments.len()
+    }
+}
+
+/// How an online robot judges a fragment that it knows: it trusts the map unless another fragment fits what it has observed, and
+/// this one does not.
+pub(super) fn trusts(
+    config: &CpmConfig,
+    dictionary: &Dictionary,
+    map: &CpMap,
+    walk: &Traversal,
+    known: &Fragment,
+    sense: Sense,
+) -> bool {
+    let matching = &config.matching;
+    matching.agrees(dictionary, &walk.patterns, &known.patterns, sense)
+        || map.fragments().all(|(_, other)| {
+            matching
+                .matches(dictionary, &walk.patterns, &other.patterns)
+                .is_none()
+        })
+}

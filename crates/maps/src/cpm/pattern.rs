@@ -1,0 +1,319 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+/// A common pattern (CP): its number in a [`Dictionary`], from 0. It never changes its meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PatternId(pub u32);
+
+/// C, the set of common patterns: the prototypes of what the robot observes.
+///
+/// A dictionary only grows: a pattern keeps its number and its prototype for good, so that sequences that were
+/// written with an earlier [version](Self::version) stay readable beside new ones. A version is a number of patterns, and
+/// its [fingerprint](Self::fingerprint) tells it from those of other robots.
+///
+/// ```
+/// use tolman_maps::cpm::{Dictionary, PatternId};
+///
+/// let mut dictionary = Dictionary::new(2);
+/// // A wall to the right, which seen the other way is a wall to the left; and none, which is none either way.
+/// let right = dictionary.learn(&[1.0, 0.0], &[0.0, 1.0], 0.1)?;
+/// let open = dictionary.learn(&[0.0, 0.0], &[0.0, 0.0], 0.1)?;
+/// assert_eq!((right, open, dictionary.len()), (PatternId(0), PatternId(2), 3));
+/// // Walking right, right, open is, walked back, open, left, left.
+/// let left = PatternId(1);
+/// assert_eq!(dictionary.inverse(&[right, right, open])?, [open, left, left]);
+/// // What is near enough is nothing new.
+/// assert_eq!(dictionary.learn(&[0.95, 0.0], &[0.0, 0.95], 0.1)?, right);
+/// # Ok::<(), tolman_maps::cpm::DictionaryError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dictionary {
+    dimension: usize,
+    patterns: Vec<Pattern>,
+    /// The fingerprint of each version, beginning with that of none.
+    fingerprints: Vec<u64>,
+    greatest_distance: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Pattern {
+    prototype: Vec<f64>,
+    half_turned: PatternId,
+}
+
+/// Which patterns a sequence or a map was written with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Version {
+    /// How many patterns there were.
+    pub patterns: u32,
+    /// What they were.
+    pub fingerprint: u64,
+}
+
+/// Why a dictionary refuses what it is given.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum DictionaryError {
+    /// A prototype of another size.
+    #[error("the prototype has {found} features where the dictionary has {expected}")]
+    WrongDimension {
+        /// Features of the dictionary.
+        expected: usize,
+        /// Features of the prototype.
+        found: usize,
+    },
+    /// A feature that distances cannot be measured with.
+    #[error("feature {feature} is {value}: it has to be finite and within ±1e100")]
+    BadFeature {
+        /// Its number, from 0.
+        feature: usize,
+        /// What it is.
+        value: f64,
+    },
+    /// A tolerance that is none.
+    #[error("the tolerance is {value}: it has to be 0 or more")]
+    BadTolerance {
+        /// What it is.
+        value: f64,
+    },
+    /// A pattern that the dictionary does not have.
+    #[error("pattern {} of a dictionary of {patterns}: observed with another dictionary, or a later version", .pattern.0)]
+    UnknownPattern {
+        /// The pattern.
+        pattern: PatternId,
+        /// How many there are.
+        patterns: u32,
+    },
+    /// The patterns of a map are not this dictionary's.
+    #[error("written with {} patterns of another dictionary: use the one it was learned with", .version.patterns)]
+    OtherDictionary {
+        /// What it was written with.
+        version: Version,
+    },
+    /// A list of half-turned patterns that is no involution.
+    #[error("pattern {} half turned is {}, which half turned is not that again", .pattern.0, .half_turned.0)]
+    NotInvolutive {
+        /// The pattern.
+        pattern: PatternId,
+        /// What is said to be that pattern half turned.
+        half_turned: PatternId,
+    },
+}
+
+impl Dictionary {
+    /// An empty dictionary of patterns with so many features; the paper has 11.
+    #[must_use]
+    pub fn new(dimension: usize) -> Self {
+        Self {
+            dimension,
+            patterns: Vec::new(),
+            fingerprints: alloc::vec![SEED],
+            greatest_distance: 0.0,
+        }
+    }
+
+    /// A finished dictionary: the prototypes, and for each which of them is its vector turned half round, for patterns that
+    /// are seen walking the other way. O(patterns²).
+    ///
+    /// # Errors
+    /// [`DictionaryError`] if a prototype is invalid, or `half_turned` does not lead back and forth.
+    pub fn from_prototypes(
+        dimension: usize,
+        prototypes: &[(Vec<f64>, PatternId)],
+    ) -> Result<Self, DictionaryError> {
+        let mut dictionary = Self::new(dimension);
+        for (id, (prototype, half_turned)) in (0..).map(PatternId).zip(prototypes) {
+            let partner = prototypes.get(half_turned.0 as usize);
+            if partner.is_none_or(|(_, back)| *back != id) {
+                return Err(DictionaryError::NotInvolutive {
+                    pattern: id,
+                    half_turned: *half_turned,
+                });
+            }
+            dictionary.check_prototype(prototype)?;
+            dictionary.append(prototype, *half_turned);
+        }
+        Ok(dictionary)
+    }
+
+    /// The pattern that stands for an observation: the nearest if it lies within `tolerance`, else a new one, made of the
+    /// observation, together with a new one for `half_turned`, the same seen the other way, unless that is known or nearly the
+    /// same. The paper's own wish: "the CPs must be learned incrementally". O(patterns · features).
+    ///
+    /// # Errors
+    /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is learned then.
+    pub fn learn(
+        &mut self,
+        observation: &[f64],
+        half_turned: &[f64],
+        tolerance: f64,
+    ) -> Result<PatternId, DictionaryError> {
+        if tolerance.is_nan() || tolerance < 0.0 {
+            return Err(DictionaryError::BadTolerance { value: tolerance });
+        }
+        self.check_prototype(half_turned)?;
+        if let Some((id, distance)) = self.nearest(observation)?
+            && distance <= tolerance
+        {
+            return Ok(id);
+        }
+        let new = PatternId(self.patterns.len() as u32);
+        if euclidean(observation, half_turned) <= tolerance {
+            self.append(observation, new);
+        } else {
+            self.append(observation, PatternId(new.0 + 1));
+            self.append(half_turned, new);
+        }
+        Ok(new)
+    }
+
+    /// The nearest pattern and its distance, the first of equals; none if there are none. O(patterns · features).
+    ///
+    /// # Errors
+    /// [`DictionaryError`] if the observation has another size, or a feature that is not finite.
+    pub fn nearest(
+        &self,
+        observation: &[f64],
+    ) -> Result<Option<(PatternId, f64)>, DictionaryError> {
+        self.check_prototype(observation)?;
+        let distances = self
+            .patterns
+            .iter()
+            .map(|pattern| euclidean(&pattern.prototype, observation));
+        Ok((0..)
+            .map(PatternId)
+            .zip(distances)
+            .min_by(|(_, a), (_, b)| a.total_cmp(b)))
+    }
+
+    /// How many patterns there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.patterns.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.patterns.is_empty()
+    }
+
+    /// The features of a pattern; none of one that is not there.
+    #[must_use]
+    pub fn prototype(&self, pattern: PatternId) -> Option<&[f64]> {
+        let pattern = self.patterns.get(pattern.0 as usize)?;
+        Some(&pattern.prototype)
+    }
+
+    /// The pattern seen the other way; of one that is not there, itself.
+    #[must_use]
+    pub fn half_turned(&self, pattern: PatternId) -> PatternId {
+        let known = self.patterns.get(pattern.0 as usize);
+        known.map_or(pattern, |known| known.half_turned)
+    }
+
+    /// The distance of two prototypes, infinite if one is not there. O(features).
+    #[must_use]
+    pub fn distance(&self, a: PatternId, b: PatternId) -> f64 {
+        if a == b {
+            return 0.0;
+        }
+        match (self.prototype(a), self.prototype(b)) {
+            (Some(a), Some(b)) => euclidean(a, b),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// d_max, "maximum distance among all CPs".
+    #[must_use]
+    pub const fn greatest_distance(&self) -> f64 {
+        self.greatest_distance
+    }
+
+    /// A⁻¹: what is observed along a sequence walked the other way. Its order is reversed and each pattern half turned.
+    ///
+    /// # Errors
+    /// If a pattern is not the dictionary's.
+    pub fn inverse(&self, sequence: &[PatternId]) -> Result<Vec<PatternId>, DictionaryError> {
+        self.check(sequence)?;
+        let backward = sequence.iter().rev();
+        Ok(backward.map(|pattern| self.half_turned(*pattern)).collect())
+    }
+
+    /// Refuses sequences with patterns that are not there.
+    ///
+    /// # Errors
+    /// If a pattern is not the dictionary's.
+    pub fn check(&self, sequence: &[PatternId]) -> Result<(), DictionaryError> {
+        let patterns = self.patterns.len() as u32;
+        match sequence.iter().find(|pattern| pattern.0 >= patterns) {
+            Some(&pattern) => Err(DictionaryError::UnknownPattern { pattern, patterns }),
+            None => Ok(()),
+        }
+    }
+
+    /// The version as it is now.
+    #[must_use]
+    pub fn version(&self) -> Version {
+        Version {
+            patterns: self.patterns.len() as u32,
+            fingerprint: self.fingerprints.last().copied().unwrap_or(SEED),
+        }
+    }
+
+    /// Refuses what was written with another dictionary; its own earlier versions are welcome.
+    ///
+    /// # Errors
+    /// [`DictionaryError::OtherDictionary`].
+    pub fn check_version(&self, version: Version) -> Result<(), DictionaryError> {
+        match self.fingerprints.get(version.patterns as usize) {
+            Some(fingerprint) if *fingerprint == version.fingerprint => Ok(()),
+            _ => Err(DictionaryError::OtherDictionary { version }),
+        }
+    }
+
+    fn check_prototype(&self, prototype: &[f64]) -> Result<(), DictionaryError> {
+        let (expected, found) = (self.dimension, prototype.len());
+        if expected != found {
+            return Err(DictionaryError::WrongDimension { expected, found });
+        }
+        let bad = |value: &f64| !(-LARGEST..=LARGEST).contains(value);
+        match prototype.iter().position(bad) {
+            Some(feature) => Err(DictionaryError::BadFeature {
+                feature,
+                value: prototype[feature],
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn append(&mut self, prototype: &[f64], half_turned: PatternId) {
+        let distances = self.patterns.iter();
+        let distances = distances.map(|known| euclidean(&known.prototype, prototype));
+        self.greatest_distance = distances.fold(self.greatest_distance, f64::max);
+        let fingerprint = self.fingerprints.last().copied().unwrap_or(SEED);
+        let fingerprint = hashed(fingerprint, u64::from(half_turned.0));
+        let bits = prototype.iter().map(|value| value.to_bits());
+        self.fingerprints.push(bits.fold(fingerprint, hashed));
+        self.patterns.push(Pattern {
+            prototype: prototype.to_vec(),
+            half_turned,
+        });
+    }
+}
+
+/// Beyond it squares could overflow.
+const LARGEST: f64 = 1e100;
+
+/// FNV-1a: its start and its step, a word at a time.
+const SEED: u64 = 0xcbf2_9ce4_8422_2325;
+
+const fn hashed(hash: u64, word: u64) -> u64 {
+    (hash ^ word).wrapping_mul(0x0100_0000_01b3)
+}
+
+fn euclidean(a: &[f64], b: &[f64]) -> f64 {
+    let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+    libm::sqrt(squares.sum())
+}

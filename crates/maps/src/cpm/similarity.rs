@@ -1,0 +1,234 @@
+use super::map::Sign;
+use super::pattern::{Dictionary, PatternId};
+use super::traversal::Motion;
+
+/// How two fragments are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Matching {
+    /// Position by position, equations (3) to (5).
+    Positions(Similarity),
+}
+
+/// Which way round two sequences are similar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// 𝔸₁ ≅ 𝔸₂: − belongs to −.
+    Same,
+    /// 𝔸₁ ≅ 𝔸₂⁻¹: + belongs to −.
+    Inverted,
+}
+
+impl Sense {
+    /// The sign of the other fragment's end that an end belongs to.
+    #[must_use]
+    pub const fn of(self, sign: Sign) -> Sign {
+        match self {
+            Self::Same => sign,
+            Self::Inverted => sign.opposite(),
+        }
+    }
+
+    /// A walk along one fragment as a walk along the other.
+    pub(super) fn of_motion(self, motion: Motion) -> Motion {
+        match self {
+            Self::Same => motion,
+            Self::Inverted => motion.reversed(),
+        }
+    }
+}
+
+/// Two fragments that are similar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Match {
+    /// Which way round, the better of the two; *same* if both are as good.
+    pub sense: Sense,
+    /// How similar, at most 1.
+    pub score: f64,
+}
+
+impl Matching {
+    /// How similar two sequences are as they stand, at most 1; equal ones have 1.
+    /// Patterns that the dictionary does not have are similar to none.
+    #[must_use]
+    pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
+        match self {
+            Self::Positions(similarity) => similarity.score(dictionary, a, b),
+        }
+    }
+
+    /// μ: above it two sequences are similar.
+    #[must_use]
+    pub const fn threshold(&self) -> f64 {
+        match self {
+            Self::Positions(similarity) => similarity.mu,
+        }
+    }
+
+    /// Whether 𝔸₁ ≅ 𝔸₂, the second walked as the sense says.
+    #[must_use]
+    pub fn agrees(
+        &self,
+        dictionary: &Dictionary,
+        a: &[PatternId],
+        b: &[PatternId],
+        sense: Sense,
+    ) -> bool {
+        let score = match sense {
+            Sense::Same => self.score(dictionary, a, b),
+            Sense::Inverted => match dictionary.inverse(b) {
+                Ok(inverse) => self.score(dictionary, a, &inverse),
+                Err(_) => return false,
+            },
+        };
+        score > self.threshold()
+    }
+
+    /// Whether 𝔸₁ ≅ 𝔸₂ or 𝔸₁ ≅ 𝔸₂⁻¹: "The inverse of 𝔸₂ must also be compared with 𝔸₁."
+    #[must_use]
+    pub fn matches(
+        &self,
+        dictionary: &Dictionary,
+        a: &[PatternId],
+        b: &[PatternId],
+    ) -> Option<Match> {
+        let inverse = dictionary.inverse(b).ok()?;
+        let same = Match {
+            sense: Sense::Same,
+            score: self.score(dictionary, a, b),
+        };
+        let inverted = Match {
+            sense: Sense::Inverted,
+            score: self.score(dictionary, a, &inverse),
+        };
+        let better = if inverted.score > same.score {
+            inverted
+        } else {
+            same
+        };
+        (better.score > self.threshold()).then_some(better)
+    }
+}
+
+/// f_S, equations (3) to (5), and the readings they allow.
+///
+/// ```
+/// use tolman_maps::cpm::{Difference, Dictionary, PatternId, Similarity};
+///
+/// // 31 patterns, as the paper's dictionary.
+/// let mut dictionary = Dictionary::new(1);
+/// for pattern in 0..31 {
+///     let prototype = [f64::from(pattern)];
+///     dictionary.learn(&prototype, &prototype, 0.0)?;
+/// }
+/// let long = [1, 2, 2, 3, 4, 4].map(PatternId);
+/// let short = [2, 2, 3, 4, 4].map(PatternId);
+/// let paper = Similarity::paper();
+/// assert!(paper.score(&dictionary, &long, &short) > paper.mu);
+/// # Ok::<(), tolman_maps::cpm::DictionaryError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Similarity {
+    /// What aⱼ − a'ⱼ is.
+    pub difference: Difference,
+    /// Which positions are compared.
+    pub span: Span,
+    /// How the differences add up.
+    pub sum: Sum,
+    /// μ: above it two fragments are the same; 0 to 1. "We simply set μ = 0.9."
+    pub mu: f64,
+}
+
+/// What the difference of two patterns, aⱼ − a'ⱼ in (4), is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Difference {
+    /// The distance of their prototypes; d_max is the greatest of those.
+    Prototypes,
+    /// The difference of their numbers, to the letter, though numbers are names; d_max is that of the last and the first.
+    Indices,
+}
+
+/// Which positions are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Span {
+    /// All of both: the shorter sequence is stretched over the longer one.
+    Whole,
+    /// Up to the end of the shorter one, to the letter: a fragment is similar to all that begin like it.
+    Shorter,
+}
+
+/// How differences add up to ε_b.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sum {
+    /// Their mean over the positions, which is what the sum and the division of (3) make, so that long fragments and short
+    /// ones are measured alike.
+    Mean,
+    /// The root of the sum of their squares, (4); the sum of (3) over so many times the same E, divided by as many, is E.
+    Euclidean,
+}
+
+impl Similarity {
+    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9.
+    #[must_use]
+    pub const fn paper() -> Self {
+        Self {
+            difference: Difference::Prototypes,
+            span: Span::Whole,
+            sum: Sum::Mean,
+            mu: 0.9,
+        }
+    }
+
+    /// The equations to the letter: differences of numbers, up to the shorter one's length, E as (4) has it, μ = 0.9.
+    #[must_use]
+    pub const fn literal() -> Self {
+        Self {
+            difference: Difference::Indices,
+            span: Span::Shorter,
+            sum: Sum::Euclidean,
+            mu: 0.9,
+        }
+    }
+
+    /// f_S of two sequences, at most 1, which equal ones have. [`Sum::Euclidean`] may lead below 0. Two empty ones, which
+    /// nothing tells apart or proves the same, have 0, and so has an empty one beside another.
+    /// O(length · features).
+    #[must_use]
+    pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
+        let positions = match self.span {
+            Span::Whole => a.len().max(b.len()),
+            Span::Shorter => a.len().min(b.len()),
+        };
+        if a.is_empty() || b.is_empty() {
+            return 0.0;
+        }
+        // In the middle of the position's share of the longer one.
+        let at = |sequence: &[PatternId], position: usize| match self.span {
+            Span::Whole => sequence[(2 * position + 1) * sequence.len() / (2 * positions)],
+            Span::Shorter => sequence[position],
+        };
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for position in 0..positions {
+            let (a, b) = (at(a, position), at(b, position));
+            let difference = match self.difference {
+                Difference::Prototypes => dictionary.distance(a, b),
+                Difference::Indices => f64::from(a.0.abs_diff(b.0)),
+            };
+            sum += difference;
+            squares += difference * difference;
+        }
+        let epsilon = match self.sum {
+            Sum::Mean => sum / positions as f64,
+            Sum::Euclidean => libm::sqrt(squares),
+        };
+        let greatest = match self.difference {
+            Difference::Prototypes => dictionary.greatest_distance(),
+            Difference::Indices => dictionary.len().saturating_sub(1) as f64,
+        };
+        if epsilon > 0.0 {
+            1.0 - epsilon / greatest
+        } else {
+            1.0
+        }
+    }
+}

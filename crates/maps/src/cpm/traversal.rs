@@ -1,0 +1,90 @@
+use alloc::vec::Vec;
+use core::f64::consts::PI;
+
+use tolman_geom::{Interval, PointBox, PoseBox};
+
+use super::pattern::PatternId;
+
+/// What tells a place from others that have as many ports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Landmark {
+    /// Where the robot started.
+    Start,
+    /// Where it has to go.
+    Goal,
+    /// Another one that it can recognize, by a number of the caller's.
+    Numbered(u32),
+}
+
+/// What the robot sees of a place that ends a fragment: a junction, a dead end (one port), or a landmark ("other
+/// CP (some extra landmarks) might also be used to divide fragment as well"), which may stand in a corridor (two ports).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sighting {
+    /// How many ways lead out, the port of entry among them; at least 1.
+    pub degree: u32,
+    /// What stands there.
+    pub landmark: Option<Landmark>,
+}
+
+impl Sighting {
+    /// A place of so many ports without a landmark.
+    #[must_use]
+    pub const fn plain(degree: u32) -> Self {
+        Self {
+            degree,
+            landmark: None,
+        }
+    }
+}
+
+/// One fragment walked from one place to the next: what becomes an A-pattern.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traversal {
+    /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at its ends.
+    pub patterns: Vec<PatternId>,
+    /// What dead reckoning says; none if the robot has none, as the paper's.
+    pub motion: Option<Motion>,
+    /// The place it led to.
+    pub sighting: Sighting,
+}
+
+/// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at its start, as far as it
+/// knows them, with the drift of its heading since then allowed for in the bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Where the end lies, seen from the beginning, m.
+    pub displacement: PointBox,
+    /// The heading in which the robot left, rad; not wrapped.
+    pub departure: Interval,
+    /// The heading in which it arrived, rad; not wrapped.
+    pub arrival: Interval,
+}
+
+impl Motion {
+    /// The same walked the other way.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        Self {
+            displacement: -self.displacement,
+            departure: half_turned(self.arrival),
+            arrival: half_turned(self.departure),
+        }
+    }
+
+    /// What both allow of walks along one fragment; none if they contradict each other, headings up to full circles.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Option<Self> {
+        let pose = |motion: Self, heading| PoseBox::new(motion.displacement, heading);
+        let left = pose(self, self.departure).intersection(pose(other, other.departure))?;
+        let came = pose(self, self.arrival).intersection(pose(other, other.arrival))?;
+        Some(Self {
+            displacement: left.position,
+            departure: left.heading,
+            arrival: came.heading,
+        })
+    }
+}
+
+fn half_turned(heading: Interval) -> Interval {
+    Interval::new(heading.low() + PI, heading.high() + PI).unwrap_or(Interval::UNBOUNDED)
+}

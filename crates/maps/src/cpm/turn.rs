@@ -1,0 +1,88 @@
+use thiserror::Error;
+
+/// A transition Δ: which port of a junction the robot leaves by, counted counter-clockwise from the port it came
+/// in by, which is 0.
+///
+/// In a crossing, 1 turns right, 2 goes straight on, 3 turns left, whatever way the robot came.
+/// The paper counts from the robot's heading, which its equation (2) does not survive; counted from the port of
+/// entry, Δ runs from 1 to degree − 1 and N_w of (2) is degree − 1. [`BACK`](Self::BACK) is the turn of a dead end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Turn(pub u32);
+
+/// A turn that the junction does not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("turn {} at a junction of {degree} ports: turns are 0 … {degree} − 1", .turn.0)]
+pub struct NoSuchTurn {
+    /// The turn.
+    pub turn: Turn,
+    /// The junction's ports.
+    pub degree: u32,
+}
+
+impl Turn {
+    /// Out by the port of entry.
+    pub const BACK: Self = Self(0);
+
+    /// The turn that leads from port `entry` to port `exit`.
+    ///
+    /// # Errors
+    /// If the junction has not so many ports.
+    pub const fn between(entry: u32, exit: u32, degree: u32) -> Result<Self, NoSuchTurn> {
+        if entry >= degree || exit >= degree {
+            let turn = Self(if entry > exit { entry } else { exit });
+            return Err(NoSuchTurn { turn, degree });
+        }
+        Ok(Self(sum(exit, degree - entry, degree)))
+    }
+
+    /// The port that the turn leads to from port `entry`.
+    ///
+    /// # Errors
+    /// If the junction has no such turn.
+    pub const fn exit(self, entry: u32, degree: u32) -> Result<u32, NoSuchTurn> {
+        if self.0 >= degree || entry >= degree {
+            let turn = self;
+            return Err(NoSuchTurn { turn, degree });
+        }
+        Ok(sum(entry, self.0, degree))
+    }
+
+    /// Λ1, equation (2): the turn that leads back again, Δ⁻¹ = N_w − Δ + 1 with N_w = `degree` − 1. It is its own
+    /// inverse.
+    ///
+    /// # Errors
+    /// If the junction has no such turn.
+    pub const fn inverse(self, degree: u32) -> Result<Self, NoSuchTurn> {
+        let turn = self;
+        if self.0 >= degree {
+            return Err(NoSuchTurn { turn, degree });
+        }
+        let spaces = degree - 1;
+        Ok(match self {
+            Self::BACK => Self::BACK,
+            Self(turn) => Self(spaces - turn + 1),
+        })
+    }
+
+    /// Equations (9) and (10): the turn that leads to where first this turn and then `next` would lead,
+    /// (Δ + Δ') mod n_junc with n_junc = `degree`.
+    ///
+    /// # Errors
+    /// If the junction has no such turn.
+    pub const fn then(self, next: Self, degree: u32) -> Result<Self, NoSuchTurn> {
+        if self.0 >= degree {
+            let turn = self;
+            return Err(NoSuchTurn { turn, degree });
+        }
+        if next.0 >= degree {
+            let turn = next;
+            return Err(NoSuchTurn { turn, degree });
+        }
+        Ok(Self(sum(self.0, next.0, degree)))
+    }
+}
+
+/// Of two numbers up to the degree, round the junction; no overflow at any degree.
+const fn sum(a: u32, b: u32, degree: u32) -> u32 {
+    ((a as u64 + b as u64) % degree as u64) as u32
+}

@@ -1,0 +1,229 @@
+use alloc::collections::BTreeMap;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::map::{CpMap, End, Fragment, FragmentId, JunctionId, Port, PortState};
+use super::similarity::Sense;
+
+/// Why two fragments cannot be one, though they are similar: something that follows from it is not so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum Conflict {
+    /// A fragment is not there.
+    #[error("fragment {} is not in the map", .0.0)]
+    NoSuchFragment(FragmentId),
+    /// Two junctions would be one that have another number of ports or another landmark.
+    #[error("junctions {} and {} would be one, and differ in their ports or landmarks", .0.0, .1.0)]
+    Unlike(JunctionId, JunctionId),
+    /// A junction would be itself, turned.
+    #[error("two ports of junction {} would be one", .0.0)]
+    Turned(JunctionId),
+    /// A fragment would be itself, inverted.
+    #[error("the two ends of fragment {} would be one", .0.0)]
+    Inverted(FragmentId),
+    /// Two fragments lead out of one port that are not similar.
+    #[error("fragments {} and {} would be one, and are not similar", .0.0, .1.0)]
+    Dissimilar(FragmentId, FragmentId),
+}
+
+/// Which fragments and junctions have become which.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Merges {
+    fragments: BTreeMap<FragmentId, (FragmentId, Sense)>,
+    junctions: BTreeMap<JunctionId, (JunctionId, u32, u32)>,
+}
+
+impl Merges {
+    /// What has become of an end.
+    #[must_use]
+    pub(super) fn end(&self, end: End) -> End {
+        let mut end = end;
+        while let Some((fragment, sense)) = self.fragments.get(&end.fragment) {
+            let sign = sense.of(end.sign);
+            end = End {
+                fragment: *fragment,
+                sign,
+            };
+        }
+        end
+    }
+
+    /// What has become of a port.
+    #[must_use]
+    pub(super) fn port(&self, port: Port) -> Port {
+        let mut port = port;
+        while let Some((junction, offset, degree)) = self.junctions.get(&port.junction) {
+            let number = (port.number + offset) % degree;
+            port = Port {
+                junction: *junction,
+                number,
+            };
+        }
+        port
+    }
+}
+
+/// Whether two fragments may be one, the second walked as the sense says.
+pub(super) type Agree<'a> = &'a dyn Fn(&Fragment, &Fragment, Sense) -> bool;
+
+impl CpMap {
+    /// Makes two fragments one, and what follows from it: "given that 𝔸₁ is approximately identical to 𝔸₂, then
+    /// junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", or + to − if they are similar inverted. "Those similar
+    /// junctions must be *unified*": laid over each other, turned so that the fragment's ports meet. Where both have a fragment
+    /// at a port then, these are one as well, and so on; where one has, it is added to the other, which is both sub-cases of
+    /// equations (9) and (10). The older fragments and junctions stay.
+    ///
+    /// `agree` is asked of all pairs but the first. O(fragments + junctions) and the questions.
+    ///
+    /// # Errors
+    /// [`Conflict`] if something that follows is not so. The map is as before then.
+    pub(super) fn unify(
+        &mut self,
+        one: FragmentId,
+        other: FragmentId,
+        sense: Sense,
+        agree: Agree<'_>,
+    ) -> Result<Merges, Conflict> {
+        let unification = Unification {
+            map: self.clone(),
+            merges: Merges::default(),
+            queue: Vec::new(),
+        };
+        let (map, merges) = unification.run(vec![(one, other, sense)], agree)?;
+        *self = map;
+        Ok(merges)
+    }
+}
+
+struct Unification {
+    map: CpMap,
+    merges: Merges,
+    /// Ends that have met at a port.
+    queue: Vec<(End, End)>,
+}
+
+impl Unification {
+    fn run(
+        mut self,
+        pairs: Vec<(FragmentId, FragmentId, Sense)>,
+        agree: Agree<'_>,
+    ) -> Result<(CpMap, Merges), Conflict> {
+        for (one, other, sense) in pairs {
+            self.merge(one, other, sense)?;
+        }
+        while let Some((a, b)) = self.queue.pop() {
+            let (a, b) = (self.merges.end(a), self.merges.end(b));
+            let sense = if a.sign == b.sign {
+                Sense::Same
+            } else {
+                Sense::Inverted
+            };
+            if a.fragment == b.fragment {
+                if sense == Sense::Inverted {
+                    return Err(Conflict::Inverted(a.fragment));
+                }
+                continue;
+            }
+            let (one, other) = (self.fragment(a.fragment)?, self.fragment(b.fragment)?);
+            if !agree(one, other, sense) {
+                return Err(Conflict::Dissimilar(a.fragment, b.fragment));
+            }
+            self.merge(a.fragment, b.fragment, sense)?;
+        }
+        self.settle();
+        Ok((self.map, self.merges))
+    }
+
+    fn fragment(&self, id: FragmentId) -> Result<&Fragment, Conflict> {
+        self.map.fragment(id).ok_or(Conflict::NoSuchFragment(id))
+    }
+
+    fn merge(&mut self, one: FragmentId, other: FragmentId, sense: Sense) -> Result<(), Conflict> {
+        let (kept, gone) = (one.min(other), one.max(other));
+        if kept == gone {
+            return match sense {
+                Sense::Same => Ok(()),
+                Sense::Inverted => Err(Conflict::Inverted(kept)),
+            };
+        }
+        let (survivor, absorbed) = (self.fragment(kept)?.clone(), self.fragment(gone)?.clone());
+        let motion = absorbed.motion.map(|motion| sense.of_motion(motion));
+        let motion = match (survivor.motion, motion) {
+            (Some(a), Some(b)) => match a.intersection(b) {
+                Some(both) => Some(both),
+                None => return Err(Conflict::Dissimilar(kept, gone)),
+            },
+            (a, b) => a.or(b),
+        };
+        self.map.fragments.remove(&gone);
+        self.merges.fragments.insert(gone, (kept, sense));
+        if let Some(fragment) = self.map.fragments.get_mut(&kept) {
+            fragment.motion = motion;
+            fragment.traversals += absorbed.traversals;
+        }
+        for sign in super::map::Sign::BOTH {
+            self.meet(survivor.port(sense.of(sign)), absorbed.port(sign))?;
+        }
+        Ok(())
+    }
+
+    /// Two ports are one, and so their junctions.
+    fn meet(&mut self, a: Port, b: Port) -> Result<(), Conflict> {
+        let (a, b) = (self.merges.port(a), self.merges.port(b));
+        let (kept, gone) = if a.junction <= b.junction {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        if kept.junction == gone.junction {
+            return if kept.number == gone.number {
+                Ok(())
+            } else {
+                Err(Conflict::Turned(kept.junction))
+            };
+        }
+        let unlike = Conflict::Unlike(kept.junction, gone.junction);
+        let absorbed = self.map.junctions.remove(&gone.junction).ok_or(unlike)?;
+        let survivor = self.map.junctions.get_mut(&kept.junction).ok_or(unlike)?;
+        if survivor.sighting() != absorbed.sighting() {
+            return Err(unlike);
+        }
+        let degree = survivor.degree();
+        let offset = (kept.number + degree - gone.number) % degree;
+        let merged = (kept.junction, offset, degree);
+        self.merges.junctions.insert(gone.junction, merged);
+        for (number, new) in (0..).zip(absorbed.ports) {
+            let number: u32 = (number + offset) % degree;
+            let Some(old) = survivor.ports.get_mut(number as usize) else {
+                continue;
+            };
+            *old = match (*old, new) {
+                (PortState::Filled(a), PortState::Filled(b)) => {
+                    self.queue.push((a, b));
+                    PortState::Filled(a)
+                }
+                (PortState::Filled(end), _) | (_, PortState::Filled(end)) => PortState::Filled(end),
+                (PortState::Open { at_least: a }, PortState::Open { at_least: b }) => {
+                    PortState::Open { at_least: a.max(b) }
+                }
+            };
+        }
+        Ok(())
+    }
+
+    /// Brings all ends and ports to the names that have stayed.
+    fn settle(&mut self) {
+        for fragment in self.map.fragments.values_mut() {
+            fragment.minus = self.merges.port(fragment.minus);
+            fragment.plus = self.merges.port(fragment.plus);
+        }
+        let ports = self.map.junctions.values_mut();
+        for port in ports.flat_map(|junction| &mut junction.ports) {
+            if let PortState::Filled(end) = port {
+                *end = self.merges.end(*end);
+            }
+        }
+    }
+}

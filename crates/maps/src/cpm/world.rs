@@ -1,0 +1,339 @@
+//! Mazes of corridors and junctions without a robot: what layer 3 is shown of a maze, true or noisy, in microseconds.
+//!
+//! A [`World`] is a plane graph: places with a position, whose ports are in the order of the corridors' bearings, and corridors
+//! that look from each end as a sequence of common patterns. A [`Rover`] walks it and tells what an e-puck's lower layers
+//! would, with [`Noise`]. The world can tell whether a map is [right](World::check), and what the [shortest
+//! walk](World::shortest_covering_walk) through all corridors would have been.
+
+mod check;
+mod generate;
+mod postman;
+mod rover;
+
+use alloc::vec::Vec;
+
+use thiserror::Error;
+use tolman_geom::{Heading, Point};
+
+pub use check::MapCheck;
+pub use generate::{Likeness, MazeConfig, MazeError};
+pub use rover::{Noise, Outcome, Reckoning, Rover};
+
+use super::map::Sign;
+use super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::traversal::{Landmark, Sighting};
+
+/// A maze as a plane graph. Its places and corridors are numbered from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct World {
+    dictionary: Dictionary,
+    places: Vec<Place>,
+    corridors: Vec<Corridor>,
+    start: WorldPort,
+}
+
+/// A junction, a dead end or a landmark in a corridor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Where it is, m.
+    pub position: Point,
+    /// What stands there.
+    pub landmark: Option<Landmark>,
+    /// The corridors' ends at it, counter-clockwise.
+    pub ports: Vec<CorridorEnd>,
+}
+
+/// One end of a corridor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct CorridorEnd {
+    /// The corridor.
+    pub corridor: u32,
+    /// *Minus* is the place it was drawn from.
+    pub sign: Sign,
+}
+
+/// A port of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct WorldPort {
+    /// The place.
+    pub place: u32,
+    /// Its port, counter-clockwise.
+    pub number: u32,
+}
+
+/// A path fragment as it truly is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Corridor {
+    /// What is observed from − to +.
+    pub patterns: Vec<PatternId>,
+    /// Its middle line, from − to +, both places included, m.
+    pub line: Vec<Point>,
+    /// Where it begins.
+    pub minus: WorldPort,
+    /// Where it ends.
+    pub plus: WorldPort,
+}
+
+impl Corridor {
+    /// The port of an end.
+    #[must_use]
+    pub const fn port(&self, sign: Sign) -> WorldPort {
+        match sign {
+            Sign::Minus => self.minus,
+            Sign::Plus => self.plus,
+        }
+    }
+
+    /// The direction in which one leaves by an end.
+    #[must_use]
+    pub fn bearing(&self, sign: Sign) -> Heading {
+        match (sign, self.line.as_slice()) {
+            (Sign::Minus, [here, next, ..]) => Heading::of(*next - *here),
+            (Sign::Plus, [.., next, here]) => Heading::of(*next - *here),
+            _ => Heading::EAST,
+        }
+    }
+}
+
+/// Draws a world: places, then the corridors between them.
+///
+/// ```
+/// use tolman_geom::Point;
+/// use tolman_maps::cpm::{Dictionary, Landmark, PatternId, Turn};
+/// use tolman_maps::cpm::world::{Noise, Outcome, Reckoning, Rover, WorldBuilder};
+///
+/// let mut dictionary = Dictionary::new(1);
+/// let wall = dictionary.learn(&[0.0], &[0.0], 0.1)?;
+/// let door = dictionary.learn(&[1.0], &[1.0], 0.1)?;
+/// // A dead end in the west, from which a corridor leads to a fork.
+/// let mut drawing = WorldBuilder::new(dictionary);
+/// let west = drawing.place(Point::new(0.0, 0.0), Some(Landmark::Start));
+/// let fork = drawing.place(Point::new(1.0, 0.0), None);
+/// let north = drawing.place(Point::new(1.0, 1.0), None);
+/// let goal = drawing.place(Point::new(1.0, -1.0), Some(Landmark::Goal));
+/// drawing.corridor(west, fork, &[], &[wall, wall, door])?;
+/// drawing.corridor(fork, north, &[], &[wall, door])?;
+/// drawing.corridor(fork, goal, &[], &[door])?;
+/// let world = drawing.finish(west)?;
+///
+/// let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+/// let mut rng = rand_chacha::ChaCha8Rng::from_seed([0; 32]);
+/// let Outcome::Arrived(walk) = rover.go(Turn::BACK, None, &mut rng)? else { panic!() };
+/// assert_eq!(walk.patterns, [wall, wall, door]);
+/// assert_eq!(walk.sighting.degree, 3);
+/// // Counter-clockwise from the way it came, the first port is the right hand one.
+/// rover.go(Turn(1), None, &mut rng)?;
+/// assert_eq!(rover.sighting().landmark, Some(Landmark::Goal));
+/// # use rand::SeedableRng;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct WorldBuilder {
+    dictionary: Dictionary,
+    places: Vec<(Point, Option<Landmark>)>,
+    corridors: Vec<(u32, u32, Vec<Point>, Vec<PatternId>)>,
+}
+
+/// Why a drawing is no world.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum WorldError {
+    /// A place is not there.
+    #[error("place {place} of {count}: draw it first")]
+    NoSuchPlace {
+        /// Its number.
+        place: u32,
+        /// How many there are.
+        count: u32,
+    },
+    /// No corridor leads to a place.
+    #[error("no corridor leads to place {place}: draw one, or leave it out")]
+    Isolated {
+        /// Its number.
+        place: u32,
+    },
+    /// A point of a corridor or place is NaN or infinite.
+    #[error("corridor {corridor} has a point that is not finite")]
+    NotFinite {
+        /// The corridor's number.
+        corridor: u32,
+    },
+    /// A pattern is not in the dictionary.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+}
+
+impl WorldBuilder {
+    /// An empty sheet.
+    #[must_use]
+    pub const fn new(dictionary: Dictionary) -> Self {
+        Self {
+            dictionary,
+            places: Vec::new(),
+            corridors: Vec::new(),
+        }
+    }
+
+    /// Adds a place and returns its number.
+    pub fn place(&mut self, position: Point, landmark: Option<Landmark>) -> u32 {
+        self.places.push((position, landmark));
+        self.places.len() as u32 - 1
+    }
+
+    /// Adds a corridor from a place to another, or back to the same, over some points between, that is observed as these
+    /// patterns; and returns its number.
+    ///
+    /// # Errors
+    /// [`WorldError`] if a place is not there, a point not finite, or a pattern not in the dictionary.
+    pub fn corridor(
+        &mut self,
+        minus: u32,
+        plus: u32,
+        via: &[Point],
+        patterns: &[PatternId],
+    ) -> Result<u32, WorldError> {
+        let count = self.places.len() as u32;
+        let number = self.corridors.len() as u32;
+        self.dictionary.check(patterns)?;
+        let mut line = Vec::with_capacity(via.len() + 2);
+        for place in [minus, plus] {
+            let (position, _) = self
+                .places
+                .get(place as usize)
+                .ok_or(WorldError::NoSuchPlace { place, count })?;
+            line.push(*position);
+        }
+        line.splice(1..1, via.iter().copied());
+        if line
+            .iter()
+            .any(|point| !(point.x.is_finite() && point.y.is_finite()))
+        {
+            return Err(WorldError::NotFinite { corridor: number });
+        }
+        self.corridors.push((minus, plus, line, patterns.to_vec()));
+        Ok(number)
+    }
+
+    /// The world, with ports in the order of their bearings, and a robot that will start at a place with port 0 behind it.
+    ///
+    /// # Errors
+    /// [`WorldError`] if no corridor leads to a place, or the start is none.
+    pub fn finish(self, start: u32) -> Result<World, WorldError> {
+        let count = self.places.len() as u32;
+        if start >= count {
+            return Err(WorldError::NoSuchPlace {
+                place: start,
+                count,
+            });
+        }
+        let unplaced = WorldPort {
+            place: 0,
+            number: 0,
+        };
+        let mut corridors: Vec<Corridor> = Vec::with_capacity(self.corridors.len());
+        let mut ends: Vec<Vec<(f64, CorridorEnd)>> = alloc::vec![Vec::new(); self.places.len()];
+        for (number, (minus, plus, line, patterns)) in (0..).zip(self.corridors) {
+            let corridor = Corridor {
+                patterns,
+                line,
+                minus: unplaced,
+                plus: unplaced,
+            };
+            for (place, sign) in [(minus, Sign::Minus), (plus, Sign::Plus)] {
+                let end = CorridorEnd {
+                    corridor: number,
+                    sign,
+                };
+                ends[place as usize].push((corridor.bearing(sign).radians(), end));
+            }
+            corridors.push(corridor);
+        }
+        let mut places = Vec::with_capacity(self.places.len());
+        for ((position, landmark), (place, mut ends)) in
+            self.places.into_iter().zip((0..).zip(ends))
+        {
+            if ends.is_empty() {
+                return Err(WorldError::Isolated { place });
+            }
+            ends.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+            let ports: Vec<CorridorEnd> = ends.into_iter().map(|(_, end)| end).collect();
+            for (number, end) in (0..).zip(&ports) {
+                let corridor = &mut corridors[end.corridor as usize];
+                let port = match end.sign {
+                    Sign::Minus => &mut corridor.minus,
+                    Sign::Plus => &mut corridor.plus,
+                };
+                *port = WorldPort { place, number };
+            }
+            places.push(Place {
+                position,
+                landmark,
+                ports,
+            });
+        }
+        let dictionary = self.dictionary;
+        let start = WorldPort {
+            place: start,
+            number: 0,
+        };
+        Ok(World {
+            dictionary,
+            places,
+            corridors,
+            start,
+        })
+    }
+}
+
+impl World {
+    /// The common patterns its corridors are made of.
+    #[must_use]
+    pub const fn dictionary(&self) -> &Dictionary {
+        &self.dictionary
+    }
+
+    /// The places by number.
+    #[must_use]
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// The corridors by number.
+    #[must_use]
+    pub fn corridors(&self) -> &[Corridor] {
+        &self.corridors
+    }
+
+    /// Where the robot starts.
+    #[must_use]
+    pub const fn start(&self) -> WorldPort {
+        self.start
+    }
+
+    /// What is seen at a place; a place that is not there looks like a dead end.
+    #[must_use]
+    pub fn sighting(&self, place: u32) -> Sighting {
+        match self.places.get(place as usize) {
+            Some(place) => Sighting {
+                degree: place.ports.len() as u32,
+                landmark: place.landmark,
+            },
+            None => Sighting::plain(1),
+        }
+    }
+
+    /// The corridor's end at a port; none if there is no such port.
+    #[must_use]
+    pub fn end_at(&self, port: WorldPort) -> Option<CorridorEnd> {
+        let place = self.places.get(port.place as usize)?;
+        place.ports.get(port.number as usize).copied()
+    }
+
+    /// Where one arrives who leaves by a port; none if there is no such port.
+    #[must_use]
+    pub fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
+        let end = self.end_at(port)?;
+        let corridor = self.corridors.get(end.corridor as usize)?;
+        Some(corridor.port(end.sign.opposite()))
+    }
+}

@@ -1,0 +1,68 @@
+use alloc::collections::BTreeMap;
+use alloc::vec;
+
+use super::super::map::{CpMap, JunctionId, Port};
+use super::{World, WorldPort};
+
+/// How a map compares with the world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapCheck {
+    /// The map is the world: each place and corridor once, all ports in order.
+    Right,
+    /// What the map has is right, each thing once; some corridors are missing.
+    Partial,
+    /// What the map has is right, but some things are there more than once.
+    Redundant,
+    /// Somewhere the map leads to another place than the world does.
+    Wrong,
+}
+
+impl World {
+    /// Compares a map with this world, given where the robot is on both. Only corridors that can be reached count.
+    /// O(fragments · log fragments).
+    #[must_use]
+    pub fn check(&self, map: &CpMap, at: Port, truly_at: WorldPort) -> MapCheck {
+        // Each junction met, with its place and the place's port that is the junction's port 0.
+        let mut known: BTreeMap<JunctionId, WorldPort> = BTreeMap::new();
+        let mut queue = vec![(at, truly_at)];
+        while let Some((port, truth)) = queue.pop() {
+            let degree = self.sighting(truth.place).degree;
+            let Some(junction) = map.junction(port.junction) else {
+                return MapCheck::Wrong;
+            };
+            if junction.sighting() != self.sighting(truth.place) {
+                return MapCheck::Wrong;
+            }
+            let first = WorldPort {
+                place: truth.place,
+                number: (truth.number + degree - port.number % degree) % degree,
+            };
+            if let Some(before) = known.insert(port.junction, first) {
+                if before != first {
+                    return MapCheck::Wrong;
+                }
+                continue;
+            }
+            for number in 0..degree {
+                let here = Port { number, ..port };
+                let there = WorldPort {
+                    number: (first.number + number) % degree,
+                    ..first
+                };
+                if let (Some(next), Some(truth)) = (map.beyond(here), self.beyond(there)) {
+                    queue.push((next, truth));
+                }
+            }
+        }
+        let mut places: alloc::vec::Vec<u32> = known.values().map(|port| port.place).collect();
+        places.sort_unstable();
+        places.dedup();
+        if places.len() < known.len() || known.len() < map.junctions().len() {
+            MapCheck::Redundant
+        } else if map.is_explored() {
+            MapCheck::Right
+        } else {
+            MapCheck::Partial
+        }
+    }
+}

@@ -1,0 +1,353 @@
+use alloc::vec;
+use alloc::vec::Vec;
+
+use rand::{Rng, RngExt};
+use thiserror::Error;
+use tolman_geom::Point;
+
+use super::super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::super::similarity::{Matching, Similarity};
+use super::super::traversal::Landmark;
+use super::rover::uniform;
+use super::{World, WorldBuilder, WorldError};
+
+/// What a random world shall be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MazeConfig {
+    /// Cells from west to east, at least 2.
+    pub columns: u32,
+    /// Cells from south to north, at least 2.
+    pub rows: u32,
+    /// How many of the openings that a tree of corridors can do without are there; 0 to 1.
+    pub loops: f64,
+    /// How many cells have an opening across their corner that could be used: 0 for ports in four directions only, up to 1 for
+    /// junctions of up to eight ports.
+    pub diagonals: f64,
+    /// Common patterns of the dictionary, at least 2; the paper has 31.
+    pub patterns: u32,
+    /// Observations to a cell's length, at least 1.
+    pub observations_per_cell: f64,
+    /// How corridors differ.
+    pub likeness: Likeness,
+    /// How many corridors look the same from both ends; 0 to 1.
+    pub symmetrical: f64,
+}
+
+/// How the corridors of a random world differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Likeness {
+    /// "Every path-fragment in the environment is distinctive": f_S < 0.8 for all pairs in both directions, and, unless they shall be
+    /// symmetrical, for each and its inverse.
+    Distinctive,
+    /// As many kinds of corridors, at least 1. Those of one kind and length look the same.
+    Kinds(u32),
+}
+
+/// Why there is no such world.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MazeError {
+    /// A field of the configuration is outside its range.
+    #[error("{field} is {value} but has to be {range}")]
+    OutOfRange {
+        /// Its name.
+        field: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it may be, in words.
+        range: &'static str,
+    },
+    /// So many corridors cannot all differ.
+    #[error(
+        "corridor {corridor} is like another in a thousand draws: take more patterns or observations"
+    )]
+    NotDistinctive {
+        /// Its number.
+        corridor: u32,
+    },
+    /// The drawing is no world.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The dictionary refuses a pattern.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+}
+
+impl MazeConfig {
+    /// A maze like the paper's Maze-3: 4 × 4 cells, junctions of three and four ports, 31 patterns, distinctive.
+    #[must_use]
+    pub const fn small() -> Self {
+        Self {
+            columns: 4,
+            rows: 4,
+            loops: 0.25,
+            diagonals: 0.0,
+            patterns: 31,
+            observations_per_cell: 4.0,
+            likeness: Likeness::Distinctive,
+            symmetrical: 0.0,
+        }
+    }
+
+    fn check(&self) -> Result<(), MazeError> {
+        let within = |field, value: f64, low: f64, high: f64, range| {
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(MazeError::OutOfRange {
+                    field,
+                    value,
+                    range,
+                })
+            }
+        };
+        within("columns", self.columns.into(), 2.0, 1000.0, "2 to 1000")?;
+        within("rows", self.rows.into(), 2.0, 1000.0, "2 to 1000")?;
+        within("loops", self.loops, 0.0, 1.0, "0 to 1")?;
+        within("diagonals", self.diagonals, 0.0, 1.0, "0 to 1")?;
+        within("patterns", self.patterns.into(), 2.0, 1e6, "2 to 1 000 000")?;
+        let density = self.observations_per_cell;
+        within("observations_per_cell", density, 1.0, 1000.0, "1 to 1000")?;
+        within("symmetrical", self.symmetrical, 0.0, 1.0, "0 to 1")?;
+        if let Likeness::Kinds(kinds) = self.likeness {
+            within("likeness", kinds.into(), 1.0, 1e6, "1 to 1 000 000 kinds")?;
+        }
+        Ok(())
+    }
+}
+
+impl World {
+    /// A random maze: a random tree of corridors on a grid of cells, some loops, a start and a goal, in dead ends if there are any.
+    /// Cells with two ways out are no places but bends of a corridor.
+    ///
+    /// # Errors
+    /// [`MazeError`] if a field is outside its range or the corridors cannot all be distinctive.
+    pub fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeError> {
+        config.check()?;
+        let openings = openings(config, rng);
+        let cells = config.columns * config.rows;
+        let mut ways: Vec<Vec<u32>> = vec![Vec::new(); cells as usize];
+        for (a, b) in &openings {
+            ways[*a as usize].push(*b);
+            ways[*b as usize].push(*a);
+        }
+        let dead_ends = |ways: &[Vec<u32>], but: Option<u32>| -> Vec<u32> {
+            let ends = (0..cells).filter(|cell| ways[*cell as usize].len() == 1);
+            let ends: Vec<u32> = ends.filter(|cell| Some(*cell) != but).collect();
+            if ends.is_empty() {
+                return (0..cells).filter(|cell| Some(*cell) != but).collect();
+            }
+            ends
+        };
+        let start = pick(&dead_ends(&ways, None), rng);
+        let goal = pick(&dead_ends(&ways, Some(start)), rng);
+        let position = |cell: u32| {
+            Point::new(
+                f64::from(cell % config.columns),
+                f64::from(cell / config.columns),
+            )
+        };
+        let mut drawing = WorldBuilder::new(random_dictionary(config.patterns, rng)?);
+        let mut numbers = vec![None; cells as usize];
+        for cell in 0..cells {
+            let landmark = match cell {
+                cell if cell == start => Some(Landmark::Start),
+                cell if cell == goal => Some(Landmark::Goal),
+                _ => None,
+            };
+            if landmark.is_some() || ways[cell as usize].len() != 2 {
+                numbers[cell as usize] = Some(drawing.place(position(cell), landmark));
+            }
+        }
+        let mut looks = Looks::new(config, rng);
+        for cell in 0..cells {
+            for first in &ways[cell as usize] {
+                let Some(minus) = numbers[cell as usize] else {
+                    continue;
+                };
+                let mut line = vec![cell, *first];
+                let plus = loop {
+                    let [.., before, here] = line[..] else {
+                        break None;
+                    };
+                    if let Some(place) = numbers[here as usize] {
+                        break Some(place);
+                    }
+                    let onward = ways[here as usize].iter().find(|next| **next != before);
+                    match onward {
+                        Some(next) => line.push(*next),
+                        None => break None,
+                    }
+                };
+                let reversed = line.iter().rev();
+                // Drawn from one of its ends only.
+                if line.iter().gt(reversed) {
+                    continue;
+                }
+                let via: Vec<Point> = line[1..line.len() - 1]
+                    .iter()
+                    .map(|cell| position(*cell))
+                    .collect();
+                let length: f64 = line
+                    .windows(2)
+                    .map(|step| (position(step[1]) - position(step[0])).norm())
+                    .sum();
+                if let Some(plus) = plus {
+                    let patterns = looks.next(length, &drawing.dictionary, rng)?;
+                    drawing.corridor(minus, plus, &via, &patterns)?;
+                }
+            }
+        }
+        let start = numbers[start as usize].unwrap_or(0);
+        Ok(drawing.finish(start)?)
+    }
+}
+
+/// A random spanning tree of the cells and some more.
+fn openings(config: &MazeConfig, rng: &mut impl Rng) -> Vec<(u32, u32)> {
+    let (columns, rows) = (config.columns, config.rows);
+    let mut candidates = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let cell = row * columns + column;
+            let (east, north) = (column + 1 < columns, row + 1 < rows);
+            if east {
+                candidates.push((cell, cell + 1));
+            }
+            if north {
+                candidates.push((cell, cell + columns));
+            }
+            if east && north && uniform(rng) < config.diagonals {
+                // One of the two diagonals of a square: they would cross.
+                candidates.push(if uniform(rng) < 0.5 {
+                    (cell, cell + columns + 1)
+                } else {
+                    (cell + 1, cell + columns)
+                });
+            }
+        }
+    }
+    for last in (1..candidates.len()).rev() {
+        candidates.swap(last, rng.random_range(0..=last as u32) as usize);
+    }
+    // Kruskal: an opening between two trees joins them.
+    let mut tree: Vec<u32> = (0..columns * rows).collect();
+    fn root(tree: &[u32], cell: u32) -> u32 {
+        let mut cell = cell;
+        while tree[cell as usize] != cell {
+            cell = tree[cell as usize];
+        }
+        cell
+    }
+    candidates.retain(|(a, b)| {
+        let (a, b) = (root(&tree, *a), root(&tree, *b));
+        tree[a as usize] = b;
+        a != b || uniform(rng) < config.loops
+    });
+    candidates.sort_unstable();
+    candidates
+}
+
+/// Random prototypes of 11 features from 0 to 1, as the paper's; in pairs that are each other half turned, and a last one that is
+/// its own if the number is odd.
+fn random_dictionary(patterns: u32, rng: &mut impl Rng) -> Result<Dictionary, DictionaryError> {
+    let half_turned = |id: u32| {
+        PatternId(if id == patterns - 1 && patterns % 2 == 1 {
+            id
+        } else {
+            id ^ 1
+        })
+    };
+    let prototypes: Vec<(Vec<f64>, PatternId)> = (0..patterns)
+        .map(|id| ((0..11).map(|_| uniform(rng)).collect(), half_turned(id)))
+        .collect();
+    Dictionary::from_prototypes(11, &prototypes)
+}
+
+/// What corridors look like, one after the other.
+struct Looks<'a> {
+    config: &'a MazeConfig,
+    kinds: Vec<Vec<PatternId>>,
+    drawn: Vec<Vec<PatternId>>,
+}
+
+impl<'a> Looks<'a> {
+    fn new(config: &'a MazeConfig, rng: &mut impl Rng) -> Self {
+        let kinds = match config.likeness {
+            Likeness::Distinctive => Vec::new(),
+            Likeness::Kinds(kinds) => {
+                let longest =
+                    f64::from(config.columns * config.rows) * 1.5 * config.observations_per_cell;
+                (0..kinds)
+                    .map(|_| random_sequence(config, longest as usize + 1, rng))
+                    .collect()
+            }
+        };
+        Self {
+            config,
+            kinds,
+            drawn: Vec::new(),
+        }
+    }
+
+    fn next(
+        &mut self,
+        length: f64,
+        dictionary: &Dictionary,
+        rng: &mut impl Rng,
+    ) -> Result<Vec<PatternId>, MazeError> {
+        let config = self.config;
+        let count = libm::round(length * config.observations_per_cell).max(1.0) as usize;
+        let symmetrical = uniform(rng) < config.symmetrical;
+        let matching = Matching::Positions(Similarity {
+            mu: 0.8,
+            ..Similarity::paper()
+        });
+        for _ in 0..1000 {
+            let mut patterns = match config.likeness {
+                Likeness::Distinctive => random_sequence(config, count, rng),
+                Likeness::Kinds(_) => {
+                    let kind = rng.random_range(0..self.kinds.len() as u32);
+                    self.kinds[kind as usize]
+                        .iter()
+                        .copied()
+                        .take(count)
+                        .collect()
+                }
+            };
+            if symmetrical {
+                mirror(&mut patterns, dictionary);
+            }
+            let inverse = dictionary.inverse(&patterns)?;
+            let is_new = || {
+                let like = |known: &Vec<PatternId>| matching.matches(dictionary, known, &patterns);
+                let alone = symmetrical || matching.score(dictionary, &patterns, &inverse) < 0.8;
+                alone && self.drawn.iter().all(|known| like(known).is_none())
+            };
+            if config.likeness != Likeness::Distinctive || is_new() {
+                self.drawn.push(patterns.clone());
+                return Ok(patterns);
+            }
+        }
+        let corridor = self.drawn.len() as u32;
+        Err(MazeError::NotDistinctive { corridor })
+    }
+}
+
+/// Makes the second half what the first is, seen the other way.
+fn mirror(patterns: &mut [PatternId], dictionary: &Dictionary) {
+    let count = patterns.len();
+    for place in 0..count / 2 {
+        patterns[count - 1 - place] = dictionary.half_turned(patterns[place]);
+    }
+}
+
+fn random_sequence(config: &MazeConfig, count: usize, rng: &mut impl Rng) -> Vec<PatternId> {
+    (0..count)
+        .map(|_| PatternId(rng.random_range(0..config.patterns)))
+        .collect()
+}
+
+fn pick(cells: &[u32], rng: &mut impl Rng) -> u32 {
+    cells[rng.random_range(0..cells.len() as u32) as usize]
+}

@@ -1,0 +1,219 @@
+use alloc::vec::Vec;
+
+use rand::{Rng, RngExt};
+use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
+
+use super::super::map::Sign;
+use super::super::pattern::PatternId;
+use super::super::traversal::{Motion, Sighting, Traversal};
+use super::super::turn::{NoSuchTurn, Turn};
+use super::{Corridor, World, WorldPort};
+
+/// How a rover's senses err.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// The chance that an observation is taken for another pattern, any; 0 to 1.
+    pub substitution: f64,
+    /// The chance of an additional observation, any pattern, after each; 0 to 1.
+    pub insertion: f64,
+    /// The chance that an observation is not made; 0 to 1.
+    pub deletion: f64,
+    /// Slip: how much longer or shorter than it is the robot takes a fragment for at most, as a part of its length;
+    /// 0 to less than 1. It makes as many more or fewer observations.
+    pub slip: f64,
+    /// How far the heading that it believes to have may be off, rad; not negative.
+    pub heading: f64,
+}
+
+impl Noise {
+    /// What is, is seen.
+    pub const NONE: Self = Self {
+        substitution: 0.0,
+        insertion: 0.0,
+        deletion: 0.0,
+        slip: 0.0,
+        heading: 0.0,
+    };
+}
+
+/// Whether a rover counts its steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reckoning {
+    /// No dead reckoning, as in the paper.
+    None,
+    /// Dead reckoning with bounds that hold.
+    Bounded,
+}
+
+/// A walker in a world.
+#[derive(Clone, Debug)]
+pub struct Rover<'a> {
+    world: &'a World,
+    noise: Noise,
+    reckoning: Reckoning,
+    at: WorldPort,
+    observations: u32,
+}
+
+/// What came of a walk.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It reached the end of the fragment.
+    Arrived(Traversal),
+    /// It gave up, having observed this, and is back where it was, with the port it tried behind it.
+    TurnedBack(Vec<PatternId>),
+}
+
+impl<'a> Rover<'a> {
+    /// At the world's start.
+    #[must_use]
+    pub const fn new(world: &'a World, noise: Noise, reckoning: Reckoning) -> Self {
+        Self {
+            world,
+            noise,
+            reckoning,
+            at: world.start,
+            observations: 0,
+        }
+    }
+
+    /// Where it truly is: the port behind it.
+    #[must_use]
+    pub const fn at(&self) -> WorldPort {
+        self.at
+    }
+
+    /// Puts it somewhere, with this port behind it. A port that is not there leaves it where it is.
+    pub fn place(&mut self, at: WorldPort) {
+        if self.world.end_at(at).is_some() {
+            self.at = at;
+        }
+    }
+
+    /// How many observations it has made.
+    #[must_use]
+    pub const fn observations(&self) -> u32 {
+        self.observations
+    }
+
+    /// What it sees where it is.
+    #[must_use]
+    pub fn sighting(&self) -> Sighting {
+        self.world.sighting(self.at.place)
+    }
+
+    /// Turns and walks to the end of the fragment; if so many observations have not brought it there, it gives up.
+    ///
+    /// # Errors
+    /// If the place has no such turn.
+    pub fn go(
+        &mut self,
+        turn: Turn,
+        give_up_after: Option<u32>,
+        rng: &mut impl Rng,
+    ) -> Result<Outcome, NoSuchTurn> {
+        let WorldPort { place, number } = self.at;
+        let degree = self.sighting().degree;
+        let number = turn.exit(number, degree)?;
+        let exit = WorldPort { place, number };
+        let (Some(end), Some(arrival)) = (self.world.end_at(exit), self.world.beyond(exit)) else {
+            return Err(NoSuchTurn { turn, degree });
+        };
+        let corridor = &self.world.corridors[end.corridor as usize];
+        let stretch = 1.0 + self.noise.slip * (2.0 * uniform(rng) - 1.0);
+        let mut patterns = self.observe(corridor, end.sign, stretch, rng);
+        let motion = match self.reckoning {
+            Reckoning::None => None,
+            Reckoning::Bounded => self.reckon(corridor, end.sign, stretch, rng),
+        };
+        if let Some(most) = give_up_after
+            && patterns.len() >= most.max(1) as usize
+        {
+            patterns.truncate(most.max(1) as usize);
+            // There and back.
+            self.observations += 2 * patterns.len() as u32;
+            self.at = exit;
+            return Ok(Outcome::TurnedBack(patterns));
+        }
+        self.observations += patterns.len() as u32;
+        self.at = arrival;
+        let sighting = self.sighting();
+        Ok(Outcome::Arrived(Traversal {
+            patterns,
+            motion,
+            sighting,
+        }))
+    }
+
+    fn observe(
+        &self,
+        corridor: &Corridor,
+        enter: Sign,
+        stretch: f64,
+        rng: &mut impl Rng,
+    ) -> Vec<PatternId> {
+        let dictionary = &self.world.dictionary;
+        let truth = match enter {
+            Sign::Minus => corridor.patterns.clone(),
+            Sign::Plus => dictionary.inverse(&corridor.patterns).unwrap_or_default(),
+        };
+        let count = libm::round(truth.len() as f64 * stretch).max(1.0) as usize;
+        let any = |rng: &mut _| PatternId(RngExt::random_range(rng, 0..dictionary.len() as u32));
+        let mut seen = Vec::with_capacity(count);
+        for place in 0..count {
+            let Some(pattern) = truth.get((2 * place + 1) * truth.len() / (2 * count)) else {
+                break;
+            };
+            if uniform(rng) >= self.noise.deletion {
+                let mistaken = uniform(rng) < self.noise.substitution;
+                seen.push(if mistaken { any(rng) } else { *pattern });
+            }
+            if uniform(rng) < self.noise.insertion {
+                seen.push(any(rng));
+            }
+        }
+        seen
+    }
+
+    fn reckon(
+        &self,
+        corridor: &Corridor,
+        enter: Sign,
+        stretch: f64,
+        rng: &mut impl Rng,
+    ) -> Option<Motion> {
+        let (minus, plus) = (corridor.line.first()?, corridor.line.last()?);
+        let truth = match enter {
+            Sign::Minus => plus - minus,
+            Sign::Plus => minus - plus,
+        };
+        let mut drift = || self.noise.heading * (2.0 * uniform(rng) - 1.0);
+        let believed = rotated(truth, drift()) * stretch;
+        // The truth is what is believed, less the slip, turned back by the drift. A nanometre makes up for rounding.
+        let (slip, heading) = (self.noise.slip, self.noise.heading + 1e-9);
+        let scale = Interval::new(1.0 / (1.0 + slip), 1.0 / (1.0 - slip)).ok()?;
+        let side = |value: f64| (Interval::of(value).ok()? * scale).widened(1e-9).ok();
+        let displacement = PointBox::new(side(believed.x)?, side(believed.y)?)
+            .rotated(Interval::about(0.0, heading).ok()?);
+        let mut about = |truth: Heading| Interval::about(truth.radians() + drift(), heading).ok();
+        Some(Motion {
+            displacement,
+            departure: about(corridor.bearing(enter))?,
+            arrival: about(corridor.bearing(enter.opposite()).reversed())?,
+        })
+    }
+}
+
+/// From 0 to less than 1.
+pub(super) fn uniform(rng: &mut impl Rng) -> f64 {
+    f64::from(rng.random::<u32>()) / 4_294_967_296.0
+}
+
+fn rotated(vector: Vector, angle: f64) -> Vector {
+    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+    Point::new(
+        vector.x * cos - vector.y * sin,
+        vector.x * sin + vector.y * cos,
+    )
+    .coords
+}

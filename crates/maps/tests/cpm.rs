@@ -1,0 +1,10 @@
+//! CPM from outside: the paper's worked examples, and explorations of random mazes.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+extern crate alloc;
+
+mod cpm {
+    mod explorations;
+    mod turns;
+    mod walks;
+}

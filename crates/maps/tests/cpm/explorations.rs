@@ -1,0 +1,166 @@
+//! Random mazes, explored to their end.
+
+use alloc::collections::BTreeSet;
+
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::cpm::world::{
+    Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
+};
+use tolman_maps::cpm::{
+    Aim, Arrival, CpmConfig, Decision, Done, Explorer, JunctionId, Landmark, Mapping, Onward,
+    theorem_1,
+};
+
+/// Lets an explorer pursue an aim.
+pub(crate) fn pursue(
+    explorer: &mut Explorer,
+    rover: &mut Rover<'_>,
+    world: &World,
+    aim: Aim,
+    rng: &mut ChaCha8Rng,
+) -> Done {
+    loop {
+        let leg = match explorer.decide(aim, rng) {
+            Decision::Done(done) => return done,
+            Decision::Go(leg) => leg,
+        };
+        match rover.go(leg.turn, leg.give_up_after, rng).unwrap() {
+            Outcome::Arrived(walk) => {
+                let arrival = explorer
+                    .arrive(leg.turn, &walk, world.dictionary())
+                    .unwrap();
+                if leg.known.is_none() {
+                    assert_ne!(arrival, Arrival::Known);
+                }
+            }
+            Outcome::TurnedBack(patterns) => {
+                explorer
+                    .turned_back(leg.turn, patterns.len() as u32)
+                    .unwrap();
+            }
+        }
+    }
+}
+
+fn mazes() -> impl Strategy<Value = (MazeConfig, u64)> {
+    (2_u32..6, 2_u32..6, 0.0..1.0, 0.0..1.0, any::<u64>()).prop_map(
+        |(columns, rows, loops, diagonals, seed)| {
+            let small = MazeConfig::small();
+            (
+                MazeConfig {
+                    columns,
+                    rows,
+                    loops,
+                    diagonals,
+                    ..small
+                },
+                seed,
+            )
+        },
+    )
+}
+
+fn is_goal(explorer: &Explorer) -> impl Fn(JunctionId) -> bool {
+    let goals: Vec<JunctionId> = explorer.map().landmarks(Landmark::Goal).collect();
+    move |id| goals.contains(&id)
+}
+
+fn drawn((maze, seed): (MazeConfig, u64)) -> (World, ChaCha8Rng) {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    (World::random(&maze, &mut rng).unwrap(), rng)
+}
+
+proptest! {
+    #[test]
+    fn online_every_maze_is_explored_rightly_and_within_theorem_1(maze in mazes()) {
+        let (world, mut rng) = drawn(maze);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
+        // How many fragments it has walked when it has walked all, whether it knows that or not.
+        let mut walked = BTreeSet::new();
+        let mut until_all = 0;
+        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+            let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
+                unreachable!("it was not told to give up");
+            };
+            explorer.arrive(leg.turn, &walk, world.dictionary()).unwrap();
+            if walked.insert(world.end_at(rover.at()).unwrap().corridor) {
+                until_all = explorer.traversals();
+            }
+        }
+        prop_assert_eq!(explorer.decide(Aim::Explore, &mut rng), Decision::Done(Done::Reached));
+        prop_assert_eq!(world.check(explorer.map(), explorer.at(), rover.at()), MapCheck::Right);
+        prop_assert_eq!(explorer.map().fragments().len(), world.corridors().len());
+        prop_assert!(explorer.map().is_optimized(&CpmConfig::online().matching, world.dictionary()));
+        prop_assert!(explorer.map().is_complete());
+        prop_assert_eq!(explorer.contradictions(), 0);
+        let first = explorer.before_duplicate().unwrap_or(explorer.traversals());
+        let fragments = world.corridors().len() as u32;
+        let bound = theorem_1(&vec![1.0; first as usize], 1.0, fragments);
+        prop_assert!(f64::from(until_all) <= bound, "{until_all} of {bound}");
+        if let Some(best) = world.shortest_covering_walk() {
+            prop_assert!(explorer.traversals() >= best);
+        }
+    }
+
+    #[test]
+    fn offline_the_goal_is_found_and_the_map_is_right(maze in mazes()) {
+        let (world, mut rng) = drawn(maze);
+        let config = CpmConfig { mapping: Mapping::Offline { patience: 100 }, ..CpmConfig::online() };
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+        let done = pursue(&mut explorer, &mut rover, &world, Aim::Find(Landmark::Goal), &mut rng);
+        prop_assert_eq!(done, Done::Reached);
+        explorer.optimize(world.dictionary()).unwrap();
+        prop_assert!(explorer.map().is_optimized(&config.matching, world.dictionary()));
+        prop_assert!(explorer.map().has_goal());
+        // Junctions that no fragment has shown to be the same may still be there twice.
+        let check = world.check(explorer.map(), explorer.at(), rover.at());
+        prop_assert_ne!(check, MapCheck::Wrong);
+        // The way from the start that the second episode drives.
+        prop_assert!(explorer.plan(Landmark::Start).is_some());
+    }
+
+    #[test]
+    fn the_way_back_ends_at_the_start(maze in mazes()) {
+        let (world, mut rng) = drawn(maze);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
+        let start = explorer.at();
+        pursue(&mut explorer, &mut rover, &world, Aim::Find(Landmark::Goal), &mut rng);
+        // How far the goal is from the start, for a robot that is put there again.
+        let mut known = vec![explorer.map().plan(start, is_goal(&explorer)).unwrap().length];
+        for aim in [Aim::WayBack, Aim::Shortest, Aim::Explore] {
+            prop_assert_eq!(pursue(&mut explorer, &mut rover, &world, aim, &mut rng), Done::Reached);
+            if aim == Aim::WayBack {
+                prop_assert_eq!(rover.sighting().landmark, Some(Landmark::Start));
+            }
+            explorer.place(start).unwrap();
+            rover.place(world.start());
+            known.push(explorer.map().plan(start, is_goal(&explorer)).unwrap().length);
+        }
+        prop_assert!(known.is_sorted_by(|earlier, later| earlier >= later), "{:?}", known);
+        // What was certified to be shortest is.
+        prop_assert_eq!(known[2], known[3]);
+    }
+
+    #[test]
+    fn nothing_runs_for_ever(kinds in 1_u32..4, symmetrical in 0.0..1.0, noise in 0.0..1.0, slip in 0.0..0.99, seed in any::<u64>()) {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let likeness = Likeness::Kinds(kinds);
+        let maze = MazeConfig { likeness, symmetrical, diagonals: 0.5, ..MazeConfig::small() };
+        let world = World::random(&maze, &mut rng).unwrap();
+        let noise = Noise { substitution: noise, insertion: noise / 2.0, deletion: noise / 2.0, slip, heading: 0.1 };
+        for onward in [Onward::ShortestKnownWay, Onward::GoOn] {
+            let config = CpmConfig { onward, most_traversals: 60, ..CpmConfig::online() };
+            let mut rover = Rover::new(&world, noise, Reckoning::None);
+            let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+            for aim in [Aim::Find(Landmark::Goal), Aim::WayBack, Aim::Shortest, Aim::Explore] {
+                pursue(&mut explorer, &mut rover, &world, aim, &mut rng);
+            }
+            prop_assert!(explorer.traversals() <= 60);
+        }
+    }
+}
