@@ -50,6 +50,7 @@ mod map;
 mod matching;
 mod observation;
 mod observer;
+mod opportunities;
 mod path_graph;
 mod projector;
 mod reference_graph;
@@ -72,6 +73,7 @@ pub use map::{Diktiometry, Drawn, Flaw};
 pub use matching::Matcher;
 pub use observation::{Exits, Move, Outcome, Start};
 pub use observer::Observer;
+pub use opportunities::{Opportunity, OpportunityKind};
 pub use path_graph::{Estim, Fate, Link, Note, PathGraph, Place, Standing, Successor};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{

@@ -10,11 +10,12 @@ use super::indexing::{ActiveFrame, Candidate, expected, moved, plies};
 use super::map::{Diktiometry, Site};
 use super::matching::{Choice, Matcher, Situation, Traversal, choose, remember};
 use super::observation::{Exits, Move, Outcome, Start};
+use super::opportunities::{Opportunity, actions_along, opportunities};
 use super::path_graph::{Note, Successor};
 use super::projector::{Projection, project};
 use super::reference_graph::search;
 use super::report::{Contradiction, Culprit, Plan, PlanStep, Predicted, StepReport, TrackReport};
-use super::restructuring::restructure;
+use super::restructuring::{Hints, restructure};
 use super::signature::Signature;
 use super::track::{Match, Track};
 use super::updater::arrive;
@@ -134,21 +135,21 @@ impl Observer {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
         let way = path_to(&self.map.paths, from.0, |place| place == to.0)?;
-        let hops = way.iter().zip(way.iter().skip(1));
-        let steps = hops
-            .map(|(&tail, &head)| {
-                let mut links = self.map.paths.outgoing(PlaceId(tail));
-                let (_, link) = links.find(|(id, link)| {
-                    link.to.0 == head
-                        && self.map.paths.likeliest(PlaceId(tail), link.action) == Some(*id)
-                })?;
-                Some(PlanStep {
-                    action: link.action,
-                    to: link.to,
-                })
-            })
-            .collect::<Option<Vec<PlanStep>>>()?;
+        let actions = actions_along(&self.map, &way)?;
+        let ends = way.iter().skip(1).map(|&place| PlaceId(place));
+        let steps = actions
+            .into_iter()
+            .zip(ends)
+            .map(|(action, to)| PlanStep { action, to })
+            .collect();
         Some(Plan { steps })
+    }
+
+    /// What would help the map, the most worthwhile first: scripts from where the best track is. Nothing depends on whether they are
+    /// done. O(places + links · degree).
+    #[must_use]
+    pub fn opportunities(&self) -> Vec<Opportunity> {
+        opportunities(&self.map, &self.tracks[0], &self.config)
     }
 
     /// Takes in a move that has ended.
@@ -210,7 +211,7 @@ impl Observer {
     }
 
     fn arrived(&mut self, step: &Move, report: &mut StepReport) {
-        let mut hints = Vec::new();
+        let mut hints = Hints::default();
         let tracks = core::mem::take(&mut self.tracks);
         let mut next = Vec::new();
         for (rank, track) in tracks.into_iter().enumerate() {
@@ -248,7 +249,7 @@ impl Observer {
         rank: Rank,
         step: &Move,
         report: &mut StepReport,
-        hints: &mut Vec<PlaceId>,
+        hints: &mut Hints,
         next: &mut Vec<(Track, TrackReport)>,
     ) {
         let from = track.place;
@@ -301,7 +302,11 @@ impl Observer {
                 id,
                 place,
                 link,
-                confidence: confidence_after(track.confidence, chosen.matcher, &choice.doubts),
+                confidence: confidence_after(
+                    track.confidence,
+                    chosen.matcher,
+                    choice.excluded.is_some(),
+                ),
                 ..track.clone()
             };
             child.astray = match chosen.matcher {
@@ -391,7 +396,7 @@ impl Observer {
         projection: &Projection,
         choice: &Choice,
         contradictions: &mut Vec<Contradiction>,
-        hints: &mut Vec<PlaceId>,
+        hints: &mut Hints,
     ) -> (PlaceId, Option<LinkId>) {
         let from = track.place;
         let best = choice.matches[0];
@@ -440,7 +445,10 @@ impl Observer {
             self.note(to, other);
             self.note(other, to);
         }
-        hints.push(to);
+        hints
+            .near
+            .extend(track.history.iter().map(|entry| entry.place));
+        hints.changed.push(to);
         (to, Some(link))
     }
 
@@ -582,14 +590,13 @@ enum Rank {
     Other,
 }
 
-/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error loses it, and so does a new
-/// place where another might have been meant.
-fn confidence_after(confidence: f64, matcher: Matcher, doubts: &[PlaceId]) -> f64 {
+/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error loses it. A new place
+/// posits one where another place was expected and is `excluded`.
+fn confidence_after(confidence: f64, matcher: Matcher, excluded: bool) -> f64 {
     match matcher {
         Matcher::Continue => confidence + 0.2 * (1.0 - confidence),
-        Matcher::Link => confidence,
-        Matcher::NewPlace if doubts.is_empty() => confidence,
-        Matcher::NewPlace => 0.9 * confidence,
+        Matcher::NewPlace if excluded => 0.9 * confidence,
+        Matcher::Link | Matcher::NewPlace => confidence,
         Matcher::Alpha => 0.7 * confidence,
         Matcher::Beta => 0.5 * confidence,
     }

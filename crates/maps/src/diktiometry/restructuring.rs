@@ -28,33 +28,51 @@ fn accepted(verdicts: &[Verdict]) -> bool {
     verdicts.contains(&Verdict::Propose) && !verdicts.contains(&Verdict::Reject)
 }
 
-/// Restructures the map around the places that the updater hints at, and around those that this changes.
+/// Where something changed that may settle what was put off.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Hints {
+    /// Places whose relations to their neighbours changed.
+    pub(super) changed: Vec<PlaceId>,
+    /// Places near enough that a change may narrow the box between them and another.
+    pub(super) near: Vec<PlaceId>,
+}
+
+/// Restructures the map where the updater hints at, and where this in turn changes something: "it can be advantageous for
+/// the updater to inform the restructuring module when it performs an update". Places that tracks are at (`occupied`) are
+/// never elided.
 pub(super) fn restructure(
     map: &mut Diktiometry,
     config: &Config,
-    mut hints: Vec<PlaceId>,
+    mut hints: Hints,
     occupied: &[PlaceId],
 ) -> Vec<Restructured> {
     let mut done = Vec::new();
-    while let Some(hint) = hints.pop() {
+    loop {
+        let (hint, changed) = if let Some(hint) = hints.changed.pop() {
+            (hint, true)
+        } else if let Some(hint) = hints.near.pop() {
+            (hint, false)
+        } else {
+            return done;
+        };
         let Some(place) = map.paths.resolve(hint) else {
             continue;
         };
-        done.extend(transients::elide(map, place, occupied, config));
-        for pair in geometric::pairs(map, place, config) {
+        let mut pairs = geometric::noted(map, place, config);
+        if changed {
+            done.extend(transients::elide(map, place, occupied, config));
+            pairs.extend(geometric::neighbours(map, place));
+        }
+        for pair in pairs {
             let stands = |place: PlaceId| map.paths.places[place.index()].fate == Fate::Standing;
-            let geometry = geometric::merge(&pair, config);
-            if !stands(pair.a) || !stands(pair.b) || !accepted(&[geometry]) {
+            if !stands(pair.a) || !stands(pair.b) || !accepted(&[geometric::merge(&pair, config)]) {
                 continue;
             }
             if let Some(kept) = merge::merge(map, pair.a, pair.b, config) {
-                done.push(Restructured::Merged {
-                    kept,
-                    merged: if kept == pair.a { pair.b } else { pair.a },
-                });
-                hints.push(kept);
+                let merged = if kept == pair.a { pair.b } else { pair.a };
+                done.push(Restructured::Merged { kept, merged });
+                hints.changed.push(kept);
             }
         }
     }
-    done
 }

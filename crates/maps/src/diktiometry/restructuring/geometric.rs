@@ -19,45 +19,40 @@ pub(super) struct Pair {
     pub(super) offset: PointBox,
 }
 
-/// The pairs to be looked at once more now that the robot is at `place`: those noted there, and those that one action
-/// leads to from there. Notes that are settled are taken away.
-pub(super) fn pairs(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
-    let mut pairs = ends_of_one_action(map, place);
-    pairs.extend(noted(map, place, config));
-    pairs
-}
-
-/// Places that one action leads to from `place`.
-fn ends_of_one_action(map: &Diktiometry, place: PlaceId) -> Vec<Pair> {
-    let start = &map.paths.places[place.index()];
-    let seen = |end: PlaceId| {
-        let end = &map.paths.places[end.index()];
-        let frames = if start.frame == end.frame {
-            PointBox::ORIGIN
-        } else {
-            map.reference.relation(start.frame, end.frame)?.position
-        };
-        Some(frames + end.position)
-    };
+/// Places of the frames around that of `place` which may be one: once two places are merged, what lies around them follows.
+pub(super) fn neighbours(map: &Diktiometry, place: PlaceId) -> Vec<Pair> {
+    let frame = map.paths.places[place.index()].frame;
+    let frames = &map.reference.frames;
+    let near: Vec<(PlaceId, PointBox)> = frames[frame.index()]
+        .relations
+        .iter()
+        .flat_map(|relation| {
+            let places = &frames[relation.to.index()].places;
+            places.iter().map(move |&place| {
+                let there = map.paths.places[place.index()].position;
+                (place, relation.position + there)
+            })
+        })
+        .collect();
     let mut pairs = Vec::new();
-    let links = || map.paths.outgoing(place);
-    for (id, link) in links() {
-        for (_, other) in links().filter(|(later, _)| *later > id) {
-            if link.action == other.action
-                && let (Some(a), Some(b)) = (seen(link.to), seen(other.to))
-            {
-                pairs.push(Pair {
-                    a: link.to,
-                    b: other.to,
-                    offset: b - a,
-                });
-            }
+    for (number, &(a, at)) in near.iter().enumerate() {
+        for &(b, there) in near
+            .iter()
+            .skip(number + 1)
+            .filter(|(_, there)| at.meets(*there))
+        {
+            pairs.push(Pair {
+                a,
+                b,
+                offset: there - at,
+            });
         }
     }
     pairs
 }
 
-fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
+/// The pairs noted at `place`, with what is known of them now. Notes that are settled are taken away.
+pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let notes = core::mem::take(&mut map.paths.places[place.index()].notes);
     if notes.is_empty() {
         return Vec::new();

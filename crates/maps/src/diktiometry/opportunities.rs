@@ -1,0 +1,201 @@
+//! Opportunistic mapping: the map advises "the planner of actions that the mapper would find useful". Nothing depends on
+//! whether they are done.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use tolman_geom::PointBox;
+use tolman_planners::path_to;
+
+use super::config::{Config, Use};
+use super::ids::{Action, PlaceId};
+use super::map::Diktiometry;
+use super::observation::Exits;
+use super::track::Track;
+
+/// An opportunity script: a "short, stereotyped sequence of actions designed to help mapping in particular situations".
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opportunity {
+    /// What it is good for.
+    pub kind: OpportunityKind,
+    /// The place it is about.
+    pub place: PlaceId,
+    /// The actions, from where the best track is now; never empty.
+    pub script: Vec<Action>,
+    /// What is to be won, in links: 1 for a new one, less for one that is known better afterwards.
+    pub gain: f64,
+    /// What it costs: moves.
+    pub cost: f64,
+}
+
+/// The kinds of scripts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum OpportunityKind {
+    /// Exploration, "going where no robot has gone before": to the nearest action that was never tried, from a place that is
+    /// certainly no other.
+    GoToUnknown,
+    /// Exploration, "priming the pump": "if you know your current position accurately and you are near a place with high
+    /// positional uncertainty, go to that place".
+    PrimePump,
+    /// Experimentation: back and forth on a link that was hardly gone yet.
+    Shuttle,
+    /// Experimentation: along the way between two places that may be one, until its box tells.
+    CloseLoop,
+}
+
+impl Opportunity {
+    /// What is won per move: the scripts are offered in this order.
+    #[must_use]
+    pub fn worth(&self) -> f64 {
+        self.gain / self.cost
+    }
+}
+
+/// The opportunity checker "examines the current mapper state to determine if any scripts are applicable". The most
+/// worthwhile first. O(places + links · degree).
+pub(super) fn opportunities(map: &Diktiometry, track: &Track, config: &Config) -> Vec<Opportunity> {
+    let chosen = &config.opportunities;
+    let mut all = Vec::new();
+    if chosen.unknown == Use::On {
+        all.extend(go_to_unknown(map, track.place, config));
+    }
+    if chosen.priming == Use::On && track.confidence >= config.tracks.high {
+        all.extend(prime_pump(map, track.place, config));
+    }
+    if chosen.shuttle == Use::On {
+        all.extend(shuttle(map, track, config));
+    }
+    if chosen.close_loop == Use::On {
+        all.extend(close_loop(map, track.place, config));
+    }
+    all.sort_by(|a, b| {
+        let worth = b.worth().total_cmp(&a.worth());
+        worth.then(a.kind.cmp(&b.kind)).then(a.place.cmp(&b.place))
+    });
+    all
+}
+
+/// The actions that were never tried at a place and may lead somewhere, by number.
+pub(super) fn untried(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<Action> {
+    let here = &map.paths.places[place.index()];
+    let all = (0..config.actions.len() as u32).map(Action);
+    all.filter(|action| match &here.exits {
+        Exits::Unknown => true,
+        Exits::Seen(seen) => seen.contains(action),
+    })
+    .filter(|action| !here.blocked.contains(action))
+    .filter(|&action| map.paths.along(place, action).next().is_none())
+    .collect()
+}
+
+/// Whether a place may still turn out to be another: whoever explores from it may explore what is known already.
+fn is_resolved(map: &Diktiometry, place: PlaceId) -> bool {
+    map.paths.places[place.index()].notes.is_empty()
+}
+
+fn go_to_unknown(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Opportunity> {
+    let way = path_to(&map.paths, from.0, |place| {
+        let place = PlaceId(place);
+        is_resolved(map, place) && !untried(map, place, config).is_empty()
+    })?;
+    let place = PlaceId(*way.last()?);
+    let mut script = actions_along(map, &way)?;
+    script.push(*untried(map, place, config).first()?);
+    offered(OpportunityKind::GoToUnknown, place, script, 1.0, config)
+}
+
+fn prime_pump(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Opportunity> {
+    let links = map.paths.outgoing(from);
+    let neighbours = links.filter_map(|(id, link)| {
+        let width = width(map, from, link.to)?;
+        let likely = map.paths.likeliest(from, link.action) == Some(id);
+        let loose = width >= 0.5 * config.least_distance();
+        (likely && loose).then_some((width, link))
+    });
+    let widest =
+        neighbours.max_by(|(a, one), (b, other)| a.total_cmp(b).then(other.to.cmp(&one.to)));
+    let (width, link) = widest?;
+    let gain = (0.5 * width / config.least_distance()).min(1.0);
+    offered(
+        OpportunityKind::PrimePump,
+        link.to,
+        vec![link.action],
+        gain,
+        config,
+    )
+}
+
+fn shuttle(map: &Diktiometry, track: &Track, config: &Config) -> Option<Opportunity> {
+    let link = map.paths.link(track.link?)?;
+    let [from, to] = [link.from, link.to].map(|end| map.paths.places[end.index()].frame);
+    let estimates = map.reference.relation(from, to)?.estimates;
+    let back = config.actions.get(link.action.0 as usize)?.reverse?;
+    if estimates >= config.opportunities.traversals {
+        return None;
+    }
+    let gain = width(map, link.from, link.to)? / config.least_distance();
+    offered(
+        OpportunityKind::Shuttle,
+        link.from,
+        vec![back, link.action],
+        gain.min(1.0),
+        config,
+    )
+}
+
+fn close_loop(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Opportunity> {
+    let notes = &map.paths.places[from.index()].notes;
+    let others = notes
+        .iter()
+        .filter_map(|note| map.paths.resolve(note.other));
+    let loops = others.filter_map(|other| {
+        let way = path_to(&map.paths, from.0, |place| place == other.0)?;
+        let script = actions_along(map, &way).filter(|script| !script.is_empty())?;
+        // A place that is one with another saves a place and its links.
+        offered(OpportunityKind::CloseLoop, other, script, 1.0, config)
+    });
+    loops.min_by(|a, b| a.cost.total_cmp(&b.cost).then(a.place.cmp(&b.place)))
+}
+
+/// The script, if it is not too long.
+fn offered(
+    kind: OpportunityKind,
+    place: PlaceId,
+    script: Vec<Action>,
+    gain: f64,
+    config: &Config,
+) -> Option<Opportunity> {
+    let cost = script.len();
+    (cost <= config.opportunities.reach as usize).then(|| Opportunity {
+        kind,
+        place,
+        script,
+        gain,
+        cost: cost as f64,
+    })
+}
+
+/// The actions that lead from each place of a way to the next.
+pub(super) fn actions_along(map: &Diktiometry, way: &[u32]) -> Option<Vec<Action>> {
+    let hops = way.iter().zip(way.iter().skip(1));
+    hops.map(|(&tail, &head)| {
+        let tail = PlaceId(tail);
+        let mut links = map.paths.outgoing(tail);
+        let found = links.find(|(id, link)| {
+            link.to.0 == head && map.paths.likeliest(tail, link.action) == Some(*id)
+        });
+        found.map(|(_, link)| link.action)
+    })
+    .collect()
+}
+
+/// How well the displacement between two linked places is known: the box's longer side, m.
+fn width(map: &Diktiometry, from: PlaceId, to: PlaceId) -> Option<f64> {
+    let [from, to] = [from, to].map(|place| &map.paths.places[place.index()]);
+    let frames = if from.frame == to.frame {
+        PointBox::ORIGIN
+    } else {
+        map.reference.relation(from.frame, to.frame)?.position
+    };
+    Some((frames + to.position - from.position).width())
+}
