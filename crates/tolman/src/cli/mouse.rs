@@ -1,6 +1,7 @@
-//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's rules.
+//! `tolman mouse`: a micromouse explores mazes, proves its run and makes it, under the paper's rules or those of mms.
 
 mod drawing;
+mod mms;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,22 +14,31 @@ use tolman_maze::Maze;
 use super::failure::OrBadInput;
 use super::maze::Collection;
 use super::{Failure, file, maze};
+use mms::UntilArgument;
 
 /// Sends a micromouse through mazes: it explores, proves its run, and makes it
 #[derive(clap::Args)]
 #[command(after_help = "\
 The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs, each a quarter turn or none
 and then up to three cells; the score is a thirtieth of the steps of the first run and those of the second. The
-floor is the score of a mouse that knows the maze.
+floor is the score of a mouse that knows the maze. With --mms the rules are those of the simulator mms, which hosts the
+mouse: it speaks with it on stdin and stdout, and logs to stderr.
 
 Examples:
   tolman mouse taiwan2016f.txt
   tolman mouse mazes/classic --worst 3
-  tolman mouse test_maze_02.txt --steps steps.jsonl")]
+  tolman mouse test_maze_02.txt --steps steps.jsonl
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/classic")]
 pub(super) struct Arguments {
     /// A maze file of any format, or a folder of them
-    #[arg(value_name = "FILE|DIR")]
-    maze: PathBuf,
+    #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]
+    maze: Option<PathBuf>,
+    /// Speak the protocol of the simulator mms on stdin and stdout
+    #[arg(long, conflicts_with_all = ["maze", "search", "seed", "steps", "worst", "jobs", "json"])]
+    mms: bool,
+    /// When the mouse of --mms has explored enough
+    #[arg(long, value_enum, default_value_t = UntilArgument::Proof, requires = "mms")]
+    until: UntilArgument,
     /// How to explore: certify (until the run is proven), or as the paper does: target, counter-50, counter-75, random
     #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
     search: Searcher,
@@ -58,12 +68,16 @@ struct Tried {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let Collection { mazes, unsound } = Collection::read(&arguments.maze)?;
+    // clap asks for one of the two.
+    let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
+        return mms::carry_out(arguments.until, out);
+    };
+    let Collection { mazes, unsound } = Collection::read(path)?;
     let files = mazes.len() + unsound.len();
     if arguments.steps.is_some() && files > 1 {
         return Err(Failure::BadInput(anyhow!(
             "--steps is of one maze, and {} holds {files}: name a file",
-            arguments.maze.display()
+            path.display()
         )));
     }
     let tried = maze::each(&mazes, arguments.jobs, |file, maze| {

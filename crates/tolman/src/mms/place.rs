@@ -1,6 +1,6 @@
 //! Where a mouse of mms can be: on a lattice of half-steps.
 
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Direction, Grid, Maze};
 
 /// A place on the lattice of half-steps, from the south-west corner: middles of cells have two odd
 /// coordinates, middles of walls one, posts none.
@@ -35,20 +35,55 @@ impl Place {
     /// Whether a wall or a post stands half a step ahead.
     #[must_use]
     pub fn is_blocked(self, heading: Heading, maze: &Maze) -> bool {
+        match self.gate(heading, maze.grid()) {
+            Gate::None => false,
+            Gate::Edge(cell, side) => !maze.is_open(cell, side),
+            Gate::Solid => true,
+        }
+    }
+
+    /// What a mouse comes to half a step ahead.
+    #[must_use]
+    pub fn gate(self, heading: Heading, grid: Grid) -> Gate {
         let Self { x, y } = self.ahead(heading);
-        let (width, height) = (maze.grid().width(), maze.grid().height());
         let inside = |at: u32, cells: u16| at > 0 && at < 2 * u32::from(cells);
-        if !inside(x, width) || !inside(y, height) {
-            return true;
+        if !inside(x, grid.width()) || !inside(y, grid.height()) {
+            return Gate::Solid;
         }
         let cell = Self { x, y }.cell();
         match (x % 2, y % 2) {
-            (0, 0) => true,
-            (0, _) => !maze.is_open(cell, Direction::West),
-            (_, 0) => !maze.is_open(cell, Direction::South),
-            _ => false,
+            (0, 0) => Gate::Solid,
+            (0, _) => Gate::Edge(cell, Direction::West),
+            (_, 0) => Gate::Edge(cell, Direction::South),
+            _ => Gate::None,
         }
     }
+
+    /// The middle of a cell.
+    #[must_use]
+    pub const fn middle_of(cell: Cell) -> Self {
+        Self {
+            x: 2 * cell.x as u32 + 1,
+            y: 2 * cell.y as u32 + 1,
+        }
+    }
+
+    /// Whether it is the middle of a cell.
+    #[must_use]
+    pub const fn is_middle(self) -> bool {
+        self.x % 2 == 1 && self.y % 2 == 1
+    }
+}
+
+/// What lies half a step ahead of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gate {
+    /// The middle of a cell: nothing can stand there.
+    None,
+    /// The side of a cell, with a wall or without.
+    Edge(Cell, Direction),
+    /// A post, or the border.
+    Solid,
 }
 
 /// One of the eight directions a mouse of mms can look: eighths of a circle, clockwise from north.
@@ -63,6 +98,30 @@ impl Heading {
     #[must_use]
     pub const fn turned(self, eighths: i8) -> Self {
         Self((self.0 as i8 + eighths).rem_euclid(8) as u8)
+    }
+
+    /// One of the four sides of a cell, or none on a diagonal.
+    #[must_use]
+    pub const fn side(self) -> Option<Direction> {
+        match self.0 {
+            0 => Some(Direction::North),
+            2 => Some(Direction::East),
+            4 => Some(Direction::South),
+            6 => Some(Direction::West),
+            _ => None,
+        }
+    }
+
+    /// 0 for north, then clockwise by eighths.
+    #[must_use]
+    pub const fn index(self) -> u32 {
+        self.0 as u32
+    }
+
+    /// The heading of that [`Heading::index`].
+    #[must_use]
+    pub const fn from_index(index: u32) -> Self {
+        Self((index % 8) as u8)
     }
 
     /// Half a step that way: to the east, to the north.

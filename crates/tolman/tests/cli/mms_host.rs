@@ -112,3 +112,22 @@ fn what_cannot_be_hosted_is_refused() {
     refused("sh mouse", "empty", &["holds no file"]);
     refused("sh mouse", "b.maze", &["b.maze"]);
 }
+
+#[test]
+fn our_own_mouse_solves_a_folder() {
+    let folder = folder("own-mouse");
+    for (name, maze) in [("a.maze", MIDDLE), ("b.maze", SQUARE)] {
+        std::fs::write(folder.join(name), maze).unwrap();
+    }
+    let mouse = format!("'{}' mouse --mms", env!("CARGO_BIN_EXE_tolman"));
+    let told = tolman_in(
+        &folder,
+        &["mms-host", "--mouse", &mouse, "--maze", ".", "--log"],
+    );
+    assert_eq!(told.code, Some(0), "{}", told.err);
+    assert!(told.out.contains("2 of 2 solved"), "{}", told.out);
+    assert!(told.out.contains("0 crashes, done"), "{}", told.out);
+    assert!(told.err.contains("the best possible"), "{}", told.err);
+    tolman_in(&folder, &["mouse", "--mms", "a.maze"]).refused(2, &["--mms"]);
+    tolman_in(&folder, &["mouse"]).refused(2, &["FILE|DIR"]);
+}

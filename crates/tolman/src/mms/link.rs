@@ -1,0 +1,103 @@
+//! The mouse's end of the two pipes: a command a line out, a reply a line in.
+
+use std::io::{self, BufRead, Write};
+
+use tolman_maze::{Cell, Direction};
+
+use super::PlayError;
+
+/// Speaks to whatever hosts the mouse.
+#[derive(Debug)]
+pub(super) struct Link<R, W> {
+    input: R,
+    output: W,
+}
+
+impl<R: BufRead, W: Write> Link<R, W> {
+    pub(super) const fn new(input: R, output: W) -> Self {
+        Self { input, output }
+    }
+
+    /// Says what gets no reply.
+    pub(super) fn tell(&mut self, command: &str) -> Result<(), PlayError> {
+        // A simulator that has gone is found out about by the next question.
+        writeln!(self.output, "{command}").map_err(|error| gone(error, command))
+    }
+
+    fn ask<T>(
+        &mut self,
+        command: &str,
+        expected: &'static str,
+        read: impl FnOnce(&str) -> Option<T>,
+    ) -> Result<T, PlayError> {
+        self.tell(command)?;
+        self.output.flush().map_err(|error| gone(error, command))?;
+        let mut line = String::new();
+        let bytes = self.input.read_line(&mut line);
+        if bytes.map_err(|error| gone(error, command))? == 0 {
+            return Err(PlayError::HostGone {
+                command: command.to_owned(),
+                source: None,
+            });
+        }
+        let reply = line.trim();
+        read(reply).ok_or_else(|| PlayError::Reply {
+            command: command.to_owned(),
+            reply: reply.to_owned(),
+            expected,
+        })
+    }
+
+    pub(super) fn number(&mut self, command: &str) -> Result<u16, PlayError> {
+        self.ask(command, "a number of cells", |reply| {
+            reply.parse().ok().filter(|cells| *cells > 0)
+        })
+    }
+
+    pub(super) fn truth(&mut self, command: &str) -> Result<bool, PlayError> {
+        self.ask(command, "true or false", |reply| reply.parse().ok())
+    }
+
+    pub(super) fn acknowledged(&mut self, command: &str) -> Result<(), PlayError> {
+        self.ask(command, "ack", |reply| (reply == "ack").then_some(()))
+    }
+
+    /// Says where to drive.
+    pub(super) fn drive(&mut self, command: &str) -> Result<Driven, PlayError> {
+        self.ask(command, "ack or crash", |reply| match reply {
+            "ack" => Some(Driven::Arrived),
+            "crash" => Some(Driven::Crashed),
+            _ => None,
+        })
+    }
+
+    /// Draws a wall.
+    pub(super) fn show_wall(&mut self, cell: Cell, side: Direction) -> Result<(), PlayError> {
+        let side = match side {
+            Direction::North => 'n',
+            Direction::East => 'e',
+            Direction::South => 's',
+            Direction::West => 'w',
+        };
+        self.tell(&format!("setWall {} {} {side}", cell.x, cell.y))
+    }
+
+    /// What is still to be written goes out.
+    pub(super) fn close(mut self) -> Result<(), PlayError> {
+        self.output.flush().map_err(|error| gone(error, "the end"))
+    }
+}
+
+/// How a movement ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Driven {
+    Arrived,
+    Crashed,
+}
+
+fn gone(error: io::Error, command: &str) -> PlayError {
+    PlayError::HostGone {
+        command: command.to_owned(),
+        source: Some(error),
+    }
+}

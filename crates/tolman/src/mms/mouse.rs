@@ -1,0 +1,660 @@
+//! Our mouse: it explores, drives home and makes the run that scores least.
+
+use std::io::{BufRead, Write};
+
+use thiserror::Error;
+use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+use tolman_planners::{Found, Passages, StepMap, Unknown, a_star, costs_from};
+
+use super::link::{Driven, Link};
+use super::roads::{Roads, Stand, TurnsAtStart, edges};
+use super::{Heading, Place};
+
+/// When a mouse has explored enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Until {
+    /// When it has been at the goal.
+    Goal,
+    /// When no run can score less than the best one it knows, whatever the walls nobody has looked at.
+    Proof,
+}
+
+/// What a mouse has done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Played {
+    /// What the run it made scores, in half-steps, without the tenth of all movements.
+    pub run: f32,
+    /// What the best run scores that the walls it knows leave possible.
+    pub possible: f32,
+    /// How often the reset button was pressed or a crash made it go back to the start.
+    pub resets: u32,
+}
+
+/// Why a mouse cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlayError {
+    /// The simulator has closed its end.
+    #[error("the simulator went away and left `{command}` without a reply")]
+    HostGone {
+        /// What it was asked last.
+        command: String,
+        /// Why, if the pipe says it.
+        source: Option<std::io::Error>,
+    },
+    /// The simulator says what it cannot say.
+    #[error("the simulator replied {reply:?} to `{command}`: {expected} was expected")]
+    Reply {
+        /// What it was asked.
+        command: String,
+        /// Its reply.
+        reply: String,
+        /// What it could have said.
+        expected: &'static str,
+    },
+    /// The maze is larger than the mouse's map.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
+    /// It sees walls where it has seen none, or the other way round.
+    #[error("the mouse sees what it knows to be different")]
+    Observe(#[from] ObserveError),
+    /// No way leads to the goal.
+    #[error("the mouse has found that no way leads to the goal")]
+    NoWay,
+    /// It runs against walls it does not see.
+    #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
+    Crashes {
+        /// How often.
+        crashes: u32,
+    },
+    /// The log cannot be written.
+    #[error("the mouse's log cannot be written")]
+    Log(#[source] std::io::Error),
+}
+
+/// Crashes after which a mouse no longer believes that its map comes right.
+const MOST_CRASHES: u32 = 8;
+
+/// What an observation may have to be taken back after a crash: that of the last two stops.
+const DOUBTFUL: usize = 2;
+
+/// Plays one maze, from `mazeWidth` to the end of the best run: `output` goes to the simulator, `input` comes from it, and
+/// `log` is for people.
+///
+/// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every cell where it
+/// stops it asks how far it sees to the four sides. It plans in what the simulator scores, diagonals
+/// included, and explores like the mouse of the [speed run](tolman_planners::speed_run): of the best run that can be hoped
+/// for it looks at the walls nobody has looked at, the nearest first. When the reset button is pressed it goes on from the
+/// start; after a crash too, without what it saw last.
+///
+/// # Errors
+/// If the simulator goes away or talks nonsense, the maze has more than 32 columns or rows, or no way leads to
+/// its goal.
+pub fn play(
+    input: impl BufRead,
+    output: impl Write,
+    log: impl Write,
+    until: Until,
+) -> Result<Played, PlayError> {
+    let mut link = Link::new(input, output);
+    let grid = Grid::new(link.number("mazeWidth")?, link.number("mazeHeight")?);
+    if grid.width().max(grid.height()) <= 16 {
+        Mouse::<16, _, _, _>::new(link, log, grid, until)?.play()
+    } else {
+        Mouse::<32, _, _, _>::new(link, log, grid, until)?.play()
+    }
+}
+
+struct Mouse<const N: usize, R, W, L> {
+    link: Link<R, W>,
+    log: L,
+    until: Until,
+    walls: WallMap<N>,
+    goals: Vec<Cell>,
+    at: Stand,
+    /// The best run that could be hoped for when it was last planned.
+    hoped: Option<Plan>,
+    goal: Goal,
+    crashes: u32,
+    resets: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Goal {
+    Ahead,
+    Visited,
+}
+
+/// Stands one movement apart, and what the movements cost, in halves.
+#[derive(Clone, Debug)]
+struct Plan {
+    stands: Vec<Stand>,
+    cost: u32,
+}
+
+impl Plan {
+    /// The sides of cells that it drives over.
+    fn edges(&self, grid: Grid) -> impl Iterator<Item = (Cell, Direction)> {
+        let later = self.stands.iter().skip(1);
+        let movements = self.stands.iter().zip(later);
+        movements.flat_map(move |(from, to)| edges(grid, *from, *to))
+    }
+}
+
+/// Whether the mouse is where it wanted to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Course {
+    Kept,
+    /// It is back at the start.
+    Lost,
+}
+
+impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
+    fn new(link: Link<R, W>, log: L, grid: Grid, until: Until) -> Result<Self, PlayError> {
+        Ok(Self {
+            link,
+            log,
+            until,
+            walls: WallMap::new(grid, ClosedCells::Possible)?,
+            goals: grid.middle().collect(),
+            at: Stand::START,
+            hoped: None,
+            goal: Goal::Ahead,
+            crashes: 0,
+            resets: 0,
+        })
+    }
+
+    fn play(mut self) -> Result<Played, PlayError> {
+        let grid = self.walls.grid();
+        self.say(&format!("{} × {} cells", grid.width(), grid.height()))?;
+        loop {
+            self.show_stage("explore")?;
+            if self.explore()? == Course::Lost {
+                continue;
+            }
+            let (Some(run), Some(hoped)) = (self.best_run(Unknown::Closed), &self.hoped) else {
+                return Err(PlayError::NoWay);
+            };
+            let possible = hoped.cost;
+            self.say(&format!(
+                "the best run known scores {}, the best possible {}",
+                score(run.cost),
+                score(possible)
+            ))?;
+            self.show_stage("home")?;
+            let home = self.way_home().ok_or(PlayError::NoWay)?;
+            if self.follow(&home.stands)? == Course::Lost {
+                continue;
+            }
+            self.show_stage("run")?;
+            self.show_run(&run)?;
+            if self.follow(&run.stands)? == Course::Lost {
+                continue;
+            }
+            self.say("at the goal")?;
+            self.show_stage("done")?;
+            self.link.close()?;
+            return Ok(Played {
+                run: score(run.cost),
+                possible: score(possible),
+                resets: self.resets,
+            });
+        }
+    }
+
+    /// Until the mouse has been at the goal and knows enough.
+    fn explore(&mut self) -> Result<Course, PlayError> {
+        loop {
+            self.look()?;
+            if self.is_goal(self.at) && self.goal == Goal::Ahead {
+                self.goal = Goal::Visited;
+                self.say("at the goal for the first time")?;
+            }
+            let Some(targets) = self.targets()? else {
+                return Ok(Course::Kept);
+            };
+            let way = self.way_to(&targets).ok_or(PlayError::NoWay)?;
+            if self.follow(&way.stands)? == Course::Lost {
+                return Ok(Course::Lost);
+            }
+        }
+    }
+
+    /// Takes in how far the mouse sees to the four sides, and draws the walls it has not seen before.
+    fn look(&mut self) -> Result<(), PlayError> {
+        let cell = self.at.place.cell();
+        let mut rays = Vec::with_capacity(4);
+        for (command, eighths) in [
+            ("wallFront", 0),
+            ("wallRight", 2),
+            ("wallBack", 4),
+            ("wallLeft", 6),
+        ] {
+            if let Some(side) = self.at.heading.turned(eighths).side() {
+                rays.push(self.ray(command, cell, side)?);
+            }
+        }
+        for ray in &rays {
+            let mut end = cell;
+            for _ in 0..ray.open {
+                end = self.neighbour(end, ray.direction);
+            }
+            if self.walls.knowledge(end, ray.direction) == Knowledge::Unknown {
+                self.link.show_wall(end, ray.direction)?;
+            }
+        }
+        self.walls.observe(cell, &rays)?;
+        Ok(())
+    }
+
+    /// How far the mouse sees to one side. What is known is not asked for again.
+    fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<Ray, PlayError> {
+        let (mut open, mut end) = (0, cell);
+        loop {
+            let is_wall = match self.walls.knowledge(end, side) {
+                Knowledge::Wall => true,
+                Knowledge::Open => false,
+                // Older simulators know no distance: what stands right beside the mouse is asked for without.
+                Knowledge::Unknown if open == 0 => self.link.truth(command)?,
+                Knowledge::Unknown => self.link.truth(&format!("{command} {}", 2 * open + 1))?,
+            };
+            if is_wall {
+                return Ok(Ray::to_wall(side, open));
+            }
+            end = self.neighbour(end, side);
+            open += 1;
+        }
+    }
+
+    /// The cells to stop in next, or none if the mouse has been at the goal and knows enough.
+    fn targets(&mut self) -> Result<Option<Vec<Cell>>, PlayError> {
+        if self.goal == Goal::Visited && self.until == Until::Goal {
+            self.replan();
+            return Ok(None);
+        }
+        let run = self.replan().ok_or(PlayError::NoWay)?;
+        let mut targets = Vec::new();
+        for (cell, side) in run.edges(self.walls.grid()) {
+            if self.walls.knowledge(cell, side) == Knowledge::Unknown {
+                targets.push(cell);
+                targets.extend(self.walls.grid().neighbour(cell, side));
+            }
+        }
+        if self.goal == Goal::Ahead {
+            targets.extend(&self.goals);
+        }
+        Ok((!targets.is_empty()).then_some(targets))
+    }
+
+    /// The best run that can be hoped for. Walls make no run better, so one that is not blocked stays the best.
+    fn replan(&mut self) -> Option<Plan> {
+        let walls = &self.walls;
+        let is_wall = |(cell, side): (Cell, _)| walls.knowledge(cell, side) == Knowledge::Wall;
+        let hoped = self.hoped.take();
+        let still = hoped.filter(|plan| !plan.edges(walls.grid()).any(is_wall));
+        self.hoped = still.or_else(|| self.best_run(Unknown::Open));
+        self.hoped.clone()
+    }
+
+    fn best_run(&self, unknown: Unknown) -> Option<Plan> {
+        let passages = Passages::<N>::new(&self.walls, unknown);
+        let roads = Roads::new(self.walls.grid(), &passages, TurnsAtStart::Free);
+        plan(&roads, Stand::START, |stand| self.is_goal(stand))
+    }
+
+    /// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the middle as well.
+    fn is_goal(&self, stand: Stand) -> bool {
+        stand.place != Place::START && self.goals.contains(&stand.place.cell())
+    }
+
+    /// To where the mouse can look on, on known ground: the place from which a target is near.
+    fn way_to(&self, targets: &[Cell]) -> Option<Plan> {
+        let grid = self.walls.grid();
+        let hoped = Passages::<N>::new(&self.walls, Unknown::Open);
+        let beyond = StepMap::new(&hoped, targets.iter().copied());
+        let known = Passages::<N>::new(&self.walls, Unknown::Closed);
+        let roads = Roads::new(grid, &known, TurnsAtStart::Count);
+        let costs = costs_from(&roads, [roads.node(self.at)]);
+        let cost_to = |cell: Cell| {
+            let headings = (0..8).map(Heading::from_index);
+            let nodes = headings.map(|heading| {
+                let place = Place::middle_of(cell);
+                roads.node(Stand { place, heading })
+            });
+            nodes
+                .filter_map(|node| costs.get(node as usize).copied().flatten())
+                .min()
+        };
+        let here = self.at.place.cell();
+        let worth_it = |cell: &Cell| {
+            *cell != here && (targets.contains(cell) || self.walls.uncertainty(*cell) > 0)
+        };
+        let stop = grid
+            .cells()
+            .filter(worth_it)
+            .filter_map(|cell| {
+                let on = u32::from(beyond.steps(cell)?);
+                Some((cost_to(cell)? + ONE_CELL * on, cell))
+            })
+            .min_by_key(|(cost, _)| *cost)?;
+        let place = Place::middle_of(stop.1);
+        plan(&roads, self.at, |stand| stand.place == place)
+    }
+
+    /// Home on known ground.
+    fn way_home(&self) -> Option<Plan> {
+        let known = Passages::<N>::new(&self.walls, Unknown::Closed);
+        let roads = Roads::new(self.walls.grid(), &known, TurnsAtStart::Count);
+        plan(&roads, self.at, |stand| stand.place == Place::START)
+    }
+
+    /// Drives from stand to stand, the first of which is a turn away at most.
+    fn follow(&mut self, stands: &[Stand]) -> Result<Course, PlayError> {
+        for stand in stands {
+            if self.link.truth("wasReset")? {
+                self.say("reset")?;
+                return self.go_back();
+            }
+            if self.go(*stand)? == Driven::Crashed {
+                self.crashes += 1;
+                self.say("crashed: back to the start")?;
+                if self.crashes > MOST_CRASHES {
+                    return Err(PlayError::Crashes {
+                        crashes: self.crashes,
+                    });
+                }
+                // One of the walls seen last is not as it seemed, and with it what was planned on it.
+                self.walls.undo(DOUBTFUL);
+                self.hoped = None;
+                return self.go_back();
+            }
+        }
+        Ok(Course::Kept)
+    }
+
+    fn go_back(&mut self) -> Result<Course, PlayError> {
+        self.link.acknowledged("ackReset")?;
+        self.at = Stand::START;
+        self.resets += 1;
+        Ok(Course::Lost)
+    }
+
+    /// One movement: a turn, or a straight.
+    fn go(&mut self, to: Stand) -> Result<Driven, PlayError> {
+        while self.at.heading != to.heading {
+            let left = (to.heading.index() + 8 - self.at.heading.index()) % 8;
+            let (command, eighths) = match left {
+                1 => ("turnRight45", 1),
+                2..=4 => ("turnRight", 2),
+                7 => ("turnLeft45", -1),
+                _ => ("turnLeft", -2),
+            };
+            self.link.acknowledged(command)?;
+            self.at.heading = self.at.heading.turned(eighths);
+        }
+        let (dx, dy) = (
+            to.place.x.abs_diff(self.at.place.x),
+            to.place.y.abs_diff(self.at.place.y),
+        );
+        let half_steps = dx.max(dy);
+        if half_steps == 0 {
+            return Ok(Driven::Arrived);
+        }
+        self.at.place = to.place;
+        if half_steps % 2 == 0 && self.at.heading.side().is_some() {
+            self.link.drive(&format!("moveForward {}", half_steps / 2))
+        } else {
+            self.link.drive(&format!("moveForwardHalf {half_steps}"))
+        }
+    }
+
+    fn neighbour(&self, cell: Cell, side: Direction) -> Cell {
+        self.walls.grid().neighbour(cell, side).unwrap_or(cell)
+    }
+
+    fn show_stage(&mut self, stage: &str) -> Result<(), PlayError> {
+        self.link.tell(&format!("setText 0 0 {stage}"))
+    }
+
+    /// Colours the cells of a run.
+    fn show_run(&mut self, run: &Plan) -> Result<(), PlayError> {
+        for (cell, side) in run.edges(self.walls.grid()) {
+            let beyond = self.neighbour(cell, side);
+            for cell in [cell, beyond] {
+                self.link
+                    .tell(&format!("setColor {} {} g", cell.x, cell.y))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn say(&mut self, what: &str) -> Result<(), PlayError> {
+        writeln!(self.log, "tolman mouse: {what}").map_err(PlayError::Log)
+    }
+}
+
+/// What a cell costs, about, on a way nobody has seen, in halves.
+const ONE_CELL: u32 = 5;
+
+fn plan<const N: usize>(
+    roads: &Roads<'_, N>,
+    from: Stand,
+    is_goal: impl Fn(Stand) -> bool,
+) -> Option<Plan> {
+    let Found { path, cost, .. } = a_star(
+        roads,
+        roads.node(from),
+        |node| is_goal(roads.stand(node)),
+        |_| 0,
+    )?;
+    let stands = path.into_iter().map(|node| roads.stand(node)).collect();
+    Some(Plan { stands, cost })
+}
+
+/// As the simulator counts.
+fn score(halves: u32) -> f32 {
+    halves as f32 / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::collections::VecDeque;
+    use alloc::rc::Rc;
+    use core::cell::RefCell;
+    use std::io::{self, BufReader, Read};
+
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use tolman_maze::{Braided, Maze};
+
+    use super::*;
+    use crate::mms::Simulator;
+
+    /// A simulator at the other end of both pipes.
+    struct Host<'a> {
+        simulator: Simulator<'a>,
+        asked: Vec<u8>,
+        replies: VecDeque<u8>,
+        /// Replies it gives before it goes away.
+        left: usize,
+        /// What it does to the reply of a movement, by its number.
+        meddle: fn(u64, String) -> String,
+    }
+
+    #[derive(Clone)]
+    struct Wire<'a>(Rc<RefCell<Host<'a>>>);
+
+    impl Write for Wire<'_> {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let mut host = self.0.borrow_mut();
+            for byte in bytes {
+                if *byte != b'\n' {
+                    host.asked.push(*byte);
+                    continue;
+                }
+                let line = String::from_utf8(core::mem::take(&mut host.asked)).unwrap();
+                let reply = host.simulator.answer(&line);
+                if let Some(mut reply) = reply
+                    && host.left > 0
+                {
+                    host.left -= 1;
+                    if line.starts_with("move") {
+                        reply = (host.meddle)(host.simulator.movements(), reply);
+                    }
+                    host.replies.extend(reply.bytes().chain([b'\n']));
+                }
+            }
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Read for Wire<'_> {
+        fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+            let mut host = self.0.borrow_mut();
+            let count = into.len().min(host.replies.len());
+            into.iter_mut()
+                .zip(host.replies.drain(..count))
+                .for_each(|(into, byte)| *into = byte);
+            Ok(count)
+        }
+    }
+
+    fn maze(width: u16, height: u16, seed: u64) -> Maze {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let braided = Braided {
+            width,
+            height,
+            share: 0.4,
+        };
+        braided.generate(&mut rng).unwrap()
+    }
+
+    fn host(maze: &Maze) -> Host<'_> {
+        Host {
+            simulator: Simulator::new(maze),
+            asked: Vec::new(),
+            replies: VecDeque::new(),
+            left: usize::MAX,
+            meddle: |_, reply| reply,
+        }
+    }
+
+    fn play_with<'a>(host: Host<'a>, until: Until) -> (Result<Played, PlayError>, Simulator<'a>) {
+        let wire = Wire(Rc::new(RefCell::new(host)));
+        let played = play(
+            BufReader::new(wire.clone()),
+            wire.clone(),
+            io::sink(),
+            until,
+        );
+        let simulator = wire.0.borrow().simulator.clone();
+        (played, simulator)
+    }
+
+    #[test]
+    fn the_run_is_the_best_of_all_and_scores_what_it_says() {
+        for (width, height, seed) in [(16, 16, 1), (5, 8, 2), (21, 6, 3), (2, 3, 4), (1, 7, 5)] {
+            let maze = maze(width, height, seed);
+            let (played, simulator) = play_with(host(&maze), Until::Proof);
+            let played = played.unwrap();
+            assert_eq!((simulator.crashes(), simulator.invalid()), (0, 0));
+            let best = simulator.score_in_half_steps().best.unwrap();
+            assert!((best.turns + best.effective_distance - played.run).abs() < 1e-3);
+            // As good as with all walls known.
+            let passages = Passages::<32>::new(&maze, Unknown::Closed);
+            let roads = Roads::new(maze.grid(), &passages, TurnsAtStart::Free);
+            let goals: Vec<Cell> = maze.grid().middle().collect();
+            let at_goal = |stand: Stand| goals.contains(&stand.place.cell());
+            let optimum = plan(&roads, Stand::START, at_goal).unwrap();
+            assert!((score(optimum.cost) - played.run).abs() < 1e-3);
+            assert!((played.possible - played.run).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn less_exploration_is_cheaper_and_its_run_no_better() {
+        let maze = maze(16, 16, 7);
+        let [goal, proof] = [Until::Goal, Until::Proof].map(|until| {
+            let (played, simulator) = play_with(host(&maze), until);
+            let distance = simulator.score_in_half_steps().total.distance;
+            (played.unwrap(), distance)
+        });
+        assert!(goal.0.run >= proof.0.run && goal.0.possible <= proof.0.possible);
+        assert!(goal.1 < proof.1, "or this maze shows nothing");
+    }
+
+    #[test]
+    fn the_reset_button_is_obeyed_at_any_time() {
+        let maze = maze(8, 8, 3);
+        let (_, whole) = play_with(host(&maze), Until::Proof);
+        for movements in (1..whole.movements()).step_by(3) {
+            let mut host = host(&maze);
+            host.simulator.reset_after(movements);
+            let (played, simulator) = play_with(host, Until::Proof);
+            assert!(simulator.score_in_half_steps().solved);
+            assert_eq!((played.unwrap().resets, simulator.crashes()), (1, 0));
+        }
+    }
+
+    #[test]
+    fn after_a_crash_it_goes_on_from_the_start() {
+        let maze = maze(8, 8, 4);
+        let mut once = host(&maze);
+        once.meddle = |movement, reply| {
+            if movement == 9 {
+                "crash".to_owned()
+            } else {
+                reply
+            }
+        };
+        let (played, simulator) = play_with(once, Until::Proof);
+        let played = played.unwrap();
+        assert!((played.possible - played.run).abs() < 1e-3);
+        assert_eq!((played.resets, simulator.crashes()), (1, 0));
+        let mut always = host(&maze);
+        always.meddle = |_, _| "crash".to_owned();
+        let (played, _) = play_with(always, Until::Proof);
+        assert!(matches!(played, Err(PlayError::Crashes { crashes: 9 })));
+    }
+
+    #[test]
+    fn a_simulator_that_goes_away_is_told_of() {
+        let maze = maze(4, 4, 5);
+        let mut replies = 0;
+        loop {
+            let mut host = host(&maze);
+            host.left = replies;
+            match play_with(host, Until::Proof).0 {
+                Ok(_) => break,
+                Err(error) => assert!(matches!(error, PlayError::HostGone { .. }), "{error}"),
+            }
+            replies += 1;
+        }
+        assert!(replies > 30, "it went away {replies} times");
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let heard = |replies: &str| {
+            play(replies.as_bytes(), io::sink(), io::sink(), Until::Proof)
+                .map_err(|error| error.to_string())
+        };
+        for (replies, part) in [
+            ("x\n", "`mazeWidth`"),
+            ("16\n-3\n", "`mazeHeight`"),
+            ("0\n16\n", "\"0\""),
+            ("33\n16\n", "33 × 16"),
+            ("16\n16\nyes\n", "true or false"),
+            ("3\n3\ntrue\ntrue\n", "no way"),
+        ] {
+            let error = heard(replies).unwrap_err();
+            assert!(error.contains(part), "{error}");
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Where a mouse of mms can drive, and what it costs in the score.
+
+use tolman_maze::{Cell, Direction, Grid};
+use tolman_planners::{Graph, Passages};
+
+use super::{Gate, Heading, Place};
+
+/// A place and a heading: what a movement leads from and to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stand {
+    pub(super) place: Place,
+    pub(super) heading: Heading,
+}
+
+impl Stand {
+    /// Where every mouse of mms starts.
+    pub(super) const START: Self = Self {
+        place: Place::START,
+        heading: Heading::NORTH,
+    };
+}
+
+/// All movements on some passages: turns on the spot by 45° and 90°, and straights, which may be diagonal. Costs are those of
+/// the score in half-steps, counted in halves so that they are whole.
+pub(super) struct Roads<'a, const N: usize> {
+    grid: Grid,
+    passages: &'a Passages<N>,
+    at_start: TurnsAtStart,
+}
+
+/// What turns on the start's place cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TurnsAtStart {
+    /// What they cost everywhere.
+    Count,
+    /// Nothing: a run begins with the first movement that leaves the start.
+    Free,
+}
+
+/// One turn, in halves.
+const TURN: u32 = 2;
+
+/// A straight of so many half-steps: those after the second count by half.
+const fn straight(half_steps: u32) -> u32 {
+    if half_steps > 2 {
+        half_steps + 2
+    } else {
+        2 * half_steps
+    }
+}
+
+impl<'a, const N: usize> Roads<'a, N> {
+    pub(super) const fn new(grid: Grid, passages: &'a Passages<N>, at_start: TurnsAtStart) -> Self {
+        Self {
+            grid,
+            passages,
+            at_start,
+        }
+    }
+
+    const fn columns(&self) -> u32 {
+        2 * self.grid.width() as u32 + 1
+    }
+
+    pub(super) const fn node(&self, stand: Stand) -> u32 {
+        (stand.place.y * self.columns() + stand.place.x) * 8 + stand.heading.index()
+    }
+
+    pub(super) const fn stand(&self, node: u32) -> Stand {
+        let place = node / 8;
+        Stand {
+            place: Place {
+                x: place % self.columns(),
+                y: place / self.columns(),
+            },
+            heading: Heading::from_index(node % 8),
+        }
+    }
+
+    fn is_open(&self, place: Place, heading: Heading) -> bool {
+        match place.gate(heading, self.grid) {
+            Gate::None => true,
+            Gate::Edge(cell, side) => self.passages.is_open(cell, side),
+            Gate::Solid => false,
+        }
+    }
+}
+
+impl<const N: usize> Graph for Roads<'_, N> {
+    fn node_count(&self) -> usize {
+        let rows = 2 * usize::from(self.grid.height()) + 1;
+        self.columns() as usize * rows * 8
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let Stand { place, heading } = self.stand(node);
+        let mut ahead = place;
+        for half_steps in 1.. {
+            if !self.is_open(ahead, heading) {
+                break;
+            }
+            ahead = ahead.ahead(heading);
+            let place = ahead;
+            visit(self.node(Stand { place, heading }), straight(half_steps));
+        }
+        let free = self.at_start == TurnsAtStart::Free && place == Place::START;
+        for eighths in [-2, -1, 1, 2] {
+            let heading = heading.turned(eighths);
+            let cost = if free { 0 } else { TURN };
+            visit(self.node(Stand { place, heading }), cost);
+        }
+    }
+}
+
+/// The sides of cells that a straight from one place to another drives over.
+pub(super) fn edges(grid: Grid, from: Stand, to: Stand) -> impl Iterator<Item = (Cell, Direction)> {
+    let mut place = from.place;
+    core::iter::from_fn(move || {
+        (place != to.place).then(|| {
+            let gate = place.gate(from.heading, grid);
+            place = place.ahead(from.heading);
+            gate
+        })
+    })
+    .filter_map(|gate| match gate {
+        Gate::Edge(cell, side) => Some((cell, side)),
+        Gate::None | Gate::Solid => None,
+    })
+}
