@@ -11,11 +11,11 @@ use super::map::{Diktiometry, Site};
 use super::matching::{Choice, Matcher, Situation, Traversal, choose, remember};
 use super::observation::{Exits, Move, Outcome, Start};
 use super::opportunities::{Opportunity, actions_along, opportunities};
-use super::path_graph::{Note, Successor};
+use super::path_graph::{Note, Standing, Successor};
 use super::projector::{Projection, project};
 use super::reference_graph::search;
-use super::report::{Contradiction, Culprit, Plan, PlanStep, Predicted, StepReport, TrackReport};
-use super::restructuring::{Hints, restructure};
+use super::report::{Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
+use super::restructuring::{Hints, deposit, restructure};
 use super::signature::Signature;
 use super::track::{Match, Track};
 use super::updater::arrive;
@@ -221,7 +221,15 @@ impl Observer {
         self.tracks = self.select(next.iter().map(|(track, _)| track.clone()).collect());
         let occupied: Vec<PlaceId> = self.tracks.iter().map(|track| track.place).collect();
         report.restructured = restructure(&mut self.map, &self.config, hints, &occupied);
+        for change in &report.restructured {
+            if let Restructured::Split { kept, new } = *change {
+                self.take_sides(kept, new);
+            }
+        }
         self.rename_tracks();
+        if let Some(best) = self.tracks.first() {
+            deposit(&mut self.map, best.place, &best.history, &self.config);
+        }
         for (track, mut line) in next {
             let Some(now) = self.tracks.iter().find(|other| other.id == track.id) else {
                 continue;
@@ -541,6 +549,22 @@ impl Observer {
             }
         }
         kept
+    }
+
+    /// After a split, tracks that came along a link which now leads to the new place are there.
+    fn take_sides(&mut self, kept: PlaceId, new: PlaceId) {
+        let links = &self.map.paths.links;
+        for track in self.tracks.iter_mut().filter(|track| track.place == kept) {
+            let came = track.link.map(|link| &links[link.index()]);
+            let moved = came.filter(|link| link.standing == Standing::Removed);
+            if let Some(link) = moved {
+                let mut along = self.map.paths.along(link.from, link.action);
+                if let Some((id, _)) = along.find(|(_, link)| link.to == new) {
+                    track.place = new;
+                    track.link = Some(id);
+                }
+            }
+        }
     }
 
     /// After places were merged, split or elided: tracks are called by the places' new names.

@@ -166,7 +166,7 @@ fn offered(
     config: &Config,
 ) -> Option<Opportunity> {
     let cost = script.len();
-    (cost <= config.opportunities.reach as usize).then(|| Opportunity {
+    (cost <= config.opportunities.reach as usize).then_some(Opportunity {
         kind,
         place,
         script,

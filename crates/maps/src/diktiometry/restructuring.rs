@@ -1,16 +1,21 @@
 //! The restructurers: they integrate many observations, and repair what matching got wrong.
 
 mod geometric;
+mod local_path;
 mod merge;
+mod non_local_path;
+mod split;
 mod transients;
 
 use alloc::vec::Vec;
 
 use super::config::Config;
-use super::ids::PlaceId;
+use super::ids::{LinkId, PlaceId};
 use super::map::Diktiometry;
-use super::path_graph::Fate;
+use super::matching::share_a_view;
+use super::path_graph::{Estim, Fate};
 use super::report::Restructured;
+pub(super) use non_local_path::deposit;
 
 /// What a restructurer says of a diagnosis.
 ///
@@ -21,6 +26,23 @@ enum Verdict {
     Propose,
     Abstain,
     Reject,
+}
+
+/// Polytopy: one place that is two in the world.
+#[derive(Clone, Debug, PartialEq)]
+enum Diagnosis {
+    /// It was seen at two points.
+    Estims {
+        /// The point that the old place keeps.
+        stays: Estim,
+        /// The point of the new one.
+        leaves: Estim,
+    },
+    /// What follows depends on how the robot came.
+    Links {
+        /// The links that lead to the new place.
+        incoming: Vec<LinkId>,
+    },
 }
 
 /// Whether a diagnosis is accepted: proposed by one, rejected by none.
@@ -64,8 +86,8 @@ pub(super) fn restructure(
             pairs.extend(geometric::neighbours(map, place));
         }
         for pair in pairs {
-            let stands = |place: PlaceId| map.paths.places[place.index()].fate == Fate::Standing;
-            if !stands(pair.a) || !stands(pair.b) || !accepted(&[geometric::merge(&pair, config)]) {
+            let stand = [pair.a, pair.b].map(|place| map.paths.places[place.index()].fate);
+            if stand != [Fate::Standing; 2] || !accepted(&merge_verdicts(map, &pair, config)) {
                 continue;
             }
             if let Some(kept) = merge::merge(map, pair.a, pair.b, config) {
@@ -74,5 +96,35 @@ pub(super) fn restructure(
                 hints.changed.push(kept);
             }
         }
+        let stands = map.paths.places[place.index()].fate == Fate::Standing;
+        if changed
+            && stands
+            && let Some(diagnosis) = split_diagnosis(map, place, config)
+        {
+            let new = split::split(map, place, &diagnosis);
+            done.push(Restructured::Split { kept: place, new });
+        }
     }
+}
+
+/// What each restructurer says of two places being one.
+fn merge_verdicts(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> [Verdict; 4] {
+    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+    let views = if share_a_view(a, b, &config.percepts) {
+        Verdict::Abstain
+    } else {
+        Verdict::Reject
+    };
+    [
+        geometric::merge(map, pair, config),
+        views,
+        local_path::merge(map, pair, config),
+        non_local_path::merge(map, pair, config),
+    ]
+}
+
+/// What is proposed for a place that is two. Neither restructurer has grounds to reject what the other sees: places at one
+/// point may behave differently, and places that behave alike may be apart.
+fn split_diagnosis(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
+    geometric::split(map, place, config).or_else(|| local_path::split(map, place, config))
 }

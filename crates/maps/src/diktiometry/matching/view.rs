@@ -14,6 +14,11 @@ pub(in crate::diktiometry) fn agrees(
     place.views.is_empty() || place.views.iter().any(|view| alike(view, percept, kind))
 }
 
+/// Whether two places may look alike: a view of one does as one of the other, or one has none.
+pub(in crate::diktiometry) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
+    a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
+}
+
 /// Whether two signatures may be views of one place.
 pub(in crate::diktiometry) fn alike(
     view: &Signature,

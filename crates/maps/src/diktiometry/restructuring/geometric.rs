@@ -4,11 +4,13 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use super::Verdict;
-use crate::diktiometry::config::{Config, GeometricMerge};
+use super::{Diagnosis, Verdict};
+use crate::diktiometry::config::{Config, GeometricMerge, Use};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::map::Diktiometry;
+use crate::diktiometry::path_graph::Estim;
 use crate::diktiometry::reference_graph::search;
+use crate::diktiometry::updater::merge_estims;
 
 /// Two places that may be one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,14 +96,63 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
 }
 
 /// Whether two places may be merged by where they are.
-pub(super) fn merge(pair: &Pair, config: &Config) -> Verdict {
+pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
+    let limits = &config.restructuring;
+    if limits.geometric_merge == GeometricMerge::Off {
+        return Verdict::Abstain;
+    }
     if !pair.offset.contains(Point::origin()) {
         return Verdict::Reject;
     }
-    match config.restructuring.geometric_merge {
-        GeometricMerge::Narrow if pair.offset.norm().high() < config.least_distance() => {
-            Verdict::Propose
-        }
-        GeometricMerge::Off | GeometricMerge::Narrow | GeometricMerge::Estims => Verdict::Abstain,
+    let proposed = match limits.geometric_merge {
+        GeometricMerge::Narrow => pair.offset.norm().high() < config.least_distance(),
+        GeometricMerge::Estims => have_one_mode(map, pair, config),
+        GeometricMerge::Off => false,
+    };
+    if proposed {
+        Verdict::Propose
+    } else {
+        Verdict::Abstain
     }
+}
+
+/// "When two places have estim sets that can be merged such that the resultant set has one estim with weight greater than
+/// a threshold and no other estim's weight is greater than a threshold fraction of the first, a merge is indicated."
+fn have_one_mode(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
+    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+    let shift = pair.offset.middle() + (a.position.middle() - b.position.middle());
+    let mut union = a.estims.clone();
+    union.extend(b.estims.iter().map(|estim| Estim {
+        position: estim.position + shift.coords,
+        weight: estim.weight,
+    }));
+    merge_estims(&mut union, config.separation);
+    let weights = sorted_weights(&union);
+    let (first, second) = (weights.first(), weights.get(1));
+    let limits = &config.restructuring;
+    first.is_some_and(|first| {
+        *first > limits.weight && second.is_none_or(|second| *second <= limits.minority * first)
+    })
+}
+
+fn sorted_weights(estims: &[Estim]) -> Vec<f64> {
+    let mut weights: Vec<f64> = estims.iter().map(|estim| estim.weight).collect();
+    weights.sort_by(|a, b| b.total_cmp(a));
+    weights
+}
+
+/// "Eventually the estim set will contain two estims with weight greater than a threshold, and with weight ratio
+/// (max/min) less than a threshold. So when this occurs, a split is indicated."
+pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
+    let limits = &config.restructuring;
+    if limits.geometric_split == Use::Off {
+        return None;
+    }
+    let mut estims = map.paths.places[place.index()].estims.clone();
+    estims.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    let &[stays, leaves, ..] = estims.as_slice() else {
+        return None;
+    };
+    let indicated = leaves.weight > limits.weight && stays.weight / leaves.weight < limits.ratio;
+    indicated.then_some(Diagnosis::Estims { stays, leaves })
 }
