@@ -46,7 +46,10 @@ mod error;
 mod grid;
 mod ids;
 mod indexing;
+mod journal;
 mod map;
+#[cfg(feature = "serde")]
+mod map_file;
 mod matching;
 mod observation;
 mod observer;
@@ -69,7 +72,10 @@ pub use error::{StartError, StepError};
 pub use grid::Grid;
 pub use ids::{Action, FrameId, LinkId, PlaceId, TrackId};
 pub use indexing::ActiveFrame;
+pub use journal::{Distinction, Journal, ReplayError, UndoError};
 pub use map::{Diktiometry, Drawn, Flaw};
+#[cfg(feature = "serde")]
+pub use map_file::{MapFile, MapFileError};
 pub use matching::Matcher;
 pub use observation::{Exits, Move, Outcome, Start};
 pub use observer::Observer;

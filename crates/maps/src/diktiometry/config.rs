@@ -9,6 +9,7 @@ use super::ids::Action;
 /// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no `Default`;
 /// [`Config::new`] has the values proposed here, each with its reason. Lengths are in metres of the odometry.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Config {
     /// The robot's control routines.
     pub actions: Vec<ActionKind>,
@@ -47,6 +48,7 @@ pub struct Config {
 
 /// What is known of an action beforehand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ActionKind {
     /// The action that usually leads back. Only advice uses it; the map believes what it saw.
     pub reverse: Option<Action>,
@@ -54,6 +56,7 @@ pub struct ActionKind {
 
 /// Whether a part is at work; off for ablations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Use {
     /// It is at work.
     On,
@@ -63,6 +66,7 @@ pub enum Use {
 
 /// What the robot sees of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Percepts {
     /// Nothing.
     None,
@@ -72,6 +76,7 @@ pub enum Percepts {
 
 /// The form of the signatures, and when two are views of one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SignatureKind {
     /// Values in a column, ≥ 1.
     pub rows: usize,
@@ -90,6 +95,7 @@ pub struct SignatureKind {
 
 /// Whether views of one place may be turned against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rotation {
     /// No: a compass turns them all north.
     Aligned,
@@ -99,6 +105,7 @@ pub enum Rotation {
 
 /// Limits of a search of the reference graph from a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SearchLimits {
     /// Frames whose position is known less well than this are not reached: the box's longer side, m, > 0.
     pub width: f64,
@@ -110,6 +117,7 @@ pub struct SearchLimits {
 
 /// Which modules propose candidates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Indexing {
     /// Places predicted by the last action.
     pub expectational: Use,
@@ -121,6 +129,7 @@ pub struct Indexing {
 
 /// The two methods of *Geometric Indexing*.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GeometricIndexing {
     /// None.
     Off,
@@ -132,6 +141,7 @@ pub enum GeometricIndexing {
 
 /// How places are matched.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Matching {
     /// What an unexpected place has to show.
     pub identity: Identity,
@@ -152,6 +162,7 @@ pub struct Matching {
 
 /// When an unexpected place is taken for one that is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Identity {
     /// As the paper has it: the boxes meet. A wide box meets the neighbours as well, so that different places are confused.
     Meets,
@@ -162,6 +173,7 @@ pub enum Identity {
 
 /// How matchers take precedence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Order {
     /// One order for all: CONTINUE, LINK, α, new place, β. The paper's prototype.
     Static,
@@ -171,6 +183,7 @@ pub enum Order {
 
 /// How many hypotheses are followed, and when one is given up.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tracking {
     /// Tracks at most, ≥ 1.
     pub cap: usize,
@@ -186,6 +199,7 @@ pub struct Tracking {
 
 /// When links and places are taken for hallucinations.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transients {
     /// Whether they are elided.
     pub elision: Use,
@@ -199,6 +213,7 @@ pub struct Transients {
 
 /// The three restructurers and the veto among them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Restructuring {
     /// Geometric constraints on merging.
     pub geometric_merge: GeometricMerge,
@@ -226,6 +241,7 @@ pub struct Restructuring {
 
 /// What geometry asks for before two places are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GeometricMerge {
     /// Geometry says nothing.
     Off,
@@ -237,6 +253,7 @@ pub enum GeometricMerge {
 
 /// What is advised.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Opportunities {
     /// Going where no robot has gone before.
     pub unknown: Use,
@@ -254,6 +271,7 @@ pub struct Opportunities {
 
 /// How far back the journal goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum JournalLength {
     /// Nothing is kept.
     Off,

@@ -9,6 +9,7 @@ use super::signature::Signature;
 
 /// One move: "a sequence of actions ending with the robot in a distinguished place", told after it ended.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Move {
     /// The control routine.
     pub action: Action,
@@ -28,6 +29,7 @@ pub struct Move {
 
 /// How a move ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Outcome {
     /// At a distinctive place.
     Arrived,
@@ -37,6 +39,7 @@ pub enum Outcome {
 
 /// Which actions the robot sees that it could try. It serves advice alone; no place is recognized by it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {
     /// It cannot tell: any action may be worth a try.
     #[default]
@@ -47,6 +50,7 @@ pub enum Exits {
 
 /// How the robot begins: what it sees of the first place.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Start {
     /// What it looks like.
     pub percept: Option<Signature>,

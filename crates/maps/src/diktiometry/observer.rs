@@ -7,6 +7,7 @@ use super::config::{Config, GeometricIndexing, Percepts, Use};
 use super::error::{StartError, StepError};
 use super::ids::{Action, LinkId, PlaceId, TrackId};
 use super::indexing::{ActiveFrame, Candidate, expected, moved, plies};
+use super::journal::{Distinction, Recorder};
 use super::map::{Diktiometry, Site};
 use super::matching::{Choice, Matcher, Situation, Traversal, choose, remember};
 use super::observation::{Exits, Move, Outcome, Start};
@@ -14,7 +15,9 @@ use super::opportunities::{Opportunity, actions_along, opportunities};
 use super::path_graph::{Note, Standing, Successor};
 use super::projector::{Projection, project};
 use super::reference_graph::search;
-use super::report::{Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
+use super::report::{
+    Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport,
+};
 use super::restructuring::{Hints, deposit, restructure};
 use super::signature::Signature;
 use super::track::{Match, Track};
@@ -33,6 +36,8 @@ pub struct Observer {
     tracks: Vec<Track>,
     born: u32,
     moves: u64,
+    distinctions: Vec<Distinction>,
+    pub(super) recorder: Option<Recorder>,
 }
 
 impl Observer {
@@ -44,6 +49,7 @@ impl Observer {
         config.check()?;
         check_percept(&config, start.percept.as_ref())?;
         check_exits(&config, &start.exits)?;
+        let recorder = Recorder::new(&config, &start);
         let mut map = Diktiometry::default();
         let place = map.new_place(Site::OwnFrame);
         let first = &mut map.paths.places[place.index()];
@@ -73,6 +79,8 @@ impl Observer {
             tracks: Vec::from([track]),
             born: 1,
             moves: 0,
+            distinctions: Vec::new(),
+            recorder,
         })
     }
 
@@ -104,6 +112,14 @@ impl Observer {
     #[must_use]
     pub fn place(&self) -> PlaceId {
         self.tracks[0].place
+    }
+
+    /// Takes in that places are different.
+    pub(super) fn distinguish(&mut self, distinctions: &[Distinction]) {
+        self.distinctions = distinctions.to_vec();
+        if let Some(recorder) = &mut self.recorder {
+            recorder.journal.distinctions = distinctions.to_vec();
+        }
     }
 
     /// Where an action leads from a place, as far as is known, by the link's id. Empty if it was never done there or the
@@ -169,6 +185,7 @@ impl Observer {
             Outcome::Blocked => self.blocked(step, &mut report),
             Outcome::Arrived => self.arrived(step, &mut report),
         }
+        self.record(step);
         Ok(report)
     }
 
@@ -220,7 +237,13 @@ impl Observer {
         }
         self.tracks = self.select(next.iter().map(|(track, _)| track.clone()).collect());
         let occupied: Vec<PlaceId> = self.tracks.iter().map(|track| track.place).collect();
-        report.restructured = restructure(&mut self.map, &self.config, hints, &occupied);
+        report.restructured = restructure(
+            &mut self.map,
+            &self.config,
+            hints,
+            &occupied,
+            &self.distinctions,
+        );
         for change in &report.restructured {
             if let Restructured::Split { kept, new } = *change {
                 self.take_sides(kept, new);

@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 
 use super::config::Config;
 use super::ids::{LinkId, PlaceId};
+use super::journal::Distinction;
 use super::map::Diktiometry;
 use super::matching::share_a_view;
 use super::path_graph::{Estim, Fate};
@@ -67,6 +68,7 @@ pub(super) fn restructure(
     config: &Config,
     mut hints: Hints,
     occupied: &[PlaceId],
+    distinctions: &[Distinction],
 ) -> Vec<Restructured> {
     let mut done = Vec::new();
     loop {
@@ -90,6 +92,9 @@ pub(super) fn restructure(
             if stand != [Fate::Standing; 2] || !accepted(&merge_verdicts(map, &pair, config)) {
                 continue;
             }
+            if distinctions.iter().any(|one| separates(map, one, &pair)) {
+                continue;
+            }
             if let Some(kept) = merge::merge(map, pair.a, pair.b, config) {
                 let merged = if kept == pair.a { pair.b } else { pair.a };
                 done.push(Restructured::Merged { kept, merged });
@@ -105,6 +110,12 @@ pub(super) fn restructure(
             done.push(Restructured::Split { kept: place, new });
         }
     }
+}
+
+/// Whether the two places of a pair are those that are known to be different.
+fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pair) -> bool {
+    let ends = [distinction.one, distinction.other].map(|end| map.paths.resolve(end));
+    ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
 }
 
 /// What each restructurer says of two places being one.

@@ -8,10 +8,29 @@ use thiserror::Error;
 ///
 /// Source: paper, *Perceptual Indexing*.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 pub struct Signature {
     rows: usize,
     /// One column after the other.
     values: Vec<f64>,
+}
+
+/// A signature as it lies in a file.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    rows: usize,
+    values: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Signature {
+    type Error = SignatureError;
+
+    fn try_from(unchecked: Unchecked) -> Result<Self, SignatureError> {
+        Self::new(unchecked.rows, unchecked.values)
+    }
 }
 
 /// Why values are no signature.

@@ -6,5 +6,8 @@
 
 extern crate alloc;
 
+#[cfg(feature = "serde")]
+mod files;
 mod learning;
+mod properties;
 mod walk;

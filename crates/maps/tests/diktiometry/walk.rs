@@ -83,6 +83,24 @@ impl Walk {
         }
     }
 
+    /// The true place that each place of the map was most often met at.
+    pub(crate) fn truths(&self) -> BTreeMap<PlaceId, u32> {
+        let mut counts: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();
+        for &(truth, place) in &self.log {
+            if let Some(place) = self.observer.map().paths.resolve(place) {
+                *counts.entry(place).or_default().entry(truth).or_default() += 1;
+            }
+        }
+        let most = |truths: &BTreeMap<u32, usize>| {
+            let most = truths.iter().max_by_key(|(_, count)| **count);
+            *most.unwrap().0
+        };
+        counts
+            .iter()
+            .map(|(place, truths)| (*place, most(truths)))
+            .collect()
+    }
+
     pub(crate) fn score(&self) -> Score {
         let paths = &self.observer.map().paths;
         let mut counts: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();

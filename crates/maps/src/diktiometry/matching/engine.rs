@@ -54,8 +54,17 @@ pub(in crate::diktiometry) fn choose(
     if !expected.iter().any(Candidate::is_possible) {
         choice.excluded = excluded.copied();
     }
-    let continues = first.iter().any(|one| one.matcher == Matcher::Continue);
-    let enough = continues && rank(Matcher::Continue, Matcher::Link, Age::Old);
+    let least_distance = situation.config.least_distance();
+    let mut continues = first
+        .iter()
+        .filter(|one| one.matcher == Matcher::Continue)
+        .filter_map(|one| one.candidate);
+    // Where the robot can be at no other place, others could only turn out to be the same.
+    let enough = if rank(Matcher::Continue, Matcher::Link, Age::Old) {
+        continues.next().is_some()
+    } else {
+        continues.any(|candidate| candidate.is_certain(least_distance))
+    };
     let mut sets = Vec::from([first]);
     if !enough {
         for mut ply in plies() {
@@ -70,7 +79,7 @@ pub(in crate::diktiometry) fn choose(
         .flatten()
         .filter(is_normal)
         .filter_map(|one| one.candidate)
-        .filter(|candidate| candidate.is_certain(situation.config.least_distance()))
+        .filter(|candidate| candidate.is_certain(least_distance))
         .map(|candidate| candidate.place)
         .collect();
 
@@ -130,7 +139,7 @@ pub(in crate::diktiometry) fn choose(
         matcher.then(nearest).then(place(a).cmp(&place(b)))
     });
     let best = choice.matches.first().and_then(|best| best.candidate);
-    if let Some(best) = best.filter(|best| best.is_certain(situation.config.least_distance())) {
+    if let Some(best) = best.filter(|best| best.is_certain(least_distance)) {
         choice.twins = certain;
         choice.twins.retain(|place| *place != best.place);
     }

@@ -1,0 +1,97 @@
+use alloc::string::String;
+
+use thiserror::Error;
+
+use super::config::Config;
+use super::journal::{Journal, ReplayError};
+use super::observer::Observer;
+
+/// What `format` says in a file of ours.
+const FORMAT: &str = "tolman-diktiometry";
+/// The version that is written; all versions up to it are read.
+const VERSION: u32 = 1;
+
+/// An observer as it lies in a file: the journal, from which everything follows to the bit. Any format of serde's will do.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct MapFile {
+    format: String,
+    version: u32,
+    config: Config,
+    /// How many moves the journal has: a journal that was cut off has fewer.
+    moves: usize,
+    journal: Journal,
+}
+
+/// Why a file holds no diktiometry.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MapFileError {
+    /// The observer kept no journal.
+    #[error("no journal was kept; set `journal` of the configuration to `All`")]
+    NoJournal,
+    /// It is another kind of file.
+    #[error("its format is {found:?}, expected {FORMAT:?}")]
+    Format {
+        /// What it says.
+        found: String,
+    },
+    /// It is of a later time.
+    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
+    Version {
+        /// What it says.
+        found: u32,
+    },
+    /// Moves are missing.
+    #[error("the journal was cut off: {found} of {expected} moves are there")]
+    Truncated {
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// The journal cannot be replayed.
+    #[error("the journal does not fit the configuration")]
+    Replay(#[from] ReplayError),
+}
+
+impl MapFile {
+    /// What is to be written of an observer.
+    ///
+    /// # Errors
+    /// [`MapFileError::NoJournal`] if it kept none.
+    pub fn of(observer: &Observer) -> Result<Self, MapFileError> {
+        let journal = observer.journal().ok_or(MapFileError::NoJournal)?;
+        Ok(Self {
+            format: FORMAT.into(),
+            version: VERSION,
+            config: observer.config().clone(),
+            moves: journal.moves.len(),
+            journal: journal.clone(),
+        })
+    }
+
+    /// The observer, as it was. O(moves).
+    ///
+    /// # Errors
+    /// [`MapFileError`] if it is another kind of file, of a later version, cut off, or of moves that are none.
+    pub fn observer(&self) -> Result<Observer, MapFileError> {
+        if self.format != FORMAT {
+            return Err(MapFileError::Format {
+                found: self.format.clone(),
+            });
+        }
+        if self.version == 0 || self.version > VERSION {
+            return Err(MapFileError::Version {
+                found: self.version,
+            });
+        }
+        let found = self.journal.moves.len();
+        if found != self.moves {
+            return Err(MapFileError::Truncated {
+                expected: self.moves,
+                found,
+            });
+        }
+        Ok(Observer::replay(self.config.clone(), &self.journal)?)
+    }
+}

@@ -1,0 +1,100 @@
+use alloc::vec::Vec;
+
+use tolman_geom::{Interval, PointBox};
+
+use super::Diagnosis;
+use crate::diktiometry::ids::{LinkId, PlaceId};
+use crate::diktiometry::map::{Diktiometry, Site};
+use crate::diktiometry::path_graph::{Estim, Link, Standing};
+
+/// Makes two places of one: the new one, in the same frame.
+///
+/// By estims, "the two new places created by a split each take the sides of the original position estimate indicated by
+/// their respective estims. Action link sets are pruned eventually by the transient elision mechanism": both have all
+/// links. By links, each takes the incoming links of its side and what was taken after them.
+pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis) -> PlaceId {
+    let here = map.paths.places[place.index()].clone();
+    let new = map.new_place(Site::InFrame {
+        frame: here.frame,
+        position: here.position,
+    });
+    let (incoming, outgoing) = match diagnosis {
+        Diagnosis::Estims { stays, leaves } => {
+            let halves = halves(here.envelope, stays, leaves);
+            for (place, (half, estim)) in [place, new]
+                .into_iter()
+                .zip(halves.into_iter().zip([stays, leaves]))
+            {
+                let place = &mut map.paths.places[place.index()];
+                place.position = half;
+                place.envelope = half;
+                place.estims = Vec::from([*estim]);
+            }
+            (here.incoming.clone(), here.outgoing.clone())
+        }
+        Diagnosis::Links { incoming } => {
+            let after = |id: &LinkId| {
+                let then = &map.paths.links[id.index()].then;
+                then.iter().map(|one| one.link).collect::<Vec<LinkId>>()
+            };
+            let mut outgoing: Vec<LinkId> = incoming.iter().flat_map(after).collect();
+            outgoing.sort_unstable();
+            outgoing.dedup();
+            map.paths.places[new.index()].envelope = here.envelope;
+            (incoming.clone(), outgoing)
+        }
+    };
+    let moved = matches!(diagnosis, Diagnosis::Links { .. });
+    let visits: u32 = incoming
+        .iter()
+        .map(|id| map.paths.links[id.index()].traversed)
+        .sum();
+    let twin = &mut map.paths.places[new.index()];
+    twin.views = here.views;
+    twin.exits = here.exits;
+    twin.blocked = here.blocked;
+    twin.visits = visits.min(here.visits);
+    for id in incoming {
+        let link = map.paths.links[id.index()].clone();
+        if link.from == place {
+            continue; // A link from the place to itself stays with it.
+        }
+        copy(map, &link, link.from, new);
+        if moved {
+            map.paths.remove_link(id);
+        }
+    }
+    for id in outgoing {
+        let link = map.paths.links[id.index()].clone();
+        if link.to != place && link.standing == Standing::Standing && link.from == place {
+            copy(map, &link, new, link.to);
+        }
+    }
+    new
+}
+
+/// A link with the counts of another.
+fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) {
+    let id = map.paths.link_to(from, link.action, to);
+    let new = &mut map.paths.links[id.index()];
+    new.traversed = new.traversed.saturating_add(link.traversed);
+    new.expected += link.expected;
+    new.met += link.met;
+}
+
+/// Cuts a box in two across the axis along which the estims lie farther apart.
+fn halves(whole: PointBox, one: &Estim, other: &Estim) -> [PointBox; 2] {
+    let way = other.position - one.position;
+    let along_x = way.x.abs() >= way.y.abs();
+    let cut = |side: Interval, a: f64, b: f64| {
+        let middle = 0.5 * (a + b);
+        let half = |low: f64, high: f64| Interval::new(low, high).unwrap_or(side);
+        let parts = [half(side.low(), middle), half(middle, side.high())];
+        if a <= b { parts } else { [parts[1], parts[0]] }
+    };
+    if along_x {
+        cut(whole.x, one.position.x, other.position.x).map(|x| PointBox::new(x, whole.y))
+    } else {
+        cut(whole.y, one.position.y, other.position.y).map(|y| PointBox::new(whole.x, y))
+    }
+}
