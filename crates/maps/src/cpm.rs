@@ -40,8 +40,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod alignment;
 mod config;
 mod explorer;
+mod geometry;
+mod hypothesis;
 mod map;
 mod mapper;
 mod pattern;
@@ -53,6 +56,7 @@ mod turn;
 mod unify;
 pub mod world;
 
+pub use alignment::Alignment;
 pub use config::{CpmConfig, Mapping, Onward};
 pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};

@@ -5,6 +5,8 @@ extern crate alloc;
 
 mod cpm {
     mod explorations;
+    mod matching;
+    mod targets;
     mod turns;
     mod walks;
 }

@@ -1,3 +1,4 @@
+use super::alignment::Alignment;
 use super::similarity::{Matching, Similarity};
 
 /// How an [`Explorer`](super::Explorer) maps and decides.
@@ -26,6 +27,16 @@ pub enum Mapping {
     },
     /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
     Online,
+    /// Online, and for mazes with fragments that look alike or symmetrical, which the paper excludes: several maps are kept, each
+    /// one way to understand all that was met, and the most likely of them is looked at. Ours, in the manner of the lazily
+    /// searched trees of topological maps (Johnson, Kuipers 2012).
+    ///
+    /// Bounds of dead reckoning tell alike fragments apart and close loops on arrival; without them, fragments are told apart by their
+    /// neighbours alone.
+    Hypotheses {
+        /// How many maps are kept at most, at least 1.
+        width: u32,
+    },
 }
 
 /// What a robot does online at a junction that "has no unknown ports left".
@@ -47,6 +58,16 @@ impl CpmConfig {
             matching: Matching::Positions(Similarity::paper()),
             onward: Onward::ShortestKnownWay,
             most_traversals: 10_000,
+        }
+    }
+
+    /// All that we know better than the paper: alignment, hypotheses.
+    #[must_use]
+    pub const fn robust() -> Self {
+        Self {
+            mapping: Mapping::Hypotheses { width: 16 },
+            matching: Matching::Alignment(Alignment::tuned()),
+            ..Self::online()
         }
     }
 

@@ -4,6 +4,7 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 
 use super::config::{CpmConfig, Mapping, Onward};
+use super::hypothesis::{Belief, Hypothesis, Judge};
 use super::map::{CpMap, End, JunctionId, Port, PortState};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
@@ -21,7 +22,10 @@ use super::turn::{NoSuchTurn, Turn};
 #[derive(Clone, Debug)]
 pub struct Explorer {
     config: CpmConfig,
-    mapper: Mapper,
+    /// The most likely one; offline and online there is no other.
+    best: Hypothesis,
+    /// The others, the likelier first.
+    rivals: Vec<Hypothesis>,
     traversals: u32,
     before_duplicate: Option<u32>,
     contradictions: u32,
@@ -80,6 +84,10 @@ pub enum Arrival {
     Known,
     /// A duplicate: it was on the map already, and the robot did not know that it was there. A loop is closed.
     Duplicate,
+    /// A fragment that was not on the map, to a place that was: a loop is closed on arrival.
+    Loop,
+    /// Another way to understand all that was met has become the likeliest: the whole map may have changed.
+    Revised,
     /// The map expected another place or fragment; the robot goes on with what it found, apart from the rest until it recognizes
     /// something.
     Contradiction,
@@ -108,6 +116,9 @@ pub enum CpmError {
     Dictionary(#[from] DictionaryError),
 }
 
+/// The logarithm of odds from which a hypothesis is given up.
+const HOPELESS: f64 = 25.0;
+
 /// Of one junction.
 const MOST_PORTS: u32 = 1000;
 
@@ -123,7 +134,11 @@ impl Explorer {
         check(start)?;
         Ok(Self {
             config,
-            mapper: Mapper::new(start),
+            best: Hypothesis {
+                mapper: Mapper::new(start),
+                cost: 0.0,
+            },
+            rivals: Vec::new(),
             traversals: 0,
             before_duplicate: None,
             contradictions: 0,
@@ -133,13 +148,13 @@ impl Explorer {
     /// The map as it is now. Offline it holds duplicates until it is [optimized](Self::optimize).
     #[must_use]
     pub const fn map(&self) -> &CpMap {
-        &self.mapper.map
+        &self.best.mapper.map
     }
 
     /// Where the robot is on the map: the port behind it.
     #[must_use]
     pub const fn at(&self) -> Port {
-        self.mapper.at
+        self.best.mapper.at
     }
 
     /// How many fragments were walked to their end.
@@ -194,36 +209,103 @@ impl Explorer {
     ) -> Result<Arrival, CpmError> {
         check(walk.sighting)?;
         dictionary.check(&walk.patterns)?;
-        if let Some(version) = self.mapper.map.version {
+        if let Some(version) = self.best.mapper.map.version {
             dictionary.check_version(version)?;
         }
-        let exit = self.mapper.exit(turn)?;
+        let exit = self.best.mapper.exit(turn)?;
+        let arrival = match self.config.mapping {
+            Mapping::Hypotheses { width } => self.weigh(turn, walk, dictionary, width)?,
+            _ => self.reason(exit, walk, dictionary),
+        };
+        self.traversals += 1;
+        self.best.mapper.map.version = Some(dictionary.version());
+        match arrival {
+            Arrival::Known | Arrival::Duplicate => {
+                self.before_duplicate.get_or_insert(self.traversals - 1);
+            }
+            Arrival::Contradiction => self.contradictions += 1,
+            Arrival::New | Arrival::Loop | Arrival::Revised => {}
+        }
+        Ok(arrival)
+    }
+
+    /// Offline and online: one map, on which what is similar is the same.
+    fn reason(&mut self, exit: Port, walk: &Traversal, dictionary: &Dictionary) -> Arrival {
         let online = self.looks_at_map();
         let config = self.config;
-        let before = self.mapper.map.clone();
-        let walked = self.mapper.walk(exit, walk, |known, sense| {
+        let before = self.map().clone();
+        let mapper = &mut self.best.mapper;
+        let walked = mapper.walk(exit, walk, |known, sense| {
             !online || trusts(&config, dictionary, &before, walk, known, sense)
         });
-        self.traversals += 1;
-        self.mapper.map.version = Some(dictionary.version());
-        let (new, otherwise) = match walked {
-            Walked::Known(_) => (None, Arrival::Known),
-            Walked::New(new) => (Some(new), Arrival::New),
-            Walked::Contradicted(new) => {
-                self.contradictions += 1;
-                (Some(new), Arrival::Contradiction)
-            }
+        let (new, arrival) = match walked {
+            Walked::Known => return Arrival::Known,
+            Walked::New(new) => (new, Arrival::New),
+            Walked::Contradicted(new) => (new, Arrival::Contradiction),
         };
-        let matching = &self.config.matching;
-        let merges = new
-            .filter(|_| online)
-            .and_then(|new| self.mapper.unify_with_similar(new, matching, dictionary));
-        if let (Walked::Known(_), _) | (_, Some(_)) = (walked, &merges) {
-            self.before_duplicate.get_or_insert(self.traversals - 1);
-        }
-        Ok(match (merges, otherwise) {
+        let merges = if online {
+            mapper.unify_with_similar(new, &config.matching, dictionary)
+        } else {
+            None
+        };
+        match (merges, arrival) {
             (Some(_), Arrival::New) => Arrival::Duplicate,
-            (_, otherwise) => otherwise,
+            _ => arrival,
+        }
+    }
+
+    /// With hypotheses: each makes others of the walk, of which the likeliest are kept.
+    fn weigh(
+        &mut self,
+        turn: Turn,
+        walk: &Traversal,
+        dictionary: &Dictionary,
+        width: u32,
+    ) -> Result<Arrival, CpmError> {
+        let matching = &self.config.matching;
+        let judge = Judge {
+            matching,
+            dictionary,
+        };
+        let mut all = Vec::new();
+        let before = core::iter::once(&self.best).chain(&self.rivals);
+        for (parent, hypothesis) in before.enumerate() {
+            // The same place looks the same in all, so the turn is there in all.
+            let after = hypothesis.after(turn, walk, &judge)?;
+            all.extend(
+                after
+                    .into_iter()
+                    .map(|(next, belief)| (next, belief, parent)),
+            );
+        }
+        all.sort_by(|(a, ..), (b, ..)| a.cost.total_cmp(&b.cost));
+        let mut all = all.into_iter();
+        let Some((best, belief, parent)) = all.next() else {
+            let exit = self.best.mapper.exit(turn)?;
+            self.best.mapper.walk(exit, walk, |_, _| false);
+            self.rivals.clear();
+            return Ok(Arrival::Contradiction);
+        };
+        let mut signatures = Vec::from([best.signature()]);
+        self.rivals.clear();
+        for (mut rival, ..) in all.take_while(|(rival, ..)| rival.cost < best.cost + HOPELESS) {
+            if signatures.len() >= width as usize {
+                break;
+            }
+            let signature = rival.signature();
+            if !signatures.contains(&signature) {
+                signatures.push(signature);
+                rival.cost -= best.cost;
+                self.rivals.push(rival);
+            }
+        }
+        self.best = Hypothesis { cost: 0.0, ..best };
+        Ok(match belief {
+            _ if parent > 0 => Arrival::Revised,
+            Belief::NewPlace => Arrival::New,
+            Belief::NewWay => Arrival::Loop,
+            Belief::Duplicate => Arrival::Duplicate,
+            Belief::Known => Arrival::Known,
         })
     }
 
@@ -232,22 +314,32 @@ impl Explorer {
     /// # Errors
     /// [`CpmError::Turn`] if the junction has no such turn.
     pub fn turned_back(&mut self, turn: Turn, observations: u32) -> Result<(), CpmError> {
-        let exit = self.mapper.exit(turn)?;
-        self.mapper.came_back(exit, observations);
+        let exit = self.best.mapper.exit(turn)?;
+        self.best.mapper.came_back(exit, observations);
+        self.rivals.retain_mut(|rival| {
+            let exit = rival.mapper.exit(turn);
+            exit.is_ok_and(|exit| {
+                rival.mapper.came_back(exit, observations);
+                true
+            })
+        });
         self.traversals += 1;
         Ok(())
     }
 
-    /// Merges all that is similar: the offline CPM's last step. Returns how many fragments were duplicates.
+    /// Merges all that is similar: the offline CPM's last step. With hypotheses similar is not the same, and nothing happens. Returns how many fragments were duplicates.
     /// O(fragments²) comparisons.
     ///
     /// # Errors
     /// [`CpmError::Dictionary`] if the map is another dictionary's.
     pub fn optimize(&mut self, dictionary: &Dictionary) -> Result<usize, CpmError> {
-        if let Some(version) = self.mapper.map.version {
+        if let Some(version) = self.best.mapper.map.version {
             dictionary.check_version(version)?;
         }
-        Ok(self.mapper.optimize(&self.config.matching, dictionary))
+        if let Mapping::Hypotheses { .. } = self.config.mapping {
+            return Ok(0);
+        }
+        Ok(self.best.mapper.optimize(&self.config.matching, dictionary))
     }
 
     /// The shortest known way from here to a landmark; none if none is known.
@@ -263,7 +355,8 @@ impl Explorer {
     pub fn place(&mut self, at: Port) -> Result<(), CpmError> {
         let degree = self.map().degree(at.junction);
         Turn::BACK.exit(at.number, degree)?;
-        self.mapper.at = at;
+        self.best.mapper.at = at;
+        self.rivals.clear();
         Ok(())
     }
 
@@ -285,7 +378,7 @@ impl Explorer {
     const fn looks_at_map(&self) -> bool {
         match self.config.mapping {
             Mapping::Offline { patience } => self.traversals >= patience,
-            Mapping::Online => true,
+            _ => true,
         }
     }
 
@@ -334,7 +427,7 @@ impl Explorer {
         } else {
             Turn(rng.random_range(1..degree))
         };
-        let port = self.mapper.exit(turn).ok()?;
+        let port = self.best.mapper.exit(turn).ok()?;
         self.leg_to(port.number, None)
     }
 

@@ -22,7 +22,7 @@ pub(super) enum Walked {
     /// Through an open port.
     New(FragmentId),
     /// Along a fragment of the map, which led where it should.
-    Known(FragmentId),
+    Known,
     /// Along a fragment of the map, which turned out to be another: the map is wrong somewhere, or what was sighted is.
     Contradicted(FragmentId),
 }
@@ -62,7 +62,7 @@ impl Mapper {
         {
             self.at = port;
             self.confirm(end, walk);
-            return Walked::Known(end.fragment);
+            return Walked::Known;
         }
         // The robot is not where the map has it. What it has walked hangs on nothing then, until it is recognized.
         let sighting = self
@@ -82,7 +82,7 @@ impl Mapper {
         Walked::Contradicted(self.append(exit, walk))
     }
 
-    fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
+    pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting);
         self.at = Port {
             junction,
@@ -92,7 +92,7 @@ impl Mapper {
             .add_fragment(walk.patterns.clone(), walk.motion, exit, self.at)
     }
 
-    fn confirm(&mut self, end: End, walk: &Traversal) {
+    pub(super) fn confirm(&mut self, end: End, walk: &Traversal) {
         let Some(fragment) = self.map.fragments.get_mut(&end.fragment) else {
             return;
         };

@@ -1,3 +1,4 @@
+use super::alignment::Alignment;
 use super::map::Sign;
 use super::pattern::{Dictionary, PatternId};
 use super::traversal::Motion;
@@ -8,6 +9,8 @@ use super::traversal::Motion;
 pub enum Matching {
     /// Position by position, equations (3) to (5).
     Positions(Similarity),
+    /// With insertions, deletions and changes of speed.
+    Alignment(Alignment),
 }
 
 /// Which way round two sequences are similar.
@@ -54,6 +57,7 @@ impl Matching {
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         match self {
             Self::Positions(similarity) => similarity.score(dictionary, a, b),
+            Self::Alignment(alignment) => alignment.score(dictionary, a, b),
         }
     }
 
@@ -62,6 +66,7 @@ impl Matching {
     pub const fn threshold(&self) -> f64 {
         match self {
             Self::Positions(similarity) => similarity.mu,
+            Self::Alignment(alignment) => alignment.threshold,
         }
     }
 
@@ -202,18 +207,22 @@ impl Similarity {
         if a.is_empty() || b.is_empty() {
             return 0.0;
         }
-        // In the middle of the position's share of the longer one.
+        let difference = |a: PatternId, b: PatternId| match self.difference {
+            Difference::Prototypes => dictionary.distance(a, b),
+            Difference::Indices => f64::from(a.0.abs_diff(b.0)),
+        };
+        // In the middle of the position's share of the longer one; where that is a border, the two beside it count by halves.
         let at = |sequence: &[PatternId], position: usize| match self.span {
-            Span::Whole => sequence[(2 * position + 1) * sequence.len() / (2 * positions)],
-            Span::Shorter => sequence[position],
+            Span::Whole => {
+                let (middle, unit) = ((2 * position + 1) * sequence.len(), 2 * positions);
+                (sequence[(middle - 1) / unit], sequence[middle / unit])
+            }
+            Span::Shorter => (sequence[position], sequence[position]),
         };
         let (mut sum, mut squares) = (0.0, 0.0);
         for position in 0..positions {
             let (a, b) = (at(a, position), at(b, position));
-            let difference = match self.difference {
-                Difference::Prototypes => dictionary.distance(a, b),
-                Difference::Indices => f64::from(a.0.abs_diff(b.0)),
-            };
+            let difference = (difference(a.0, b.0) + difference(a.1, b.1)) / 2.0;
             sum += difference;
             squares += difference * difference;
         }

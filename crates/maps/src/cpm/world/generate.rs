@@ -27,6 +27,8 @@ pub struct MazeConfig {
     pub patterns: u32,
     /// Observations to a cell's length, at least 1.
     pub observations_per_cell: f64,
+    /// How likely an observation is like the one before it; 0 to 1. Walls go on.
+    pub persistence: f64,
     /// How corridors differ.
     pub likeness: Likeness,
     /// How many corridors look the same from both ends; 0 to 1.
@@ -84,6 +86,7 @@ impl MazeConfig {
             diagonals: 0.0,
             patterns: 31,
             observations_per_cell: 4.0,
+            persistence: 0.5,
             likeness: Likeness::Distinctive,
             symmetrical: 0.0,
         }
@@ -108,6 +111,7 @@ impl MazeConfig {
         within("patterns", self.patterns.into(), 2.0, 1e6, "2 to 1 000 000")?;
         let density = self.observations_per_cell;
         within("observations_per_cell", density, 1.0, 1000.0, "1 to 1000")?;
+        within("persistence", self.persistence, 0.0, 1.0, "0 to 1")?;
         within("symmetrical", self.symmetrical, 0.0, 1.0, "0 to 1")?;
         if let Likeness::Kinds(kinds) = self.likeness {
             within("likeness", kinds.into(), 1.0, 1e6, "1 to 1 000 000 kinds")?;
@@ -248,20 +252,32 @@ fn openings(config: &MazeConfig, rng: &mut impl Rng) -> Vec<(u32, u32)> {
     candidates
 }
 
-/// Random prototypes of 11 features from 0 to 1, as the paper's; in pairs that are each other half turned, and a last one that is
-/// its own if the number is odd.
+/// Random prototypes of 11 features from 0 to 1, as the paper's, in pairs that are each other half turned, and a last one that is its own
+/// if the number is odd. To turn half round is to exchange the first five features with the next five, which keeps distances.
 fn random_dictionary(patterns: u32, rng: &mut impl Rng) -> Result<Dictionary, DictionaryError> {
-    let half_turned = |id: u32| {
-        PatternId(if id == patterns - 1 && patterns % 2 == 1 {
-            id
-        } else {
-            id ^ 1
-        })
-    };
-    let prototypes: Vec<(Vec<f64>, PatternId)> = (0..patterns)
-        .map(|id| ((0..11).map(|_| uniform(rng)).collect(), half_turned(id)))
-        .collect();
+    let mut prototypes: Vec<(Vec<f64>, PatternId)> = Vec::with_capacity(patterns as usize);
+    for id in 0..patterns {
+        let half_turned = PatternId((id ^ 1).min(patterns - 1));
+        let prototype = match prototypes.last() {
+            Some((partner, _)) if id % 2 == 1 => half_turned_features(partner),
+            _ => (0..11).map(|_| uniform(rng)).collect(),
+        };
+        prototypes.push((prototype, half_turned));
+    }
+    if patterns % 2 == 1
+        && let Some((last, _)) = prototypes.last_mut()
+    {
+        let (first, second) = last.split_at_mut(5);
+        second[..5].copy_from_slice(first);
+    }
     Dictionary::from_prototypes(11, &prototypes)
+}
+
+fn half_turned_features(features: &[f64]) -> Vec<f64> {
+    let mut turned = features.to_vec();
+    let (first, rest) = turned.split_at_mut(5);
+    first.swap_with_slice(&mut rest[..5]);
+    turned
 }
 
 /// What corridors look like, one after the other.
@@ -343,9 +359,14 @@ fn mirror(patterns: &mut [PatternId], dictionary: &Dictionary) {
 }
 
 fn random_sequence(config: &MazeConfig, count: usize, rng: &mut impl Rng) -> Vec<PatternId> {
-    (0..count)
-        .map(|_| PatternId(rng.random_range(0..config.patterns)))
-        .collect()
+    let mut sequence: Vec<PatternId> = Vec::with_capacity(count);
+    while sequence.len() < count {
+        let goes_on = uniform(rng) < config.persistence;
+        let before = sequence.last().copied().filter(|_| goes_on);
+        let any = PatternId(rng.random_range(0..config.patterns));
+        sequence.push(before.unwrap_or(any));
+    }
+    sequence
 }
 
 fn pick(cells: &[u32], rng: &mut impl Rng) -> u32 {

@@ -6,7 +6,7 @@ use super::{World, WorldPort};
 
 impl World {
     /// How many corridors the shortest walk passes that begins at the start, ends anywhere, and has been through all that can be
-    /// reached: the yardstick of an exploration, with perfect knowledge. None where more than 20 places have an odd number
+    /// reached: the yardstick of an exploration, with perfect knowledge. None where more than 16 places have an odd number
     /// of ports, for which there is no patience.
     ///
     /// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice, but for one, where the walk
@@ -25,7 +25,7 @@ impl World {
                 odd.push(place);
             }
         }
-        if odd.len() > 20 {
+        if odd.len() > 16 {
             return None;
         }
         let steps: Vec<Vec<Option<u32>>> =

@@ -1,0 +1,73 @@
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::pattern::{Dictionary, PatternId};
+
+/// Sequences laid along each other with insertions, deletions and changes of speed, in place of position by position: an edit
+/// distance (Wagner, Fischer 1974) in which a pattern may also last longer in one of the two, as in dynamic time
+/// warping (Sakoe, Chiba 1978). Ours, not the paper's; costs are in parts of a whole pattern's mismatch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alignment {
+    /// What an observation costs that the other sequence does not have; 0 to 1.
+    pub gap: f64,
+    /// What an observation costs that lasts one longer in one of the two, besides its difference; 0 to `gap`.
+    pub stutter: f64,
+    /// The distance of prototypes, as a part of the greatest in the dictionary, from which two patterns have nothing in common;
+    /// above 0, at most 1.
+    pub unlike: f64,
+    /// Above it two fragments are the same; 0 to 1.
+    pub threshold: f64,
+}
+
+impl Alignment {
+    /// Chosen on random mazes, docs/cpm.md.
+    #[must_use]
+    pub const fn tuned() -> Self {
+        Self {
+            gap: 1.0,
+            stutter: 0.3,
+            unlike: 0.6,
+            threshold: 0.45,
+        }
+    }
+
+    /// How similar two sequences are: 1 less the cheapest alignment's cost for each position of the longer one. Equal ones have 1,
+    /// ones without anything in common about 0, an empty one beside any has 0.
+    /// O(length²) and the distances of prototypes.
+    #[must_use]
+    pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
+        if a.is_empty() || b.is_empty() {
+            return 0.0;
+        }
+        let unlike = self.unlike * dictionary.greatest_distance();
+        let difference = |a: PatternId, b: PatternId| {
+            if a == b {
+                0.0
+            } else if unlike > 0.0 {
+                (dictionary.distance(a, b) / unlike).min(1.0)
+            } else {
+                1.0
+            }
+        };
+        // The cost of an observation of one sequence that stays at what the other has shown last.
+        let stay = |difference: f64| self.gap.min(self.stutter + difference);
+        let mut row: Vec<f64> = vec![0.0; b.len() + 1];
+        for j in 1..=b.len() {
+            row[j] = row[j - 1] + self.gap;
+        }
+        for (i, a) in a.iter().enumerate() {
+            let mut diagonal = row[0];
+            row[0] = self.gap * (i + 1) as f64;
+            for (j, b) in b.iter().enumerate() {
+                let difference = difference(*a, *b);
+                let along = diagonal + difference;
+                let longer_a = row[j + 1] + stay(difference);
+                let longer_b = row[j] + stay(difference);
+                diagonal = row[j + 1];
+                row[j + 1] = along.min(longer_a).min(longer_b);
+            }
+        }
+        let longest = a.len().max(b.len()) as f64;
+        1.0 - row[b.len()] / longest
+    }
+}

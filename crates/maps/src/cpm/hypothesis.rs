@@ -1,0 +1,278 @@
+use alloc::vec::Vec;
+use core::cell::Cell;
+
+use tolman_geom::{Interval, PointBox};
+
+use super::map::{End, Fragment, FragmentId, Port, Sign};
+use super::mapper::Mapper;
+use super::pattern::Dictionary;
+use super::similarity::{Matching, Sense};
+use super::traversal::{Motion, Traversal};
+use super::turn::{NoSuchTurn, Turn};
+
+/// One way to understand all that the robot has met: a map, and what it costs to believe in it.
+///
+/// The cost is a negative logarithm of probability, up to a constant that all hypotheses share. Every step adds how much less
+/// likely it is than a walk into the unknown would have been.
+#[derive(Clone, Debug)]
+pub(super) struct Hypothesis {
+    pub(super) mapper: Mapper,
+    pub(super) cost: f64,
+}
+
+/// What a hypothesis makes of a walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Belief {
+    /// A fragment and a place that were not on the map.
+    NewPlace,
+    /// A new fragment to a place of the map: a loop is closed on arrival.
+    NewWay,
+    /// A fragment that is on the map elsewhere: two junctions are one.
+    Duplicate,
+    /// A fragment of the map.
+    Known,
+}
+
+/// All that hypotheses are judged by.
+pub(super) struct Judge<'a> {
+    pub(super) matching: &'a Matching,
+    pub(super) dictionary: &'a Dictionary,
+}
+
+impl Hypothesis {
+    /// All hypotheses that a walk makes of this one; none if it cannot have been.
+    pub(super) fn after(
+        &self,
+        turn: Turn,
+        walk: &Traversal,
+        judge: &Judge<'_>,
+    ) -> Result<Vec<(Self, Belief)>, NoSuchTurn> {
+        let exit = self.mapper.exit(turn)?;
+        if let Some(end) = self.mapper.map.end_at(exit) {
+            let known = self.along(exit, end, walk, judge);
+            return Ok(known
+                .map(|known| (known, Belief::Known))
+                .into_iter()
+                .collect());
+        }
+        let Some(departure) = self.departure_cost(exit, walk) else {
+            return Ok(Vec::new());
+        };
+        let base = Self {
+            cost: self.cost + departure,
+            ..self.clone()
+        };
+        let mut all = base.to_places(exit, walk);
+        let mut new = base;
+        let fragment = new.mapper.append(exit, walk);
+        all.extend(new.duplicates(fragment, judge));
+        new.cost += NEW_PLACE;
+        all.push((new, Belief::NewPlace));
+        Ok(all)
+    }
+
+    /// The walk followed a fragment of the map.
+    fn along(&self, exit: Port, end: End, walk: &Traversal, judge: &Judge<'_>) -> Option<Self> {
+        let map = &self.mapper.map;
+        let arrival = map.beyond(exit)?;
+        if map.junction(arrival.junction)?.sighting() != walk.sighting {
+            return None;
+        }
+        let fragment = map.fragment(end.fragment)?;
+        let sense = match end.sign {
+            Sign::Minus => Sense::Same,
+            Sign::Plus => Sense::Inverted,
+        };
+        let motion = walk.motion.map(|motion| sense.of_motion(motion));
+        let gain = judge.evidence(fragment, &walk.patterns, sense)
+            + self.motion_evidence(fragment.motion, motion)?;
+        let mut next = self.clone();
+        next.cost -= gain;
+        next.mapper.at = arrival;
+        next.mapper.confirm(end, walk);
+        Some(next)
+    }
+
+    /// The walk was a new fragment that led to a known place, through a port nobody has been through.
+    fn to_places(&self, exit: Port, walk: &Traversal) -> Vec<(Self, Belief)> {
+        let Some(motion) = walk.motion else {
+            return Vec::new();
+        };
+        let map = &self.mapper.map;
+        let positions = map.positions_from(exit.junction);
+        let area = self.area();
+        let mut all = Vec::new();
+        for (id, place) in map.junctions() {
+            let Some(position) = positions.get(&id) else {
+                continue;
+            };
+            if place.sighting() != walk.sighting || !position.meets(motion.displacement) {
+                continue;
+            }
+            let gain = coincidence(*position - motion.displacement, area);
+            let is_other = |number: &u32| id != exit.junction || *number != exit.number;
+            let open: Vec<u32> = place.open_ports().filter(is_other).collect();
+            let choices = libm::log(open.len().max(1) as f64);
+            for number in open {
+                let entry = Port {
+                    junction: id,
+                    number,
+                };
+                let Some(bearing) = map.bearing_cost(entry, motion.reversed().departure) else {
+                    continue;
+                };
+                let mut next = self.clone();
+                next.cost += bearing + choices - gain;
+                let patterns = walk.patterns.clone();
+                next.mapper
+                    .map
+                    .add_fragment(patterns, walk.motion, exit, entry);
+                next.mapper.at = entry;
+                all.push((next, Belief::NewWay));
+            }
+        }
+        all
+    }
+
+    /// The fragment just added is one that the map has already.
+    fn duplicates(&self, new: FragmentId, judge: &Judge<'_>) -> Vec<(Self, Belief)> {
+        let map = &self.mapper.map;
+        let Some(fragment) = map.fragment(new) else {
+            return Vec::new();
+        };
+        let positions = map.positions_from(fragment.minus.junction);
+        let mut all = Vec::new();
+        for (id, other) in map.fragments().filter(|(id, _)| *id != new) {
+            for sense in [Sense::Same, Sense::Inverted] {
+                let evidence = judge.evidence(other, &fragment.patterns, sense);
+                // Where both fragments begin has to be one place.
+                let begin = other.port(sense.of(Sign::Minus)).junction;
+                let apart = positions.get(&begin);
+                if evidence <= 0.0 || apart.is_some_and(|apart| !apart.meets(PointBox::ORIGIN)) {
+                    continue;
+                }
+                let coincide = apart.map_or(0.0, |apart| coincidence(*apart, self.area()));
+                let gain = Cell::new(evidence + coincide);
+                let agree = |a: &Fragment, b: &Fragment, sense: Sense| {
+                    let evidence = judge.evidence(a, &b.patterns, sense);
+                    gain.set(gain.get() + evidence);
+                    evidence > -MOST_EVIDENCE / 2.0
+                };
+                let mut next = self.clone();
+                if let Ok(merges) = next.mapper.map.unify(id, new, sense, &agree) {
+                    next.mapper.at = merges.port(next.mapper.at);
+                    next.cost -= gain.get();
+                    all.push((next, Belief::Duplicate));
+                }
+            }
+        }
+        all
+    }
+
+    /// What it costs to believe that one leaves by this port in the direction that was reckoned; none if it cannot be.
+    fn departure_cost(&self, exit: Port, walk: &Traversal) -> Option<f64> {
+        match walk.motion {
+            Some(motion) => self.mapper.map.bearing_cost(exit, motion.departure),
+            None => Some(0.0),
+        }
+    }
+
+    /// What speaks for two walks being along one fragment; none if they cannot be.
+    fn motion_evidence(&self, known: Option<Motion>, walked: Option<Motion>) -> Option<f64> {
+        match (known, walked) {
+            (Some(known), Some(walked)) => {
+                known.intersection(walked)?;
+                Some(coincidence(
+                    known.displacement - walked.displacement,
+                    self.area(),
+                ))
+            }
+            _ => Some(0.0),
+        }
+    }
+
+    /// The area in which one junction is to be expected, m²: as far around as fragments reach.
+    fn area(&self) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (_, fragment) in self.mapper.map.fragments() {
+            if let Some(motion) = fragment.motion {
+                let way = motion.displacement.middle();
+                sum += way.x * way.x + way.y * way.y;
+                count += 1.0;
+            }
+        }
+        if count > 0.0 { sum / count } else { 1.0 }
+    }
+
+    /// Two hypotheses that say the same look the same: all that can be reached from the robot's place, in order.
+    pub(super) fn signature(&self) -> Vec<u32> {
+        let map = &self.mapper.map;
+        let mut order = Vec::from([self.mapper.at]);
+        let mut signature = Vec::new();
+        let mut next = 0;
+        while let Some(&entry) = order.get(next) {
+            next += 1;
+            let degree = map.degree(entry.junction);
+            signature.push(degree);
+            for offset in 0..degree {
+                let number = (entry.number + offset) % degree;
+                let port = Port { number, ..entry };
+                let Some(beyond) = map.beyond(port) else {
+                    signature.push(u32::MAX);
+                    continue;
+                };
+                let known = order
+                    .iter()
+                    .position(|seen| seen.junction == beyond.junction);
+                let index = known.unwrap_or(order.len());
+                if known.is_none() {
+                    order.push(beyond);
+                }
+                let there = order.get(index).map_or(0, |seen| seen.number);
+                let degree = map.degree(beyond.junction).max(1);
+                signature.push(index as u32);
+                signature.push((beyond.number + degree - there) % degree);
+            }
+        }
+        signature
+    }
+}
+
+impl Judge<'_> {
+    /// What the observations say for two walks being along one fragment, a logarithm of odds.
+    fn evidence(
+        &self,
+        known: &Fragment,
+        patterns: &[super::pattern::PatternId],
+        sense: Sense,
+    ) -> f64 {
+        let score = match sense {
+            Sense::Same => self
+                .matching
+                .score(self.dictionary, patterns, &known.patterns),
+            Sense::Inverted => match self.dictionary.inverse(&known.patterns) {
+                Ok(inverse) => self.matching.score(self.dictionary, patterns, &inverse),
+                Err(_) => return -MOST_EVIDENCE,
+            },
+        };
+        let length = known.patterns.len().min(patterns.len()).max(1) as f64;
+        let evidence = EVIDENCE * length * (score - self.matching.threshold());
+        evidence.clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
+    }
+}
+
+/// How much more likely two places are to be within a box of each other if they are one than if they are any two: the
+/// area in which one is expected, over that of the box.
+fn coincidence(apart: PointBox, area: f64) -> f64 {
+    let side = |side: Interval| side.width().max(1e-3);
+    libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
+}
+
+/// What a new place costs: a map with fewer is simpler.
+const NEW_PLACE: f64 = 1.0;
+
+/// The logarithm of odds that a whole observation brings.
+const EVIDENCE: f64 = 5.0;
+
+/// No single fragment says more: observations and bounds may err in ways that no model knows.
+const MOST_EVIDENCE: f64 = 10.0;
