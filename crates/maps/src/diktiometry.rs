@@ -41,8 +41,10 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+mod adapter;
 mod config;
 mod error;
+mod estimator;
 mod grid;
 mod ids;
 mod indexing;

@@ -1,8 +1,10 @@
 //! "Indexing, to find likely candidate states to feed to the matcher": streams of sets of candidates, the best set first.
 
 mod active_frames;
+mod column_tree;
 mod expectational;
 mod geometric;
+mod perceptual;
 
 use tolman_geom::{Point, PointBox};
 
@@ -10,6 +12,7 @@ pub use active_frames::ActiveFrame;
 pub(super) use active_frames::moved;
 pub(super) use expectational::expected;
 pub(super) use geometric::plies;
+pub(super) use perceptual::ViewIndex;
 
 use super::ids::PlaceId;
 

@@ -3,25 +3,20 @@ use alloc::vec::Vec;
 use tolman_geom::PointBox;
 use tolman_planners::path_to;
 
-use super::config::{Config, GeometricIndexing, Percepts, Use};
+use super::config::{Config, Percepts};
 use super::error::{StartError, StepError};
+use super::estimator::Rank;
 use super::ids::{Action, LinkId, PlaceId, TrackId};
-use super::indexing::{ActiveFrame, Candidate, expected, moved, plies};
+use super::indexing::{ActiveFrame, ViewIndex};
 use super::journal::{Distinction, Recorder};
 use super::map::{Diktiometry, Site};
-use super::matching::{Choice, Matcher, Situation, Traversal, choose, remember};
+use super::matching::remember;
 use super::observation::{Exits, Move, Outcome, Start};
 use super::opportunities::{Opportunity, actions_along, opportunities};
-use super::path_graph::{Note, Standing, Successor};
-use super::projector::{Projection, project};
-use super::reference_graph::search;
-use super::report::{
-    Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport,
-};
+use super::report::{Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
 use super::restructuring::{Hints, deposit, restructure};
 use super::signature::Signature;
 use super::track::{Match, Track};
-use super::updater::arrive;
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
 ///
@@ -31,10 +26,15 @@ use super::updater::arrive;
 /// [`opportunities`](Self::opportunities), and does with the answers what it likes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observer {
-    config: Config,
-    map: Diktiometry,
-    tracks: Vec<Track>,
-    born: u32,
+    pub(super) config: Config,
+    pub(super) map: Diktiometry,
+    pub(super) views: ViewIndex,
+    /// The best first.
+    pub(super) tracks: Vec<Track>,
+    /// Whether other tracks than the best were alive before the last move.
+    pub(super) rivals: bool,
+    /// Tracks so far.
+    pub(super) born: u32,
     moves: u64,
     distinctions: Vec<Distinction>,
     pub(super) recorder: Option<Recorder>,
@@ -53,7 +53,11 @@ impl Observer {
         let mut map = Diktiometry::default();
         let place = map.new_place(Site::OwnFrame);
         let first = &mut map.paths.places[place.index()];
+        let mut views = ViewIndex::default();
         remember(first, start.percept.as_ref(), &config.percepts);
+        if let Some(view) = &start.percept {
+            views.insert(place, view);
+        }
         first.exits = start.exits;
         first.visits = 1;
         let frame = first.frame;
@@ -76,6 +80,8 @@ impl Observer {
         Ok(Self {
             config,
             map,
+            views,
+            rivals: false,
             tracks: Vec::from([track]),
             born: 1,
             moves: 0,
@@ -231,6 +237,7 @@ impl Observer {
         let mut hints = Hints::default();
         let tracks = core::mem::take(&mut self.tracks);
         let mut next = Vec::new();
+        self.rivals = tracks.len() > 1;
         for (rank, track) in tracks.into_iter().enumerate() {
             let rank = if rank == 0 { Rank::Best } else { Rank::Other };
             self.advance(&track, rank, step, report, &mut hints, &mut next);
@@ -272,350 +279,14 @@ impl Observer {
         });
     }
 
-    /// Projects a track, finds what it matches, and lets its best match change the map if it is the best track. Every
-    /// maximal matcher carries the track on.
-    fn advance(
-        &mut self,
-        track: &Track,
-        rank: Rank,
-        step: &Move,
-        report: &mut StepReport,
-        hints: &mut Hints,
-        next: &mut Vec<(Track, TrackReport)>,
-    ) {
-        let from = track.place;
-        let projection = project(&self.map, track, step, &self.config);
-        let choice = self.matches(track, step, &projection);
-        let predicted = self
-            .map
-            .paths
-            .likeliest(from, step.action)
-            .and_then(|best| {
-                let to = self.map.paths.links[best.index()].to;
-                let all = self.predict(from, step.action);
-                all.into_iter().find(|one| one.place == to)
-            });
-        if rank == Rank::Best
-            && let Some(excluded) = choice.excluded
-            && let Some((link, _)) = self
-                .map
-                .paths
-                .along(from, step.action)
-                .find(|(_, link)| link.to == excluded.place)
-        {
-            let known = self.motion(from, excluded.place);
-            report.contradictions.push(Contradiction {
-                track: track.id,
-                culprit: Culprit::Link(link),
-                known: known.unwrap_or(PointBox::UNBOUNDED),
-                estimate: projection.displacement,
-            });
-        }
-        for (number, chosen) in choice.matches.iter().enumerate() {
-            let writes = rank == Rank::Best && number == 0;
-            let landed = if writes {
-                let contradictions = &mut report.contradictions;
-                Some(self.write(track, step, &projection, &choice, contradictions, hints))
-            } else {
-                let there = chosen.candidate.map(|candidate| candidate.place);
-                there.map(|place| (place, self.link(from, step.action, place)))
-            };
-            let Some((place, link)) = landed else {
-                continue; // Only the best track may make places.
-            };
-            let id = if number == 0 {
-                track.id
-            } else {
-                self.born += 1;
-                TrackId(self.born - 1)
-            };
-            let mut child = Track {
-                id,
-                place,
-                link,
-                confidence: confidence_after(
-                    track.confidence,
-                    chosen.matcher,
-                    choice.excluded.is_some(),
-                ),
-                ..track.clone()
-            };
-            child.astray = match chosen.matcher {
-                Matcher::Continue => 0.0,
-                _ => track.astray + projection.displacement.norm().middle(),
-            };
-            let entry = Match {
-                place,
-                action: Some(step.action),
-                doubts: choice.doubts.clone(),
-            };
-            child.remember(entry, self.config.tracks.history);
-            self.carry_active(&mut child, &projection);
-            let line = TrackReport {
-                track: id,
-                from,
-                matcher: Some(chosen.matcher),
-                place,
-                confidence: child.confidence,
-                predicted,
-                motion: None,
-            };
-            next.push((child, line));
-        }
-    }
-
-    /// The indexer and the matching engine for one track.
-    fn matches(&self, track: &Track, step: &Move, projection: &Projection) -> Choice {
-        let map = &self.map;
-        let situation = Situation {
-            map,
-            config: &self.config,
-            percept: step.percept.as_ref(),
-            astray: track.astray + projection.displacement.norm().middle(),
-        };
-        let expected = match self.config.indexing.expectational {
-            Use::On => expected(map, track.place, step.action, projection),
-            Use::Off => Vec::new(),
-        };
-        choose(
-            &situation,
-            self.traversal(track.place, projection),
-            track.confidence,
-            &expected,
-            || self.geometric(track, projection),
-        )
-    }
-
-    fn geometric(&self, track: &Track, projection: &Projection) -> Vec<Vec<Candidate>> {
-        match self.config.indexing.geometric {
-            GeometricIndexing::Off => Vec::new(),
-            GeometricIndexing::Search => {
-                let limits = &self.config.search;
-                let reached = search(&self.map.reference, projection.frame, limits);
-                plies(&self.map, &reached, projection)
-            }
-            GeometricIndexing::ActiveFrames => {
-                let here = projection.position;
-                let reached: Vec<_> = track
-                    .active
-                    .iter()
-                    .map(|active| active.seen_from(here - projection.displacement))
-                    .collect();
-                plies(&self.map, &reached, projection)
-            }
-        }
-    }
-
-    /// Whether the way just gone was gone often before.
-    fn traversal(&self, place: PlaceId, projection: &Projection) -> Traversal {
-        let place = &self.map.paths.places[place.index()];
-        let grid = &self.map.reference.frames[place.frame.index()].grid;
-        let [from, to] = [place.position, projection.position].map(PointBox::middle);
-        if grid.traversals(from, to, self.config.separation) >= self.config.matching.well_traversed
-        {
-            Traversal::Well
-        } else {
-            Traversal::Poorly
-        }
-    }
-
-    /// The updater: the best track's best match changes the map.
-    fn write(
-        &mut self,
-        track: &Track,
-        step: &Move,
-        projection: &Projection,
-        choice: &Choice,
-        contradictions: &mut Vec<Contradiction>,
-        hints: &mut Hints,
-    ) -> (PlaceId, Option<LinkId>) {
-        let from = track.place;
-        let best = choice.matches[0];
-        let (to, robot) = match best.candidate {
-            Some(candidate) => (candidate.place, candidate.robot),
-            None => self.make_place(projection),
-        };
-        if best.matcher == Matcher::Alpha {
-            let frames = [from, to].map(|place| self.map.paths.places[place.index()].frame);
-            self.map.reference.open(frames[0], frames[1]);
-            let place = &mut self.map.paths.places[to.index()];
-            place.position = place.position.hull(place.envelope).hull(robot);
-            place.envelope = place.envelope.hull(robot);
-        }
-        self.traverse(from, projection);
-        let (link, narrowed) = arrive(
-            &mut self.map,
-            from,
-            step.action,
-            to,
-            projection,
-            robot,
-            &self.config,
-        );
-        if let Err(excluded) = narrowed {
-            contradictions.push(Contradiction {
-                track: track.id,
-                culprit: Culprit::Relation { from, to },
-                known: excluded.known,
-                estimate: excluded.estimate,
-            });
-        }
-        if let Some(before) = track.link {
-            self.follow(before, link);
-        }
-        let place = &mut self.map.paths.places[to.index()];
-        remember(place, step.percept.as_ref(), &self.config.percepts);
-        if step.exits != Exits::Unknown {
-            place.exits = step.exits.clone();
-        }
-        let (frame, position) = (place.frame, place.position);
-        let grid = &mut self.map.reference.frames[frame.index()].grid;
-        grid.visit(position.middle(), self.config.separation);
-        let pairs = choice.doubts.iter().chain(&choice.twins);
-        for &other in pairs.filter(|&&other| other != to) {
-            self.note(to, other);
-            self.note(other, to);
-        }
-        hints
-            .near
-            .extend(track.history.iter().map(|entry| entry.place));
-        hints.changed.push(to);
-        (to, Some(link))
-    }
-
-    /// A place where the track is projected to be, in the frame it came from or in one of its own.
-    fn make_place(&mut self, projection: &Projection) -> (PlaceId, PointBox) {
-        if projection.position.width() <= 2.0 * self.config.frame_half_width {
-            let position = projection.position;
-            let frame = projection.frame;
-            let place = self.map.new_place(Site::InFrame { frame, position });
-            return (place, position);
-        }
-        (self.map.new_place(Site::OwnFrame), PointBox::ORIGIN)
-    }
-
-    fn note(&mut self, at: PlaceId, other: PlaceId) {
-        let notes = &mut self.map.paths.places[at.index()].notes;
-        if notes.iter().all(|note| note.other != other) {
-            notes.push(Note { other });
-        }
-    }
-
-    fn traverse(&mut self, from: PlaceId, projection: &Projection) {
-        let place = &self.map.paths.places[from.index()];
-        let [start, end] = [place.position, projection.position].map(PointBox::middle);
-        let grid = &mut self.map.reference.frames[place.frame.index()].grid;
-        grid.traverse(start, end, self.config.separation);
-    }
-
-    /// Counts that one link was taken after another.
-    fn follow(&mut self, before: LinkId, link: LinkId) {
-        let then = &mut self.map.paths.links[before.index()].then;
-        match then.iter_mut().find(|successor| successor.link == link) {
-            Some(successor) => successor.count = successor.count.saturating_add(1),
-            None => then.push(Successor { link, count: 1 }),
-        }
-    }
-
-    fn link(&self, from: PlaceId, action: Action, to: PlaceId) -> Option<LinkId> {
+    pub(super) fn link(&self, from: PlaceId, action: Action, to: PlaceId) -> Option<LinkId> {
         let mut along = self.map.paths.along(from, action);
         along.find(|(_, link)| link.to == to).map(|(id, _)| id)
     }
 
-    fn carry_active(&self, track: &mut Track, projection: &Projection) {
-        if self.config.indexing.geometric != GeometricIndexing::ActiveFrames {
-            return;
-        }
-        let place = &self.map.paths.places[track.place.index()];
-        let here = ActiveFrame {
-            frame: place.frame,
-            robot: place.position,
-        };
-        track.active = moved(
-            &self.map,
-            &track.active,
-            projection.displacement,
-            Some(here),
-            self.config.search.frames,
-        );
-    }
-
-    /// The tracks that live on: of those at one place the most trusted, none that is trusted too little, at most as many as
-    /// allowed; the best first.
-    fn select(&self, mut tracks: Vec<Track>) -> Vec<Track> {
-        // The best track stays the best until it has lost confidence and another has won it.
-        let tracking = &self.config.tracks;
-        let Some(mut best) = tracks.first().map(|track| track.id) else {
-            return tracks;
-        };
-        if tracks[0].confidence <= tracking.low {
-            let confident = tracks
-                .iter()
-                .filter(|track| track.confidence >= tracking.high)
-                .max_by(|a, b| {
-                    let confidence = a.confidence.total_cmp(&b.confidence);
-                    confidence.then(b.id.cmp(&a.id))
-                });
-            best = confident.map_or(best, |track| track.id);
-        }
-        tracks.sort_by(|a, b| {
-            let first = (b.id == best).cmp(&(a.id == best));
-            let confidence = b.confidence.total_cmp(&a.confidence);
-            first.then(confidence).then(a.id.cmp(&b.id))
-        });
-        let mut kept: Vec<Track> = Vec::new();
-        for track in tracks {
-            let alive = kept.is_empty() || track.confidence >= tracking.least_confidence;
-            let apart = kept.iter().all(|other| other.place != track.place);
-            if alive && apart && kept.len() < tracking.cap {
-                kept.push(track);
-            }
-        }
-        kept
-    }
-
-    /// After a split, tracks that came along a link which now leads to the new place are there.
-    fn take_sides(&mut self, kept: PlaceId, new: PlaceId) {
-        let links = &self.map.paths.links;
-        for track in self.tracks.iter_mut().filter(|track| track.place == kept) {
-            let came = track.link.map(|link| &links[link.index()]);
-            let moved = came.filter(|link| link.standing == Standing::Removed);
-            if let Some(link) = moved {
-                let mut along = self.map.paths.along(link.from, link.action);
-                if let Some((id, _)) = along.find(|(_, link)| link.to == new) {
-                    track.place = new;
-                    track.link = Some(id);
-                }
-            }
-        }
-    }
-
-    /// After places were merged, split or elided: tracks are called by the places' new names.
-    fn rename_tracks(&mut self) {
-        let best = self.tracks.first().map(|track| track.id);
-        let paths = &self.map.paths;
-        self.tracks
-            .retain_mut(|track| match paths.resolve(track.place) {
-                Some(place) => {
-                    track.place = place;
-                    track.link = track
-                        .link
-                        .filter(|link| paths.links[link.index()].to == place);
-                    true
-                }
-                None => Some(track.id) == best,
-            });
-        let mut seen: Vec<PlaceId> = Vec::new();
-        self.tracks.retain(|track| {
-            let new = !seen.contains(&track.place);
-            seen.push(track.place);
-            new
-        });
-    }
-
     /// Where one place lies as seen from another by what is known of their two frames, m; by a search only if they
     /// are not related.
-    fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
+    pub(super) fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         let [start, end] = [from, to].map(|place| &self.map.paths.places[place.index()]);
         let frames = if start.frame == end.frame {
             Some(PointBox::ORIGIN)
@@ -627,25 +298,6 @@ impl Observer {
             Some(frames) => Some(frames + end.position - start.position),
             None => self.map.displacement(from, to, &self.config.search),
         }
-    }
-}
-
-/// Whether a track may change the map: "stops a dying hypothesis from damaging the shared map".
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Rank {
-    Best,
-    Other,
-}
-
-/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error loses it. A new place
-/// posits one where another place was expected and is `excluded`.
-fn confidence_after(confidence: f64, matcher: Matcher, excluded: bool) -> f64 {
-    match matcher {
-        Matcher::Continue => confidence + 0.2 * (1.0 - confidence),
-        Matcher::NewPlace if excluded => 0.9 * confidence,
-        Matcher::Link | Matcher::NewPlace => confidence,
-        Matcher::Alpha => 0.7 * confidence,
-        Matcher::Beta => 0.5 * confidence,
     }
 }
 

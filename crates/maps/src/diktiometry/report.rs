@@ -67,8 +67,10 @@ pub struct Contradiction {
 /// What a move contradicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Culprit {
-    /// A link that should have led to its place.
+    /// A link that should have led to its place, which is elsewhere.
     Link(LinkId),
+    /// A link that should have led to its place, which looks different.
+    Look(LinkId),
     /// What is known of two places that the robot was recognized at.
     Relation {
         /// Where the move began.

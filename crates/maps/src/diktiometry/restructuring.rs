@@ -17,6 +17,7 @@ use super::matching::share_a_view;
 use super::path_graph::{Estim, Fate};
 use super::report::Restructured;
 pub(super) use non_local_path::deposit;
+pub(super) use transients::elide_place;
 
 /// What a restructurer says of a diagnosis.
 ///

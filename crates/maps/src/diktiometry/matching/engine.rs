@@ -15,7 +15,7 @@ pub(in crate::diktiometry) struct Choice {
     pub(in crate::diktiometry) doubts: Vec<PlaceId>,
     /// Places that the robot is at for certain, beside the best match: they are one with it.
     pub(in crate::diktiometry) twins: Vec<PlaceId>,
-    /// An expected place that the projection excludes, where no expected place is possible.
+    /// A place that was expected, where none of those was met: by its position or by its look.
     pub(in crate::diktiometry) excluded: Option<Candidate>,
 }
 
@@ -50,9 +50,8 @@ pub(in crate::diktiometry) fn choose(
     let rank = |a: Matcher, b: Matcher, age: Age| precedes(a, b, &standing(age), tracking, order);
 
     let first = matched(situation, expected, &mut choice.doubts);
-    let excluded = expected.iter().find(|candidate| !candidate.is_possible());
-    if !expected.iter().any(Candidate::is_possible) {
-        choice.excluded = excluded.copied();
+    if !first.iter().any(|one| one.matcher == Matcher::Continue) {
+        choice.excluded = expected.first().copied();
     }
     let least_distance = situation.config.least_distance();
     let mut continues = first

@@ -75,7 +75,11 @@ pub(in crate::diktiometry) fn applicable(
         .separation
         .min(config.matching.beta_reach * situation.astray);
     if config.matching.beta == Use::On && gap(candidate.offset) <= reach {
-        return Applicable::Matcher(Matcher::Beta);
+        // Near it, but nowhere near another.
+        let lone = candidate.offset.norm().high() < config.least_distance();
+        if config.matching.identity == Identity::Meets || lone {
+            return Applicable::Matcher(Matcher::Beta);
+        }
     }
     Applicable::None
 }

@@ -34,17 +34,19 @@ pub(in crate::diktiometry) fn alike(
     (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= enough)
 }
 
-/// Adds a percept to a place's view set, if it has none like it and room is left.
+/// Adds a percept to a place's view set, if it has none like it and room is left; returns whether it did.
 pub(in crate::diktiometry) fn remember(
     place: &mut Place,
     percept: Option<&Signature>,
     percepts: &Percepts,
-) {
+) -> bool {
     let (Percepts::Signatures(kind), Some(percept)) = (percepts, percept) else {
-        return;
+        return false;
     };
     let known = place.views.iter().any(|view| alike(view, percept, kind));
-    if !known && place.views.len() < kind.views {
+    let new = !known && place.views.len() < kind.views;
+    if new {
         place.views.push(percept.clone());
     }
+    new
 }

@@ -50,9 +50,16 @@ pub(super) fn elide(
     done
 }
 
-fn elide_place(map: &mut Diktiometry, id: PlaceId) {
-    let outgoing = map.paths.places[id.index()].outgoing.clone();
-    for link in outgoing {
+/// Takes a place out of the map, with its links.
+pub(in crate::diktiometry) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
+    let place = &map.paths.places[id.index()];
+    let links: Vec<LinkId> = place
+        .outgoing
+        .iter()
+        .chain(&place.incoming)
+        .copied()
+        .collect();
+    for link in links {
         map.paths.remove_link(link);
     }
     let place = &mut map.paths.places[id.index()];
