@@ -8,7 +8,8 @@
 //! - a [`Turn`] (Δ) is what it did at a junction;
 //! - an [`Explorer`] takes both in and decides what to do next, as a [`CpmConfig`] says;
 //! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`Matching`], are one;
-//! - a [`Plan`] is a way through it.
+//! - a [`Plan`] is a way through it;
+//! - a [`Localizer`] finds where on some maps a robot is that was put somewhere.
 //!
 //! [`world`] has mazes of corridors and junctions to try all this in without a robot, in microseconds.
 //!
@@ -45,6 +46,7 @@ mod config;
 mod explorer;
 mod geometry;
 mod hypothesis;
+mod localizer;
 mod map;
 mod mapper;
 mod pattern;
@@ -59,6 +61,7 @@ pub mod world;
 pub use alignment::Alignment;
 pub use config::{CpmConfig, Mapping, Onward};
 pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
+pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
 pub use plan::{Plan, PlanLeg};

@@ -5,6 +5,7 @@ extern crate alloc;
 
 mod cpm {
     mod explorations;
+    mod localization;
     mod matching;
     mod targets;
     mod turns;

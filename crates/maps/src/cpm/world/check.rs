@@ -1,5 +1,6 @@
 use alloc::collections::BTreeMap;
 use alloc::vec;
+use alloc::vec::Vec;
 
 use super::super::map::{CpMap, JunctionId, Port};
 use super::{World, WorldPort};
@@ -22,16 +23,36 @@ impl World {
     /// O(fragments · log fragments).
     #[must_use]
     pub fn check(&self, map: &CpMap, at: Port, truly_at: WorldPort) -> MapCheck {
-        // Each junction met, with its place and the place's port that is the junction's port 0.
+        let Some(known) = self.correspondence(map, at, truly_at) else {
+            return MapCheck::Wrong;
+        };
+        let mut places: Vec<u32> = known.values().map(|port| port.place).collect();
+        places.sort_unstable();
+        places.dedup();
+        if places.len() < known.len() || known.len() < map.junctions().len() {
+            MapCheck::Redundant
+        } else if map.is_explored() {
+            MapCheck::Right
+        } else {
+            MapCheck::Partial
+        }
+    }
+
+    /// For each junction that the map has ways to, the port of this world that is its port 0, given where the robot is on
+    /// both; none if the map is wrong somewhere. O(fragments · log fragments).
+    #[must_use]
+    pub fn correspondence(
+        &self,
+        map: &CpMap,
+        at: Port,
+        truly_at: WorldPort,
+    ) -> Option<BTreeMap<JunctionId, WorldPort>> {
         let mut known: BTreeMap<JunctionId, WorldPort> = BTreeMap::new();
         let mut queue = vec![(at, truly_at)];
         while let Some((port, truth)) = queue.pop() {
             let degree = self.sighting(truth.place).degree;
-            let Some(junction) = map.junction(port.junction) else {
-                return MapCheck::Wrong;
-            };
-            if junction.sighting() != self.sighting(truth.place) {
-                return MapCheck::Wrong;
+            if map.junction(port.junction)?.sighting() != self.sighting(truth.place) {
+                return None;
             }
             let first = WorldPort {
                 place: truth.place,
@@ -39,7 +60,7 @@ impl World {
             };
             if let Some(before) = known.insert(port.junction, first) {
                 if before != first {
-                    return MapCheck::Wrong;
+                    return None;
                 }
                 continue;
             }
@@ -54,15 +75,6 @@ impl World {
                 }
             }
         }
-        let mut places: alloc::vec::Vec<u32> = known.values().map(|port| port.place).collect();
-        places.sort_unstable();
-        places.dedup();
-        if places.len() < known.len() || known.len() < map.junctions().len() {
-            MapCheck::Redundant
-        } else if map.is_explored() {
-            MapCheck::Right
-        } else {
-            MapCheck::Partial
-        }
+        Some(known)
     }
 }

@@ -128,6 +128,24 @@ impl World {
     /// [`MazeError`] if a field is outside its range or the corridors cannot all be distinctive.
     pub fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeError> {
         config.check()?;
+        let dictionary = random_dictionary(config.patterns, rng)?;
+        Self::random_of(dictionary, config, rng)
+    }
+
+    /// The same, of the patterns of a dictionary, whatever number the configuration has: another maze for one robot.
+    ///
+    /// # Errors
+    /// [`MazeError`] as [`random`](Self::random), or if there are less than two patterns.
+    pub fn random_of(
+        dictionary: Dictionary,
+        config: &MazeConfig,
+        rng: &mut impl Rng,
+    ) -> Result<Self, MazeError> {
+        let config = &MazeConfig {
+            patterns: dictionary.len() as u32,
+            ..*config
+        };
+        config.check()?;
         let openings = openings(config, rng);
         let cells = config.columns * config.rows;
         let mut ways: Vec<Vec<u32>> = vec![Vec::new(); cells as usize];
@@ -151,7 +169,7 @@ impl World {
                 f64::from(cell / config.columns),
             )
         };
-        let mut drawing = WorldBuilder::new(random_dictionary(config.patterns, rng)?);
+        let mut drawing = WorldBuilder::new(dictionary);
         let mut numbers = vec![None; cells as usize];
         for cell in 0..cells {
             let landmark = match cell {

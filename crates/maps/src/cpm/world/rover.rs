@@ -7,7 +7,7 @@ use super::super::map::Sign;
 use super::super::pattern::PatternId;
 use super::super::traversal::{Motion, Sighting, Traversal};
 use super::super::turn::{NoSuchTurn, Turn};
-use super::{Corridor, World, WorldPort};
+use super::{Corridor, CorridorEnd, World, WorldPort};
 
 /// How a rover's senses err.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +121,8 @@ impl<'a> Rover<'a> {
         };
         let corridor = &self.world.corridors[end.corridor as usize];
         let stretch = 1.0 + self.noise.slip * (2.0 * uniform(rng) - 1.0);
-        let mut patterns = self.observe(corridor, end.sign, stretch, rng);
+        let truth = self.truth(corridor, end.sign);
+        let mut patterns = self.observe(&truth, stretch, rng);
         let motion = match self.reckoning {
             Reckoning::None => None,
             Reckoning::Bounded => self.reckon(corridor, end.sign, stretch, rng),
@@ -145,18 +146,40 @@ impl<'a> Rover<'a> {
         }))
     }
 
-    fn observe(
-        &self,
-        corridor: &Corridor,
-        enter: Sign,
-        stretch: f64,
+    /// Puts it into the midst of a corridor, entered at an end, after so many observations, and lets it walk on to the other end.
+    /// None if there is no such corridor.
+    pub fn walk_on(
+        &mut self,
+        enter: CorridorEnd,
+        passed: u32,
         rng: &mut impl Rng,
-    ) -> Vec<PatternId> {
-        let dictionary = &self.world.dictionary;
-        let truth = match enter {
+    ) -> Option<Traversal> {
+        let corridor = self.world.corridors.get(enter.corridor as usize)?;
+        let stretch = 1.0 + self.noise.slip * (2.0 * uniform(rng) - 1.0);
+        let truth = self.truth(corridor, enter.sign);
+        let patterns = self.observe(truth.get(passed as usize..)?, stretch, rng);
+        self.observations += patterns.len() as u32;
+        self.at = corridor.port(enter.sign.opposite());
+        Some(Traversal {
+            patterns,
+            motion: None,
+            sighting: self.sighting(),
+        })
+    }
+
+    /// What is to be observed of a corridor.
+    fn truth(&self, corridor: &Corridor, enter: Sign) -> Vec<PatternId> {
+        match enter {
             Sign::Minus => corridor.patterns.clone(),
-            Sign::Plus => dictionary.inverse(&corridor.patterns).unwrap_or_default(),
-        };
+            Sign::Plus => {
+                let inverse = self.world.dictionary.inverse(&corridor.patterns);
+                inverse.unwrap_or_default()
+            }
+        }
+    }
+
+    fn observe(&self, truth: &[PatternId], stretch: f64, rng: &mut impl Rng) -> Vec<PatternId> {
+        let dictionary = &self.world.dictionary;
         let count = libm::round(truth.len() as f64 * stretch).max(1.0) as usize;
         let any = |rng: &mut _| PatternId(RngExt::random_range(rng, 0..dictionary.len() as u32));
         let mut seen = Vec::with_capacity(count);

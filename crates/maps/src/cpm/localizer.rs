@@ -1,0 +1,415 @@
+use alloc::vec;
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::map::{CpMap, End, FragmentId, Port, Sign};
+use super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::traversal::Sighting;
+use super::turn::{NoSuchTurn, Turn};
+
+/// Finds where a robot is, from one observation on: on which of several maps, in which fragment, walking which way.
+///
+/// The paper's robot, left in mid-fragment, "continues moving forward until the first junction", and knows in which environment it is by
+/// its fourth layer. This one keeps a probability of every place of every map (a Bayes filter), which each observation, junction and
+/// turn moves on, and begins with the first observation.
+///
+/// ```
+/// use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
+///
+/// let mut dictionary = Dictionary::new(1);
+/// for pattern in 0..8 {
+///     let prototype = [f64::from(pattern)];
+///     dictionary.learn(&prototype, &prototype, 0.1)?;
+/// }
+/// // Two environments of one corridor each.
+/// let mut maps = Vec::new();
+/// for patterns in [[0, 1, 2, 3], [4, 5, 2, 7]] {
+///     let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
+///     let patterns = patterns.map(PatternId).to_vec();
+///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(1) };
+///     explorer.arrive(Turn::BACK, &walk, &dictionary)?;
+///     maps.push(explorer.map().clone());
+/// }
+/// let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual())?;
+/// localizer.observe(PatternId(5))?;
+/// localizer.observe(PatternId(2))?;
+/// let found = localizer.location();
+/// assert_eq!(found.map, 1);
+/// assert!(found.probability > 0.9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Localizer<'a> {
+    maps: &'a [CpMap],
+    dictionary: &'a Dictionary,
+    config: LocalizerConfig,
+    tracks: Vec<Track>,
+    stage: Stage,
+}
+
+/// How a [`Localizer`] judges; probabilities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalizerConfig {
+    /// That an observation is another pattern than the map's; above 0, less than 1.
+    pub mistake: f64,
+    /// That the robot is, after an observation, still where the map has the one before, and likewise that it has passed one over;
+    /// 0 to 0.4.
+    pub slip: f64,
+    /// That it has been put elsewhere between two observations; above 0, at most 0.1. What it has come to believe wrongly it forgets by
+    /// this.
+    pub elsewhere: f64,
+}
+
+/// Where the robot most likely is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Location {
+    /// The map, by its place in the list.
+    pub map: usize,
+    /// The fragment, by the end it was entered at.
+    pub enter: End,
+    /// The port it leads to or, at a junction, has led to: what [`Explorer::place`](super::Explorer::place) has to be told there.
+    pub ahead: Port,
+    /// How likely that is; 0 to 1.
+    pub probability: f64,
+}
+
+/// Why a robot cannot be localized, or an event not be taken in.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LocalizeError {
+    /// The maps have no fragments.
+    #[error("no map has a fragment: there is nowhere to be")]
+    Empty,
+    /// A probability is outside its range.
+    #[error("{field} is {value} but has to be {range}")]
+    OutOfRange {
+        /// The field of the configuration.
+        field: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it may be, in words.
+        range: &'static str,
+    },
+    /// A map was written with other patterns, or one observed is not in the dictionary.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+    /// No junction where the robot may be has such a turn.
+    #[error(transparent)]
+    Turn(#[from] NoSuchTurn),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// Before the first observation.
+    Unplaced,
+    InFragment,
+    AtJunction,
+}
+
+/// A fragment, walked one way.
+#[derive(Clone, Debug)]
+struct Track {
+    map: usize,
+    enter: End,
+    ahead: Port,
+    patterns: Vec<PatternId>,
+    /// How likely the robot has passed so many of them: one more than there are, as it may have passed none.
+    passed: Vec<f64>,
+}
+
+impl LocalizerConfig {
+    /// For a robot that mistakes one observation in ten and slips by a tenth.
+    #[must_use]
+    pub const fn usual() -> Self {
+        Self {
+            mistake: 0.1,
+            slip: 0.1,
+            elsewhere: 1e-6,
+        }
+    }
+
+    fn check(&self) -> Result<(), LocalizeError> {
+        let within = |field, value: f64, low: f64, high: f64, range| {
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(LocalizeError::OutOfRange {
+                    field,
+                    value,
+                    range,
+                })
+            }
+        };
+        within(
+            "mistake",
+            self.mistake,
+            1e-9,
+            1.0 - 1e-9,
+            "above 0, less than 1",
+        )?;
+        within("slip", self.slip, 0.0, 0.4, "0 to 0.4")?;
+        within(
+            "elsewhere",
+            self.elsewhere,
+            1e-12,
+            0.1,
+            "above 0, at most 0.1",
+        )
+    }
+}
+
+impl<'a> Localizer<'a> {
+    /// Nothing is known yet: the robot may be in any fragment of any map.
+    ///
+    /// # Errors
+    /// [`LocalizeError`] if the maps are empty or another dictionary's, or a field is outside its range.
+    pub fn new(
+        maps: &'a [CpMap],
+        dictionary: &'a Dictionary,
+        config: LocalizerConfig,
+    ) -> Result<Self, LocalizeError> {
+        config.check()?;
+        let mut tracks = Vec::new();
+        for (index, map) in maps.iter().enumerate() {
+            if let Some(version) = map.version() {
+                dictionary.check_version(version)?;
+            }
+            for (id, fragment) in map.fragments() {
+                for sign in Sign::BOTH {
+                    let patterns = match sign {
+                        Sign::Minus => fragment.patterns.clone(),
+                        Sign::Plus => dictionary.inverse(&fragment.patterns)?,
+                    };
+                    tracks.push(Track {
+                        map: index,
+                        enter: End { fragment: id, sign },
+                        ahead: fragment.port(sign.opposite()),
+                        passed: vec![0.0; patterns.len() + 1],
+                        patterns,
+                    });
+                }
+            }
+        }
+        if tracks.is_empty() {
+            return Err(LocalizeError::Empty);
+        }
+        let mut localizer = Self {
+            maps,
+            dictionary,
+            config,
+            tracks,
+            stage: Stage::Unplaced,
+        };
+        localizer.spread(1.0);
+        Ok(localizer)
+    }
+
+    /// One observation on the way. O(all sequences' lengths and the distances of prototypes).
+    ///
+    /// # Errors
+    /// [`LocalizeError::Dictionary`] if the dictionary does not have the pattern.
+    pub fn observe(&mut self, pattern: PatternId) -> Result<(), LocalizeError> {
+        self.dictionary.check(&[pattern])?;
+        let LocalizerConfig {
+            mistake,
+            slip,
+            elsewhere,
+        } = self.config;
+        // Not yet on its way, it may be anywhere: that is where it already is.
+        let moves = self.stage != Stage::Unplaced;
+        self.stage = Stage::InFragment;
+        let chance = mistake / self.dictionary.len() as f64;
+        let near = NEAR * self.dictionary.greatest_distance();
+        for track in &mut self.tracks {
+            let count = track.patterns.len();
+            let mut next = vec![0.0; count + 1];
+            for (passed, belief) in track.passed.iter().enumerate() {
+                if !moves {
+                    next[passed] += belief;
+                    continue;
+                }
+                let steps = [(0, slip), (1, 1.0 - 2.0 * slip), (2, slip)];
+                for (step, probability) in steps {
+                    // At the end it stays until the junction is seen.
+                    next[(passed + step).min(count)] += belief * probability;
+                }
+            }
+            // To have passed none and to observe something is to be still at the junction.
+            for (passed, belief) in next.iter_mut().enumerate() {
+                let likelihood = match passed.checked_sub(1).and_then(|at| track.patterns.get(at)) {
+                    Some(expected) if near > 0.0 => {
+                        let distance = self.dictionary.distance(*expected, pattern) / near;
+                        (1.0 - mistake) * libm::exp(-0.5 * distance * distance)
+                    }
+                    Some(expected) if *expected == pattern => 1.0 - mistake,
+                    _ => 0.0,
+                };
+                *belief *= likelihood + chance;
+            }
+            track.passed = next;
+        }
+        self.normalize();
+        self.spread(elsewhere);
+        Ok(())
+    }
+
+    /// The end of a fragment is reached, and a junction, dead end or landmark is seen.
+    pub fn arrive(&mut self, sighting: Sighting) {
+        let seen = self.config.slip.max(1e-3);
+        for track in &mut self.tracks {
+            let place = self
+                .maps
+                .get(track.map)
+                .and_then(|map| map.junction(track.ahead.junction));
+            let looks = place.is_some_and(|place| place.sighting() == sighting);
+            let count = track.patterns.len();
+            let mut here = 0.0;
+            for (passed, belief) in track.passed.iter().enumerate() {
+                // Each observation that the map has still to come was missed.
+                here += belief * libm::pow(2.0 * seen, (count - passed) as f64);
+            }
+            track.passed.fill(0.0);
+            if let Some(end) = track.passed.last_mut() {
+                *end = if looks { here } else { here * UNSEEN };
+            }
+        }
+        self.stage = Stage::AtJunction;
+        self.normalize();
+    }
+
+    /// The robot turns at the junction it is at, and enters the next fragment.
+    ///
+    /// # Errors
+    /// [`LocalizeError::Turn`] if no junction at which it may be has such a turn. Nothing is learned then.
+    pub fn turn(&mut self, turn: Turn) -> Result<(), LocalizeError> {
+        let mut entered = vec![0.0; self.tracks.len()];
+        let mut refused = None;
+        for track in &self.tracks {
+            let Some(map) = self.maps.get(track.map) else {
+                continue;
+            };
+            let degree = map.degree(track.ahead.junction);
+            let number = match turn.exit(track.ahead.number, degree) {
+                Ok(number) => number,
+                Err(error) => {
+                    refused = Some(error);
+                    continue;
+                }
+            };
+            let exit = Port {
+                number,
+                ..track.ahead
+            };
+            let next = map
+                .end_at(exit)
+                .and_then(|enter| self.index(track.map, enter));
+            if let Some(entered) = next.and_then(|next| entered.get_mut(next)) {
+                *entered += track.passed.last().copied().unwrap_or(0.0);
+            }
+        }
+        if let Some(error) = refused
+            && entered.iter().all(|belief| *belief <= 0.0)
+        {
+            return Err(error.into());
+        }
+        for (track, entered) in self.tracks.iter_mut().zip(entered) {
+            track.passed.fill(0.0);
+            if let Some(none) = track.passed.first_mut() {
+                *none = entered;
+            }
+        }
+        self.stage = Stage::InFragment;
+        self.normalize();
+        self.spread(self.config.elsewhere);
+        Ok(())
+    }
+
+    /// The fragment and the way along it that are most likely, the first of equals.
+    #[must_use]
+    pub fn location(&self) -> Location {
+        let mut best: Option<Location> = None;
+        for track in &self.tracks {
+            let probability = track.passed.iter().sum();
+            if best.is_none_or(|best| probability > best.probability) {
+                let Track {
+                    map, enter, ahead, ..
+                } = *track;
+                best = Some(Location {
+                    map,
+                    enter,
+                    ahead,
+                    probability,
+                });
+            }
+        }
+        best.unwrap_or(Location {
+            map: 0,
+            enter: End {
+                fragment: FragmentId(0),
+                sign: Sign::Minus,
+            },
+            ahead: Port {
+                junction: super::map::JunctionId(0),
+                number: 0,
+            },
+            probability: 0.0,
+        })
+    }
+
+    /// How likely the robot is on each map: "which environment the robot is in".
+    #[must_use]
+    pub fn maps(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.maps.len()];
+        for track in &self.tracks {
+            if let Some(sum) = sums.get_mut(track.map) {
+                *sum += track.passed.iter().sum::<f64>();
+            }
+        }
+        sums
+    }
+
+    /// Tracks come in the order of maps and ends.
+    fn index(&self, map: usize, enter: End) -> Option<usize> {
+        let key = (map, enter);
+        self.tracks
+            .binary_search_by_key(&key, |track| (track.map, track.enter))
+            .ok()
+    }
+
+    /// Moves a part of the belief to anywhere.
+    fn spread(&mut self, part: f64) {
+        let places: usize = self.tracks.iter().map(|track| track.patterns.len()).sum();
+        for track in &mut self.tracks {
+            for (passed, belief) in track.passed.iter_mut().enumerate() {
+                // A robot put into a fragment has been observed to be in it.
+                let anywhere = if passed > 0 {
+                    part / places.max(1) as f64
+                } else {
+                    0.0
+                };
+                *belief = *belief * (1.0 - part) + anywhere;
+            }
+        }
+    }
+
+    /// Makes all beliefs together 1; if nothing was possible, the robot may be anywhere.
+    fn normalize(&mut self) {
+        let sum: f64 = self.tracks.iter().flat_map(|track| &track.passed).sum();
+        if sum > 0.0 {
+            let beliefs = self.tracks.iter_mut().flat_map(|track| &mut track.passed);
+            for belief in beliefs {
+                *belief /= sum;
+            }
+        } else {
+            self.spread(1.0);
+        }
+    }
+}
+
+/// How far the prototype of what is observed lies from that of what is there, as a part of the greatest distance in the
+/// dictionary: one standard deviation.
+const NEAR: f64 = 0.05;
+
+/// How likely a junction is seen as one it is not.
+const UNSEEN: f64 = 1e-3;

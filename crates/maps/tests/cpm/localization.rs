@@ -1,0 +1,195 @@
+//! Where am I, and in which of the mazes I know?
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::cpm::world::{
+    CorridorEnd, MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort,
+};
+use tolman_maps::cpm::{
+    Aim, CpMap, CpmConfig, Dictionary, DictionaryError, Explorer, LocalizeError, Localizer,
+    LocalizerConfig, Location, PatternId, Port, Sighting, Sign, Turn,
+};
+
+use super::explorations::pursue;
+
+/// A maze, explored.
+struct Known {
+    world: World,
+    map: CpMap,
+    /// For the port of the map where the exploration ended, that of the world.
+    at: (Port, WorldPort),
+}
+
+fn explored(maze: &MazeConfig, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
+    let world = World::random(maze, rng).unwrap();
+    explored_of(world, noise, rng)
+}
+
+fn explored_of(world: World, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
+    let mut rover = Rover::new(&world, noise, Reckoning::Bounded);
+    let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
+    pursue(&mut explorer, &mut rover, &world, Aim::Explore, rng);
+    let at = (explorer.at(), rover.at());
+    let map = explorer.map().clone();
+    Known { world, map, at }
+}
+
+impl Known {
+    /// Whether the robot, truly at this port, is where it believes to be.
+    fn is_right(&self, found: Location, truth: WorldPort) -> bool {
+        let (at, truly_at) = self.at;
+        let Some(known) = self.world.correspondence(&self.map, at, truly_at) else {
+            return false;
+        };
+        let degree = self.world.sighting(truth.place).degree;
+        known.get(&found.ahead.junction).is_some_and(|first| {
+            let number = (first.number + found.ahead.number) % degree;
+            WorldPort { number, ..*first } == truth
+        })
+    }
+}
+
+/// A place in the midst of a corridor: at least half of it, and two observations, to come.
+fn middle(world: &World, rng: &mut ChaCha8Rng) -> (CorridorEnd, u32) {
+    loop {
+        let corridor = rng.random_range(0..world.corridors().len() as u32);
+        let count = world.corridors()[corridor as usize].patterns.len() as u32;
+        let sign = if rng.random_range(0_u32..2) == 0 {
+            Sign::Minus
+        } else {
+            Sign::Plus
+        };
+        if count >= 4 {
+            return (
+                CorridorEnd { corridor, sign },
+                rng.random_range(0..=count / 2),
+            );
+        }
+    }
+}
+
+#[test]
+fn from_mid_fragment_before_the_next_junction() {
+    let noise = Noise {
+        substitution: 0.05,
+        slip: 0.1,
+        ..Noise::NONE
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let (mut before, mut at, mut sure, mut starts) = (0, 0, 0, 0);
+    for _ in 0..20 {
+        let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+        let mut rover = Rover::new(&known.world, noise, Reckoning::None);
+        for _ in 0..20 {
+            let (enter, passed) = middle(&known.world, &mut rng);
+            let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
+            let maps = core::slice::from_ref(&known.map);
+            let mut localizer =
+                Localizer::new(maps, known.world.dictionary(), LocalizerConfig::usual()).unwrap();
+            for pattern in walk.patterns {
+                localizer.observe(pattern).unwrap();
+            }
+            starts += 1;
+            before += u32::from(known.is_right(localizer.location(), rover.at()));
+            sure += u32::from(localizer.location().probability > 0.9);
+            localizer.arrive(walk.sighting);
+            at += u32::from(known.is_right(localizer.location(), rover.at()));
+        }
+    }
+    println!("{before} right before the junction, {sure} sure, {at} right at it, of {starts}");
+    assert!(10 * before >= 9 * starts, "{before} of {starts}");
+    assert!(at >= before);
+}
+
+#[test]
+fn which_environment_and_within_one_further_fragment() {
+    let noise = Noise {
+        substitution: 0.05,
+        slip: 0.1,
+        ..Noise::NONE
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let (mut maps_right, mut places_right, mut starts) = (0, 0, 0);
+    for _ in 0..10 {
+        let first = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+        let dictionary = first.world.dictionary().clone();
+        let mut known = vec![first];
+        for loops in [0.0, 0.5, 1.0] {
+            let maze = MazeConfig {
+                loops,
+                ..MazeConfig::small()
+            };
+            let world = World::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
+            known.push(explored_of(world, Noise::NONE, &mut rng));
+        }
+        let maps: Vec<CpMap> = known.iter().map(|known| known.map.clone()).collect();
+        for (number, here) in known.iter().enumerate() {
+            let mut localizer =
+                Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();
+            let mut rover = Rover::new(&here.world, noise, Reckoning::None);
+            let (enter, passed) = middle(&here.world, &mut rng);
+            let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
+            for pattern in walk.patterns {
+                localizer.observe(pattern).unwrap();
+            }
+            localizer.arrive(walk.sighting);
+            let turn = Turn(u32::from(walk.sighting.degree > 1));
+            localizer.turn(turn).unwrap();
+            let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
+                unreachable!("it was not told to give up");
+            };
+            for pattern in walk.patterns {
+                localizer.observe(pattern).unwrap();
+            }
+            localizer.arrive(walk.sighting);
+            starts += 1;
+            let found = localizer.location();
+            places_right += u32::from(found.map == number && here.is_right(found, rover.at()));
+            maps_right += u32::from(localizer.maps()[number] > 0.9);
+        }
+    }
+    println!("{places_right} places, {maps_right} maps right of {starts}");
+    assert!(100 * maps_right >= 95 * starts, "{maps_right} of {starts}");
+    assert!(
+        100 * places_right >= 95 * starts,
+        "{places_right} of {starts}"
+    );
+}
+
+#[test]
+fn maps_of_another_robot_are_refused() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let [one, other] = [0, 1].map(|_| explored(&MazeConfig::small(), Noise::NONE, &mut rng));
+    let maps = [one.map, other.map];
+    let refused = Localizer::new(&maps, one.world.dictionary(), LocalizerConfig::usual());
+    assert!(matches!(
+        refused.err(),
+        Some(LocalizeError::Dictionary(
+            DictionaryError::OtherDictionary { .. }
+        ))
+    ));
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let dictionary = Dictionary::new(1);
+    let refused = Localizer::new(&[], &dictionary, LocalizerConfig::usual());
+    assert_eq!(refused.err(), Some(LocalizeError::Empty));
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+    let maps = core::slice::from_ref(&known.map);
+    let config = LocalizerConfig {
+        slip: f64::NAN,
+        ..LocalizerConfig::usual()
+    };
+    assert!(Localizer::new(maps, known.world.dictionary(), config).is_err());
+    let mut localizer =
+        Localizer::new(maps, known.world.dictionary(), LocalizerConfig::usual()).unwrap();
+    assert!(localizer.observe(PatternId(31)).is_err());
+    localizer.observe(PatternId(0)).unwrap();
+    // What no map has leaves it unsure, not broken.
+    localizer.arrive(Sighting::plain(7));
+    assert!(localizer.location().probability.is_finite());
+    assert!(localizer.turn(Turn(6)).is_err());
+    assert!((localizer.maps().iter().sum::<f64>() - 1.0).abs() < 1e-9);
+}
