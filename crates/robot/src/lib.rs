@@ -12,6 +12,7 @@
 extern crate alloc;
 
 mod body;
+mod column_image;
 pub mod epuck;
 mod laser_robot;
 mod odometry;
@@ -20,6 +21,7 @@ mod scan;
 mod turn_translate;
 
 pub use body::Body;
+pub use column_image::{CameraSensing, ColumnImage};
 pub use laser_robot::LaserSensing;
 pub use odometry::Odometry;
 pub use robot::Robot;

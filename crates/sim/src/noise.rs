@@ -10,11 +10,12 @@
 use alloc::collections::VecDeque;
 
 use tolman_geom::Heading;
-use tolman_robot::Scan;
+use tolman_robot::{ColumnImage, Scan};
 
 use crate::Draws;
 
 mod bias;
+mod bounded;
 mod delay;
 mod drop_out;
 mod fault;
@@ -26,6 +27,7 @@ mod slip;
 mod stuck;
 
 pub use bias::Bias;
+pub use bounded::Bounded;
 pub use delay::Delay;
 pub use drop_out::DropOut;
 pub use fault::{Fault, FaultError};
@@ -49,6 +51,8 @@ pub struct Past<V> {
     pub values: VecDeque<Option<V>>,
     /// For how many more readings something goes on.
     pub steps_left: u32,
+    /// What was drawn for that long.
+    pub drawn: [f64; 2],
 }
 
 impl<V> Default for Past<V> {
@@ -56,6 +60,7 @@ impl<V> Default for Past<V> {
         Self {
             values: VecDeque::new(),
             steps_left: 0,
+            drawn: [0.0; 2],
         }
     }
 }
@@ -84,6 +89,15 @@ impl Values for Scan {
         let max_range = self.ring.max_range;
         for range in self.ranges.iter_mut().filter(|range| **range < max_range) {
             *range = change(*range).clamp(0.0, max_range);
+        }
+    }
+}
+
+impl Values for ColumnImage {
+    /// No measurement falls below darkness or rises above full light.
+    fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
+        for value in self.columns.iter_mut().flatten() {
+            *value = change(*value).clamp(0.0, 1.0);
         }
     }
 }

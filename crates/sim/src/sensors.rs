@@ -27,12 +27,14 @@
 use crate::{Chance, Surroundings};
 
 mod bumper;
+mod column_camera;
 mod compass;
 mod infrared;
 mod laser;
 mod odometry;
 
 pub use bumper::Bumper;
+pub use column_camera::{CameraError, ColumnCamera};
 pub use compass::Compass;
 pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};

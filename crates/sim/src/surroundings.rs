@@ -35,15 +35,15 @@ pub struct Ray {
 pub struct Echo {
     /// How far away, m; the ray's whole length if nothing.
     pub range: f64,
-    /// The share of infrared light that it throws back; robots throw back as much as the default material.
-    pub reflectance: f64,
+    /// What it is made of; robots are of the default material.
+    pub material: Material,
 }
 
 impl Echo {
     /// Something stands at `range`: it counts if it is nearer than what was met so far.
-    fn shorten(&mut self, range: f64, reflectance: f64) {
+    fn shorten(&mut self, range: f64, material: Material) {
         if range < self.range {
-            *self = Self { range, reflectance };
+            *self = Self { range, material };
         }
     }
 }
@@ -79,10 +79,10 @@ impl<'a> Surroundings<'a> {
         let caster = self.world().caster();
         let mut echoes = rays.map(|Ray { origin, direction }| {
             let range = caster.cast(origin, direction, max_range);
-            let reflectance = self.reflectance(origin + direction * range);
-            let mut echo = Echo { range, reflectance };
+            let material = self.material(origin + direction * range);
+            let mut echo = Echo { range, material };
             for door in self.scene.shut {
-                echo.shorten(door.ray(origin, direction), door.material.reflectance);
+                echo.shorten(door.ray(origin, direction), door.material);
             }
             echo
         });
@@ -90,7 +90,7 @@ impl<'a> Surroundings<'a> {
         let here = self.pose.position;
         let spread = rays.iter().map(|ray| (ray.origin - here).norm());
         let reach = max_range + spread.fold(0.0, f64::max);
-        let body = Material::default().reflectance;
+        let body = Material::default();
         for other in self.scene.bodies.near(self.robot, here, reach) {
             for (ray, echo) in rays.iter().zip(&mut echoes) {
                 echo.shorten(other.ray(ray.origin, ray.direction), body);
@@ -99,17 +99,17 @@ impl<'a> Surroundings<'a> {
         echoes
     }
 
-    /// The reflectance of the wall at a point.
-    fn reflectance(&self, point: Point) -> f64 {
-        if let Some(everywhere) = self.world().common_reflectance() {
+    /// The material of the wall at a point.
+    fn material(&self, point: Point) -> Material {
+        if let Some(everywhere) = self.world().common_material() {
             return everywhere;
         }
-        let mut nearest = (f64::INFINITY, Material::default().reflectance);
+        let mut nearest = (f64::INFINITY, Material::default());
         self.world().index().near(point, TOUCHING, |walls| {
             for wall in walls {
                 let distance = wall.distance(point);
                 if distance < nearest.0 {
-                    nearest = (distance, wall.material.reflectance);
+                    nearest = (distance, wall.material);
                 }
             }
         });

@@ -60,8 +60,8 @@ pub struct World {
     index: Arc<WallIndex>,
     caster: Arc<dyn Caster>,
     cells: Option<Cells>,
-    /// What all walls throw back of infrared light, if it is the same.
-    common_reflectance: Option<f64>,
+    /// What all walls are made of, if it is the same.
+    common_material: Option<Material>,
 }
 
 /// The cells of a world made from a maze.
@@ -125,12 +125,10 @@ impl World {
         }
         let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
         let index = Arc::new(WallIndex::new(&walls, Lanes::Widest));
-        let first = walls[0].material.reflectance;
-        let alike = walls
-            .iter()
-            .all(|wall| wall.material.reflectance.total_cmp(&first).is_eq());
+        let first = walls[0].material;
+        let alike = walls.iter().all(|wall| wall.material == first);
         Ok(Self {
-            common_reflectance: alike.then_some(first),
+            common_material: alike.then_some(first),
             walls,
             zones: Vec::new(),
             doors: Vec::new(),
@@ -230,9 +228,9 @@ impl World {
         &self.index
     }
 
-    /// What all walls throw back of infrared light, if it is the same.
-    pub(crate) fn common_reflectance(&self) -> Option<f64> {
-        self.common_reflectance
+    /// What all walls are made of, if it is the same.
+    pub(crate) fn common_material(&self) -> Option<Material> {
+        self.common_material
     }
 
     /// The grid the walls stand on, if they do.

@@ -1,7 +1,8 @@
 use thiserror::Error;
 
 use super::{
-    Bias, Delay, Disturbance, DropOut, Gaussian, Outliers, Past, Quantization, Slip, Stuck, Values,
+    Bias, Bounded, Delay, Disturbance, DropOut, Gaussian, Outliers, Past, Quantization, Slip,
+    Stuck, Values,
 };
 use crate::Draws;
 
@@ -13,6 +14,8 @@ pub enum Fault {
     Gaussian(Gaussian),
     /// A constant error.
     Bias(Bias),
+    /// An error of which nothing but its bounds is known.
+    Bounded(Bounded),
     /// Wheels that slip.
     Slip(Slip),
     /// A resolution.
@@ -48,6 +51,15 @@ impl Fault {
             Self::Bias(Bias { scale, offset }) => {
                 vec![("scale", scale, any.clone()), ("offset", offset, any)]
             }
+            Self::Bounded(Bounded {
+                share,
+                offset,
+                steps,
+            }) => vec![
+                ("share", share, size.clone()),
+                ("offset", offset, size),
+                ("steps", f64::from(steps), 1.0..=f64::from(u32::MAX)),
+            ],
             Self::Slip(Slip { share: largest }) => vec![("share", largest, size)],
             Self::Quantization(Quantization { step }) => vec![("step", step, positive)],
             Self::DropOut(DropOut { probability }) | Self::Stuck(Stuck { probability, .. }) => {
@@ -84,6 +96,7 @@ impl<V: Values> Disturbance<V> for Fault {
         match self {
             Self::Gaussian(fault) => fault.disturb(value, past, draws),
             Self::Bias(fault) => fault.disturb(value, past, draws),
+            Self::Bounded(fault) => fault.disturb(value, past, draws),
             Self::Slip(fault) => fault.disturb(value, past, draws),
             Self::Quantization(fault) => fault.disturb(value, past, draws),
             Self::DropOut(fault) => fault.disturb(value, past, draws),

@@ -211,7 +211,7 @@ impl<const N: usize> Sensor for Infrared<N> {
             let ResponsePoint {
                 value, relative_sd, ..
             } = self.curve.at(echo.range);
-            let value = dark + echo.reflectance * (value - dark);
+            let value = dark + echo.material.reflectance * (value - dark);
             let noise = if relative_sd > 0.0 {
                 value * relative_sd * draws.gaussian()
             } else {

@@ -6,6 +6,7 @@
 )]
 
 mod bodies;
+mod camera;
 mod casters;
 mod epuck;
 mod leaks;

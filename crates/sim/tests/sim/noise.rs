@@ -4,7 +4,7 @@ use tolman_geom::{Heading, Pose};
 use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::{LaserSensing, Robot, TurnTranslate};
 use tolman_sim::noise::{
-    Bias, Delay, DropOut, Fault, Faults, Gaussian, Outliers, Quantization, Slip, Stuck,
+    Bias, Bounded, Delay, DropOut, Fault, Faults, Gaussian, Outliers, Quantization, Slip, Stuck,
 };
 use tolman_sim::robots::{
     ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise,
@@ -49,6 +49,27 @@ fn each_fault_does_what_it_says() {
         stuck,
         [Some(1.0), Some(1.0), Some(1.0), Some(4.0), Some(4.0)]
     );
+
+    let held = series(
+        Fault::Bounded(Bounded {
+            share: 0.1,
+            offset: 0.0,
+            steps: 3,
+        }),
+        300,
+    );
+    let factors: Vec<f64> = (1..)
+        .zip(&held)
+        .map(|(truth, value)| value.unwrap() / f64::from(truth))
+        .collect();
+    for factors in factors.chunks(3) {
+        assert!(factors.iter().all(|f| (f - factors[0]).abs() < 1e-12));
+    }
+    let (low, high) = factors.iter().fold((9.0, 0.0), |(low, high), factor| {
+        (f64::min(low, *factor), f64::max(high, *factor))
+    });
+    assert!((0.9..0.92).contains(&low), "{low}");
+    assert!((1.08..=1.1).contains(&high), "{high}");
 
     let count = 4000;
     let missing = series(Fault::DropOut(DropOut { probability: 0.25 }), count);

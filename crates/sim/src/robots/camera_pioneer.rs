@@ -1,0 +1,106 @@
+use thiserror::Error;
+use tolman_robot::{Body, CameraSensing, ColumnImage, TurnTranslate};
+
+use super::{ConfigError, LaserPioneer, LaserPioneerConfig};
+use crate::noise::{Fault, FaultError, Faulty};
+use crate::sensors::{CameraError, ColumnCamera, Sensor};
+use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
+
+/// A [`LaserPioneer`] with a [`ColumnCamera`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraPioneerConfig {
+    /// How many columns the camera's image has.
+    pub columns: u32,
+    /// How far the camera sees, m.
+    pub reach: f64,
+    /// What is wrong with each measurement of the image, each of which is a share of full light.
+    #[serde(default)]
+    pub image: Vec<Fault>,
+    /// All else.
+    pub pioneer: LaserPioneerConfig,
+}
+
+/// A robot built to a [`CameraPioneerConfig`].
+#[derive(Clone, Debug)]
+pub struct CameraPioneer {
+    pioneer: LaserPioneer,
+    camera: Faulty<ColumnCamera>,
+    columns: u32,
+}
+
+impl CameraPioneer {
+    /// Builds one.
+    ///
+    /// # Errors
+    /// If a field of the configuration has no sense.
+    pub fn new(config: CameraPioneerConfig) -> Result<Self, CameraPioneerError> {
+        for (index, fault) in config.image.iter().enumerate() {
+            let error = |source| CameraPioneerError::Fault { index, source };
+            fault.check().map_err(error)?;
+        }
+        let camera = ColumnCamera::new(config.columns, config.reach)?;
+        Ok(Self {
+            pioneer: LaserPioneer::new(config.pioneer)?,
+            camera: Faulty::new("image", camera, config.image),
+            columns: config.columns,
+        })
+    }
+}
+
+impl Model for CameraPioneer {
+    type Command = TurnTranslate;
+    type Sensing = CameraSensing;
+
+    fn body(&self) -> &Body {
+        self.pioneer.body()
+    }
+
+    fn contact(&self) -> Contact {
+        self.pioneer.contact()
+    }
+
+    fn step_us(&self) -> u64 {
+        self.pioneer.step_us()
+    }
+
+    fn check(&self, command: &TurnTranslate) -> Result<(), CommandError> {
+        self.pioneer.check(command)
+    }
+
+    fn motion(&mut self, command: &TurnTranslate, chance: &Chance) -> Motion {
+        self.pioneer.motion(command, chance)
+    }
+
+    fn silent(&self) -> CameraSensing {
+        CameraSensing {
+            laser: self.pioneer.silent(),
+            image: Some(ColumnImage::black(self.columns)),
+        }
+    }
+
+    fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut CameraSensing) {
+        self.pioneer.sense(around, chance, &mut sensing.laser);
+        self.camera.sense(around, chance, &mut sensing.image);
+    }
+}
+
+/// Why a robot with a camera cannot be built.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CameraPioneerError {
+    /// A fault has no sense.
+    #[error("`image`, fault {index}: {source}")]
+    Fault {
+        /// Which fault, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: FaultError,
+    },
+    /// The camera cannot be built.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The rest cannot be built.
+    #[error("`pioneer`: {0}")]
+    Pioneer(#[from] ConfigError),
+}
