@@ -5,6 +5,7 @@
 
 mod avoid;
 mod cast;
+pub mod diktiometry;
 pub mod mslst;
 mod oracle;
 mod random;

@@ -1,0 +1,570 @@
+//! The robot of the paper's simulations: control routines that end at corners and doorways, and what it measures on the way.
+
+use tolman_geom::{Heading, Interval, IntervalError, Point, PointBox, Pose};
+use tolman_maze::Direction;
+use tolman_robot::{CameraSensing, Odometry, Ring, Robot, TurnTranslate};
+use tolman_sim::noise::{Bounded, Fault, Gaussian};
+use tolman_sim::robots::{
+    CameraPioneer, CameraPioneerConfig, CameraPioneerError, LaserPioneerConfig, LaserPioneerFaults,
+    MotorNoise,
+};
+use tolman_sim::{Contact, DoorError, DoorState, PlaceError, Solo, StepError};
+
+use thiserror::Error;
+
+use super::office::{CORRIDOR_WIDTH, DOORWAY_WIDTH, Office};
+
+/// The robot and its noise. Where the paper names no number, ours stand in [`SurveyorConfig::paper`].
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurveyorConfig {
+    /// The largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance travelled".
+    pub odometry_share: f64,
+    /// The largest error of the compass, rad.
+    pub compass_bound: f64,
+    /// How many time steps an error of odometry or compass stays the same, at least 1. The longer, the less errors
+    /// average out within a move; the worst case is the largest number there is: a calibration wrong all along.
+    pub hold_steps: u32,
+    /// The standard deviation of what the motors make of a command, as a share of it.
+    pub motor_share: f64,
+    /// Columns of the camera's image.
+    pub columns: u32,
+    /// The largest error of each of its measurements, as a share of full light.
+    pub colour_bound: f64,
+    /// How far from the middle of a place a control routine may stop, m.
+    pub place_radius: f64,
+}
+
+impl SurveyorConfig {
+    /// Odometry of 10 % and a compass of ± 4°, as the figures have them; an error lasts about as long as a move.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            odometry_share: 0.1,
+            compass_bound: 4_f64.to_radians(),
+            hold_steps: 50,
+            motor_share: 0.1,
+            columns: 24,
+            colour_bound: 0.05,
+            place_radius: 0.12,
+        }
+    }
+
+    fn robot(&self) -> CameraPioneerConfig {
+        let bounded = |share: f64, offset: f64, steps: u32| {
+            vec![Fault::Bounded(Bounded {
+                share,
+                offset,
+                steps,
+            })]
+        };
+        CameraPioneerConfig {
+            columns: self.columns,
+            reach: 20.0,
+            image: vec![Fault::Gaussian(Gaussian::absolute(self.colour_bound / 3.0))],
+            pioneer: LaserPioneerConfig {
+                ring: Ring::full(72, 4.0),
+                motor_noise: MotorNoise {
+                    turn: Gaussian::relative(self.motor_share),
+                    translate: Gaussian::relative(self.motor_share),
+                    drift_sd: self.motor_share * 0.2,
+                },
+                faults: LaserPioneerFaults {
+                    compass: bounded(0.0, self.compass_bound, self.hold_steps),
+                    odometry_distance: bounded(self.odometry_share, 0.0, self.hold_steps),
+                    ..LaserPioneerFaults::default()
+                },
+                contact: Contact::Slide,
+                ..LaserPioneerConfig::noiseless()
+            },
+        }
+    }
+}
+
+/// A robot that goes from place to place.
+#[derive(Debug)]
+pub struct Surveyor {
+    config: SurveyorConfig,
+    solo: Solo<CameraPioneer>,
+    /// Where the odometry of the action under way says the robot went so far, world axes.
+    gone: PointBox,
+    /// Where it truly was at every step.
+    path: Vec<Pose>,
+}
+
+/// What a control routine ended with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival {
+    /// Whether the robot came to the next place, or there was no way.
+    pub outcome: RoutineOutcome,
+    /// How the robot moved, by odometry and compass: east and north, m. Its true way lies inside.
+    pub moved: PointBox,
+    /// The camera's columns, turned by the compass: column 0 looks east, the others follow counter-clockwise.
+    pub columns: Vec<[f64; 3]>,
+    /// Which ways lead on, by direction.
+    pub exits: [bool; 4],
+}
+
+/// How a control routine ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoutineOutcome {
+    /// At the next place.
+    Completed,
+    /// Where it began, before a wall.
+    Blocked,
+}
+
+/// Why a control routine cannot be carried out.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SurveyError {
+    /// The configuration has no sense.
+    #[error("the surveyor's `{field}` is {value}; give {expected}")]
+    Config {
+        /// Which field.
+        field: &'static str,
+        /// What it says.
+        value: f64,
+        /// What would do.
+        expected: &'static str,
+    },
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] CameraPioneerError),
+    /// The robot cannot stand where it is put.
+    #[error("the robot cannot stand there")]
+    Place(#[from] PlaceError),
+    /// The simulator refuses a command.
+    #[error("the simulator refuses a command")]
+    Step(#[from] StepError),
+    /// There is no such door.
+    #[error("there is no such door")]
+    Door(#[from] DoorError),
+    /// A reading is no number.
+    #[error("odometry is no number")]
+    Reading(#[from] IntervalError),
+    /// A sensor that the routines live on gave nothing.
+    #[error("the {sensor} gave nothing; take a robot without drop-outs")]
+    Blind {
+        /// Which sensor.
+        sensor: &'static str,
+    },
+    /// No place came in sight.
+    #[error(
+        "after {steps} time steps the way {direction} has led to no place; the robot stands at ({}, {}) m: lower the noise",
+        at.x, at.y
+    )]
+    Lost {
+        /// The way.
+        direction: Direction,
+        /// How long it took so far.
+        steps: u32,
+        /// Where the robot stands.
+        at: Point,
+    },
+}
+
+/// A corridor's side is open where nothing stands within this, m.
+const OPEN: f64 = 0.75 * CORRIDOR_WIDTH;
+/// Walls on both sides that are nearer to each other than this make a doorway, m.
+const NARROW: f64 = 0.5 * (CORRIDOR_WIDTH + DOORWAY_WIDTH);
+/// No opening and no doorway is shorter than this, m.
+const SHORTEST: f64 = 0.3;
+/// Way covered in one time step, m.
+const STRIDE: f64 = 0.06;
+/// How far from a wall ahead a robot in the middle of a cell stands, m.
+const ARRIVED: f64 = 0.5 * CORRIDOR_WIDTH;
+/// What a turn may miss, rad.
+const ALIGNED: f64 = 0.02;
+/// Time steps after which a routine is lost: the longest corridor of 60 cells.
+const PATIENCE: u32 = 2000;
+
+/// What the laser says of a corridor, seen along it.
+#[derive(Clone, Copy, Debug)]
+struct View {
+    left: f64,
+    right: f64,
+    ahead: f64,
+    heading: Heading,
+}
+
+/// Something beside the way that begins and ends: an opening, a doorway.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Span {
+    /// It was there from the start: it belongs to the place just left.
+    Left,
+    /// It is not there.
+    Absent,
+    /// It began so far along the way, m.
+    Since(f64),
+}
+
+impl Span {
+    /// Where the middle of the span is, once it has ended.
+    fn see(&mut self, there: bool, along: f64) -> Option<f64> {
+        match (*self, there) {
+            (Self::Absent, true) => *self = Self::Since(along),
+            (Self::Left | Self::Absent, false) => *self = Self::Absent,
+            (Self::Since(start), false) => {
+                *self = Self::Absent;
+                // A beam that misses an edge for a moment makes no place.
+                return (along - start > SHORTEST).then_some(0.5 * (start + along));
+            }
+            (Self::Left | Self::Since(_), true) => {}
+        }
+        None
+    }
+
+    const fn at_start(there: bool) -> Self {
+        if there { Self::Left } else { Self::Absent }
+    }
+}
+
+impl Surveyor {
+    /// A robot at a place of an office. `seed` is that of all noise.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the configuration has no sense or the robot cannot stand there.
+    pub fn new(
+        office: &Office,
+        config: SurveyorConfig,
+        at: Point,
+        seed: u64,
+    ) -> Result<Self, SurveyError> {
+        let share = config.odometry_share;
+        if !(0.0..=0.5).contains(&share) {
+            return Err(SurveyError::Config {
+                field: "odometry_share",
+                value: share,
+                expected: "a share from 0 to 0.5",
+            });
+        }
+        let pose = Pose::new(at, Heading::NORTH);
+        let robot = CameraPioneer::new(config.robot())?;
+        let solo = Solo::new(office.world().clone(), robot, pose, seed)?;
+        Ok(Self {
+            config,
+            solo,
+            gone: PointBox::ORIGIN,
+            path: vec![pose],
+        })
+    }
+
+    /// Where the robot truly was after each time step, for scoring and pictures.
+    #[must_use]
+    pub fn path(&self) -> &[Pose] {
+        &self.path
+    }
+
+    /// Opens or shuts both leaves of a doorway.
+    ///
+    /// # Errors
+    /// [`SurveyError::Door`] if there is none of that number.
+    pub fn set_doorway(&mut self, number: usize, state: DoorState) -> Result<(), SurveyError> {
+        for leaf in ["a", "b"] {
+            let simulation = self.solo.simulation_mut();
+            simulation.set_door(&format!("{number} {leaf}"), state)?;
+        }
+        Ok(())
+    }
+
+    /// What there is to see where the robot stands.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if a sensor is blind.
+    pub fn look(&mut self) -> Result<Arrival, SurveyError> {
+        self.gone = PointBox::ORIGIN;
+        self.arrive(RoutineOutcome::Completed)
+    }
+
+    /// Follows the corridor in a direction to the next corner or doorway: turns there, drives between the walls, and stops
+    /// in the middle of whatever opens or narrows beside the way, or before a wall.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if a sensor is blind or no place comes.
+    pub fn go(&mut self, direction: Direction) -> Result<Arrival, SurveyError> {
+        self.gone = PointBox::ORIGIN;
+        let ahead = Heading::of(super::office::unit(direction));
+        self.turn_to(ahead)?;
+        let view = self.view(ahead)?;
+        if view.ahead < OPEN {
+            return self.arrive(RoutineOutcome::Blocked);
+        }
+        let mut left = Span::at_start(view.left > OPEN);
+        let mut right = Span::at_start(view.right > OPEN);
+        let mut narrow = Span::at_start(view.left + view.right < NARROW);
+        let mut along = 0.0;
+        let begun = self.path.len();
+        loop {
+            let view = self.view(ahead)?;
+            let middles = [
+                left.see(view.left > OPEN, along),
+                right.see(view.right > OPEN, along),
+                narrow.see(view.left + view.right < NARROW, along),
+            ];
+            if let Some(middle) = middles.into_iter().flatten().next() {
+                // Beginning and end are noticed half a stride late.
+                let middle = middle - 0.5 * STRIDE;
+                while along - middle > 0.2 * STRIDE {
+                    along += self.drive(ahead, self.view(ahead)?, -STRIDE.min(along - middle))?;
+                }
+                return self.arrive(RoutineOutcome::Completed);
+            }
+            let room = view.ahead - ARRIVED;
+            if room < 0.2 * STRIDE {
+                return self.arrive(RoutineOutcome::Completed);
+            }
+            along += self.drive(ahead, view, STRIDE.min(room))?;
+            let steps = (self.path.len() - begun) as u32;
+            if steps > PATIENCE {
+                return Err(SurveyError::Lost {
+                    direction,
+                    steps,
+                    at: self.position(),
+                });
+            }
+        }
+    }
+
+    fn position(&self) -> Point {
+        self.solo.truth().pose.position
+    }
+
+    /// Turns in place.
+    fn turn_to(&mut self, ahead: Heading) -> Result<(), SurveyError> {
+        for _ in 0..PATIENCE {
+            let turn = self.compass()?.turn_to(ahead);
+            if turn.abs() < ALIGNED {
+                break;
+            }
+            self.command(turn, 0.0)?;
+        }
+        Ok(())
+    }
+
+    /// Drives so far, keeping to the middle between the walls, and tells how far odometry says it went.
+    fn drive(&mut self, ahead: Heading, view: View, distance: f64) -> Result<f64, SurveyError> {
+        let closed = |range: f64| range < OPEN;
+        // Metres to the right of the middle.
+        let aside = match (closed(view.left), closed(view.right)) {
+            (true, true) => 0.5 * (view.left - view.right),
+            // It may be a jamb: little is made of one side alone.
+            (true, false) => (view.left - 0.5 * CORRIDOR_WIDTH).clamp(-0.06, 0.06),
+            (false, true) => (0.5 * CORRIDOR_WIDTH - view.right).clamp(-0.06, 0.06),
+            (false, false) => 0.0,
+        };
+        let lean = (1.5 * aside).clamp(-0.4, 0.4) * distance.signum();
+        let turn = view.heading.turn_to(ahead.turned(lean));
+        self.command(turn.clamp(-0.2, 0.2), distance)
+    }
+
+    /// One time step. Adds what odometry and compass say of it to the box of this action.
+    fn command(&mut self, turn: f64, distance: f64) -> Result<f64, SurveyError> {
+        let before = self.compass()?;
+        let full = LaserPioneerConfig::noiseless();
+        self.solo.step(&TurnTranslate {
+            turn: turn / full.turn_per_step,
+            translate: distance / full.translate_per_step,
+        })?;
+        self.path.push(self.solo.truth().pose);
+        let after = self.compass()?;
+        let Some(Odometry { distance, .. }) = self.solo.sensing().laser.odometry else {
+            return Err(SurveyError::Blind { sensor: "odometry" });
+        };
+        if distance.abs() > 0.0 {
+            let share = self.config.odometry_share;
+            let turned = before.turn_to(after);
+            // The chord of an arc is a little shorter than the arc.
+            let chord = 1.0 - turned * turned / 20.0;
+            let ends = [distance / (1.0 + share), distance / (1.0 - share)];
+            let way = Interval::new(ends[0].min(ends[1]) * chord.min(1.0), ends[0].max(ends[1]))?;
+            let start = before.radians();
+            let headings = Interval::new(start.min(start + turned), start.max(start + turned))?;
+            let headings = headings.widened(self.config.compass_bound)?;
+            let step = PointBox::new(way, Interval::ZERO).rotated(headings);
+            self.gone = self.gone + step;
+        }
+        Ok(distance)
+    }
+
+    /// What the routine ended with: a picture is taken standing still.
+    fn arrive(&mut self, outcome: RoutineOutcome) -> Result<Arrival, SurveyError> {
+        self.solo.step(&TurnTranslate::STOP)?;
+        self.path.push(self.solo.truth().pose);
+        let exits = self.exits()?;
+        let heading = self.compass()?;
+        let image = self.solo.sensing().image.as_ref();
+        let mut columns = image
+            .ok_or(SurveyError::Blind { sensor: "camera" })?
+            .columns
+            .clone();
+        let width = core::f64::consts::TAU / f64::from(self.config.columns);
+        let turn = libm::round(heading.radians() / width) as i64;
+        columns.rotate_right(turn.rem_euclid(i64::from(self.config.columns)) as usize);
+        Ok(Arrival {
+            outcome,
+            moved: self.gone,
+            columns,
+            exits,
+        })
+    }
+
+    fn exits(&self) -> Result<[bool; 4], SurveyError> {
+        let mut exits = [false; 4];
+        for direction in Direction::ALL {
+            let view = self.view(Heading::of(super::office::unit(direction)))?;
+            exits[direction.index()] = view.ahead > OPEN;
+        }
+        Ok(exits)
+    }
+
+    fn compass(&self) -> Result<Heading, SurveyError> {
+        let CameraSensing { laser, .. } = self.solo.sensing();
+        laser
+            .compass
+            .ok_or(SurveyError::Blind { sensor: "compass" })
+    }
+
+    /// What stands ahead and to both sides of someone who looks `ahead`.
+    fn view(&self, ahead: Heading) -> Result<View, SurveyError> {
+        let heading = self.compass()?;
+        let scan = self.solo.sensing().laser.scan.as_ref();
+        let scan = scan.ok_or(SurveyError::Blind { sensor: "laser" })?;
+        let beams = scan.ranges.len() as f64;
+        let range = |direction: Heading| {
+            let beam = libm::round(heading.turn_to(direction) / scan.ring.spacing);
+            scan.ranges[beam.rem_euclid(beams) as usize]
+        };
+        let quarter = core::f64::consts::FRAC_PI_2;
+        Ok(View {
+            left: range(ahead.turned(quarter)),
+            right: range(ahead.turned(-quarter)),
+            ahead: range(ahead),
+            heading,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use tolman_maze::Braided;
+
+    use super::super::office::{OfficeConfig, TruePlace};
+    use super::*;
+
+    fn office(seed: u64, doorway_share: f64) -> Office {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let maze = Braided {
+            width: 6,
+            height: 6,
+            share: 0.7,
+        };
+        let config = OfficeConfig {
+            doorway_share,
+            colours: 5,
+            seed,
+        };
+        Office::new(&maze.generate(&mut rng).unwrap(), &config).unwrap()
+    }
+
+    /// Walks at random, and at every arrival hands over the places left and reached, the arrival and the robot.
+    fn walk(
+        office: &Office,
+        shut: &[usize],
+        moves: u32,
+        seed: u64,
+        mut see: impl FnMut(&TruePlace, &TruePlace, &Arrival, &Surveyor),
+    ) {
+        let places = office.places(shut);
+        let mut at = 0;
+        let config = SurveyorConfig::paper();
+        let mut robot = Surveyor::new(office, config, places[at].position, seed).unwrap();
+        for number in shut {
+            robot.set_doorway(*number, DoorState::Shut).unwrap();
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        for _ in 0..moves {
+            let direction = Direction::ALL[rng.random_range(0_u32..4) as usize];
+            let arrival = robot.go(direction).unwrap();
+            let way = places[at].ways[direction.index()];
+            let expected = match way {
+                Some(_) => RoutineOutcome::Completed,
+                None => RoutineOutcome::Blocked,
+            };
+            assert_eq!(arrival.outcome, expected, "{direction} of {:?}", places[at]);
+            let from = at;
+            at = way.unwrap_or(at);
+            see(&places[from], &places[at], &arrival, &robot);
+        }
+    }
+
+    #[test]
+    fn routines_end_at_the_true_places() {
+        for (seed, doorways) in [(1, 0.0), (2, 0.3), (3, 1.0)] {
+            let office = office(seed, doorways);
+            walk(&office, &[], 300, seed, |_, to, arrival, robot| {
+                let miss = (robot.position() - to.position).norm();
+                assert!(miss < robot.config.place_radius, "{miss} m from {to:?}");
+                assert_eq!(arrival.exits, to.ways.map(|way| way.is_some()), "{to:?}");
+            });
+        }
+    }
+
+    #[test]
+    fn the_true_way_is_inside_the_box() {
+        let office = office(4, 0.3);
+        let mut widths = Vec::new();
+        let mut before = office.places(&[])[0].position;
+        walk(&office, &[], 300, 4, |from, to, arrival, robot| {
+            let here = robot.position();
+            let moved = here - before;
+            before = here;
+            assert!(
+                arrival.moved.contains(Point::origin() + moved),
+                "{moved:?} {arrival:?}"
+            );
+            let way = (to.position - from.position).norm();
+            if way > 0.0 {
+                widths.push(arrival.moved.width() / way);
+            }
+        });
+        assert!(
+            widths.iter().all(|width| *width < 0.45),
+            "boxes say something: {widths:?}"
+        );
+    }
+
+    #[test]
+    fn a_shut_doorway_is_a_wall() {
+        let office = office(5, 0.4);
+        let shut: Vec<usize> = (0..office.doorways()).step_by(3).collect();
+        walk(&office, &shut, 200, 5, |_, to, arrival, _| {
+            assert_eq!(arrival.exits, to.ways.map(|way| way.is_some()));
+        });
+    }
+
+    #[test]
+    fn a_place_looks_the_same_from_wherever_one_comes() {
+        let office = office(6, 0.2);
+        let mut seen: Vec<(Point, Vec<[f64; 3]>)> = Vec::new();
+        walk(&office, &[], 300, 6, |_, to, arrival, _| {
+            seen.push((to.position, arrival.columns.clone()));
+        });
+        let alike = |a: &[[f64; 3]], b: &[[f64; 3]]| {
+            let same = |(a, b): (&[f64; 3], &[f64; 3])| (0..3).all(|i| (a[i] - b[i]).abs() < 0.15);
+            a.iter().zip(b).filter(|(a, b)| same((a, b))).count() as f64 / a.len() as f64
+        };
+        let (mut same, mut other) = (Vec::new(), Vec::new());
+        for (i, (here, a)) in seen.iter().enumerate() {
+            for (there, b) in &seen[..i] {
+                let near = (here - there).norm() < 1e-9;
+                if near { &mut same } else { &mut other }.push(alike(a, b));
+            }
+        }
+        let mean = |shares: &[f64]| shares.iter().sum::<f64>() / shares.len() as f64;
+        assert!(mean(&same) > 0.8, "{}", mean(&same));
+        assert!(mean(&other) < 0.45, "{}", mean(&other));
+    }
+}
