@@ -56,6 +56,19 @@ impl AbstractWorld {
         }
     }
 
+    /// Any places, m, and where the ways north, east, south and west lead from each, by number. None if there is not one entry of
+    /// ways a place, or a way leads to a place that there is not. All places look alike.
+    #[must_use]
+    pub fn of_places(places: Vec<Point>, neighbours: Vec<[Option<u32>; 4]>) -> Option<Self> {
+        let known = |place: &u32| (*place as usize) < places.len();
+        let closed = neighbours.iter().flatten().flatten().all(known);
+        (places.len() == neighbours.len() && closed).then(|| Self {
+            looks: vec![[0.0; 4]; places.len()],
+            places,
+            neighbours,
+        })
+    }
+
     /// Paints every wall around a place in one of `colours` colours, drawn evenly from `seed`: 0, 1, …
     #[must_use]
     pub fn painted(mut self, colours: u32, seed: u64) -> Self {

@@ -1,7 +1,8 @@
 //! The experiments there are.
 
 use super::{
-    BoxError, Error, Experiment, Options, baselines, micromouse, mslst, mslst_sweeps, quantizers,
+    BoxError, Error, Experiment, Options, baselines, diktiometry, micromouse, mslst, mslst_sweeps,
+    quantizers,
 };
 
 /// One experiment of the catalogue.
@@ -42,6 +43,11 @@ pub const fn catalogue() -> &'static [Entry] {
             name: "micromouse",
             title: "A micromouse in a virtual maze",
             open: micromouse::open,
+        },
+        Entry {
+            name: "diktiometry",
+            title: "Diktiometry: maps considered as adaptive planning resources",
+            open: diktiometry::open,
         },
     ]
 }

@@ -3,17 +3,17 @@
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
-use rand::{RngExt, SeedableRng};
+use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, Vector};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_sim::{CorridorSize, Door, DoorState, Material, Wall, World, WorldError};
 
 /// From wall to wall of a corridor, m.
 pub const CORRIDOR_WIDTH: f64 = 1.2;
 /// How thick walls are: what lies between two corridors, m.
-pub const WALL_THICKNESS: f64 = 1.8;
+pub const WALL_THICKNESS: f64 = 2.8;
 /// How deep the narrow part of a doorway is, in the middle of the wall, m.
 const DOORWAY_DEPTH: f64 = 0.6;
 /// From jamb to jamb of a doorway, m.
@@ -41,6 +41,7 @@ pub struct Office {
     maze: Maze,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
+    config: OfficeConfig,
     world: Arc<World>,
 }
 
@@ -123,6 +124,7 @@ impl Office {
         Ok(Self {
             maze: maze.clone(),
             doorways,
+            config: *config,
             world: Arc::new(world),
         })
     }
@@ -137,6 +139,22 @@ impl Office {
     #[must_use]
     pub const fn maze(&self) -> &Maze {
         &self.maze
+    }
+
+    /// How it is furnished.
+    #[must_use]
+    pub const fn config(&self) -> &OfficeConfig {
+        &self.config
+    }
+
+    /// No two places are nearer to each other than this, m: δ_sep.
+    #[must_use]
+    pub const fn separation(&self) -> f64 {
+        if self.doorways.is_empty() {
+            PITCH
+        } else {
+            0.5 * PITCH
+        }
     }
 
     /// How many doorways there are.
@@ -155,72 +173,44 @@ impl Office {
         between(cell, direction)
     }
 
-    /// What is truly there while some doorways are shut: a place at every bend, junction and dead end of the corridors and in
-    /// every open doorway, and from each the ways to the next in the four directions.
+    /// What is truly there while some doorways are shut, by site: a place at every bend, junction and dead end of the
+    /// corridors and in every open doorway, and from each the ways to the next in the four directions.
     ///
-    /// O(cells · length of the longest corridor).
+    /// A site is the index of a cell in its grid, or behind all cells the number of a doorway. O(cells · length of the
+    /// longest corridor).
     #[must_use]
-    pub fn places(&self, shut: &[usize]) -> Vec<TruePlace> {
-        let is_shut = |number: &usize| shut.contains(number);
-        let doorway = |cell: Cell, direction: Direction| {
-            let wanted = self.passage(cell, direction);
-            self.doorways.iter().position(|at| Some(*at) == wanted)
-        };
-        let open = |cell: Cell, direction: Direction| {
-            self.maze.is_open(cell, direction)
-                && !doorway(cell, direction).is_some_and(|number| is_shut(&number))
-        };
-        let mut spots = Vec::new();
-        for cell in self.maze.grid().cells() {
-            let ways = Direction::ALL.map(|direction| open(cell, direction));
-            let straight = ways == [true, false, true, false] || ways == [false, true, false, true];
-            if !straight && ways.contains(&true) {
-                spots.push(Spot::Corner(cell));
-            }
-        }
-        let doors = (0..self.doorways.len()).filter(|number| !is_shut(number));
-        spots.extend(doors.map(Spot::Doorway));
-        let index: BTreeMap<Spot, usize> = spots.iter().copied().zip(0..).collect();
-        // From a cell on in one direction, to the next place.
-        let onward = |mut cell: Cell, direction: Direction| loop {
-            if !open(cell, direction) {
-                return None;
-            }
-            if let Some(number) = doorway(cell, direction) {
-                return index.get(&Spot::Doorway(number)).copied();
-            }
-            cell = self.maze.grid().neighbour(cell, direction)?;
-            if let Some(place) = index.get(&Spot::Corner(cell)) {
-                return Some(*place);
-            }
-        };
-        let behind = |number: usize, direction: Direction| {
-            let (cell, along) = self.doorways[number];
-            let beyond = match direction {
-                _ if direction == along => self.maze.grid().neighbour(cell, along)?,
-                _ if direction == along.opposite() => cell,
-                _ => return None,
-            };
-            let place = index.get(&Spot::Corner(beyond)).copied();
-            place.or_else(|| onward(beyond, direction))
-        };
-        spots
-            .iter()
-            .map(|spot| TruePlace {
-                kind: match spot {
-                    Spot::Corner(_) => PlaceKind::Corner,
-                    Spot::Doorway(_) => PlaceKind::Doorway,
-                },
-                position: match *spot {
-                    Spot::Corner(cell) => middle(cell),
-                    Spot::Doorway(number) => self.doorway(number),
-                },
-                ways: Direction::ALL.map(|direction| match *spot {
-                    Spot::Corner(cell) => onward(cell, direction),
-                    Spot::Doorway(number) => behind(number, direction),
-                }),
-            })
+    pub fn places(&self, shut: &[usize]) -> BTreeMap<u32, TruePlace> {
+        let chart = Chart { office: self, shut };
+        let cells = self
+            .maze
+            .grid()
+            .cells()
+            .filter(|cell| chart.is_corner(*cell));
+        let corners = cells.map(|cell| TruePlace {
+            site: self.site(cell),
+            kind: PlaceKind::Corner,
+            position: middle(cell),
+            ways: Direction::ALL.map(|direction| chart.onward(cell, direction)),
+        });
+        let doorways = (0..self.doorways.len()).filter(|number| !shut.contains(number));
+        let doorways = doorways.map(|number| TruePlace {
+            site: self.site_of_doorway(number),
+            kind: PlaceKind::Doorway,
+            position: self.doorway(number),
+            ways: Direction::ALL.map(|direction| chart.behind(number, direction)),
+        });
+        corners
+            .chain(doorways)
+            .map(|place| (place.site, place))
             .collect()
+    }
+
+    fn site(&self, cell: Cell) -> u32 {
+        self.maze.grid().index(cell) as u32
+    }
+
+    fn site_of_doorway(&self, number: usize) -> u32 {
+        (self.maze.grid().cells().count() + number) as u32
     }
 
     /// A passage as doorways are named.
@@ -235,15 +225,37 @@ impl Office {
     }
 }
 
+/// Corridors between blocks: a square grid in which a share of the inner walls stands, drawn by chance but for those that would
+/// cut a cell off.
+pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
+    let grid = Grid::new(side, side);
+    let mut maze = Maze::open(grid);
+    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    for cell in grid.cells() {
+        for direction in [Direction::North, Direction::East] {
+            let inner = grid.neighbour(cell, direction).is_some();
+            if inner && rng.random_range(0.0..1.0) < walls {
+                maze.set_wall(cell, direction, true);
+                if maze.reachable().count() < grid.cells().count() {
+                    maze.set_wall(cell, direction, false);
+                }
+            }
+        }
+    }
+    maze
+}
+
 /// A place that is truly there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruePlace {
+    /// Its number, the same whatever doorways are shut.
+    pub site: u32,
     /// What makes it one.
     pub kind: PlaceKind,
     /// Where it is, m.
     pub position: Point,
-    /// The place that the way north, east, south and west leads to; none where a wall is.
-    pub ways: [Option<usize>; 4],
+    /// The site that the way north, east, south and west leads to; none where a wall is.
+    pub ways: [Option<u32>; 4],
 }
 
 /// What makes a place.
@@ -255,10 +267,59 @@ pub enum PlaceKind {
     Doorway,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Spot {
-    Corner(Cell),
-    Doorway(usize),
+/// An office while some doorways are shut.
+struct Chart<'a> {
+    office: &'a Office,
+    shut: &'a [usize],
+}
+
+impl Chart<'_> {
+    fn doorway(&self, cell: Cell, direction: Direction) -> Option<usize> {
+        let wanted = self.office.passage(cell, direction);
+        let mut doorways = self.office.doorways.iter();
+        doorways.position(|at| Some(*at) == wanted)
+    }
+
+    fn is_open(&self, cell: Cell, direction: Direction) -> bool {
+        let doorway = self.doorway(cell, direction);
+        self.office.maze.is_open(cell, direction)
+            && !doorway.is_some_and(|number| self.shut.contains(&number))
+    }
+
+    /// Whether the corridors do anything but lead straight on through a cell.
+    fn is_corner(&self, cell: Cell) -> bool {
+        let ways = Direction::ALL.map(|direction| self.is_open(cell, direction));
+        let straight = [[true, false, true, false], [false, true, false, true]];
+        !straight.contains(&ways) && ways.contains(&true)
+    }
+
+    /// From a cell on in one direction, to the site of the next place.
+    fn onward(&self, mut cell: Cell, direction: Direction) -> Option<u32> {
+        while self.is_open(cell, direction) {
+            if let Some(number) = self.doorway(cell, direction) {
+                return Some(self.office.site_of_doorway(number));
+            }
+            cell = self.office.maze.grid().neighbour(cell, direction)?;
+            if self.is_corner(cell) {
+                return Some(self.office.site(cell));
+            }
+        }
+        None
+    }
+
+    /// From a doorway on in one direction.
+    fn behind(&self, number: usize, direction: Direction) -> Option<u32> {
+        let (cell, along) = self.office.doorways[number];
+        let beyond = match direction {
+            _ if direction == along => self.office.maze.grid().neighbour(cell, along)?,
+            _ if direction == along.opposite() => cell,
+            _ => return None,
+        };
+        if self.is_corner(beyond) {
+            return Some(self.office.site(beyond));
+        }
+        self.onward(beyond, direction)
+    }
 }
 
 /// The middle of a cell.

@@ -29,8 +29,8 @@ pub struct SurveyorConfig {
     pub motor_share: f64,
     /// Columns of the camera's image.
     pub columns: u32,
-    /// The largest error of each of its measurements, as a share of full light.
-    pub colour_bound: f64,
+    /// The standard deviation of each of its measurements, as a share of full light.
+    pub colour_sd: f64,
     /// How far from the middle of a place a control routine may stop, m.
     pub place_radius: f64,
 }
@@ -45,8 +45,8 @@ impl SurveyorConfig {
             hold_steps: 50,
             motor_share: 0.1,
             columns: 24,
-            colour_bound: 0.05,
-            place_radius: 0.12,
+            colour_sd: 0.02,
+            place_radius: 0.13,
         }
     }
 
@@ -61,7 +61,7 @@ impl SurveyorConfig {
         CameraPioneerConfig {
             columns: self.columns,
             reach: 20.0,
-            image: vec![Fault::Gaussian(Gaussian::absolute(self.colour_bound / 3.0))],
+            image: vec![Fault::Gaussian(Gaussian::absolute(self.colour_sd))],
             pioneer: LaserPioneerConfig {
                 ring: Ring::full(72, 4.0),
                 motor_noise: MotorNoise {
@@ -326,7 +326,9 @@ impl Surveyor {
         }
     }
 
-    fn position(&self) -> Point {
+    /// Where the robot truly is, for scoring.
+    #[must_use]
+    pub fn position(&self) -> Point {
         self.solo.truth().pose.position
     }
 
@@ -353,7 +355,7 @@ impl Surveyor {
             (false, true) => (0.5 * CORRIDOR_WIDTH - view.right).clamp(-0.06, 0.06),
             (false, false) => 0.0,
         };
-        let lean = (1.5 * aside).clamp(-0.4, 0.4) * distance.signum();
+        let lean = (4.0 * aside).clamp(-0.4, 0.4) * distance.signum();
         let turn = view.heading.turn_to(ahead.turned(lean));
         self.command(turn.clamp(-0.2, 0.2), distance)
     }
@@ -449,24 +451,20 @@ impl Surveyor {
 mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use tolman_maze::Braided;
+    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
 
-    use super::super::office::{OfficeConfig, TruePlace};
+    use super::super::office::{OfficeConfig, TruePlace, blocks};
     use super::*;
 
     fn office(seed: u64, doorway_share: f64) -> Office {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let maze = Braided {
-            width: 6,
-            height: 6,
-            share: 0.7,
-        };
+        let maze = blocks(6, 0.4, &mut rng);
         let config = OfficeConfig {
             doorway_share,
             colours: 5,
             seed,
         };
-        Office::new(&maze.generate(&mut rng).unwrap(), &config).unwrap()
+        Office::new(&maze, &config).unwrap()
     }
 
     /// Walks at random, and at every arrival hands over the places left and reached, the arrival and the robot.
@@ -478,9 +476,9 @@ mod tests {
         mut see: impl FnMut(&TruePlace, &TruePlace, &Arrival, &Surveyor),
     ) {
         let places = office.places(shut);
-        let mut at = 0;
+        let mut at = *places.first_key_value().unwrap().0;
         let config = SurveyorConfig::paper();
-        let mut robot = Surveyor::new(office, config, places[at].position, seed).unwrap();
+        let mut robot = Surveyor::new(office, config, places[&at].position, seed).unwrap();
         for number in shut {
             robot.set_doorway(*number, DoorState::Shut).unwrap();
         }
@@ -488,15 +486,19 @@ mod tests {
         for _ in 0..moves {
             let direction = Direction::ALL[rng.random_range(0_u32..4) as usize];
             let arrival = robot.go(direction).unwrap();
-            let way = places[at].ways[direction.index()];
+            let way = places[&at].ways[direction.index()];
             let expected = match way {
                 Some(_) => RoutineOutcome::Completed,
                 None => RoutineOutcome::Blocked,
             };
-            assert_eq!(arrival.outcome, expected, "{direction} of {:?}", places[at]);
+            assert_eq!(
+                arrival.outcome, expected,
+                "{direction} of {:?}",
+                places[&at]
+            );
             let from = at;
             at = way.unwrap_or(at);
-            see(&places[from], &places[at], &arrival, &robot);
+            see(&places[&from], &places[&at], &arrival, &robot);
         }
     }
 
@@ -505,7 +507,7 @@ mod tests {
         for (seed, doorways) in [(1, 0.0), (2, 0.3), (3, 1.0)] {
             let office = office(seed, doorways);
             walk(&office, &[], 300, seed, |_, to, arrival, robot| {
-                let miss = (robot.position() - to.position).norm();
+                let miss = (robot.position() - to.position).abs().max();
                 assert!(miss < robot.config.place_radius, "{miss} m from {to:?}");
                 assert_eq!(arrival.exits, to.ways.map(|way| way.is_some()), "{to:?}");
             });
@@ -516,7 +518,8 @@ mod tests {
     fn the_true_way_is_inside_the_box() {
         let office = office(4, 0.3);
         let mut widths = Vec::new();
-        let mut before = office.places(&[])[0].position;
+        let places = office.places(&[]);
+        let mut before = places.first_key_value().unwrap().1.position;
         walk(&office, &[], 300, 4, |from, to, arrival, robot| {
             let here = robot.position();
             let moved = here - before;
@@ -534,6 +537,55 @@ mod tests {
             widths.iter().all(|width| *width < 0.45),
             "boxes say something: {widths:?}"
         );
+    }
+
+    /// The abstract world in which mappers are tried by the million offers them the same as the robot does.
+    #[test]
+    fn the_abstract_world_offers_the_same_statistics() {
+        let office = office(8, 0.2);
+        let config = SurveyorConfig::paper();
+        let truth = office.places(&[]);
+        let number: Vec<u32> = truth.keys().copied().collect();
+        let place = |site: u32| number.binary_search(&site).unwrap() as u32;
+        let positions = truth.values().map(|place| place.position).collect();
+        let ways = truth
+            .values()
+            .map(|there| there.ways.map(|way| way.map(place)));
+        let world = AbstractWorld::of_places(positions, ways.collect()).unwrap();
+        let errors = MoveError {
+            distance: config.odometry_share,
+            compass: config.compass_bound,
+            stop: 0.03,
+            ..MoveError::NONE
+        };
+        let mut ghost = AbstractRobot::new(world.into(), 0, errors, 8).unwrap();
+
+        // Of each move: how wide the box is and how wrong its middle, a metre of way.
+        let (mut real, mut ghostly) = (Vec::new(), Vec::new());
+        let mut before = truth.values().next().unwrap().position;
+        walk(&office, &[], 600, 8, |from, to, arrival, robot| {
+            let moved = robot.position() - before;
+            before = robot.position();
+            if from.site != to.site {
+                let miss = arrival.moved.middle().coords - moved;
+                real.push([arrival.moved.width(), miss.norm()].map(|x| x / moved.norm()));
+            }
+        });
+        for _ in 0..real.len() {
+            let direction = ghost.wander().unwrap();
+            let gone = ghost.go(direction).unwrap();
+            let told = gone.odometry.position;
+            let miss = told.middle().coords - gone.truth;
+            ghostly.push([told.width(), miss.norm()].map(|x| x / gone.truth.norm()));
+        }
+        let means = |all: &[[f64; 2]]| {
+            [0, 1].map(|i| all.iter().map(|one| one[i]).sum::<f64>() / all.len() as f64)
+        };
+        let (real, ghostly) = (means(&real), means(&ghostly));
+        for (real, ghostly) in real.into_iter().zip(ghostly) {
+            let ratio = real / ghostly;
+            assert!((0.75..1.33).contains(&ratio), "{real} and {ghostly}");
+        }
     }
 
     #[test]

@@ -1,0 +1,160 @@
+//! A learned map held against the truth.
+
+use alloc::collections::BTreeMap;
+
+use tolman_maps::diktiometry::{PathGraph, PlaceId};
+use tolman_maze::Direction;
+
+use super::office::TruePlace;
+
+/// Where the robot truly was while the map had it at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Visit {
+    /// The site of the true place.
+    pub site: u32,
+    /// The place on the map, by the name it had then.
+    pub place: PlaceId,
+}
+
+/// How good a map is. Every share is from 0 to 1, and 1 where there is nothing to share in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapScore {
+    /// Places on the map.
+    pub places: usize,
+    /// True places that were visited.
+    pub visited: usize,
+    /// Share of the visits that were to the true place which their place on the map stands for: the one it was most often
+    /// taken for. Below 1 there is polytopy, one node for several places.
+    pub purity: f64,
+    /// Share of the visited true places that exactly one place on the map stands for; others suffer monotopy, several nodes for one,
+    /// or are not on the map.
+    pub share_once: f64,
+    /// Share of the links on the map that lead where their action truly leads.
+    pub link_precision: f64,
+    /// Share of the true ways of the whole world that are on the map.
+    pub link_recall: f64,
+    /// Share of the true ways that were gone at least once which are on the map.
+    pub gone_recall: f64,
+    /// Whether the map is one to one the graph of the true places visited and the ways gone.
+    pub isomorphism: Isomorphism,
+}
+
+/// Whether two graphs are the same but for the names of their nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Isomorphism {
+    /// They are.
+    Yes,
+    /// They are not.
+    No,
+}
+
+/// A true way: a site and a direction.
+type Way = (u32, Direction);
+
+/// Scores a map. `visits` are all places the robot was at, from the first on; `gone` are the ways it took;
+/// `truth` is what is there now. Action n of the map is direction n of [`Direction::ALL`]. O(visits · log places + links · log links).
+#[must_use]
+pub fn score(
+    map: &PathGraph,
+    visits: &[Visit],
+    gone: &[(u32, Direction)],
+    truth: &BTreeMap<u32, TruePlace>,
+) -> MapScore {
+    // How often each place on the map was each true place.
+    let mut taken: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();
+    for visit in visits {
+        // A place that was elided is not on the map: its visits say nothing of it.
+        if let Some(place) = map.resolve(visit.place) {
+            *taken
+                .entry(place)
+                .or_default()
+                .entry(visit.site)
+                .or_default() += 1;
+        }
+    }
+    let stands_for: BTreeMap<PlaceId, u32> = taken
+        .iter()
+        .filter_map(|(place, sites)| {
+            // Of sites that are equally frequent the first.
+            let most = sites
+                .iter()
+                .max_by_key(|(site, count)| (**count, core::cmp::Reverse(**site)));
+            most.map(|(site, _)| (*place, *site))
+        })
+        .collect();
+    let all: usize = taken.values().flat_map(BTreeMap::values).sum();
+    let right: usize = taken
+        .iter()
+        .map(|(place, sites)| sites[&stands_for[place]])
+        .sum();
+
+    let mut visited: BTreeMap<u32, usize> = visits.iter().map(|visit| (visit.site, 0)).collect();
+    for site in stands_for.values() {
+        *visited.entry(*site).or_default() += 1;
+    }
+    let once = visited.values().filter(|count| **count == 1).count();
+
+    let leads = |way: Way| {
+        truth
+            .get(&way.0)
+            .and_then(|place| place.ways[way.1.index()])
+    };
+    let mut found: Vec<Way> = Vec::new();
+    let mut links = 0;
+    for (_, link) in map.links() {
+        links += 1;
+        let direction = Direction::ALL.get(link.action.0 as usize).copied();
+        let ends = [link.from, link.to].map(|place| stands_for.get(&place).copied());
+        if let (Some(direction), [Some(from), Some(to)]) = (direction, ends)
+            && leads((from, direction)) == Some(to)
+        {
+            found.push((from, direction));
+        }
+    }
+    let correct = found.len();
+    found.sort_unstable();
+    found.dedup();
+    let has = |way: &Way| found.binary_search(way).is_ok();
+    let ways = || {
+        let places = truth.values();
+        places.flat_map(|place| Direction::ALL.map(|direction| (place.site, direction)))
+    };
+    let open: Vec<Way> = ways().filter(|way| leads(*way).is_some()).collect();
+    let mut gone: Vec<Way> = gone
+        .iter()
+        .copied()
+        .filter(|way| leads(*way).is_some())
+        .collect();
+    gone.sort_unstable();
+    gone.dedup();
+
+    let places = map.places().count();
+    let same = places == visited.len()
+        && once == visited.len()
+        && right == all
+        && correct == links
+        && links == gone.len()
+        && gone.iter().all(has);
+    MapScore {
+        places,
+        visited: visited.len(),
+        purity: share(right, all),
+        share_once: share(once, visited.len()),
+        link_precision: share(correct, links),
+        link_recall: share(open.iter().filter(|way| has(way)).count(), open.len()),
+        gone_recall: share(gone.iter().filter(|way| has(way)).count(), gone.len()),
+        isomorphism: if same {
+            Isomorphism::Yes
+        } else {
+            Isomorphism::No
+        },
+    }
+}
+
+fn share(part: usize, whole: usize) -> f64 {
+    if whole == 0 {
+        1.0
+    } else {
+        part as f64 / whole as f64
+    }
+}

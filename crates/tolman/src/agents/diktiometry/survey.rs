@@ -1,0 +1,488 @@
+//! One run: a robot walks an office, its observer maps it, and the truth is kept beside.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox};
+use tolman_maps::diktiometry::{
+    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, SearchLimits,
+    Signature, SignatureError, SignatureKind, Start, StartError, StepError, StepReport,
+};
+use tolman_maze::Direction;
+use tolman_sim::DoorState;
+
+use super::errors::MoveError;
+use super::office::Office;
+use super::planner::{Decision, Planner};
+use super::score::{MapScore, Visit, score};
+use super::surveyor::{Arrival, RoutineOutcome, SurveyError, Surveyor, SurveyorConfig};
+
+/// Everything a run depends on but the office and the seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurveyConfig {
+    /// The robot and its noise.
+    pub robot: SurveyorConfig,
+    /// The mapper.
+    pub mapper: Config,
+    /// How likely a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of the time".
+    pub heed: f64,
+    /// How many moves are made.
+    pub moves: u32,
+    /// After every so many moves one of the office's doorways, by chance, is shut or opened; 0 for never.
+    pub door_period: u32,
+}
+
+impl SurveyConfig {
+    /// A run of the paper in an office: random walk, no advice, no door that moves.
+    #[must_use]
+    pub fn paper(office: &Office, moves: u32) -> Self {
+        let robot = SurveyorConfig::paper();
+        Self {
+            robot,
+            mapper: mapper(office, &robot),
+            heed: 0.0,
+            moves,
+            door_period: 0,
+        }
+    }
+}
+
+/// The mapper for a robot in an office: what its designers know of both.
+#[must_use]
+pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
+    let separation = office.separation();
+    let mut config = Config::new(Config::compass_actions(), separation);
+    config.place_radius = robot.place_radius;
+    if office.config().colours > 1 {
+        config.percepts = Percepts::Signatures(SignatureKind {
+            rows: 3,
+            columns: robot.columns as usize,
+            tolerance: 0.15,
+            share: 0.6,
+            rotation: Rotation::Aligned,
+            views: 4,
+        });
+    }
+    config
+}
+
+/// A run under way, or ended.
+#[derive(Debug)]
+pub struct Survey<'a> {
+    office: &'a Office,
+    config: SurveyConfig,
+    robot: Surveyor,
+    observer: Observer,
+    planner: Planner,
+    walk: ChaCha8Rng,
+    doors: ChaCha8Rng,
+    plans: ChaCha8Rng,
+    shut: Vec<usize>,
+    exits: [bool; 4],
+    start: Point,
+    site: u32,
+    visits: Vec<Visit>,
+    gone: Vec<(u32, Direction)>,
+    errors: Vec<MoveError>,
+}
+
+/// A place of a learned map where it is drawn over the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Its id.
+    pub id: u32,
+    /// South-west corner of the box that holds it as seen from the start, m.
+    pub low: Point,
+    /// North-east corner, m.
+    pub high: Point,
+    /// What is known of it, in words.
+    pub label: String,
+}
+
+/// Maps of more places are drawn without boxes: each takes a search of its own.
+const MOST_BOXES: usize = 400;
+
+/// What happened in one move.
+#[derive(Debug)]
+pub struct Surveyed {
+    /// What the planner wanted.
+    pub decision: Decision,
+    /// What the robot measured.
+    pub arrival: Arrival,
+    /// What the observer made of it.
+    pub report: StepReport,
+}
+
+/// Why a run cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The robot cannot.
+    #[error("the robot cannot go on")]
+    Robot(#[from] SurveyError),
+    /// The observer cannot begin.
+    #[error("the observer cannot begin")]
+    Start(#[from] StartError),
+    /// The observer refuses a move.
+    #[error("the observer refuses a move")]
+    Step(#[from] StepError),
+    /// The camera's image is no signature.
+    #[error("the image is no signature")]
+    Signature(#[from] SignatureError),
+    /// A reading is no number.
+    #[error("odometry is no number")]
+    Interval(#[from] IntervalError),
+    /// The robot is at no place.
+    #[error("the robot stands at ({}, {}) m, where no place is; lower the noise", at.x, at.y)]
+    OffPlace {
+        /// Where it stands.
+        at: Point,
+    },
+    /// There is no way on.
+    #[error("no way leads on from ({}, {}) m", at.x, at.y)]
+    NoWay {
+        /// Where the robot stands.
+        at: Point,
+    },
+}
+
+impl<'a> Survey<'a> {
+    /// A robot at a random place of an office, with a map of that place alone.
+    ///
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot be had.
+    pub fn new(office: &'a Office, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
+        let stream = |number: u64| {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            rng.set_stream(number);
+            rng
+        };
+        let places = office.places(&[]);
+        let first = stream(0).random_range(0..places.len() as u32) as usize;
+        let start = places.values().nth(first);
+        let start = start.ok_or(RunError::NoWay {
+            at: Point::origin(),
+        })?;
+        let mut robot = Surveyor::new(office, config.robot, start.position, seed)?;
+        let seen = robot.look()?;
+        let observer = Observer::new(
+            config.mapper.clone(),
+            Start {
+                percept: percept(&config.mapper, &seen)?,
+                exits: exits(&seen),
+            },
+        )?;
+        let visits = vec![Visit {
+            site: start.site,
+            place: observer.place(),
+        }];
+        Ok(Self {
+            office,
+            planner: Planner::new(config.heed),
+            robot,
+            observer,
+            walk: stream(1),
+            doors: stream(2),
+            plans: stream(3),
+            shut: Vec::new(),
+            exits: seen.exits,
+            start: start.position,
+            site: start.site,
+            visits,
+            gone: Vec::new(),
+            errors: Vec::new(),
+            config,
+        })
+    }
+
+    /// Makes all moves.
+    ///
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot go on.
+    pub fn finish(mut self) -> Result<Self, RunError> {
+        for _ in 0..self.config.moves {
+            self.step()?;
+        }
+        Ok(self)
+    }
+
+    /// Makes one move.
+    ///
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot go on.
+    pub fn step(&mut self) -> Result<Surveyed, RunError> {
+        self.move_a_door()?;
+        let decision = self
+            .planner
+            .choose(&self.observer, &self.exits, &mut self.walk);
+        let at = self.robot.position();
+        let decision = decision.ok_or(RunError::NoWay { at })?;
+        let surveyed = self.go(decision)?;
+        Ok(surveyed)
+    }
+
+    fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
+        let before = self.robot.position();
+        let arrival = self.robot.go(decision.direction)?;
+        let here = self.robot.position();
+        let blocked = arrival.outcome == RoutineOutcome::Blocked;
+        let report = self.observer.step(&Move {
+            action: Action(decision.direction.index() as u32),
+            odometry: PoseBox::new(arrival.moved, Interval::ZERO),
+            percept: percept(&self.config.mapper, &arrival)?,
+            exits: exits(&arrival),
+            outcome: if blocked {
+                Outcome::Blocked
+            } else {
+                Outcome::Arrived
+            },
+        })?;
+        self.exits = arrival.exits;
+        if !blocked {
+            self.gone.push((self.site, decision.direction));
+            self.errors
+                .push(MoveError::of(&report, arrival.moved, here - before));
+        }
+        self.site = self.true_site(here)?;
+        self.visits.push(Visit {
+            site: self.site,
+            place: self.observer.place(),
+        });
+        Ok(Surveyed {
+            decision,
+            arrival,
+            report,
+        })
+    }
+
+    /// Shuts or opens a doorway when it is time to, but none that the robot is near.
+    fn move_a_door(&mut self) -> Result<(), RunError> {
+        let period = self.config.door_period as usize;
+        let doorways = self.office.doorways();
+        if period == 0
+            || doorways == 0
+            || !self.gone.len().is_multiple_of(period)
+            || self.gone.is_empty()
+        {
+            return Ok(());
+        }
+        let number = self.doors.random_range(0..doorways as u32) as usize;
+        let near = (self.office.doorway(number) - self.robot.position()).norm() < 3.0;
+        let is_shut = self.shut.contains(&number);
+        if near {
+            return Ok(());
+        }
+        let state = if is_shut {
+            DoorState::Open
+        } else {
+            DoorState::Shut
+        };
+        self.robot.set_doorway(number, state)?;
+        match state {
+            DoorState::Open => self.shut.retain(|other| *other != number),
+            DoorState::Shut => self.shut.push(number),
+        }
+        Ok(())
+    }
+
+    /// The true place the robot is at.
+    fn true_site(&self, here: Point) -> Result<u32, RunError> {
+        let places = self.office.places(&self.shut);
+        let near = places
+            .values()
+            .map(|place| ((place.position - here).norm(), place.site))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match near {
+            Some((distance, site)) if distance < 0.5 * self.office.separation() => Ok(site),
+            _ => Err(RunError::OffPlace { at: here }),
+        }
+    }
+
+    /// The observer with its map.
+    #[must_use]
+    pub const fn observer(&self) -> &Observer {
+        &self.observer
+    }
+
+    /// The robot.
+    #[must_use]
+    pub const fn robot(&self) -> &Surveyor {
+        &self.robot
+    }
+
+    /// The doorways that are shut now.
+    #[must_use]
+    pub fn shut(&self) -> &[usize] {
+        &self.shut
+    }
+
+    /// Where the robot truly was and where the map had it, from the start on.
+    #[must_use]
+    pub fn visits(&self) -> &[Visit] {
+        &self.visits
+    }
+
+    /// The errors of all moves so far.
+    #[must_use]
+    pub fn errors(&self) -> &[MoveError] {
+        &self.errors
+    }
+
+    /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its actions are followed on
+    /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
+    /// no other place.
+    pub fn plan_works(&mut self) -> Option<bool> {
+        let paths = &self.observer.map().paths;
+        let here = self.observer.place();
+        let others: Vec<PlaceId> = paths
+            .places()
+            .map(|(id, _)| id)
+            .filter(|id| *id != here)
+            .collect();
+        if others.is_empty() {
+            return None;
+        }
+        let to = others[self.plans.random_range(0..others.len() as u32) as usize];
+        let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
+        let wanted = self.visits.iter().rev().find(is_to)?.site;
+        let truth = self.office.places(&self.shut);
+        let plan = self.observer.plan(here, to);
+        let end = plan.and_then(|plan| {
+            plan.steps.iter().try_fold(self.site, |site, step| {
+                truth
+                    .get(&site)?
+                    .ways
+                    .get(step.action.0 as usize)
+                    .copied()?
+            })
+        });
+        Some(end == Some(wanted))
+    }
+
+    /// Where the run began, m.
+    #[must_use]
+    pub const fn start(&self) -> Point {
+        self.start
+    }
+
+    /// The places of the map, moved so that the first lies where the run truly began.
+    #[must_use]
+    pub fn drawn(&self) -> Vec<Drawn> {
+        let map = self.observer.map();
+        let Some(home) = self.visits.first().map(|visit| visit.place) else {
+            return Vec::new();
+        };
+        let everything = SearchLimits {
+            width: f64::INFINITY,
+            frames: usize::MAX,
+            depth: u32::MAX,
+        };
+        let layout = map.layout(home);
+        let boxed = layout.len() <= MOST_BOXES;
+        let place = |id: PlaceId, middle: Point| {
+            let known = boxed
+                .then(|| map.displacement(home, id, &everything))
+                .flatten();
+            let ends = |low: Point, high: Point| [low, high].map(|end| self.start + end.coords);
+            let [low, high] = match known {
+                Some(PointBox { x, y }) => {
+                    ends(Point::new(x.low(), y.low()), Point::new(x.high(), y.high()))
+                }
+                None => ends(middle, middle),
+            };
+            let visits = map.paths.place(id).map_or(0, |place| place.visits);
+            Drawn {
+                id: id.0,
+                low,
+                high,
+                label: format!("place {}, {visits} visits", id.0),
+            }
+        };
+        layout
+            .into_iter()
+            .map(|drawn| place(drawn.place, drawn.position))
+            .collect()
+    }
+
+    /// The links of the map, by the ids of the places at their ends.
+    #[must_use]
+    pub fn links(&self) -> Vec<(u32, u32)> {
+        let links = self.observer.map().paths.links();
+        links.map(|(_, link)| (link.from.0, link.to.0)).collect()
+    }
+
+    /// How good the map is by now.
+    #[must_use]
+    pub fn score(&self) -> MapScore {
+        let truth = self.office.places(&self.shut);
+        score(&self.observer.map().paths, &self.visits, &self.gone, &truth)
+    }
+}
+
+/// What the camera saw, if the mapper wants to know.
+fn percept(mapper: &Config, arrival: &Arrival) -> Result<Option<Signature>, SignatureError> {
+    match mapper.percepts {
+        Percepts::None => Ok(None),
+        Percepts::Signatures(_) => {
+            let values = arrival.columns.iter().flatten().copied().collect();
+            Signature::new(3, values).map(Some)
+        }
+    }
+}
+
+fn exits(arrival: &Arrival) -> Exits {
+    let open = (0..4).filter(|action| arrival.exits[*action as usize]);
+    Exits::Seen(open.map(Action).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{ErrorSummary, OfficeConfig, blocks};
+    use super::*;
+
+    fn office(side: u16, doorway_share: f64, colours: u32) -> Office {
+        let maze = blocks(side, 0.3, &mut ChaCha8Rng::seed_from_u64(1));
+        let config = OfficeConfig {
+            doorway_share,
+            colours,
+            seed: 1,
+        };
+        Office::new(&maze, &config).unwrap()
+    }
+
+    #[test]
+    fn what_is_certain_is_never_confused_where_all_places_look_alike() {
+        let office = office(4, 0.0, 1);
+        let config = SurveyConfig {
+            heed: 0.3,
+            ..SurveyConfig::paper(&office, 150)
+        };
+        for seed in 0..3 {
+            let run = Survey::new(&office, config.clone(), seed).unwrap();
+            let run = run.finish().unwrap();
+            let score = run.score();
+            assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
+            assert!((score.link_precision - 1.0).abs() < 1e-12, "{score:?}");
+            assert!((score.gone_recall - 1.0).abs() < 1e-12, "{score:?}");
+            assert!(ErrorSummary::of(run.errors()).unwrap().coverage > 0.5);
+        }
+    }
+
+    #[test]
+    fn the_same_seed_makes_the_same_run_and_the_moves_of_doors_are_part_of_it() {
+        let office = office(4, 0.5, 6);
+        let mut config = SurveyConfig::paper(&office, 120);
+        config.door_period = 10;
+        let run = |seed| {
+            Survey::new(&office, config.clone(), seed)
+                .unwrap()
+                .finish()
+                .unwrap()
+        };
+        let (one, again, other) = (run(1), run(1), run(2));
+        assert!(!one.shut().is_empty(), "some doorway is shut by now");
+        assert_eq!(one.visits(), again.visits());
+        assert_eq!(one.observer(), again.observer());
+        assert_ne!(one.visits(), other.visits());
+    }
+}

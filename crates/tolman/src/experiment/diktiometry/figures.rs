@@ -1,0 +1,154 @@
+//! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds, as figures 3(a) and 4.
+
+use tolman_geom::{Point, Vector};
+use tolman_sim::Bounds;
+
+use super::settings::{Setting, Subject, Trial};
+use crate::agents::diktiometry::{Drawn, Survey, WINDOW};
+use crate::draw::{
+    Axis, Chart, EdgeLine, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, Plan, Region,
+    Series,
+};
+use crate::experiment::{BoxError, Field, Run};
+use crate::stats::{self, Interval};
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 560.0;
+/// Tables of more rows get no curves: nobody could tell them apart.
+const MOST_CURVES: usize = 4;
+
+pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let mut figures = Vec::new();
+    for trial in trials {
+        if trial.settings.len() > MOST_CURVES {
+            continue;
+        }
+        figures.push(errors(trial, runs)?);
+        let maps = trial.settings.iter().enumerate();
+        for (number, setting) in maps.filter(|(_, setting)| setting.subject == Subject::Map) {
+            let first =
+                |run: &&Run| run.table == trial.name && run.row == setting.row && run.run == 0;
+            if let Some(run) = runs.iter().find(first) {
+                figures.push(map(trial, setting, run, number)?);
+            }
+        }
+    }
+    Ok(figures)
+}
+
+/// The means of a run's windows, m².
+pub(super) fn curve_of(run: &Run) -> Result<Vec<f64>, BoxError> {
+    let text = run
+        .fields
+        .get("curve")
+        .and_then(Field::as_text)
+        .unwrap_or_default();
+    let values = text.split_whitespace().map(str::parse::<f64>);
+    Ok(values.collect::<Result<Vec<f64>, _>>()?)
+}
+
+fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
+    let mut chart = Chart::new(
+        Axis::linear("moves").from_zero(),
+        Axis::linear("squared error a move, m²").from_zero(),
+    )
+    .sized(WIDTH, 340.0);
+    for (series, setting) in (0..).map(Series).zip(&trial.settings) {
+        let own = runs
+            .iter()
+            .filter(|run| run.table == trial.name && run.row == setting.row);
+        let curves: Vec<Vec<f64>> = own.map(curve_of).collect::<Result<_, _>>()?;
+        let windows = curves.iter().map(Vec::len).max().unwrap_or(0);
+        let points = (0..windows).filter_map(|window| {
+            let values: Vec<f64> = curves
+                .iter()
+                .filter_map(|curve| curve.get(window).copied())
+                .collect();
+            let spread = Interval {
+                low: stats::quantile(&values, 0.25).ok()?,
+                high: stats::quantile(&values, 0.75).ok()?,
+            };
+            let moves = (window as f64 + 0.5) * WINDOW as f64;
+            Some(LinePoint::new(moves, stats::mean(&values).ok()?).spread(spread))
+        });
+        chart.line(Line::new(setting.row, series, points.collect()));
+    }
+    let drawing = chart.drawing(format!(
+        "{}: the error of each row against moves.",
+        trial.title
+    ));
+    Ok(
+        Figure::new(format!("error-{}", trial.name), trial.title, drawing)
+            .caption(format!(
+                "Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles."
+            ))
+            .table(trial.name),
+    )
+}
+
+/// The map of a run, moved so that its places lie best on the true ones.
+fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
+    let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
+    let walls: Vec<[Point; 2]> = setting
+        .office
+        .world()
+        .walls()
+        .iter()
+        .map(|wall| [wall.start, wall.end])
+        .collect();
+    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let drawn = survey.drawn();
+    for place in &drawn {
+        let Drawn { low, high, .. } = *place;
+        plan.region(
+            &Region::within(&Bounds {
+                min: low,
+                max: high,
+            }),
+            Series(1),
+        );
+    }
+    let mut graph = Graph::new();
+    let nodes: Vec<(u32, usize)> = drawn
+        .iter()
+        .map(|place| {
+            (
+                place.id,
+                graph.node(GraphNode::at(middle(place)).note(&place.label)),
+            )
+        })
+        .collect();
+    let node = |id: u32| {
+        nodes
+            .iter()
+            .find(|(other, _)| *other == id)
+            .map(|(_, node)| *node)
+    };
+    for (from, to) in survey.links() {
+        if let (Some(from), Some(to)) = (node(from), node(to)) {
+            graph.edge(GraphEdge::between(from, to).line(EdgeLine::Arrow));
+        }
+    }
+    plan.graph(&graph);
+    let score = survey.score();
+    let drawing = plan.drawing(format!(
+        "A learned map over its world: {} places.",
+        score.places
+    ));
+    Ok(Figure::new(
+        format!("map-{}-{number}", trial.name),
+        format!("{}: the map of run 0", setting.row),
+        drawing,
+    )
+    .caption(format!(
+        "Its {} places with the boxes that hold them, seen from where the robot began, and the links, over the world, of which \
+         {} true places were visited. Boxes grow with the distance from the start, since each frame knows only its neighbours; \
+         relative to those they are small.",
+        score.places, score.visited
+    ))
+    .table(trial.name))
+}
+
+fn middle(place: &Drawn) -> Point {
+    place.low + 0.5 * (place.high - place.low) + Vector::zeros()
+}

@@ -1,0 +1,226 @@
+//! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how a robot that walks an office learns its map.
+
+mod figures;
+mod replay;
+mod settings;
+
+use super::{
+    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table,
+};
+use crate::agents::diktiometry::{ErrorSummary, Isomorphism, NEAR, Survey, TAIL, WINDOW};
+use crate::draw::Figure;
+use crate::replay::Replay;
+
+use settings::{Setting, Subject, Trial};
+
+/// The experiment, ready to run.
+#[derive(Debug)]
+struct Diktiometry {
+    trials: Vec<Trial>,
+    tables: Vec<Table>,
+}
+
+/// Builds the offices. Maze files have no part in it.
+///
+/// # Errors
+/// If an office cannot be built.
+pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+    let trials = settings::all()?;
+    let tables = trials.iter().map(table).collect();
+    Ok(Box::new(Diktiometry { trials, tables }))
+}
+
+/// The shares that a map is scored by; all but the first and the name on the page are the fields' own names.
+const SHARES: [(&str, &str); 6] = [
+    ("purity", "purity"),
+    ("link_precision", "link precision"),
+    ("link_recall", "link recall"),
+    ("share_once", "true places with one node"),
+    ("coverage", "moves that were expected"),
+    ("plans", "plans that work"),
+];
+
+fn table(trial: &Trial) -> Table {
+    let mut table = Table::new(trial.name, trial.title)
+        .field("ssd_asymptote", Kind::Number)
+        .field("curve", Kind::Text)
+        .optional_field("moves_to_asymptote", Kind::Count)
+        .optional_field("places", Kind::Count)
+        .optional_field("visited", Kind::Count)
+        .optional_field("isomorphic", Kind::Flag)
+        .metric(
+            Metric::mean("ssd_asymptote")
+                .titled("squared error a move, at last")
+                .unit("m²")
+                .decimals(4),
+        )
+        .metric(
+            Metric::mean("moves_to_asymptote")
+                .titled("moves to asymptote")
+                .decimals(0),
+        );
+    for (name, title) in SHARES {
+        table = table
+            .optional_field(name, Kind::Number)
+            .metric(Metric::mean(name).titled(title).decimals(4));
+    }
+    table = table
+        .metric(
+            Metric::mean("places")
+                .titled("places on the map")
+                .decimals(1),
+        )
+        .metric(
+            Metric::mean("visited")
+                .titled("true places visited")
+                .decimals(1),
+        )
+        .metric(Metric::percent("isomorphic_percent", "isomorphic").titled("map is the world"));
+    for setting in &trial.settings {
+        table = table.row(Row::new(setting.row));
+    }
+    let reference = trial.settings.first().map_or("", |setting| setting.row);
+    table
+        .compared_with(reference, Correction::Holm)
+        .note(format!(
+            "{} The asymptote is the mean over the last {:.0} % of the moves; it is reached when the means over {WINDOW} moves stay \
+             less than {:.0} % of odometry's error above it.",
+            trial.note,
+            100.0 * TAIL,
+            100.0 * NEAR,
+        ))
+}
+
+impl Diktiometry {
+    fn setting(&self, job: &Job<'_>) -> Result<&Setting, BoxError> {
+        let trial = self.trials.iter().find(|trial| trial.name == job.table);
+        let mut settings = trial.into_iter().flat_map(|trial| &trial.settings);
+        let setting = settings.find(|setting| setting.row == job.row);
+        setting.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+    }
+}
+
+impl Experiment for Diktiometry {
+    fn name(&self) -> &str {
+        "diktiometry"
+    }
+
+    fn title(&self) -> &str {
+        "Diktiometry: maps considered as adaptive planning resources"
+    }
+
+    fn source(&self) -> &str {
+        "S. Engelson, D. McDermott: Maps Considered as Adaptive Planning Resources, figures 3 and 4"
+    }
+
+    fn default_runs(&self) -> u32 {
+        10
+    }
+
+    fn quick_runs(&self) -> u32 {
+        2
+    }
+
+    fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    fn config(&self) -> Result<toml::Table, BoxError> {
+        let mut config = toml::Table::new();
+        for trial in &self.trials {
+            let mut rows = toml::Table::new();
+            for setting in &trial.settings {
+                let mut row = toml::Table::new();
+                let run = &setting.config;
+                row.insert("robot".into(), toml::Value::try_from(run.robot)?);
+                row.insert("mapper".into(), format!("{:?}", run.mapper).into());
+                row.insert("heed".into(), run.heed.into());
+                row.insert("moves".into(), run.moves.into());
+                row.insert("door_period".into(), run.door_period.into());
+                rows.insert(setting.row.into(), row.into());
+            }
+            if let Some(setting) = trial.settings.first() {
+                rows.insert("maze".into(), setting.office.maze().to_string().into());
+                let furniture = toml::Value::try_from(setting.office.config())?;
+                rows.insert("furniture".into(), furniture);
+            }
+            config.insert(trial.name.into(), rows.into());
+        }
+        Ok(config)
+    }
+
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let setting = self.setting(job)?;
+        let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
+        let mut plans = (0_u32, 0_u32);
+        for number in 1..=setting.config.moves {
+            survey.step()?;
+            // Plans are tried where the asymptote is measured.
+            let late = f64::from(number) > (1.0 - TAIL) * f64::from(setting.config.moves);
+            if late
+                && number.is_multiple_of(5)
+                && let Some(works) = survey.plan_works()
+            {
+                plans.0 += u32::from(works);
+                plans.1 += 1;
+            }
+        }
+        let errors = survey.errors();
+        if setting.subject == Subject::Odometry {
+            let mut alone = errors.to_vec();
+            alone
+                .iter_mut()
+                .for_each(|error| error.map = error.odometry);
+            let summary = ErrorSummary::of(&alone).ok_or("no move was made")?;
+            return Ok(Fields::new()
+                .number("ssd_asymptote", summary.odometry)
+                .text("curve", curve(&summary)));
+        }
+        let summary = ErrorSummary::of(errors).ok_or("no move was made")?;
+        let score = survey.score();
+        let mut fields = Fields::new()
+            .number("ssd_asymptote", summary.asymptote)
+            .text("curve", curve(&summary))
+            .count("moves_to_asymptote", summary.moves_to_asymptote as u64)
+            .number("coverage", summary.coverage)
+            .count("places", score.places as u64)
+            .count("visited", score.visited as u64)
+            .number("purity", score.purity)
+            .number("share_once", score.share_once)
+            .number("link_precision", score.link_precision)
+            .number("link_recall", score.link_recall)
+            .flag("isomorphic", score.isomorphism == Isomorphism::Yes);
+        if plans.1 > 0 {
+            fields = fields.number("plans", f64::from(plans.0) / f64::from(plans.1));
+        }
+        Ok(fields)
+    }
+
+    fn check(&self, run: &Run) -> Result<(), BoxError> {
+        for (name, _) in SHARES {
+            let share = run.fields.get(name).and_then(Field::as_number);
+            if share.is_some_and(|share| !(0.0..=1.0).contains(&share)) {
+                return Err(format!("{name} is {share:?}").into());
+            }
+        }
+        figures::curve_of(run).map(|_| ())
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        figures::of(&self.trials, runs)
+    }
+
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        let setting = self.setting(job)?;
+        match setting.subject {
+            Subject::Map => replay::of(setting, job).map(Some),
+            Subject::Odometry => Ok(None),
+        }
+    }
+}
+
+/// The means of the windows, as words.
+fn curve(summary: &ErrorSummary) -> String {
+    let values = summary.curve.iter().map(|value| format!("{value:.5}"));
+    values.collect::<Vec<String>>().join(" ")
+}

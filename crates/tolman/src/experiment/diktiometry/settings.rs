@@ -1,0 +1,202 @@
+//! Which office, which mapper, how many moves: every row of every table.
+
+use alloc::sync::Arc;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::diktiometry::{Config, GeometricIndexing, GeometricMerge, Identity, Order, Use};
+
+use crate::agents::diktiometry::{Office, OfficeConfig, SurveyConfig, blocks};
+use crate::experiment::BoxError;
+
+/// "Generally 30% of the time".
+const HEED: f64 = 0.3;
+
+/// One table: a world and the rows that are tried in it.
+#[derive(Debug)]
+pub(super) struct Trial {
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    pub(super) note: &'static str,
+    pub(super) settings: Vec<Setting>,
+}
+
+/// One row.
+#[derive(Debug)]
+pub(super) struct Setting {
+    pub(super) row: &'static str,
+    pub(super) office: Arc<Office>,
+    pub(super) config: SurveyConfig,
+    pub(super) subject: Subject,
+}
+
+/// What a row measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// The map.
+    Map,
+    /// What odometry alone would have said of the passive walk.
+    Odometry,
+}
+
+/// The paper draws its worlds in figures that no text describes. Ours are corridors between blocks; a share of the
+/// passages is walled up.
+fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>, BoxError> {
+    let maze = blocks(side, WALLED_UP, &mut ChaCha8Rng::seed_from_u64(seed));
+    Ok(Arc::new(Office::new(&maze, furniture)?))
+}
+
+const WALLED_UP: f64 = 0.25;
+
+/// Every place looks like every other.
+const BARE: OfficeConfig = OfficeConfig {
+    doorway_share: 0.0,
+    colours: 1,
+    seed: 1,
+};
+
+/// Doorways, and walls of many colours.
+const FURNISHED: OfficeConfig = OfficeConfig {
+    doorway_share: 0.2,
+    colours: 8,
+    seed: 1,
+};
+
+pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
+    let small = office(5, 1, &BARE)?;
+    let large = office(9, 2, &BARE)?;
+    let complicated = office(10, 3, &FURNISHED)?;
+    Ok(vec![
+        Trial {
+            name: "3b",
+            title: "A small world in which every place looks the same (figure 3b), 700 moves",
+            note: "5 × 5 cells.",
+            settings: compared(&small, 700),
+        },
+        Trial {
+            name: "3c",
+            title: "A larger world, random walk and exploration scripts (figure 3c), 2000 moves",
+            note: "9 × 9 cells, all places alike.",
+            settings: compared(&large, 2000),
+        },
+        Trial {
+            name: "4",
+            title: "A complicated world (figure 4), 3000 moves",
+            note: "10 × 10 cells with doorways and walls of eight colours.",
+            settings: compared(&complicated, 3000),
+        },
+        Trial {
+            name: "ablation",
+            title: "The complicated world with a part of the mapper left out, 1000 moves with scripts",
+            note: "10 × 10 cells with doorways and walls of eight colours.",
+            settings: ablations(&complicated),
+        },
+        Trial {
+            name: "changing",
+            title: "The complicated world while doors shut and open, 3000 moves with scripts",
+            note: "After every 25 moves a doorway by chance is shut or opened. A plan works if its actions lead where it says.",
+            settings: changing(&complicated),
+        },
+    ])
+}
+
+fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
+    let passive = SurveyConfig::paper(office, moves);
+    let setting = |row, config: &SurveyConfig, subject| Setting {
+        row,
+        office: Arc::clone(office),
+        config: config.clone(),
+        subject,
+    };
+    let scripted = SurveyConfig {
+        heed: HEED,
+        ..passive.clone()
+    };
+    vec![
+        setting("passive", &passive, Subject::Map),
+        setting("with scripts", &scripted, Subject::Map),
+        setting("odometry", &passive, Subject::Odometry),
+    ]
+}
+
+/// What a row does to the mapper.
+type Change = fn(&mut Config);
+
+const ABLATIONS: [(&str, Change); 16] = [
+    ("all", |_| {}),
+    ("no α-MATCH", |config| config.matching.alpha = Use::Off),
+    ("no β-MATCH", |config| config.matching.beta = Use::Off),
+    ("no expectational indexing", |config| {
+        config.indexing.expectational = Use::Off;
+    }),
+    ("no geometric indexing", |config| {
+        config.indexing.geometric = GeometricIndexing::Off;
+    }),
+    ("active frames", |config| {
+        config.indexing.geometric = GeometricIndexing::ActiveFrames;
+    }),
+    ("no perceptual indexing", |config| {
+        config.indexing.perceptual = Use::Off;
+    }),
+    ("no geometric merge", |config| {
+        config.restructuring.geometric_merge = GeometricMerge::Off;
+    }),
+    ("no geometric split", |config| {
+        config.restructuring.geometric_split = Use::Off;
+    }),
+    ("no local merge", |config| {
+        config.restructuring.local_merge = Use::Off;
+    }),
+    ("no local split", |config| {
+        config.restructuring.local_split = Use::Off;
+    }),
+    ("no non-local merge", |config| {
+        config.restructuring.non_local_merge = Use::Off;
+    }),
+    ("no transients", |config| {
+        config.transients.elision = Use::Off;
+    }),
+    ("one track", |config| config.tracks.cap = 1),
+    ("static priorities", |config| {
+        config.matching.order = Order::Static;
+    }),
+    ("boxes that meet are the same", |config| {
+        config.matching.identity = Identity::Meets;
+        config.restructuring.geometric_merge = GeometricMerge::Estims;
+    }),
+];
+
+fn ablations(office: &Arc<Office>) -> Vec<Setting> {
+    let setting = |(row, change): (&'static str, Change)| {
+        let mut config = SurveyConfig::paper(office, 1000);
+        config.heed = HEED;
+        change(&mut config.mapper);
+        Setting {
+            row,
+            office: Arc::clone(office),
+            config,
+            subject: Subject::Map,
+        }
+    };
+    ABLATIONS.into_iter().map(setting).collect()
+}
+
+fn changing(office: &Arc<Office>) -> Vec<Setting> {
+    let setting = |row, door_period: u32, fading: f64| {
+        let mut config = SurveyConfig::paper(office, 3000);
+        config.heed = HEED;
+        config.door_period = door_period;
+        config.mapper.transients.fading = fading;
+        Setting {
+            row,
+            office: Arc::clone(office),
+            config,
+            subject: Subject::Map,
+        }
+    };
+    vec![
+        setting("doors stand open", 0, 1.0),
+        setting("doors move", 25, 1.0),
+        setting("doors move, counts fade", 25, 0.98),
+    ]
+}
