@@ -9,7 +9,8 @@
 //! - an [`Explorer`] takes both in and decides what to do next, as a [`CpmConfig`] says;
 //! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`Matching`], are one;
 //! - a [`Plan`] is a way through it;
-//! - a [`Localizer`] finds where on some maps a robot is that was put somewhere.
+//! - a [`Localizer`] finds where on some maps a robot is that was put somewhere;
+//! - [`Environments`] recall the path and the environment that a sequence belongs to.
 //!
 //! [`world`] has mazes of corridors and junctions to try all this in without a robot, in microseconds.
 //!
@@ -43,6 +44,7 @@
 
 mod alignment;
 mod config;
+mod environments;
 mod explorer;
 mod geometry;
 mod hypothesis;
@@ -60,6 +62,7 @@ pub mod world;
 
 pub use alignment::Alignment;
 pub use config::{CpmConfig, Mapping, Onward};
+pub use environments::{Environments, RecallError, Recollection};
 pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
 pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};

@@ -4,6 +4,7 @@
 extern crate alloc;
 
 mod cpm {
+    mod bad_input;
     mod explorations;
     mod localization;
     mod matching;

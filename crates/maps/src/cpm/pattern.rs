@@ -187,6 +187,12 @@ impl Dictionary {
             .min_by(|(_, a), (_, b)| a.total_cmp(b)))
     }
 
+    /// How many features a pattern has.
+    #[must_use]
+    pub const fn dimension(&self) -> usize {
+        self.dimension
+    }
+
     /// How many patterns there are.
     #[must_use]
     pub const fn len(&self) -> usize {

@@ -6,8 +6,8 @@ use tolman_maps::cpm::world::{
     CorridorEnd, MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort,
 };
 use tolman_maps::cpm::{
-    Aim, CpMap, CpmConfig, Dictionary, DictionaryError, Explorer, LocalizeError, Localizer,
-    LocalizerConfig, Location, PatternId, Port, Sighting, Sign, Turn,
+    Aim, CpMap, CpmConfig, Dictionary, DictionaryError, End, Environments, Explorer, Landmark,
+    LocalizeError, Localizer, LocalizerConfig, Location, PatternId, Port, Sighting, Sign, Turn,
 };
 
 use super::explorations::pursue;
@@ -192,4 +192,69 @@ fn bad_input_is_refused() {
     assert!(localizer.location().probability.is_finite());
     assert!(localizer.turn(Turn(6)).is_err());
     assert!((localizer.maps().iter().sum::<f64>() - 1.0).abs() < 1e-9);
+}
+
+/// The fourth layer: paths of several environments in one memory, each recalled as a whole from one of its fragments.
+#[test]
+fn one_sequence_recalls_its_path_and_environment() {
+    let noise = Noise {
+        substitution: 0.05,
+        slip: 0.1,
+        ..Noise::NONE
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(6);
+    let dictionary = explored(&MazeConfig::small(), Noise::NONE, &mut rng)
+        .world
+        .dictionary()
+        .clone();
+    let mut environments = Environments::new(&dictionary).unwrap();
+    let mut paths: Vec<(u32, World, Vec<End>, Vec<CorridorEnd>)> = Vec::new();
+    for number in 0..4 {
+        let maze = MazeConfig {
+            columns: 6,
+            rows: 6,
+            loops: 0.0,
+            ..MazeConfig::small()
+        };
+        let world = World::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
+        let known = explored_of(world, Noise::NONE, &mut rng);
+        let goal = known.map.landmarks(Landmark::Goal).next().unwrap();
+        let start = known.map.landmarks(Landmark::Start).next().unwrap();
+        let from = Port {
+            junction: start,
+            number: 0,
+        };
+        let plan = known.map.plan(from, |id| id == goal).unwrap();
+        let path: Vec<End> = plan.legs.iter().map(|leg| leg.enter).collect();
+        if path.len() < 2 {
+            continue;
+        }
+        environments
+            .learn(number, &known.map, &path, &dictionary)
+            .unwrap();
+        // The same path in the world.
+        let mut rover = Rover::new(&known.world, Noise::NONE, Reckoning::None);
+        let corridors = plan.legs.iter().map(|leg| {
+            rover.go(leg.turn, None, &mut rng).unwrap();
+            let end = known.world.end_at(rover.at()).unwrap();
+            CorridorEnd {
+                sign: end.sign.opposite(),
+                ..end
+            }
+        });
+        let corridors = corridors.collect();
+        paths.push((number, known.world, path, corridors));
+    }
+    assert!(paths.len() >= 3);
+    let (mut right, mut all) = (0, 0);
+    for (number, world, path, corridors) in &paths {
+        let mut rover = Rover::new(world, noise, Reckoning::None);
+        for (place, enter) in corridors.iter().enumerate() {
+            let walk = rover.walk_on(*enter, 0, &mut rng).unwrap();
+            let recalled = environments.recall(&walk.patterns, &dictionary).unwrap();
+            all += 1;
+            right += u32::from(recalled.environment == *number && recalled.chain == path[place..]);
+        }
+    }
+    assert!(100 * right >= 95 * all, "{right} of {all}");
 }

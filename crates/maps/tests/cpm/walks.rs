@@ -1,9 +1,15 @@
 //! The worked examples of the figures.
 
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::Point;
+use tolman_maps::cpm::world::{MapCheck, Noise, Outcome, Reckoning, Rover, World, WorldBuilder};
 use tolman_maps::cpm::{
-    CpmConfig, Dictionary, End, Explorer, FragmentId, Landmark, Mapping, PatternId, Sighting, Sign,
-    Traversal, Turn,
+    Aim, Arrival, CpmConfig, Decision, Dictionary, Done, End, Explorer, FragmentId, Landmark,
+    Mapping, Onward, PatternId, Sighting, Sign, Traversal, Turn,
 };
+
+use super::explorations::pursue;
 
 /// Patterns far from each other; each seen the other way is the next or the one before.
 pub(crate) fn dictionary() -> Dictionary {
@@ -101,4 +107,200 @@ fn figure_1() {
         (3, 0, 8)
     );
     assert!(!explorer.map().is_complete());
+}
+
+/// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to R, A3 from R to S, A4 from S back to Q;
+/// X2 leads from R to the goal, X3 from S to a junction T, from which X4 and X5 lead to P.
+fn figure_10_world() -> World {
+    let mut drawing = WorldBuilder::new(dictionary());
+    let place = |x: f64, y: f64| Point::new(x, y);
+    let p = drawing.place(place(0.0, 0.0), Some(Landmark::Start));
+    let q = drawing.place(place(1.0, 0.0), None);
+    let r = drawing.place(place(2.0, 1.0), None);
+    let s = drawing.place(place(2.0, -1.0), None);
+    let t = drawing.place(place(1.0, -2.0), None);
+    let goal = drawing.place(place(3.0, 2.0), Some(Landmark::Goal));
+    let looks = |name: u32| -> Vec<PatternId> {
+        (0..4 + name)
+            .map(|place| PatternId((5 * name + 2 * place * (1 + name % 3)) % 40))
+            .collect()
+    };
+    let mut corridor =
+        |from, to, via: &[Point], name| drawing.corridor(from, to, via, &looks(name)).unwrap();
+    corridor(p, q, &[], 1);
+    corridor(q, r, &[], 2);
+    corridor(r, s, &[], 3);
+    corridor(s, q, &[], 4);
+    corridor(r, goal, &[], 5);
+    corridor(s, t, &[], 6);
+    corridor(t, p, &[place(0.5, -1.0)], 7);
+    corridor(t, p, &[place(-1.0, -2.0)], 8);
+    drawing.finish(p).unwrap()
+}
+
+/// The turn that takes a rover into a corridor.
+fn turn_into(world: &World, rover: &Rover<'_>, corridor: u32) -> Turn {
+    let at = rover.at();
+    let ports = &world.places()[at.place as usize].ports;
+    let exit = ports
+        .iter()
+        .position(|end| end.corridor == corridor)
+        .unwrap() as u32;
+    Turn::between(at.number, exit, ports.len() as u32).unwrap()
+}
+
+/// Walks some corridors and tells what was made of the last.
+fn follow(
+    explorer: &mut Explorer,
+    rover: &mut Rover<'_>,
+    world: &World,
+    corridors: &[u32],
+) -> Arrival {
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    let arrivals = corridors.iter().map(|corridor| {
+        let turn = turn_into(world, rover, *corridor);
+        let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
+            unreachable!("it was not told to give up");
+        };
+        explorer.arrive(turn, &walk, world.dictionary()).unwrap()
+    });
+    arrivals.last().unwrap()
+}
+
+/// Corridors are numbered from 0: A1, A2, A3, A4, X2, X3 = A5, X4, X5.
+const X2: u32 = 4;
+const X3: u32 = 5;
+const X4: u32 = 6;
+
+#[test]
+fn figure_10() {
+    let world = figure_10_world();
+    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+    let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
+    // A1 to A4 are new; that A4 leads to junc(A1⁺) is not known yet.
+    assert_eq!(
+        follow(&mut explorer, &mut rover, &world, &[0, 1, 2, 3]),
+        Arrival::New
+    );
+    // (a) Duplication detected.
+    assert_eq!(
+        follow(&mut explorer, &mut rover, &world, &[1]),
+        Arrival::Duplicate
+    );
+    assert_eq!(explorer.before_duplicate(), Some(4));
+    // (b) "Connects path-fragment A4 to junc(A1⁺) = junc(A2⁻) and localizes itself at the path-fragment A2 where it is going to make a
+    // decision at junc(A2⁺)."
+    let [a1, a2, a3, a4] = [0, 1, 2, 3].map(|id| explorer.map().fragment(FragmentId(id)).unwrap());
+    assert_eq!(a4.plus.junction, a1.plus.junction);
+    assert_eq!(a2.minus.junction, a1.plus.junction);
+    assert_eq!(explorer.at(), a2.plus);
+    // What is unexplored: X1 at junc(A1⁻), which is two ports here; X2 at junc(A2⁺); X3 at junc(A3⁺).
+    let open: Vec<_> = explorer
+        .map()
+        .open_ports()
+        .map(|port| port.junction)
+        .collect();
+    let [x1, x2, x3] = [a1.minus.junction, a2.plus.junction, a3.plus.junction];
+    assert_eq!(open, [x1, x1, x2, x3]);
+    // "We let the robot move forward": X2 is all that is unknown here; A3 "is not available as a choice".
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let Decision::Go(leg) = explorer.decide(Aim::Find(Landmark::Goal), &mut rng) else {
+        panic!("there is more to explore");
+    };
+    assert_eq!((leg.turn, leg.known), (turn_into(&world, &rover, X2), None));
+    // (c) If X2 is chosen: the goal.
+    let (mut lucky, mut lucky_rover) = (explorer.clone(), rover.clone());
+    follow(&mut lucky, &mut lucky_rover, &world, &[X2]);
+    let done = lucky.decide(Aim::Find(Landmark::Goal), &mut rng);
+    assert_eq!(done, Decision::Done(Done::Reached));
+    assert!(lucky.map().has_goal() && !lucky.map().is_complete());
+    // (d) If X3 is: A5, which finds X4 and X5.
+    assert_eq!(
+        follow(&mut explorer, &mut rover, &world, &[2, X3]),
+        Arrival::New
+    );
+    assert_eq!(explorer.map().open_ports().count(), 5);
+    // (f) X4 leads to junc(A1⁻), as A1 tells, and X5 has both its ends on the map then.
+    assert_eq!(
+        follow(&mut explorer, &mut rover, &world, &[X4, 0]),
+        Arrival::Duplicate
+    );
+    assert_eq!(explorer.map().open_ports().count(), 3);
+    // (e) The complete optimized map.
+    assert_eq!(
+        pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng),
+        Done::Reached
+    );
+    assert!(explorer.map().is_complete());
+    assert!(
+        explorer
+            .map()
+            .is_optimized(&CpmConfig::online().matching, world.dictionary())
+    );
+    assert_eq!(
+        world.check(explorer.map(), explorer.at(), rover.at()),
+        MapCheck::Right
+    );
+}
+
+/// Figure 8: an unlucky first episode goes round and round; the optimized map has each fragment once, and the second episode a
+/// short way, which leads along fragments that were walked the other way only.
+#[test]
+fn figure_8() {
+    let world = figure_10_world();
+    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+    let mut explorer = Explorer::new(CpmConfig::offline(), rover.sighting()).unwrap();
+    let start = explorer.at();
+    let unlucky = [6, X3, 2, 1, 3, 2, 1, 3, 2, 1, 3, 2, X2];
+    follow(&mut explorer, &mut rover, &world, &unlucky);
+    assert_eq!(explorer.map().fragments().len(), unlucky.len());
+    assert!(
+        !explorer
+            .map()
+            .is_optimized(&CpmConfig::offline().matching, world.dictionary())
+    );
+    explorer.optimize(world.dictionary()).unwrap();
+    assert_eq!(explorer.map().fragments().len(), 6);
+    assert!(
+        explorer
+            .map()
+            .is_optimized(&CpmConfig::offline().matching, world.dictionary())
+    );
+    // "It is noteworthy that some trials exist for which CPM is not complete."
+    assert!(!explorer.map().is_complete());
+    let way = explorer.map().plan(start, |id| {
+        explorer.map().junction(id).unwrap().landmark == Some(Landmark::Goal)
+    });
+    let way = way.unwrap();
+    assert_eq!(way.legs.len(), 4);
+    // The plan drives to the goal.
+    explorer.place(start).unwrap();
+    rover.place(world.start());
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    for leg in &way.legs {
+        rover.go(leg.turn, None, &mut rng).unwrap();
+    }
+    assert_eq!(rover.sighting().landmark, Some(Landmark::Goal));
+}
+
+/// "It continues forward until reaching a junction that has some remaining unknown ports" can go round for long.
+#[test]
+fn to_go_on_takes_longer_than_the_shortest_known_way() {
+    let world = figure_10_world();
+    let mean = |onward: Onward| {
+        let walked = (0..200).map(|seed| {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let config = CpmConfig {
+                onward,
+                ..CpmConfig::online()
+            };
+            let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+            let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+            pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng);
+            explorer.traversals()
+        });
+        f64::from(walked.sum::<u32>()) / 200.0
+    };
+    let (way, on) = (mean(Onward::ShortestKnownWay), mean(Onward::GoOn));
+    assert!(on > 1.1 * way, "{on} and {way}");
 }

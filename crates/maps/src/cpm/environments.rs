@@ -1,0 +1,208 @@
+use alloc::vec::Vec;
+
+use thiserror::Error;
+use tolman_quantizers::{AssociativeMemory, ConfigError, InputError, SoinnConfig};
+
+use super::map::{CpMap, End, Sign};
+use super::pattern::{Dictionary, DictionaryError, PatternId};
+
+/// The paths of several environments in one associative memory: the paper's fourth layer, "introduced for the case in which the robot
+/// must experience more than one environment. A single environment is represented by the associated path-fragments."
+///
+/// "Unlike the original SOINN-AM, our method does not limit to associative pairs. Specifically, our method create the association
+/// A → B → C → D": one sequence recalls all that follow it on the path, and with them the environment. What is associated is
+/// a code of each fragment: the prototypes at [`SAMPLES`](Self::SAMPLES) places along it.
+///
+/// ```
+/// use tolman_maps::cpm::{CpmConfig, Dictionary, Environments, Explorer, PatternId, Sighting, Traversal, Turn};
+///
+/// let mut dictionary = Dictionary::new(1);
+/// for pattern in 0..12 {
+///     let prototype = [f64::from(pattern)];
+///     dictionary.learn(&prototype, &prototype, 0.1)?;
+/// }
+/// let mut environments = Environments::new(&dictionary)?;
+/// let mut explorer = Explorer::new(CpmConfig::offline(), Sighting::plain(1))?;
+/// for (turn, patterns) in [(0, [0, 1, 2]), (1, [5, 4, 3]), (2, [9, 9, 11])] {
+///     let patterns = patterns.map(PatternId).to_vec();
+///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(3) };
+///     explorer.arrive(Turn(turn), &walk, &dictionary)?;
+/// }
+/// let map = explorer.map();
+/// let path: Vec<_> = map.fragments().map(|(fragment, _)| tolman_maps::cpm::End {
+///     fragment,
+///     sign: tolman_maps::cpm::Sign::Minus,
+/// }).collect();
+/// environments.learn(7, map, &path, &dictionary)?;
+/// // From the first fragment, seen a little differently, to the others.
+/// let recalled = environments.recall(&[0, 1, 1, 2].map(PatternId), &dictionary)?;
+/// assert_eq!(recalled.environment, 7);
+/// assert_eq!(recalled.chain, path);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Environments {
+    memory: AssociativeMemory<f64>,
+    dimension: usize,
+    learned: Vec<Learned>,
+}
+
+#[derive(Clone, Debug)]
+struct Learned {
+    environment: u32,
+    enter: End,
+    code: Vec<f64>,
+}
+
+/// What one sequence brings to mind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recollection {
+    /// The environment it is of.
+    pub environment: u32,
+    /// The fragment it is, and those that follow it on the path that was learned, each by the end it is entered at; up to the end
+    /// of the path, or until one comes again.
+    pub chain: Vec<End>,
+    /// How far the sequence's code is from that of the fragment it was taken for, per sample: a distance of prototypes.
+    pub distance: f64,
+}
+
+/// Why a path cannot be learned, or nothing be recalled.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RecallError {
+    /// Nothing was learned yet.
+    #[error("no path was learned yet")]
+    NothingLearned,
+    /// A sequence without patterns, or a path of fewer than two fragments, has nothing to associate.
+    #[error("nothing to associate: a path needs two fragments, each with an observation")]
+    TooShort,
+    /// A fragment of the path is not on the map.
+    #[error("fragment {} of the path is not on the map", .0.fragment.0)]
+    NoSuchFragment(End),
+    /// A pattern is not in the dictionary.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+    /// Prototypes without features.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The memory refuses a code.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+impl Environments {
+    /// Places along a fragment that its code holds.
+    pub const SAMPLES: usize = 16;
+
+    /// An empty memory for sequences of a dictionary and of all its later versions.
+    ///
+    /// # Errors
+    /// [`RecallError::Config`] if its patterns have no features.
+    pub fn new(dictionary: &Dictionary) -> Result<Self, RecallError> {
+        let dimension = dictionary.dimension() * Self::SAMPLES;
+        Ok(Self {
+            memory: AssociativeMemory::new(dimension, dimension, SoinnConfig::exact())?,
+            dimension,
+            learned: Vec::new(),
+        })
+    }
+
+    /// Associates each fragment of a path, by the end it is entered at, with the next. O(fragments · learned).
+    ///
+    /// # Errors
+    /// [`RecallError`] if the path is too short or not on the map. Nothing is learned then.
+    pub fn learn(
+        &mut self,
+        environment: u32,
+        map: &CpMap,
+        path: &[End],
+        dictionary: &Dictionary,
+    ) -> Result<(), RecallError> {
+        let mut codes = Vec::with_capacity(path.len());
+        for enter in path {
+            let fragment = map
+                .fragment(enter.fragment)
+                .ok_or(RecallError::NoSuchFragment(*enter))?;
+            codes.push(match enter.sign {
+                Sign::Minus => self.code(&fragment.patterns, dictionary)?,
+                Sign::Plus => self.code(&dictionary.inverse(&fragment.patterns)?, dictionary)?,
+            });
+        }
+        if codes.len() < 2 {
+            return Err(RecallError::TooShort);
+        }
+        for pair in codes.windows(2) {
+            if let [key, response] = pair {
+                self.memory.associate(key, response)?;
+            }
+        }
+        for (enter, code) in path.iter().zip(codes) {
+            let is_known =
+                |known: &Learned| known.environment == environment && known.enter == *enter;
+            if !self.learned.iter().any(is_known) {
+                self.learned.push(Learned {
+                    environment,
+                    enter: *enter,
+                    code,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The fragment that a sequence is most like, the environment it is of, and what follows. O(learned · chain).
+    ///
+    /// # Errors
+    /// [`RecallError`] if nothing was learned, or a pattern is not in the dictionary.
+    pub fn recall(
+        &self,
+        sequence: &[PatternId],
+        dictionary: &Dictionary,
+    ) -> Result<Recollection, RecallError> {
+        let code = self.code(sequence, dictionary)?;
+        let (first, distance) = self.nearest(&code).ok_or(RecallError::NothingLearned)?;
+        let mut chain = Vec::from([first.enter]);
+        // What is recalled is what was learned, up to the mean of equal lessons.
+        let reach = 1e-6 * (1.0 + dictionary.greatest_distance());
+        for recall in self.memory.chain(&first.code, reach)? {
+            let Some((next, _)) = self.nearest(&recall.values) else {
+                break;
+            };
+            if next.environment != first.environment || chain.contains(&next.enter) {
+                break;
+            }
+            chain.push(next.enter);
+        }
+        Ok(Recollection {
+            environment: first.environment,
+            chain,
+            distance: distance / libm::sqrt(Self::SAMPLES as f64),
+        })
+    }
+
+    /// The learned fragment with the nearest code, and how far that is; the first of equals.
+    fn nearest(&self, code: &[f64]) -> Option<(&Learned, f64)> {
+        let distance = |known: &Learned| {
+            let squares = known.code.iter().zip(code).map(|(a, b)| (a - b) * (a - b));
+            libm::sqrt(squares.sum())
+        };
+        let all = self.learned.iter().map(|known| (known, distance(known)));
+        all.min_by(|(_, a), (_, b)| a.total_cmp(b))
+    }
+
+    /// The prototypes at evenly spaced places of a sequence, one after the other.
+    fn code(
+        &self,
+        sequence: &[PatternId],
+        dictionary: &Dictionary,
+    ) -> Result<Vec<f64>, RecallError> {
+        dictionary.check(sequence)?;
+        let mut code = Vec::with_capacity(self.dimension);
+        for sample in 0..Self::SAMPLES {
+            let place = (2 * sample + 1) * sequence.len() / (2 * Self::SAMPLES);
+            let pattern = sequence.get(place).ok_or(RecallError::TooShort)?;
+            code.extend(dictionary.prototype(*pattern).into_iter().flatten());
+        }
+        Ok(code)
+    }
+}

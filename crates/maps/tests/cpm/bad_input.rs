@@ -1,0 +1,312 @@
+//! What no robot should meet, and what becomes of it.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::Point;
+use tolman_maps::cpm::world::{
+    MapCheck, MazeConfig, MazeError, Noise, Reckoning, Rover, World, WorldBuilder, WorldError,
+};
+use tolman_maps::cpm::{
+    Aim, CpmConfig, CpmError, Dictionary, DictionaryError, Done, Environments, Explorer, Landmark,
+    PatternId, RecallError, Sighting, Traversal, Turn,
+};
+
+use super::explorations::pursue;
+use super::walks::dictionary;
+
+const CONFIGS: [fn() -> CpmConfig; 2] = [CpmConfig::online, CpmConfig::robust];
+
+fn at(angle: f64) -> Point {
+    Point::new(angle.cos(), angle.sin())
+}
+
+#[test]
+fn a_corridor_without_junctions() {
+    let mut drawing = WorldBuilder::new(dictionary());
+    let start = drawing.place(Point::new(0.0, 0.0), Some(Landmark::Start));
+    let end = drawing.place(Point::new(1.0, 0.0), None);
+    drawing
+        .corridor(start, end, &[], &[PatternId(0), PatternId(4)])
+        .unwrap();
+    let world = drawing.finish(start).unwrap();
+    for config in CONFIGS {
+        let mut rng = ChaCha8Rng::seed_from_u64(0);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
+        let done = pursue(
+            &mut explorer,
+            &mut rover,
+            &world,
+            Aim::Find(Landmark::Goal),
+            &mut rng,
+        );
+        assert_eq!((done, explorer.traversals()), (Done::NotThere, 1));
+        assert!(explorer.plan(Landmark::Goal).is_none());
+    }
+}
+
+#[test]
+fn a_ring_with_nothing_but_the_start() {
+    let mut drawing = WorldBuilder::new(dictionary());
+    let start = drawing.place(at(0.0), Some(Landmark::Start));
+    let patterns = [0, 4, 8, 12].map(PatternId);
+    drawing
+        .corridor(
+            start,
+            start,
+            &[at(0.1), at(2.0), at(4.0), at(6.1)],
+            &patterns,
+        )
+        .unwrap();
+    let world = drawing.finish(start).unwrap();
+    for config in CONFIGS {
+        let mut rng = ChaCha8Rng::seed_from_u64(0);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
+        let done = pursue(
+            &mut explorer,
+            &mut rover,
+            &world,
+            Aim::Find(Landmark::Goal),
+            &mut rng,
+        );
+        assert_eq!(done, Done::NotThere);
+        assert!(explorer.traversals() <= 3);
+    }
+}
+
+#[test]
+fn a_junction_of_ten_branches() {
+    let mut drawing = WorldBuilder::new(dictionary());
+    let middle = drawing.place(Point::new(0.0, 0.0), None);
+    let mut first = None;
+    for branch in 0..10 {
+        let landmark = match branch {
+            0 => Some(Landmark::Start),
+            9 => Some(Landmark::Goal),
+            _ => None,
+        };
+        let end = drawing.place(at(f64::from(branch) * 0.6), landmark);
+        let patterns = [
+            PatternId(2 * branch),
+            PatternId(2 * branch + 20),
+            PatternId(3),
+        ];
+        drawing.corridor(middle, end, &[], &patterns).unwrap();
+        first.get_or_insert(end);
+    }
+    let world = drawing.finish(first.unwrap()).unwrap();
+    for config in CONFIGS {
+        let mut rng = ChaCha8Rng::seed_from_u64(0);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
+        let done = pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng);
+        assert_eq!(done, Done::Reached);
+        assert_eq!(
+            world.check(explorer.map(), explorer.at(), rover.at()),
+            MapCheck::Right
+        );
+        assert_eq!(explorer.map().fragments().len(), 10);
+    }
+}
+
+#[test]
+fn a_goal_walled_off() {
+    let mut drawing = WorldBuilder::new(dictionary());
+    let places = [
+        Some(Landmark::Start),
+        None,
+        None,
+        None,
+        Some(Landmark::Goal),
+        None,
+    ];
+    let places: Vec<u32> = (0..)
+        .zip(places)
+        .map(|(number, landmark)| drawing.place(at(f64::from(number)), landmark))
+        .collect();
+    for (from, to, pattern) in [(0, 1, 0), (1, 2, 6), (1, 3, 12), (4, 5, 18)] {
+        let patterns = [PatternId(pattern), PatternId(pattern + 2)];
+        drawing
+            .corridor(places[from], places[to], &[], &patterns)
+            .unwrap();
+    }
+    let world = drawing.finish(places[0]).unwrap();
+    for config in CONFIGS {
+        let mut rng = ChaCha8Rng::seed_from_u64(0);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
+        let done = pursue(
+            &mut explorer,
+            &mut rover,
+            &world,
+            Aim::Find(Landmark::Goal),
+            &mut rng,
+        );
+        assert_eq!(done, Done::NotThere);
+        assert!(explorer.map().is_explored() && !explorer.map().is_complete());
+    }
+}
+
+#[test]
+fn walks_that_cannot_have_been() {
+    let dictionary = dictionary();
+    assert_eq!(
+        Explorer::new(CpmConfig::online(), Sighting::plain(0)).err(),
+        Some(CpmError::NoPorts)
+    );
+    assert!(Explorer::new(CpmConfig::online(), Sighting::plain(u32::MAX)).is_err());
+    for config in CONFIGS {
+        let mut explorer = Explorer::new(config(), Sighting::plain(3)).unwrap();
+        let walk = |patterns: &[u32], degree| Traversal {
+            patterns: patterns.iter().copied().map(PatternId).collect(),
+            motion: None,
+            sighting: Sighting::plain(degree),
+        };
+        let refused = explorer.arrive(Turn(3), &walk(&[1, 2], 3), &dictionary);
+        assert!(matches!(refused, Err(CpmError::Turn(_))));
+        let refused = explorer.arrive(Turn(1), &walk(&[1, 40], 3), &dictionary);
+        let unknown = DictionaryError::UnknownPattern {
+            pattern: PatternId(40),
+            patterns: 40,
+        };
+        assert_eq!(refused, Err(CpmError::Dictionary(unknown)));
+        assert_eq!(
+            explorer.arrive(Turn(1), &walk(&[1, 2], 0), &dictionary),
+            Err(CpmError::NoPorts)
+        );
+        assert!(explorer.turned_back(Turn(3), 1).is_err());
+        assert_eq!(explorer.map().fragments().len(), 0);
+        explorer
+            .arrive(Turn(1), &walk(&[1, 2], 3), &dictionary)
+            .unwrap();
+        // A fragment too short to observe anything is a fragment.
+        explorer
+            .arrive(Turn(1), &walk(&[], 3), &dictionary)
+            .unwrap();
+        assert_eq!(explorer.map().fragments().len(), 2);
+    }
+}
+
+#[test]
+fn dictionaries_of_another_robot_or_version() {
+    let walk = |pattern: u32| Traversal {
+        patterns: [pattern, pattern].map(PatternId).to_vec(),
+        motion: None,
+        sighting: Sighting::plain(3),
+    };
+    let mut dictionary = Dictionary::new(2);
+    let one = dictionary.learn(&[1.0, 0.0], &[0.0, 1.0], 0.1).unwrap();
+    let early = dictionary.clone();
+    let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(3)).unwrap();
+    explorer.arrive(Turn(1), &walk(one.0), &dictionary).unwrap();
+    // It learns on, and what it has written stays readable.
+    let more = dictionary.learn(&[5.0, 5.0], &[5.0, 5.0], 0.1).unwrap();
+    explorer
+        .arrive(Turn(1), &walk(more.0), &dictionary)
+        .unwrap();
+    assert_eq!(dictionary.check_version(early.version()), Ok(()));
+    // The early one does not know enough, another robot's says other things.
+    assert!(explorer.arrive(Turn(1), &walk(0), &early).is_err());
+    let mut foreign = Dictionary::new(2);
+    for feature in 0..3 {
+        foreign
+            .learn(&[f64::from(feature), 7.0], &[f64::from(feature), 7.0], 0.1)
+            .unwrap();
+    }
+    let refused = explorer.arrive(Turn(1), &walk(0), &foreign);
+    assert!(matches!(
+        refused,
+        Err(CpmError::Dictionary(
+            DictionaryError::OtherDictionary { .. }
+        ))
+    ));
+    assert!(explorer.optimize(&foreign).is_err());
+    assert!(
+        dictionary
+            .learn(&[f64::NAN, 0.0], &[0.0, 0.0], 0.1)
+            .is_err()
+    );
+    assert!(dictionary.learn(&[0.0], &[0.0], 0.1).is_err());
+    assert!(
+        dictionary
+            .learn(&[0.0, 0.0], &[0.0, 0.0], f64::NAN)
+            .is_err()
+    );
+    assert!(
+        Dictionary::from_prototypes(1, &[(vec![0.0], PatternId(1)), (vec![1.0], PatternId(1))])
+            .is_err()
+    );
+    assert_eq!(dictionary.len(), 3);
+}
+
+#[test]
+fn drawings_and_mazes_that_are_none() {
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    for maze in [
+        MazeConfig {
+            columns: 1,
+            ..MazeConfig::small()
+        },
+        MazeConfig {
+            loops: f64::NAN,
+            ..MazeConfig::small()
+        },
+        MazeConfig {
+            patterns: 0,
+            ..MazeConfig::small()
+        },
+        MazeConfig {
+            observations_per_cell: f64::INFINITY,
+            ..MazeConfig::small()
+        },
+    ] {
+        assert!(matches!(
+            World::random(&maze, &mut rng),
+            Err(MazeError::OutOfRange { .. })
+        ));
+    }
+    let alike = MazeConfig {
+        patterns: 2,
+        observations_per_cell: 1.0,
+        ..MazeConfig::small()
+    };
+    assert!(matches!(
+        World::random(&alike, &mut rng),
+        Err(MazeError::NotDistinctive { .. })
+    ));
+    let mut drawing = WorldBuilder::new(dictionary());
+    let place = drawing.place(at(0.0), None);
+    assert!(drawing.corridor(place, 7, &[], &[]).is_err());
+    assert!(
+        drawing
+            .corridor(place, place, &[Point::new(f64::NAN, 0.0)], &[])
+            .is_err()
+    );
+    assert_eq!(
+        drawing.clone().finish(3).err(),
+        Some(WorldError::NoSuchPlace { place: 3, count: 1 })
+    );
+    assert_eq!(
+        drawing.finish(place).err(),
+        Some(WorldError::Isolated { place })
+    );
+}
+
+#[test]
+fn memories_of_nothing() {
+    let dictionary = dictionary();
+    let mut environments = Environments::new(&dictionary).unwrap();
+    assert_eq!(
+        environments.recall(&[PatternId(0)], &dictionary),
+        Err(RecallError::NothingLearned)
+    );
+    let explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
+    assert_eq!(
+        environments.learn(0, explorer.map(), &[], &dictionary),
+        Err(RecallError::TooShort)
+    );
+    assert!(environments.recall(&[], &dictionary).is_err());
+    assert!(environments.recall(&[PatternId(99)], &dictionary).is_err());
+    assert!(Environments::new(&Dictionary::new(0)).is_err());
+}
