@@ -48,6 +48,7 @@ mod environments;
 mod explorer;
 mod geometry;
 mod hypothesis;
+mod index;
 mod localizer;
 mod map;
 mod mapper;
@@ -61,7 +62,7 @@ mod unify;
 pub mod world;
 
 pub use alignment::Alignment;
-pub use config::{CpmConfig, Mapping, Onward};
+pub use config::{Candidates, CpmConfig, Mapping, Onward};
 pub use environments::{Environments, RecallError, Recollection};
 pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
 pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};

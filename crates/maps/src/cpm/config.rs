@@ -1,4 +1,6 @@
 use super::alignment::Alignment;
+use super::mapper::Comparison;
+use super::pattern::Dictionary;
 use super::similarity::{Matching, Similarity};
 
 /// How an [`Explorer`](super::Explorer) maps and decides.
@@ -8,10 +10,22 @@ pub struct CpmConfig {
     pub mapping: Mapping,
     /// How fragments are compared.
     pub matching: Matching,
+    /// Which fragments are compared.
+    pub candidates: Candidates,
     /// What to do at a junction without unknown ports.
     pub onward: Onward,
     /// The end of all patience: after so many fragments the explorer gives up and says so.
     pub most_traversals: u32,
+}
+
+/// Which fragments of the map a new one is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Candidates {
+    /// Each.
+    All,
+    /// So many that have the most patterns in common with it, counted the more the rarer they are (tf-idf, section 8); on smaller
+    /// maps that is each.
+    Best(u32),
 }
 
 /// When the map is optimized and looked at.
@@ -50,12 +64,21 @@ pub enum Onward {
 }
 
 impl CpmConfig {
+    pub(super) const fn comparison<'a>(&'a self, dictionary: &'a Dictionary) -> Comparison<'a> {
+        Comparison {
+            matching: &self.matching,
+            candidates: self.candidates,
+            dictionary,
+        }
+    }
+
     /// Section 6, online CPM: positions compared with μ = 0.9; gives up after 10 000 fragments, of which the paper says nothing.
     #[must_use]
     pub const fn online() -> Self {
         Self {
             mapping: Mapping::Online,
             matching: Matching::Positions(Similarity::paper()),
+            candidates: Candidates::All,
             onward: Onward::ShortestKnownWay,
             most_traversals: 10_000,
         }
@@ -67,6 +90,7 @@ impl CpmConfig {
         Self {
             mapping: Mapping::Hypotheses { width: 16 },
             matching: Matching::Alignment(Alignment::tuned()),
+            candidates: Candidates::Best(64),
             ..Self::online()
         }
     }

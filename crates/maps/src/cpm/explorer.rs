@@ -4,7 +4,7 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 
 use super::config::{CpmConfig, Mapping, Onward};
-use super::hypothesis::{Belief, Hypothesis, Judge};
+use super::hypothesis::{Belief, Hypothesis};
 use super::map::{CpMap, End, JunctionId, Port, PortState};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
@@ -244,7 +244,7 @@ impl Explorer {
             Walked::Contradicted(new) => (new, Arrival::Contradiction),
         };
         let merges = if online {
-            mapper.unify_with_similar(new, &config.matching, dictionary)
+            mapper.unify_with_similar(new, &config.comparison(dictionary))
         } else {
             None
         };
@@ -262,11 +262,7 @@ impl Explorer {
         dictionary: &Dictionary,
         width: u32,
     ) -> Result<Arrival, CpmError> {
-        let matching = &self.config.matching;
-        let judge = Judge {
-            matching,
-            dictionary,
-        };
+        let judge = self.config.comparison(dictionary);
         let mut all = Vec::new();
         let before = core::iter::once(&self.best).chain(&self.rivals);
         for (parent, hypothesis) in before.enumerate() {
@@ -339,7 +335,10 @@ impl Explorer {
         if let Mapping::Hypotheses { .. } = self.config.mapping {
             return Ok(0);
         }
-        Ok(self.best.mapper.optimize(&self.config.matching, dictionary))
+        Ok(self
+            .best
+            .mapper
+            .optimize(&self.config.comparison(dictionary)))
     }
 
     /// The shortest known way from here to a landmark; none if none is known.

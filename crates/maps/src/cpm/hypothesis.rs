@@ -4,9 +4,9 @@ use core::cell::Cell;
 use tolman_geom::{Interval, PointBox};
 
 use super::map::{End, Fragment, FragmentId, Port, Sign};
-use super::mapper::Mapper;
-use super::pattern::Dictionary;
-use super::similarity::{Matching, Sense};
+use super::mapper::{Comparison, Mapper};
+use super::pattern::PatternId;
+use super::similarity::Sense;
 use super::traversal::{Motion, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 
@@ -33,19 +33,13 @@ pub(super) enum Belief {
     Known,
 }
 
-/// All that hypotheses are judged by.
-pub(super) struct Judge<'a> {
-    pub(super) matching: &'a Matching,
-    pub(super) dictionary: &'a Dictionary,
-}
-
 impl Hypothesis {
     /// All hypotheses that a walk makes of this one; none if it cannot have been.
     pub(super) fn after(
         &self,
         turn: Turn,
         walk: &Traversal,
-        judge: &Judge<'_>,
+        judge: &Comparison<'_>,
     ) -> Result<Vec<(Self, Belief)>, NoSuchTurn> {
         let exit = self.mapper.exit(turn)?;
         if let Some(end) = self.mapper.map.end_at(exit) {
@@ -72,7 +66,13 @@ impl Hypothesis {
     }
 
     /// The walk followed a fragment of the map.
-    fn along(&self, exit: Port, end: End, walk: &Traversal, judge: &Judge<'_>) -> Option<Self> {
+    fn along(
+        &self,
+        exit: Port,
+        end: End,
+        walk: &Traversal,
+        judge: &Comparison<'_>,
+    ) -> Option<Self> {
         let map = &self.mapper.map;
         let arrival = map.beyond(exit)?;
         if map.junction(arrival.junction)?.sighting() != walk.sighting {
@@ -135,14 +135,14 @@ impl Hypothesis {
     }
 
     /// The fragment just added is one that the map has already.
-    fn duplicates(&self, new: FragmentId, judge: &Judge<'_>) -> Vec<(Self, Belief)> {
+    fn duplicates(&self, new: FragmentId, judge: &Comparison<'_>) -> Vec<(Self, Belief)> {
         let map = &self.mapper.map;
         let Some(fragment) = map.fragment(new) else {
             return Vec::new();
         };
         let positions = map.positions_from(fragment.minus.junction);
         let mut all = Vec::new();
-        for (id, other) in map.fragments().filter(|(id, _)| *id != new) {
+        for (id, other) in judge.others(map, new) {
             for sense in [Sense::Same, Sense::Inverted] {
                 let evidence = judge.evidence(other, &fragment.patterns, sense);
                 // Where both fragments begin has to be one place.
@@ -238,14 +238,9 @@ impl Hypothesis {
     }
 }
 
-impl Judge<'_> {
+impl Comparison<'_> {
     /// What the observations say for two walks being along one fragment, a logarithm of odds.
-    fn evidence(
-        &self,
-        known: &Fragment,
-        patterns: &[super::pattern::PatternId],
-        sense: Sense,
-    ) -> f64 {
+    fn evidence(&self, known: &Fragment, patterns: &[PatternId], sense: Sense) -> f64 {
         let score = match sense {
             Sense::Same => self
                 .matching

@@ -2,6 +2,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::index::FragmentIndex;
 use super::pattern::{Dictionary, PatternId, Version};
 use super::similarity::Matching;
 use super::traversal::{Landmark, Motion, Sighting};
@@ -156,6 +157,7 @@ pub struct CpMap {
     pub(super) next_fragment: u32,
     pub(super) next_junction: u32,
     pub(super) version: Option<Version>,
+    pub(super) index: FragmentIndex,
 }
 
 impl CpMap {
@@ -323,6 +325,7 @@ impl CpMap {
             },
         );
         let traversals = 1;
+        self.index.insert(fragment, &patterns);
         let new = Fragment {
             patterns,
             motion,

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use super::config::CpmConfig;
+use super::config::{Candidates, CpmConfig};
 use super::map::{CpMap, End, Fragment, FragmentId, Port, PortState};
 use super::pattern::Dictionary;
 use super::similarity::{Matching, Sense};
@@ -128,12 +128,16 @@ impl Mapper {
     pub(super) fn unify_with_similar(
         &mut self,
         new: FragmentId,
-        matching: &Matching,
-        dictionary: &Dictionary,
+        comparison: &Comparison<'_>,
     ) -> Option<Merges> {
+        let Comparison {
+            matching,
+            dictionary,
+            ..
+        } = *comparison;
         let fragment = self.map.fragment(new)?;
         let mut similar: Vec<(f64, FragmentId, Sense)> = Vec::new();
-        for (id, other) in self.map.fragments().filter(|(id, _)| *id != new) {
+        for (id, other) in comparison.others(&self.map, new) {
             let found = matching.matches(dictionary, &fragment.patterns, &other.patterns);
             similar.extend(found.map(|found| (found.score, id, found.sense)));
         }
@@ -151,13 +155,51 @@ impl Mapper {
 
     /// "The robot repeats checking the similar A-Pattern and fills the new path-fragments to the junction … until no similar
     /// pattern remains." Returns how many were found to be duplicates.
-    pub(super) fn optimize(&mut self, matching: &Matching, dictionary: &Dictionary) -> usize {
+    pub(super) fn optimize(&mut self, comparison: &Comparison<'_>) -> usize {
         let before = self.map.fragments.len();
         let ids: Vec<FragmentId> = self.map.fragments.keys().copied().collect();
         for id in ids {
-            while self.unify_with_similar(id, matching, dictionary).is_some() {}
+            while self.unify_with_similar(id, comparison).is_some() {}
         }
         before - self.map.fragments.len()
+    }
+}
+
+/// What fragments are compared by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Comparison<'a> {
+    pub(super) matching: &'a Matching,
+    pub(super) candidates: Candidates,
+    pub(super) dictionary: &'a Dictionary,
+}
+
+impl Comparison<'_> {
+    /// The fragments to compare one of the map with.
+    pub(super) fn others<'m>(
+        &self,
+        map: &'m CpMap,
+        one: FragmentId,
+    ) -> Vec<(FragmentId, &'m Fragment)> {
+        let patterns = map
+            .fragment(one)
+            .map_or(&[][..], |fragment| &fragment.patterns);
+        let candidates = match self.candidates {
+            Candidates::All => None,
+            // It finds the fragment itself as well.
+            Candidates::Best(most) => {
+                map.index
+                    .candidates(self.dictionary, patterns, most as usize + 1)
+            }
+        };
+        match candidates {
+            None => map.fragments().filter(|(id, _)| *id != one).collect(),
+            Some(ids) => {
+                let found = ids.into_iter().filter(|id| *id != one);
+                found
+                    .filter_map(|id| Some((id, map.fragment(id)?)))
+                    .collect()
+            }
+        }
     }
 }
 

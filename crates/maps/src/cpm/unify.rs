@@ -158,6 +158,7 @@ impl Unification {
             (a, b) => a.or(b),
         };
         self.map.fragments.remove(&gone);
+        self.map.index.remove(gone, &absorbed.patterns);
         self.merges.fragments.insert(gone, (kept, sense));
         if let Some(fragment) = self.map.fragments.get_mut(&kept) {
             fragment.motion = motion;

@@ -9,8 +9,8 @@ use tolman_maps::cpm::world::{
     Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
 };
 use tolman_maps::cpm::{
-    Aim, Arrival, CpmConfig, Decision, Done, Explorer, JunctionId, Landmark, Mapping, Onward,
-    theorem_1,
+    Aim, Arrival, Candidates, CpmConfig, Decision, Done, Explorer, JunctionId, Landmark, Mapping,
+    Onward, theorem_1,
 };
 
 /// Lets an explorer pursue an aim.
@@ -163,4 +163,33 @@ proptest! {
             prop_assert!(explorer.traversals() <= 60);
         }
     }
+}
+
+/// On a large map the index finds the duplicates among all fragments that share patterns.
+#[test]
+fn a_large_maze_needs_few_comparisons() {
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    let maze = MazeConfig {
+        columns: 14,
+        rows: 14,
+        diagonals: 0.3,
+        ..MazeConfig::small()
+    };
+    let world = World::random(&maze, &mut rng).unwrap();
+    assert!(world.corridors().len() > 100);
+    let explore = |candidates| {
+        let config = CpmConfig {
+            candidates,
+            ..CpmConfig::online()
+        };
+        let mut rng = ChaCha8Rng::seed_from_u64(8);
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+        pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng);
+        let check = world.check(explorer.map(), explorer.at(), rover.at());
+        (check, explorer.traversals())
+    };
+    let all = explore(Candidates::All);
+    assert_eq!(all.0, MapCheck::Right);
+    assert_eq!(explore(Candidates::Best(3)), all);
 }

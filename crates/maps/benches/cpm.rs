@@ -1,0 +1,111 @@
+//! CPM: comparing fragments, exploring, localizing.
+#![expect(clippy::unwrap_used, reason = "a bench that cannot go on fails")]
+
+use core::hint::black_box;
+use criterion::{Criterion, criterion_group, criterion_main};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+use tolman_maps::cpm::{
+    Aim, Alignment, Candidates, CpmConfig, Decision, Explorer, Localizer, LocalizerConfig,
+    Matching, Similarity,
+};
+
+fn world(columns: u32, rows: u32) -> World {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let maze = MazeConfig {
+        columns,
+        rows,
+        diagonals: 0.3,
+        ..MazeConfig::small()
+    };
+    World::random(&maze, &mut rng).unwrap()
+}
+
+fn explored(world: &World, config: CpmConfig, reckoning: Reckoning) -> Explorer {
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    let mut rover = Rover::new(world, Noise::NONE, reckoning);
+    let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+        if let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() {
+            explorer
+                .arrive(leg.turn, &walk, world.dictionary())
+                .unwrap();
+        }
+    }
+    explorer
+}
+
+fn cpm(criterion: &mut Criterion) {
+    let small = world(4, 4);
+    let longest = |world: &World| {
+        let sequences = world
+            .corridors()
+            .iter()
+            .map(|corridor| corridor.patterns.clone());
+        sequences.max_by_key(Vec::len).unwrap_or_default()
+    };
+    let sequence = longest(&small);
+    let mut matching =
+        criterion.benchmark_group(format!("cpm/match {} observations", sequence.len()));
+    for (name, how) in [
+        ("positions", Matching::Positions(Similarity::paper())),
+        ("alignment", Matching::Alignment(Alignment::tuned())),
+    ] {
+        let dictionary = small.dictionary();
+        matching.bench_function(name, |bench| {
+            bench.iter(|| how.matches(dictionary, black_box(&sequence), black_box(&sequence)));
+        });
+    }
+    matching.finish();
+
+    let large = world(16, 16);
+    let corridors = large.corridors().len();
+    let mut exploring = criterion.benchmark_group("cpm/explore");
+    exploring.sample_size(10);
+    for (name, world, config, reckoning) in [
+        ("4×4, online", &small, CpmConfig::online(), Reckoning::None),
+        (
+            "4×4, robust",
+            &small,
+            CpmConfig::robust(),
+            Reckoning::Bounded,
+        ),
+        (
+            "16×16, online, all compared",
+            &large,
+            CpmConfig::online(),
+            Reckoning::None,
+        ),
+        (
+            "16×16, online, 16 compared",
+            &large,
+            CpmConfig {
+                candidates: Candidates::Best(16),
+                ..CpmConfig::online()
+            },
+            Reckoning::None,
+        ),
+    ] {
+        exploring.bench_function(name, |bench| {
+            bench.iter(|| explored(world, config, reckoning));
+        });
+    }
+    exploring.finish();
+
+    let map = explored(&large, CpmConfig::online(), Reckoning::None)
+        .map()
+        .clone();
+    let maps = [map];
+    let mut localizer =
+        Localizer::new(&maps, large.dictionary(), LocalizerConfig::usual()).unwrap();
+    criterion.bench_function(
+        &format!("cpm/localize, an observation among {corridors} fragments"),
+        |bench| {
+            bench.iter(|| localizer.observe(black_box(sequence[0])));
+        },
+    );
+}
+
+criterion_group!(benches, cpm);
+criterion_main!(benches);
