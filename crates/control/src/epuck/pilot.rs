@@ -52,6 +52,16 @@ where
         &self.robot
     }
 
+    /// The robot, to be lifted.
+    pub const fn robot_mut(&mut self) -> &mut R {
+        &mut self.robot
+    }
+
+    /// How much room is straight ahead now, m; none if nothing is met.
+    pub fn ahead(&self) -> Option<f64> {
+        self.echoes().ok()?.ahead()
+    }
+
     /// What it holds to.
     pub const fn config(&self) -> &PilotConfig {
         &self.config

@@ -87,6 +87,14 @@ impl Profile {
         &self.values
     }
 
+    /// The profile of a robot that looks the other way.
+    #[must_use]
+    pub fn half_turned(&self) -> Self {
+        let mut values = self.values.clone();
+        values.rotate_left(self.values.len() / 2);
+        Self { values }
+    }
+
     /// The bearing of the value at a fractional index, rad, from -π to π.
     #[must_use]
     pub fn bearing(&self, index: f64) -> f64 {

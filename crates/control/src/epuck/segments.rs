@@ -9,8 +9,9 @@ pub const FEATURES: usize = 11;
 
 /// The parts of a [`Profile`] between the places where it changes (section 4.1).
 ///
-/// The profile is cyclic. The first segment is the one behind the robot, which on a path is the way it came by, the others follow
-/// counter-clockwise; so a bend to the left has another feature than one to the right.
+/// The profile is cyclic. The first segment is the way by which the robot came, the one nearest to behind it that is lower than its neighbours; the others follow
+/// counter-clockwise. So a place has the same feature whichever way the robot looks in a bend, and a bend to the left another than one to
+/// the right. Where there is none, the first segment is the one behind.
 ///
 /// ```
 /// use tolman_control::epuck::{Place, Profile, SegmentConfig};
@@ -88,7 +89,7 @@ pub enum Place {
 impl Profile {
     /// Segments it: a value is where it changes if the mean of the steps to the δ values after it exceeds (S_max + S_min)/2, the
     /// middle between the largest and the smallest step from one value to the next. Neighbouring such values are one boundary; what
-    /// lies between two boundaries is a segment, the first the one that is behind or follows it.
+    /// lies between two boundaries is a segment.
     ///
     /// # Errors
     /// If the window is empty or longer than the profile.
@@ -116,16 +117,27 @@ impl Profile {
                 mean > threshold
             })
             .collect();
-        Ok(Segments {
-            segments: runs(&changes, count / 2)
-                .map(|(start, length)| Segment {
-                    mean: (0..length)
-                        .map(|by| values[(start + by) % count])
-                        .sum::<f64>()
-                        / length as f64,
+        let mut segments: Vec<Segment> = runs(&changes, count / 2)
+            .map(|(start, length)| {
+                let sum: f64 = (0..length).map(|by| values[(start + by) % count]).sum();
+                Segment {
+                    mean: sum / length as f64,
                     bearing: self.bearing(start as f64 + (length - 1) as f64 / 2.0),
-                })
-                .collect(),
+                }
+            })
+            .collect();
+        // A way on that is all but hidden behind a bend is no space, but still lower than what is beside it.
+        let found = segments.len();
+        let mean = |index: usize| segments[index % found].mean;
+        let valleys = (0..found).filter(|index| {
+            mean(*index) < mean(index + 1) && mean(*index) < mean(index + found - 1)
+        });
+        let behind = |index: &usize| segments[*index].bearing.abs();
+        if let Some(entry) = valleys.max_by(|a, b| behind(a).total_cmp(&behind(b))) {
+            segments.rotate_left(entry);
+        }
+        Ok(Segments {
+            segments,
             space_below: config.space_below,
         })
     }
@@ -155,14 +167,13 @@ fn runs(changes: &[bool], origin: usize) -> impl Iterator<Item = (usize, usize)>
 }
 
 impl Segments {
-    /// The segments, counter-clockwise from behind.
+    /// The segments, counter-clockwise from the way by which the robot came.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
-    /// The bearings of the spaces, rad, counter-clockwise from behind: the branches of a junction in their order, first that
-    /// by which the robot came. Where no space is behind, the first is the next to the left.
+    /// The bearings of the spaces, rad: the branches of a junction, counter-clockwise from the one by which the robot came.
     pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
         let spaces = self
             .segments
@@ -263,30 +274,35 @@ mod tests {
         check(&from_left, Place::Junction, &[180.0, 0.0, 90.0]);
         let crossing = [(10, 15), (35, 40), (60, 65), (85, 90)];
         check(&crossing, Place::Junction, &[180.0, -90.0, 0.0, 90.0]);
-        // A wall behind: the first way is the next to its left, which is the robot's right.
-        check(&[(90, 110), (30, 80)], Place::Path, &[-54.0, 72.0]);
+        // A wall right behind, as in a bend.
+        check(&[(90, 110), (30, 80)], Place::Path, &[72.0, -54.0]);
     }
 
     #[test]
-    fn a_step_a_turn_later_is_the_same_segment_later() {
-        let straight = profile(&[(10, 40), (60, 90)]);
-        let turned = profile(&[(35, 65), (85, 115)]);
-        let feature = |profile: &Profile| {
-            profile
-                .segments(&SegmentConfig::paper())
+    fn a_feature_begins_with_the_way_the_robot_came_by() {
+        let feature = |walls: &[(usize, usize)]| {
+            let segments = profile(walls).segments(&SegmentConfig::paper()).unwrap();
+            segments.feature(0.0).unwrap()
+        };
+        // Looking along a corridor, or askew in it.
+        assert_eq!(
+            feature(&[(10, 40), (60, 90)]),
+            feature(&[(20, 50), (70, 100)])
+        );
+        // A bend to the left and one to the right: the long wall is on the other side.
+        let bend = |wall: (usize, usize), post: (usize, usize)| {
+            let mut values = profile(&[wall]).values().to_vec();
+            values[post.0..post.1].fill(100.0);
+            let profile = Profile::from_values(values).unwrap();
+            let feature = profile
+                .segments(&SegmentConfig::cut())
                 .unwrap()
                 .feature(0.0)
-                .unwrap()
+                .unwrap();
+            [feature[1] > 150.0, feature[3] > 150.0]
         };
-        assert_eq!(feature(&straight)[..5], [0.0, 200.0, 0.0, 200.0, 0.0]);
-        assert_eq!(feature(&turned)[..5], [200.0, 0.0, 200.0, 0.0, 0.0]);
-        // A way to the left and one to the right differ.
-        let left = feature(&profile(&[(60, 115), (30, 40)]));
-        let right = feature(&profile(&[(85, 140), (60, 70)]));
-        assert_eq!(
-            (&left[..4], &right[..4]),
-            (&[0.0, 200.0, 0.0, 200.0][..], &[0.0, 200.0, 0.0, 200.0][..])
-        );
+        assert_eq!(bend((60, 110), (35, 40)), [true, false]);
+        assert_eq!(bend((90, 140), (60, 65)), [false, true]);
     }
 
     #[test]

@@ -1,0 +1,179 @@
+use rand::Rng;
+use thiserror::Error;
+use tolman_maps::cpm::{
+    Aim, Arrival, CpmConfig, CpmError, Decision, Done, Explorer, Landmark, Leg, Plan, Sighting,
+    Traversal, Turn,
+};
+
+use super::body::Body;
+use super::common_patterns::CommonPatterns;
+use super::walker::{Walk, WalkError, Walker};
+
+/// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
+#[derive(Debug)]
+pub struct Cpm<'a, B: Body> {
+    walker: Walker<B>,
+    patterns: &'a CommonPatterns,
+    explorer: Explorer,
+}
+
+/// What became of an episode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Episode {
+    /// Why it ended.
+    pub done: Done,
+    /// How long it took, s.
+    pub seconds: f64,
+    /// How many observations were made.
+    pub observations: u32,
+}
+
+/// What happened at the end of a fragment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What layer 3 had decided.
+    pub leg: Leg,
+    /// What the arrival taught; none where the robot turned back.
+    pub arrival: Option<Arrival>,
+    /// The place it came to.
+    pub sighting: Option<Sighting>,
+    /// The observations.
+    pub walk: Walk,
+}
+
+impl<'a, B: Body> Cpm<'a, B> {
+    /// A robot that looks where it is and begins its map there.
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn begin(
+        mut walker: Walker<B>,
+        patterns: &'a CommonPatterns,
+        config: CpmConfig,
+    ) -> Result<Self, AgentError<B::Error>> {
+        let start = walker.begin()?;
+        Ok(Self {
+            walker,
+            patterns,
+            explorer: Explorer::new(config, start)?,
+        })
+    }
+
+    /// The lower layers.
+    pub const fn walker(&self) -> &Walker<B> {
+        &self.walker
+    }
+
+    /// The lower layers, to lift the robot.
+    pub const fn walker_mut(&mut self) -> &mut Walker<B> {
+        &mut self.walker
+    }
+
+    /// The map and what decides by it.
+    pub const fn explorer(&self) -> &Explorer {
+        &self.explorer
+    }
+
+    /// Walks until the aim is reached: the first episode, or the way back. `see` is told of every fragment.
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn pursue(
+        &mut self,
+        aim: Aim,
+        rng: &mut impl Rng,
+        mut see: impl FnMut(&Self, &Step),
+    ) -> Result<Episode, AgentError<B::Error>> {
+        let (begun_us, observed) = (self.walker.time_us(), self.walker.observations());
+        let done = loop {
+            // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
+            let leg = match self.explorer.decide(aim, rng) {
+                Decision::Done(done) => break done,
+                Decision::Go(leg) => leg,
+            };
+            // "… then it lets the lower layers regain the control of the robot."
+            let walk = self.walker.walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
+            let (arrival, sighting) = match &walk {
+                Walk::Arrived { observations, sighting } => {
+                    let traversal = Traversal {
+                        patterns: self.patterns.patterns(observations),
+                        motion: None,
+                        sighting: *sighting,
+                    };
+                    let dictionary = self.patterns.dictionary();
+                    let arrival = self.explorer.arrive(leg.turn, &traversal, dictionary)?;
+                    (Some(arrival), Some(*sighting))
+                }
+                Walk::TurnedBack { observations } => {
+                    let count = observations.len() as u32;
+                    self.explorer.turned_back(leg.turn, count)?;
+                    (None, None)
+                }
+            };
+            let step = Step { leg, arrival, sighting, walk };
+            see(self, &step);
+        };
+        Ok(Episode {
+            done,
+            seconds: (self.walker.time_us() - begun_us) as f64 * 1e-6,
+            observations: self.walker.observations() - observed,
+        })
+    }
+
+    /// The second episode: drives the shortest known way to the goal, skipping observations.
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn drive_plan(&mut self, plan: &Plan) -> Result<Episode, AgentError<B::Error>> {
+        let (begun_us, observed) = (self.walker.time_us(), self.walker.observations());
+        let mut sighting = None;
+        for leg in &plan.legs {
+            let length = self.explorer.map().fragment(leg.enter.fragment).map_or(0, |f| f.length());
+            // The last ones are made, to see the junction and not to pass it.
+            let skip = length.saturating_sub(2 + length / 10);
+            match self.walker.walk(leg.turn.0 as usize, skip, None)? {
+                Walk::Arrived { sighting: at, .. } => sighting = Some(at),
+                Walk::TurnedBack { .. } => return Err(AgentError::Walk(WalkError::Lost)),
+            }
+            let expected = self.explorer.map().junction(leg.arrive.junction).map(|junction| junction.sighting());
+            if expected != sighting {
+                break;
+            }
+        }
+        let arrived = sighting.is_some_and(|at| at.landmark == Some(Landmark::Goal));
+        Ok(Episode {
+            done: if arrived { Done::Reached } else { Done::NotThere },
+            seconds: (self.walker.time_us() - begun_us) as f64 * 1e-6,
+            observations: self.walker.observations() - observed,
+        })
+    }
+
+    /// The robot was put back to where its map begins.
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn placed_at_start(&mut self) -> Result<(), AgentError<B::Error>> {
+        let start = self.explorer.map().landmarks(Landmark::Start).next();
+        let Some(junction) = start else {
+            return Err(AgentError::NoStart);
+        };
+        self.walker.begin()?;
+        self.explorer.place(tolman_maps::cpm::Port { junction, number: 0 })?;
+        Ok(())
+    }
+}
+
+/// Why an episode could not be played to its end.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum AgentError<E> {
+    /// The robot.
+    #[error(transparent)]
+    Walk(#[from] WalkError<E>),
+    /// The map.
+    #[error(transparent)]
+    Map(#[from] CpmError),
+    /// The map has no start.
+    #[error("the map has no start to be put back to; mark the start of the maze")]
+    NoStart,
+}

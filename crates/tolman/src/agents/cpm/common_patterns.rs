@@ -1,0 +1,182 @@
+use rand::{Rng, RngExt};
+use thiserror::Error;
+use tolman_control::epuck::FEATURES;
+use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
+use tolman_quantizers::{ConfigError, InputError, Quantizer, Soinn, SoinnConfig, UnknownUnit};
+
+use super::body::Body;
+use super::walker::{Observation, Walk, WalkError, Walker};
+
+/// C: the common patterns, clusters of a SOINN ("a representative vector of each cluster is a common-pattern CP", section 4.1).
+#[derive(Clone, Debug)]
+pub struct CommonPatterns {
+    dictionary: Dictionary,
+    /// The prototypes of SOINN's units, each with the pattern of its cluster.
+    units: Vec<([f64; FEATURES], PatternId)>,
+    clusters: u32,
+}
+
+/// Lets a robot wander through a learning maze, at junctions by a branch at random, until it has made so many observations
+/// ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
+///
+/// # Errors
+/// [`WalkError`].
+pub fn wander<B: Body>(
+    walker: &mut Walker<B>,
+    observations: usize,
+    rng: &mut impl Rng,
+) -> Result<Vec<Observation>, WalkError<B::Error>> {
+    let mut seen = Vec::with_capacity(observations);
+    let mut degree = walker.begin()?.degree;
+    while seen.len() < observations {
+        let branch = if degree == 1 { 0 } else { rng.random_range(1..degree) };
+        if let Walk::Arrived { observations, sighting } = walker.walk(branch as usize, 0, None)? {
+            seen.extend(observations);
+            degree = sighting.degree;
+        }
+    }
+    seen.truncate(observations);
+    Ok(seen)
+}
+
+impl CommonPatterns {
+    /// Clusters observations.
+    ///
+    /// # Errors
+    /// [`LearnError`].
+    pub fn learn(
+        observations: &[Observation],
+        config: SoinnConfig,
+        grain: Grain,
+    ) -> Result<Self, LearnError> {
+        let mut soinn = Soinn::<f64>::new(FEATURES, config)?;
+        for observation in observations {
+            soinn.observe(&observation.feature)?;
+        }
+        let network = soinn.network();
+        let clusters = network.clusters();
+        let groups = match grain {
+            Grain::Clusters => clusters.count(),
+            Grain::Units => network.len(),
+        };
+        let group_of = |id, rank: usize| -> Result<usize, UnknownUnit> {
+            match grain {
+                Grain::Clusters => Ok(clusters.label(id)? as usize),
+                Grain::Units => Ok(rank),
+            }
+        };
+        // Each cluster's representative: the mean of what fell into it, and of the same seen the other way.
+        let mut means = vec![([0.0; FEATURES], [0.0; FEATURES], 0.0); groups];
+        let ids: Vec<_> = network.ids().collect();
+        for observation in observations {
+            let nearest = network.nearest(&observation.feature)?.id;
+            let rank = ids.iter().position(|id| *id == nearest).unwrap_or(0);
+            let (ahead, back, count) = &mut means[group_of(nearest, rank)?];
+            for feature in 0..FEATURES {
+                ahead[feature] += observation.feature[feature];
+                back[feature] += observation.half_turned[feature];
+            }
+            *count += 1.0;
+        }
+        let mut dictionary = Dictionary::new(FEATURES);
+        let mut patterns = vec![None; groups];
+        for (group, (ahead, back, count)) in means.into_iter().enumerate() {
+            if count > 0.0 {
+                let [ahead, back] = [ahead, back].map(|sum| sum.map(|sum| sum / count));
+                patterns[group] = Some(dictionary.learn(&ahead, &back, 0.0)?);
+            }
+        }
+        let mut units = Vec::new();
+        for (rank, id) in ids.into_iter().enumerate() {
+            let mut prototype = [0.0; FEATURES];
+            for (feature, value) in prototype.iter_mut().zip(network.prototype(id)?) {
+                *feature = value;
+            }
+            if let Some(pattern) = patterns[group_of(id, rank)?] {
+                units.push((prototype, pattern));
+            }
+        }
+        if units.is_empty() {
+            return Err(LearnError::Nothing {
+                observations: observations.len(),
+            });
+        }
+        Ok(Self {
+            dictionary,
+            units,
+            clusters: clusters.count() as u32,
+        })
+    }
+
+    /// The common pattern that stands for a feature: that of the nearest unit's cluster ("classified to the corresponded CP").
+    #[must_use]
+    pub fn pattern(&self, feature: &[f64; FEATURES]) -> PatternId {
+        let distance = |unit: &[f64; FEATURES]| {
+            let squares = unit.iter().zip(feature).map(|(a, b)| (a - b) * (a - b));
+            squares.sum::<f64>()
+        };
+        let nearest = self
+            .units
+            .iter()
+            .min_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
+        nearest.map_or(PatternId(0), |(_, pattern)| *pattern)
+    }
+
+    /// The patterns of observations.
+    #[must_use]
+    pub fn patterns(&self, observations: &[Observation]) -> Vec<PatternId> {
+        let each = observations.iter();
+        each.map(|observation| self.pattern(&observation.feature)).collect()
+    }
+
+    /// The patterns as the map knows them.
+    #[must_use]
+    pub const fn dictionary(&self) -> &Dictionary {
+        &self.dictionary
+    }
+
+    /// How many units SOINN has.
+    #[must_use]
+    pub const fn unit_count(&self) -> usize {
+        self.units.len()
+    }
+
+    /// How many clusters they make.
+    #[must_use]
+    pub const fn cluster_count(&self) -> u32 {
+        self.clusters
+    }
+}
+
+/// What a common pattern is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grain {
+    /// A cluster of SOINN's, as in the paper.
+    Clusters,
+    /// A unit of SOINN's.
+    Units,
+}
+
+/// Why no patterns were learned.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LearnError {
+    /// SOINN's configuration.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// An observation.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A unit is gone.
+    #[error(transparent)]
+    Unit(#[from] UnknownUnit),
+    /// A prototype.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+    /// SOINN kept nothing.
+    #[error("SOINN made no pattern of {observations} observations; let the robot wander longer")]
+    Nothing {
+        /// How many there were.
+        observations: usize,
+    },
+}

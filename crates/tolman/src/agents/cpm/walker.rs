@@ -1,0 +1,331 @@
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use thiserror::Error;
+use tolman_control::epuck::{
+    Alignment, FEATURES, MeetPointConfig, Pilot, PilotConfig, PilotError, Place, Profile,
+    ProfileError, SegmentConfig, SegmentError, Segments,
+};
+use tolman_geom::{Point, Pose};
+use tolman_maps::cpm::{Landmark, Sighting};
+
+use super::body::{Body, Reckoned};
+
+/// Walks fragments: what the lower layers do from the moment layer 3 has chosen a way until the next junction, dead end or landmark
+/// wakes it up again (section 4).
+#[derive(Debug)]
+pub struct Walker<B: Body> {
+    pilot: Pilot<Reckoned<B>>,
+    config: WalkerConfig,
+    /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
+    branches: Vec<f64>,
+    observations: u32,
+    departed_us: u64,
+}
+
+/// How a walker observes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WalkerConfig {
+    /// The robot's layers.
+    pub pilot: PilotConfig,
+    /// How the vectors of a sweep are averaged.
+    pub alignment: Alignment,
+    /// How they are segmented.
+    pub segments: SegmentConfig,
+    /// How the middle of a junction is looked for.
+    pub meet_point: MeetPointConfig,
+    /// From wall to wall, m.
+    pub corridor_width: f64,
+    /// How long the robot drives from one observation to the next, s; the paper's 0.5.
+    pub stride_s: f64,
+    /// The value of the landmark element at a landmark; 0 means none. The paper gives no value.
+    pub landmark: f64,
+    /// The end of all patience: so many observations of one fragment, of which the paper says nothing.
+    pub longest_fragment: u32,
+}
+
+/// One observation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// What place it looks like.
+    pub place: Place,
+    /// The 11-d vector.
+    pub feature: [f64; FEATURES],
+    /// That of the same place seen by a robot that walks the other way.
+    pub half_turned: [f64; FEATURES],
+    /// What the robot believed where it was.
+    pub pose: Pose,
+    /// When, µs.
+    pub time_us: u64,
+}
+
+/// How a walk ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Walk {
+    /// At the next place.
+    Arrived {
+        /// What was seen on the way.
+        observations: Vec<Observation>,
+        /// What the place is.
+        sighting: Sighting,
+    },
+    /// Back where it began, after so many observations.
+    TurnedBack {
+        /// What was seen until it turned round.
+        observations: Vec<Observation>,
+    },
+}
+
+/// What is seen from one place.
+struct View {
+    profile: Profile,
+    segments: Segments,
+}
+
+/// Rounds of looking for a junction's middle.
+const ROUNDS: u32 = 4;
+
+/// Near enough to the middle, m.
+const NEAR: f64 = 0.015;
+
+impl<B: Body> Walker<B> {
+    /// A walker that stands where its body stands.
+    pub fn new(body: B, config: WalkerConfig) -> Self {
+        Self {
+            pilot: Pilot::new(Reckoned::new(body), config.pilot.clone()),
+            config,
+            branches: Vec::new(),
+            observations: 0,
+            departed_us: 0,
+        }
+    }
+
+    /// The body.
+    pub const fn body(&self) -> &B {
+        self.pilot.robot().body()
+    }
+
+    /// The body, to be lifted.
+    pub const fn body_mut(&mut self) -> &mut B {
+        self.pilot.robot_mut().body_mut()
+    }
+
+    /// Where it believes to be, in the frame in which it began.
+    pub const fn pose(&self) -> Pose {
+        self.pilot.robot().pose()
+    }
+
+    /// Microseconds since the robot was switched on.
+    pub fn time_us(&self) -> u64 {
+        self.pilot.robot().body().sensing().time_us
+    }
+
+    /// How many observations it has made.
+    pub const fn observations(&self) -> u32 {
+        self.observations
+    }
+
+    /// When it had turned into the fragment that it walked last, µs.
+    pub const fn departed_us(&self) -> u64 {
+        self.departed_us
+    }
+
+    /// How it observes.
+    pub const fn config(&self) -> &WalkerConfig {
+        &self.config
+    }
+
+    /// Looks where it is. In mid-fragment it drives on to the first junction, dead end or landmark ("the robot continues moving forward until
+    /// the first junction is found", section 8).
+    ///
+    /// # Errors
+    /// [`WalkError`].
+    pub fn begin(&mut self) -> Result<Sighting, WalkError<B::Error>> {
+        let view = self.look()?;
+        if let Some(landmark) = self.pilot.robot().landmark() {
+            return self.settle(view, Some(landmark));
+        }
+        match view.segments.place() {
+            Place::Junction => self.settle(view, None),
+            Place::DeadEnd | Place::Path | Place::Closed => {
+                self.branches = vec![0.0];
+                match self.walk(0, 0, None)? {
+                    Walk::Arrived { sighting, .. } => Ok(sighting),
+                    Walk::TurnedBack { .. } => Err(WalkError::Lost),
+                }
+            }
+        }
+    }
+
+    /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the path to its end. The first `skip`
+    /// strides are driven without looking. After `give_up_after` observations it turns round and comes back.
+    ///
+    /// # Errors
+    /// [`WalkError`].
+    pub fn walk(
+        &mut self,
+        number: usize,
+        skip: u32,
+        give_up_after: Option<u32>,
+    ) -> Result<Walk, WalkError<B::Error>> {
+        let branch = *self.branches.get(number).ok_or(WalkError::NoBranch {
+            number,
+            branches: self.branches.len(),
+        })?;
+        self.pilot.turn(branch)?;
+        self.departed_us = self.time_us();
+        self.follow(skip, give_up_after)
+    }
+
+    fn follow(
+        &mut self,
+        skip: u32,
+        give_up_after: Option<u32>,
+    ) -> Result<Walk, WalkError<B::Error>> {
+        let begun = self.pilot.robot().driven();
+        // Consecutive sightings of a junction are one junction: it is left behind at this distance, m.
+        let left_behind = 0.6 * self.config.corridor_width;
+        let mut observations = Vec::new();
+        for stride in 0..self.config.longest_fragment {
+            self.pilot.follow(self.config.stride_s)?;
+            if stride < skip {
+                continue;
+            }
+            let is_under_way = self.pilot.robot().driven() - begun > left_behind;
+            let view = self.look()?;
+            if let Some(landmark) = self.pilot.robot().landmark().filter(|_| is_under_way) {
+                let sighting = self.settle(view, Some(landmark))?;
+                return Ok(Walk::Arrived { observations, sighting });
+            }
+            match view.segments.place() {
+                Place::Junction if is_under_way => {
+                    let sighting = self.settle(view, None)?;
+                    if sighting.degree > 2 {
+                        return Ok(Walk::Arrived { observations, sighting });
+                    }
+                    // Seen from its middle it was none.
+                }
+                Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments) => {
+                    let sighting = self.settle(view, None)?;
+                    if sighting.degree == 1 {
+                        return Ok(Walk::Arrived { observations, sighting });
+                    }
+                }
+                Place::Junction => {}
+                // A way on may be hidden for a moment.
+                Place::DeadEnd | Place::Closed | Place::Path => {
+                    observations.push(self.observation(&view, 0.0)?);
+                    if give_up_after.is_some_and(|most| observations.len() >= most as usize) {
+                        self.pilot.turn(PI)?;
+                        return match self.follow(0, None)? {
+                            Walk::Arrived { .. } | Walk::TurnedBack { .. } => {
+                                Ok(Walk::TurnedBack { observations })
+                            }
+                        };
+                    }
+                }
+            }
+        }
+        Err(WalkError::Endless {
+            strides: self.config.longest_fragment,
+        })
+    }
+
+    /// Drives to the middle of the place that it has seen, and looks what it is.
+    fn settle(
+        &mut self,
+        mut view: View,
+        landmark: Option<Landmark>,
+    ) -> Result<Sighting, WalkError<B::Error>> {
+        for _ in 0..ROUNDS {
+            let middle = match view.segments.place() {
+                Place::Junction => view
+                    .profile
+                    .meet_point(&self.config.pilot.curve, &self.config.meet_point),
+                Place::DeadEnd if self.is_before_a_wall(&view.segments) => self.before_the_wall(),
+                Place::DeadEnd | Place::Path | Place::Closed => break,
+            };
+            if middle.coords.norm() < NEAR {
+                break;
+            }
+            self.pilot.go_to(middle)?;
+            view = self.look()?;
+        }
+        self.branches = view.segments.spaces().collect();
+        if self.branches.is_empty() {
+            // Whoever came in can get out.
+            self.branches.push(PI);
+        }
+        Ok(Sighting {
+            degree: self.branches.len() as u32,
+            landmark,
+        })
+    }
+
+    /// Whether the only way out is the one it came by, and the wall across the path is near.
+    fn is_before_a_wall(&self, segments: &Segments) -> bool {
+        let near = 0.75 * self.config.corridor_width;
+        segments.spaces().all(|space| space.abs() > FRAC_PI_2)
+            && self.pilot.ahead().is_some_and(|ahead| ahead < near)
+    }
+
+    /// The middle of a dead end: half a corridor's width before the wall ahead.
+    fn before_the_wall(&self) -> Point {
+        let ahead = self.pilot.ahead().unwrap_or(self.config.corridor_width);
+        Point::new(ahead - self.config.corridor_width / 2.0, 0.0)
+    }
+
+    fn look(&mut self) -> Result<View, WalkError<B::Error>> {
+        let sweep = self.pilot.sweep()?;
+        self.observations += 1;
+        let profile = Profile::of(&sweep, self.config.alignment)?;
+        let segments = profile.segments(&self.config.segments)?;
+        Ok(View { profile, segments })
+    }
+
+    fn observation(
+        &self,
+        view: &View,
+        landmark: f64,
+    ) -> Result<Observation, WalkError<B::Error>> {
+        let turned = view.profile.half_turned().segments(&self.config.segments)?;
+        Ok(Observation {
+            place: view.segments.place(),
+            feature: view.segments.feature(landmark)?,
+            half_turned: turned.feature(landmark)?,
+            pose: self.pose(),
+            time_us: self.time_us(),
+        })
+    }
+}
+
+/// Why a walk came to no end.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WalkError<E> {
+    /// The robot cannot be driven.
+    #[error(transparent)]
+    Pilot(#[from] PilotError<E>),
+    /// A sweep cannot be read.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// A sweep cannot be segmented.
+    #[error(transparent)]
+    Segments(#[from] SegmentError),
+    /// The place has not so many branches.
+    #[error("branch {number} of a place of {branches}: count from 0, the way the robot came by")]
+    NoBranch {
+        /// Which was asked for.
+        number: usize,
+        /// How many there are.
+        branches: usize,
+    },
+    /// No junction, dead end or landmark came.
+    #[error("no junction, dead end or landmark within {strides} strides: check the sensors, or the maze has none")]
+    Endless {
+        /// How many strides were driven.
+        strides: u32,
+    },
+    /// The robot turned back where it should not.
+    #[error("the robot does not know where it is; start it at a junction")]
+    Lost,
+}
