@@ -69,21 +69,31 @@ impl Forward {
     pub fn propose(&mut self, echoes: &Echoes) -> Twist {
         let (left, right) = (self.beside(echoes, 5, 6), self.beside(echoes, 2, 1));
         let ahead = echoes.ahead().unwrap_or(f64::INFINITY);
-        // A wall across the way is met at half a width behind the middle of a bend.
-        let blocked = self.config.half_width + 0.01;
-        let free = self.config.half_width * 1.6;
+        // In the middle of a bend the wall across the way is half a width ahead.
+        let is_blocked = ahead < self.config.half_width;
         self.bend = match self.bend {
-            Some(side) if ahead < free => Some(side),
-            None if ahead < blocked => {
-                let room =
-                    |beside: Option<Beside>| beside.map_or(f64::INFINITY, |beside| beside.distance);
+            // Round when the way is free and the wall that was ahead is beside, and along the way.
+            Some(side) => {
+                let outer = match side {
+                    Side::Left => right,
+                    Side::Right => left,
+                };
+                let angle = outer.and_then(|wall| wall.angle);
+                let is_free = ahead > 1.6 * self.config.half_width;
+                let is_round = is_free && angle.is_none_or(|angle| angle.abs() < 0.1);
+                (!is_round).then_some(side)
+            }
+            None if is_blocked => {
+                let room = |beside: Option<Beside>| {
+                    beside.map_or(f64::INFINITY, |beside| beside.distance)
+                };
                 Some(if room(left) >= room(right) {
                     Side::Left
                 } else {
                     Side::Right
                 })
             }
-            _ => None,
+            None => None,
         };
         match self.bend {
             Some(Side::Left) => Twist {

@@ -86,15 +86,21 @@ where
         Ok(sweep)
     }
 
-    /// Follows the path for about so many seconds: layer 1 proposes, layer 0 corrects.
+    /// Drives forward along the path for about so many seconds: layer 1 proposes, layer 0 corrects. What layer 1 turns on the spot in a bend is
+    /// not forward and does not count, up to ten times as long.
     ///
     /// # Errors
     /// If the robot fails, or its proximity sensors give nothing.
     pub fn follow(&mut self, seconds: f64) -> Result<(), PilotError<R::Error>> {
         let steps = libm::round(seconds * 1e6 / self.config.step_us as f64) as u64;
-        for _ in 0..steps {
+        let mut forward = 0;
+        for _ in 0..10 * steps {
+            if forward >= steps {
+                break;
+            }
             let echoes = self.echoes()?;
             let proposal = self.forward.propose(&echoes);
+            forward += u64::from(proposal.linear > 0.0);
             self.drive(self.keep_off.correct(proposal, &echoes), 1.0)?;
         }
         Ok(())

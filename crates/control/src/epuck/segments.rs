@@ -28,6 +28,7 @@ pub const FEATURES: usize = 11;
 pub struct Segments {
     segments: Vec<Segment>,
     space_below: f64,
+    way_below: f64,
 }
 
 /// A part of a profile that does not change much.
@@ -49,6 +50,9 @@ pub struct SegmentConfig {
     pub ceiling: f64,
     /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no value.
     pub space_below: f64,
+    /// Neighbouring segments whose means lie both below this, or both not, are made one, so that ways and walls alternate. The paper joins
+    /// none, which is 0.
+    pub way_below: f64,
 }
 
 impl SegmentConfig {
@@ -60,6 +64,7 @@ impl SegmentConfig {
             window: 5,
             ceiling: f64::INFINITY,
             space_below: 12.0,
+            way_below: 0.0,
         }
     }
 
@@ -69,6 +74,16 @@ impl SegmentConfig {
         Self {
             ceiling: 60.0,
             ..Self::paper()
+        }
+    }
+
+    /// As [`cut`](Self::cut), with ways and walls joined: for features, which then say how much wall is on either side of a path, wherever
+    /// the robot looks.
+    #[must_use]
+    pub const fn joined() -> Self {
+        Self {
+            way_below: 40.0,
+            ..Self::cut()
         }
     }
 }
@@ -117,13 +132,20 @@ impl Profile {
                 mean > threshold
             })
             .collect();
-        let mut segments: Vec<Segment> = runs(&changes, count / 2)
-            .map(|(start, length)| {
-                let sum: f64 = (0..length).map(|by| values[(start + by) % count]).sum();
-                Segment {
-                    mean: sum / length as f64,
-                    bearing: self.bearing(start as f64 + (length - 1) as f64 / 2.0),
-                }
+        let mut parts: Vec<Part> = runs(&changes, count / 2)
+            .map(|(start, length)| Part {
+                start,
+                length,
+                sum: (0..length).map(|by| values[(start + by) % count]).sum(),
+                values: length,
+            })
+            .collect();
+        merge(&mut parts, count, config.way_below);
+        let mut segments: Vec<Segment> = parts
+            .into_iter()
+            .map(|part| Segment {
+                mean: part.mean(),
+                bearing: self.bearing(part.start as f64 + (part.length - 1) as f64 / 2.0),
             })
             .collect();
         // A way on that is all but hidden behind a bend is no space, but still lower than what is beside it.
@@ -139,7 +161,51 @@ impl Profile {
         Ok(Segments {
             segments,
             space_below: config.space_below,
+            way_below: config.way_below,
         })
+    }
+}
+
+/// A segment as it grows: its values may have boundaries between them, which count for its extent alone.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    start: usize,
+    length: usize,
+    sum: f64,
+    values: usize,
+}
+
+impl Part {
+    fn mean(&self) -> f64 {
+        self.sum / self.values as f64
+    }
+}
+
+/// Makes neighbours one that are both ways or both walls, round the circle.
+fn merge(parts: &mut Vec<Part>, count: usize, way_below: f64) {
+    let alike =
+        |a: &Part, b: &Part| (a.mean() < way_below) == (b.mean() < way_below) && way_below > 0.0;
+    let mut at = 0;
+    while parts.len() > 1 && at < parts.len() {
+        let next = (at + 1) % parts.len();
+        let (this, other) = (parts[at], parts[next]);
+        if alike(&this, &other) {
+            let end = other.start + other.length;
+            let length = (end + 2 * count - this.start) % count;
+            parts[at] = Part {
+                start: this.start,
+                length: if length == 0 { count } else { length },
+                sum: this.sum + other.sum,
+                values: this.values + other.values,
+            };
+            parts.remove(next);
+            at = at.min(parts.len() - 1);
+            if next == 0 {
+                break;
+            }
+        } else {
+            at += 1;
+        }
     }
 }
 
@@ -180,6 +246,15 @@ impl Segments {
             .iter()
             .filter(|segment| segment.mean < self.space_below);
         spaces.map(|segment| segment.bearing)
+    }
+
+    /// How many ways lead on, those that are half hidden among them, where ways and walls alternate.
+    #[must_use]
+    pub fn ways(&self) -> usize {
+        self.segments
+            .iter()
+            .filter(|segment| segment.mean < self.way_below)
+            .count()
     }
 
     /// What the place is by how many spaces there are.

@@ -80,20 +80,29 @@ impl CommonPatterns {
         }
         let mut dictionary = Dictionary::new(FEATURES);
         let mut patterns = vec![None; groups];
-        for (group, (ahead, back, count)) in means.into_iter().enumerate() {
-            if count > 0.0 {
+        for (group, (ahead, back, count)) in means.iter().enumerate() {
+            if *count > 0.0 {
                 let [ahead, back] = [ahead, back].map(|sum| sum.map(|sum| sum / count));
                 patterns[group] = Some(dictionary.learn(&ahead, &back, 0.0)?);
             }
         }
+        // A unit stands for what was seen and, half turned, for what is seen walking the other way.
         let mut units = Vec::new();
         for (rank, id) in ids.into_iter().enumerate() {
-            let mut prototype = [0.0; FEATURES];
-            for (feature, value) in prototype.iter_mut().zip(network.prototype(id)?) {
-                *feature = value;
+            let seen = observations.iter().filter(|observation| {
+                network.nearest(&observation.feature).is_ok_and(|nearest| nearest.id == id)
+            });
+            let (mut ahead, mut back, mut count) = ([0.0; FEATURES], [0.0; FEATURES], 0.0);
+            for observation in seen {
+                for feature in 0..FEATURES {
+                    ahead[feature] += observation.feature[feature];
+                    back[feature] += observation.half_turned[feature];
+                }
+                count += 1.0;
             }
-            if let Some(pattern) = patterns[group_of(id, rank)?] {
-                units.push((prototype, pattern));
+            if let Some(pattern) = patterns[group_of(id, rank)?].filter(|_| count > 0.0) {
+                units.push((ahead.map(|sum| sum / count), pattern));
+                units.push((back.map(|sum| sum / count), dictionary.half_turned(pattern)));
             }
         }
         if units.is_empty() {

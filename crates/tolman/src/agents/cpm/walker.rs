@@ -29,8 +29,10 @@ pub struct WalkerConfig {
     pub pilot: PilotConfig,
     /// How the vectors of a sweep are averaged.
     pub alignment: Alignment,
-    /// How they are segmented.
+    /// How they are segmented to tell junctions from paths.
     pub segments: SegmentConfig,
+    /// How they are segmented to make features.
+    pub features: SegmentConfig,
     /// How the middle of a junction is looked for.
     pub meet_point: MeetPointConfig,
     /// From wall to wall, m.
@@ -81,8 +83,29 @@ struct View {
     segments: Segments,
 }
 
+/// Where the robot looked on its way, and what it saw, if it saw the path.
+type Track = Vec<(Point, Option<Observation>)>;
+
+/// Where no two ways were seen counts as the nearest place before or behind where they were: left out, it would shift all that follows.
+fn filled(track: &Track) -> Vec<Observation> {
+    let seen = |index: usize| track.get(index).and_then(|(_, seen)| seen.clone());
+    (0..track.len())
+        .filter_map(|index| {
+            let near = (0..track.len()).flat_map(|by| [index.checked_sub(by), Some(index + by)]);
+            near.flatten().find_map(seen)
+        })
+        .collect()
+}
+
 /// Rounds of looking for a junction's middle.
 const ROUNDS: u32 = 4;
+
+/// How far a junction, dead end or landmark reaches from its middle, in corridors' widths: consecutive sightings of a junction are one, and what
+/// is seen from within it is no part of a fragment.
+const PLACE: f64 = 0.6;
+
+/// How far from the middle of a place on fragments are written down, in corridors' widths: nearer to it its posts are in the way.
+const TRIMMED: f64 = 0.8;
 
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
@@ -182,45 +205,47 @@ impl<B: Body> Walker<B> {
         give_up_after: Option<u32>,
     ) -> Result<Walk, WalkError<B::Error>> {
         let begun = self.pilot.robot().driven();
-        // Consecutive sightings of a junction are one junction: it is left behind at this distance, m.
-        let left_behind = 0.6 * self.config.corridor_width;
-        let mut observations = Vec::new();
+        let place_radius = PLACE * self.config.corridor_width;
+        let trimmed = TRIMMED * self.config.corridor_width;
+        let mut track = Vec::new();
         for stride in 0..self.config.longest_fragment {
             self.pilot.follow(self.config.stride_s)?;
             if stride < skip {
                 continue;
             }
-            let is_under_way = self.pilot.robot().driven() - begun > left_behind;
+            let is_under_way = self.pilot.robot().driven() - begun > place_radius;
             let view = self.look()?;
             if let Some(landmark) = self.pilot.robot().landmark().filter(|_| is_under_way) {
                 let sighting = self.settle(view, Some(landmark))?;
-                return Ok(Walk::Arrived { observations, sighting });
+                return Ok(self.arrived(track, sighting));
             }
             match view.segments.place() {
                 Place::Junction if is_under_way => {
                     let sighting = self.settle(view, None)?;
                     if sighting.degree > 2 {
-                        return Ok(Walk::Arrived { observations, sighting });
+                        return Ok(self.arrived(track, sighting));
                     }
                     // Seen from its middle it was none.
                 }
-                Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments) => {
+                Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
                     let sighting = self.settle(view, None)?;
                     if sighting.degree == 1 {
-                        return Ok(Walk::Arrived { observations, sighting });
+                        return Ok(self.arrived(track, sighting));
                     }
                 }
                 Place::Junction => {}
                 // A way on may be hidden for a moment.
                 Place::DeadEnd | Place::Closed | Place::Path => {
-                    observations.push(self.observation(&view, 0.0)?);
-                    if give_up_after.is_some_and(|most| observations.len() >= most as usize) {
+                    if self.pilot.robot().driven() - begun > trimmed {
+                        let position = self.pose().position;
+                        track.push((position, self.observation(&view)?));
+                    }
+                    if give_up_after.is_some_and(|most| track.len() >= most as usize) {
                         self.pilot.turn(PI)?;
-                        return match self.follow(0, None)? {
-                            Walk::Arrived { .. } | Walk::TurnedBack { .. } => {
-                                Ok(Walk::TurnedBack { observations })
-                            }
-                        };
+                        self.follow(0, None)?;
+                        return Ok(Walk::TurnedBack {
+                            observations: filled(&track),
+                        });
                     }
                 }
             }
@@ -228,6 +253,20 @@ impl<B: Body> Walker<B> {
         Err(WalkError::Endless {
             strides: self.config.longest_fragment,
         })
+    }
+
+    /// A walk without what was seen from within the place it led to.
+    fn arrived(&self, mut track: Track, sighting: Sighting) -> Walk {
+        let middle = self.pose().position;
+        let trimmed = TRIMMED * self.config.corridor_width;
+        while track
+            .pop_if(|(position, _)| (*position - middle).norm() < trimmed)
+            .is_some()
+        {}
+        Walk::Arrived {
+            observations: filled(&track),
+            sighting,
+        }
     }
 
     /// Drives to the middle of the place that it has seen, and looks what it is.
@@ -241,7 +280,7 @@ impl<B: Body> Walker<B> {
                 Place::Junction => view
                     .profile
                     .meet_point(&self.config.pilot.curve, &self.config.meet_point),
-                Place::DeadEnd if self.is_before_a_wall(&view.segments) => self.before_the_wall(),
+                Place::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => self.before_the_wall(),
                 Place::DeadEnd | Place::Path | Place::Closed => break,
             };
             if middle.coords.norm() < NEAR {
@@ -262,8 +301,8 @@ impl<B: Body> Walker<B> {
     }
 
     /// Whether the only way out is the one it came by, and the wall across the path is near.
-    fn is_before_a_wall(&self, segments: &Segments) -> bool {
-        let near = 0.75 * self.config.corridor_width;
+    fn is_before_a_wall(&self, segments: &Segments, widths: f64) -> bool {
+        let near = widths * self.config.corridor_width;
         segments.spaces().all(|space| space.abs() > FRAC_PI_2)
             && self.pilot.ahead().is_some_and(|ahead| ahead < near)
     }
@@ -282,19 +321,20 @@ impl<B: Body> Walker<B> {
         Ok(View { profile, segments })
     }
 
-    fn observation(
-        &self,
-        view: &View,
-        landmark: f64,
-    ) -> Result<Observation, WalkError<B::Error>> {
-        let turned = view.profile.half_turned().segments(&self.config.segments)?;
-        Ok(Observation {
+    /// What becomes a common pattern; none where not two ways are seen.
+    fn observation(&self, view: &View) -> Result<Option<Observation>, WalkError<B::Error>> {
+        let ahead = view.profile.segments(&self.config.features)?;
+        let back = view.profile.half_turned().segments(&self.config.features)?;
+        if ahead.ways() != 2 {
+            return Ok(None);
+        }
+        Ok(Some(Observation {
             place: view.segments.place(),
-            feature: view.segments.feature(landmark)?,
-            half_turned: turned.feature(landmark)?,
+            feature: ahead.feature(0.0)?,
+            half_turned: back.feature(0.0)?,
             pose: self.pose(),
             time_us: self.time_us(),
-        })
+        }))
     }
 }
 
