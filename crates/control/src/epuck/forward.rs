@@ -84,9 +84,8 @@ impl Forward {
                 (!is_round).then_some(side)
             }
             None if is_blocked => {
-                let room = |beside: Option<Beside>| {
-                    beside.map_or(f64::INFINITY, |beside| beside.distance)
-                };
+                let room =
+                    |beside: Option<Beside>| beside.map_or(f64::INFINITY, |beside| beside.distance);
                 Some(if room(left) >= room(right) {
                     Side::Left
                 } else {

@@ -1,7 +1,6 @@
 use alloc::vec::Vec;
 
-use tolman_geom::{Heading, Point};
-use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
+use tolman_geom::Point;
 
 use super::{Profile, RangeCurve};
 
@@ -35,22 +34,8 @@ impl Profile {
     /// (reach / resolution)² · values.
     #[must_use]
     pub fn meet_point(&self, curve: &RangeCurve, config: &MeetPointConfig) -> Point {
-        // The sensors sit on a circle.
-        let mounts = proximity_mounts();
-        let rim = mounts
-            .iter()
-            .map(|mount| mount.position.coords.norm())
-            .sum::<f64>()
-            / PROXIMITY_SENSORS as f64;
-        let seen: Vec<Point> = (0_u32..)
-            .zip(self.values())
-            .map(|(index, value)| {
-                // Where nothing is met, what lies beyond the reach is as good as a wall.
-                let range = curve.range(*value).unwrap_or(curve.reach());
-                let bearing = Heading::from_radians(self.bearing(f64::from(index)));
-                Point::origin() + bearing.unit() * (rim + range)
-            })
-            .collect();
+        // Where nothing is met, what lies beyond the reach is as good as a wall.
+        let seen: Vec<Point> = self.echoes(curve).map(|(point, _)| point).collect();
         let room = |at: Point| {
             let gaps = seen.iter().map(|point| (point - at).norm_squared());
             gaps.fold(f64::INFINITY, f64::min)

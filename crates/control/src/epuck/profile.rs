@@ -2,9 +2,10 @@ use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use thiserror::Error;
+use tolman_geom::{Heading, Point};
 use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
 
-use super::Sweep;
+use super::{RangeCurve, Sweep};
 
 /// What is round the robot: one value for each bearing, the mean over all sensors of a [`Sweep`]; the larger the nearer.
 ///
@@ -12,6 +13,15 @@ use super::Sweep;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     values: Vec<f64>,
+}
+
+/// Whether something was met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Met {
+    /// A wall.
+    Wall,
+    /// Nothing within reach.
+    Nothing,
 }
 
 /// How the eight vectors of a sweep become one.
@@ -93,6 +103,49 @@ impl Profile {
         let mut values = self.values.clone();
         values.rotate_left(self.values.len() / 2);
         Self { values }
+    }
+
+    /// What is met at every bearing, in the robot's frame, m; where nothing is met, the farthest point that could be.
+    pub(super) fn echoes(&self, curve: &RangeCurve) -> impl Iterator<Item = (Point, Met)> + '_ {
+        // The sensors sit on a circle.
+        let mounts = proximity_mounts();
+        let rim = mounts
+            .iter()
+            .map(|mount| mount.position.coords.norm())
+            .sum::<f64>()
+            / PROXIMITY_SENSORS as f64;
+        let curve = curve.clone();
+        (0_u32..).zip(&self.values).map(move |(index, value)| {
+            let range = curve.range(*value);
+            let bearing = Heading::from_radians(self.bearing(f64::from(index)));
+            let reach = rim + range.unwrap_or(curve.reach());
+            let met = if range.is_some() {
+                Met::Wall
+            } else {
+                Met::Nothing
+            };
+            (Point::origin() + bearing.unit() * reach, met)
+        })
+    }
+
+    /// How far the walls are turned out of the robot's axes, rad, from -π/4 to π/4, where walls stand at right angles to each other: a
+    /// heading without drift for mazes of cells. None if too few walls are near.
+    #[must_use]
+    pub fn askew(&self, curve: &RangeCurve) -> Option<f64> {
+        let points: Vec<(Point, Met)> = self.echoes(curve).collect();
+        let (mut sine, mut cosine, mut weight) = (0.0, 0.0, 0.0);
+        for (index, (here, met)) in points.iter().enumerate() {
+            let (next, next_met) = points[(index + 3) % points.len()];
+            let along = next - here;
+            // Beyond a corner, or far away, where a range says little.
+            let is_wall = *met == Met::Wall && next_met == Met::Wall && along.norm() < 0.06;
+            if is_wall && here.coords.norm() < 0.2 {
+                let (sin, cos) = libm::sincos(4.0 * libm::atan2(along.y, along.x));
+                (sine, cosine, weight) = (sine + sin, cosine + cos, weight + 1.0);
+            }
+        }
+        let agreement = libm::hypot(sine, cosine);
+        (weight >= 10.0 && agreement > 0.6 * weight).then(|| libm::atan2(sine, cosine) / 4.0)
     }
 
     /// The bearing of the value at a fractional index, rad, from -π to π.

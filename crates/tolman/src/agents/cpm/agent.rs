@@ -1,13 +1,14 @@
 use rand::Rng;
 use thiserror::Error;
+use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Aim, Arrival, CpmConfig, CpmError, Decision, Done, Explorer, Landmark, Leg, Plan, Sighting,
-    Traversal, Turn,
+    Aim, Arrival, CpmConfig, CpmError, Decision, Done, Explorer, Landmark, Leg, Motion, Plan, Port,
+    Sighting, Traversal,
 };
 
 use super::body::Body;
 use super::common_patterns::CommonPatterns;
-use super::walker::{Walk, WalkError, Walker};
+use super::walker::{HeadingBy, Walk, WalkError, Walker};
 
 /// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
 #[derive(Debug)]
@@ -16,6 +17,12 @@ pub struct Cpm<'a, B: Body> {
     patterns: &'a CommonPatterns,
     explorer: Explorer,
 }
+
+/// How far dead reckoning may be off along one fragment, m: a third of a corridor's width, so that neighbouring cells are told apart.
+const POSITION_MARGIN: f64 = 0.08;
+
+/// How far a heading may be off, rad: that of a branch is the middle of a gap between walls.
+const HEADING_MARGIN: f64 = 0.6;
 
 /// What became of an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,12 +99,13 @@ impl<'a, B: Body> Cpm<'a, B> {
                 Decision::Go(leg) => leg,
             };
             // "… then it lets the lower layers regain the control of the robot."
+            let from = self.walker.pose();
             let walk = self.walker.walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
             let (arrival, sighting) = match &walk {
                 Walk::Arrived { observations, sighting } => {
                     let traversal = Traversal {
                         patterns: self.patterns.patterns(observations),
-                        motion: None,
+                        motion: self.motion(from)?,
                         sighting: *sighting,
                     };
                     let dictionary = self.patterns.dictionary();
@@ -120,6 +128,22 @@ impl<'a, B: Body> Cpm<'a, B> {
         })
     }
 
+    /// What dead reckoning says of the walk from one place to where the robot is now; none if it is not trusted, as in the paper.
+    fn motion(&self, from: Pose) -> Result<Option<Motion>, AgentError<B::Error>> {
+        if self.walker.config().heading == HeadingBy::Encoders {
+            return Ok(None);
+        }
+        let to = self.walker.pose();
+        let left = self.walker.departed();
+        let displacement = PointBox::about((to.position - from.position).into(), POSITION_MARGIN)?;
+        let about = |pose: Pose| Interval::about(pose.heading.radians(), HEADING_MARGIN);
+        Ok(Some(Motion {
+            displacement,
+            departure: about(left)?,
+            arrival: about(to)?,
+        }))
+    }
+
     /// The second episode: drives the shortest known way to the goal, skipping observations.
     ///
     /// # Errors
@@ -128,9 +152,10 @@ impl<'a, B: Body> Cpm<'a, B> {
         let (begun_us, observed) = (self.walker.time_us(), self.walker.observations());
         let mut sighting = None;
         for leg in &plan.legs {
-            let length = self.explorer.map().fragment(leg.enter.fragment).map_or(0, |f| f.length());
-            // The last ones are made, to see the junction and not to pass it.
-            let skip = length.saturating_sub(2 + length / 10);
+            let fragment = self.explorer.map().fragment(leg.enter.fragment);
+            let length = fragment.map_or(0, |fragment| fragment.patterns.len() as u32);
+            // "The length of the fragments is used to estimate how many observation the robot can skip."
+            let skip = self.walker.strides(length);
             match self.walker.walk(leg.turn.0 as usize, skip, None)? {
                 Walk::Arrived { sighting: at, .. } => sighting = Some(at),
                 Walk::TurnedBack { .. } => return Err(AgentError::Walk(WalkError::Lost)),
@@ -148,6 +173,14 @@ impl<'a, B: Body> Cpm<'a, B> {
         })
     }
 
+    /// The offline CPM's last step: merges all that is similar. Online nothing is left to merge.
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn optimize(&mut self) -> Result<usize, AgentError<B::Error>> {
+        Ok(self.explorer.optimize(self.patterns.dictionary())?)
+    }
+
     /// The robot was put back to where its map begins.
     ///
     /// # Errors
@@ -158,7 +191,7 @@ impl<'a, B: Body> Cpm<'a, B> {
             return Err(AgentError::NoStart);
         };
         self.walker.begin()?;
-        self.explorer.place(tolman_maps::cpm::Port { junction, number: 0 })?;
+        self.explorer.place(Port { junction, number: 0 })?;
         Ok(())
     }
 }
@@ -173,6 +206,9 @@ pub enum AgentError<E> {
     /// The map.
     #[error(transparent)]
     Map(#[from] CpmError),
+    /// Dead reckoning has no number.
+    #[error(transparent)]
+    Reckoning(#[from] IntervalError),
     /// The map has no start.
     #[error("the map has no start to be put back to; mark the start of the maze")]
     NoStart,

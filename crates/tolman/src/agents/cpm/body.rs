@@ -118,8 +118,6 @@ pub struct Reckoned<B> {
     pose: Pose,
     /// Way of the robot's middle so far, m, forward or backward.
     driven: f64,
-    /// All turns so far, either way, rad.
-    turned: f64,
 }
 
 impl<B: Body> Reckoned<B> {
@@ -129,7 +127,6 @@ impl<B: Body> Reckoned<B> {
             body,
             pose: Pose::IDENTITY,
             driven: 0.0,
-            turned: 0.0,
         }
     }
 
@@ -176,7 +173,6 @@ impl<B: Body> Robot for Reckoned<B> {
                 Twist::of_wheels(roll(turns.left), roll(turns.right), TRACK);
             self.pose = self.pose.displaced(linear, angular);
             self.driven += linear.abs();
-            self.turned += angular.abs();
         }
         Ok(())
     }

@@ -1,12 +1,23 @@
-//! CPM: an e-puck that reasons on common-pattern maps.
+//! CPM: "Reasoning on the Self-Organizing Incremental Associative Memory for Online Robot Path Planning" (Kawewong, Honda, Tsuboyama,
+//! Hasegawa 2010), on an e-puck.
+//!
+//! In the order of the paper: a [`Body`] is the robot, with [`Landmark`](tolman_maps::cpm::Landmark)s; a [`Walker`] its layers 0 and 1 and its
+//! observations (sections 3.2 and 4.1); [`CommonPatterns`] the dictionary it learns in the learning maze (section 4.1); [`Cpm`] layer 3, which maps,
+//! reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6). A [`Trial`] plays both episodes in a maze and scores them by its
+//! [`TrueFragments`].
+
 mod agent;
 mod body;
 mod common_patterns;
 mod fragments;
+mod robot;
+mod trial;
 mod walker;
 
-pub use agent::*;
+pub use agent::{AgentError, Cpm, Episode, Step};
 pub use body::{Body, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, Grain, LearnError, wander};
 pub use fragments::{TrueFragments, Way};
-pub use walker::{Observation, Walk, WalkError, Walker, WalkerConfig};
+pub use robot::{epuck, soinn, walker_config};
+pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};
+pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};

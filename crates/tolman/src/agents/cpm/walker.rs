@@ -20,6 +20,7 @@ pub struct Walker<B: Body> {
     branches: Vec<f64>,
     observations: u32,
     departed_us: u64,
+    departed: Pose,
 }
 
 /// How a walker observes.
@@ -39,10 +40,19 @@ pub struct WalkerConfig {
     pub corridor_width: f64,
     /// How long the robot drives from one observation to the next, s; the paper's 0.5.
     pub stride_s: f64,
-    /// The value of the landmark element at a landmark; 0 means none. The paper gives no value.
-    pub landmark: f64,
+    /// What dead reckoning takes headings from.
+    pub heading: HeadingBy,
     /// The end of all patience: so many observations of one fragment, of which the paper says nothing.
     pub longest_fragment: u32,
+}
+
+/// What dead reckoning takes headings from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeadingBy {
+    /// The encoders alone.
+    Encoders,
+    /// The encoders, and the walls where they are seen, which stand at right angles to each other.
+    Walls,
 }
 
 /// One observation.
@@ -107,6 +117,9 @@ const PLACE: f64 = 0.6;
 /// How far from the middle of a place on fragments are written down, in corridors' widths: nearer to it its posts are in the way.
 const TRIMMED: f64 = 0.8;
 
+/// A junction is seen from there on, in corridors' widths before its middle.
+const IN_SIGHT: f64 = 0.5;
+
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
 
@@ -119,6 +132,7 @@ impl<B: Body> Walker<B> {
             branches: Vec::new(),
             observations: 0,
             departed_us: 0,
+            departed: Pose::IDENTITY,
         }
     }
 
@@ -145,6 +159,17 @@ impl<B: Body> Walker<B> {
     /// How many observations it has made.
     pub const fn observations(&self) -> u32 {
         self.observations
+    }
+
+    /// Where it looked when it had turned into the fragment that it walked last.
+    pub const fn departed(&self) -> Pose {
+        self.departed
+    }
+
+    /// Which of the poses after every step is that in which it had turned into the fragment that it walked last.
+    pub fn departed_at(&self, path: &[Pose]) -> Option<Pose> {
+        let step = self.departed_us / self.config.pilot.step_us;
+        path.get(usize::try_from(step).ok()?).copied()
     }
 
     /// When it had turned into the fragment that it walked last, µs.
@@ -196,6 +221,7 @@ impl<B: Body> Walker<B> {
         })?;
         self.pilot.turn(branch)?;
         self.departed_us = self.time_us();
+        self.departed = self.pose();
         self.follow(skip, give_up_after)
     }
 
@@ -318,7 +344,27 @@ impl<B: Body> Walker<B> {
         self.observations += 1;
         let profile = Profile::of(&sweep, self.config.alignment)?;
         let segments = profile.segments(&self.config.segments)?;
+        self.true_up(&profile);
         Ok(View { profile, segments })
+    }
+
+    /// Takes the drift out of the heading: walls stand at right angles, along the axes in which the robot began.
+    fn true_up(&mut self, profile: &Profile) {
+        if self.config.heading == HeadingBy::Walls
+            && let Some(askew) = profile.askew(&self.config.pilot.curve)
+        {
+            let walls = self.pose().heading.radians() + askew;
+            let off = walls - libm::round(walls / FRAC_PI_2) * FRAC_PI_2;
+            self.pilot.robot_mut().correct(-off);
+        }
+    }
+
+    /// How many strides lead from the middle of a place to within sight of the next where so many observations were written down between.
+    #[must_use]
+    pub fn strides(&self, observations: u32) -> u32 {
+        let stride = self.config.pilot.forward.speed * self.config.stride_s;
+        let unwritten = (2.0 * TRIMMED - IN_SIGHT) * self.config.corridor_width;
+        observations + libm::floor(unwritten / stride) as u32
     }
 
     /// What becomes a common pattern; none where not two ways are seen.

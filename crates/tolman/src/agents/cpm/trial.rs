@@ -1,0 +1,346 @@
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_control::epuck::RangeCurveError;
+use tolman_geom::{Heading, Pose};
+use tolman_maps::cpm::{
+    Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, Landmark, Plan,
+};
+use tolman_maze::{Direction, Maze};
+use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
+use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
+
+use super::agent::{AgentError, Cpm, Episode, Step};
+use super::body::SimulatedEpuck;
+use super::common_patterns::{CommonPatterns, Grain, LearnError, wander};
+use super::fragments::{TrueFragments, Way};
+use super::robot::{epuck, soinn, walker_config};
+use super::walker::{HeadingBy, Walk, WalkError, Walker};
+
+/// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
+/// shortest known way.
+#[derive(Clone, Debug)]
+pub struct Trial<'a> {
+    /// The maze, with a start and a goal.
+    pub maze: &'a Maze,
+    /// From wall to wall, m.
+    pub corridor_width: f64,
+    /// What the robot learned before.
+    pub patterns: &'a CommonPatterns,
+    /// The robot.
+    pub robot: EpuckConfig,
+    /// How it maps.
+    pub mode: Mode,
+    /// The seed of all chance.
+    pub seed: u64,
+}
+
+/// How a robot maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mode {
+    /// As the paper's: no dead reckoning.
+    Paper(CpmConfig),
+    /// With dead reckoning.
+    Reckoned(CpmConfig),
+}
+
+impl Mode {
+    const fn config(self) -> CpmConfig {
+        match self {
+            Self::Paper(config) | Self::Reckoned(config) => config,
+        }
+    }
+}
+
+/// What came of a trial.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    /// The first episode, if it came to an end.
+    pub first: Option<Episode>,
+    /// The second.
+    pub second: Option<Episode>,
+    /// Whether the plan is the shortest way of all that was walked.
+    pub is_shortest: bool,
+    /// How well loops were closed.
+    pub closures: Closures,
+    /// Fragments walked in the first episode, each as often as it was.
+    pub traversals: u32,
+    /// Fragments of the map at the end of it.
+    pub fragments: u32,
+    /// Fragments that were truly walked.
+    pub true_fragments: u32,
+    /// How often the map was not what the robot found.
+    pub contradictions: u32,
+    /// Time steps in which the body touched a wall.
+    pub bumps: u32,
+    /// What the robot did, step by step.
+    pub path: Vec<Pose>,
+    /// When the second episode began, steps.
+    pub second_from: usize,
+    /// The map of the end of the first episode.
+    pub map: CpMap,
+    /// The true fragment of each fragment of the map.
+    pub truth: BTreeMap<FragmentId, Way>,
+    /// Why it broke off.
+    pub trouble: Option<String>,
+}
+
+impl Record {
+    /// Whether the goal was found, the shortest known way was planned and led to the goal.
+    #[must_use]
+    pub fn is_solved(&self) -> bool {
+        let reached = |episode: Option<Episode>| episode.is_some_and(|episode| episode.done == Done::Reached);
+        reached(self.first) && reached(self.second) && self.is_shortest
+    }
+
+    /// By how much the second episode was shorter, in percent of the time of the first.
+    #[must_use]
+    pub fn reduction_percent(&self) -> Option<f64> {
+        let (first, second) = (self.first?, self.second?);
+        (first.seconds > 0.0 && self.is_solved())
+            .then(|| 100.0 * (1.0 - second.seconds / first.seconds))
+    }
+}
+
+/// Loops closed: arrivals by a way that was not on the map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Closures {
+    /// A duplicate was told, and it was that one.
+    pub right: u32,
+    /// A duplicate was told, and it was another or none.
+    pub wrong: u32,
+    /// A duplicate was not told.
+    pub missed: u32,
+}
+
+/// The learning maze: 1000 observations (section 5).
+pub const OBSERVATIONS: usize = 1000;
+
+/// Learns the common patterns in a maze.
+///
+/// # Errors
+/// [`TrialError`].
+pub fn learn(
+    maze: &Maze,
+    corridor_width: f64,
+    grain: Grain,
+    seed: u64,
+) -> Result<CommonPatterns, TrialError> {
+    let config = walker_config(corridor_width)?;
+    let body = placed(maze, corridor_width, epuck(), seed)?;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut walker = Walker::new(body, config);
+    let observations = wander(&mut walker, OBSERVATIONS, &mut rng)?;
+    Ok(CommonPatterns::learn(&observations, soinn(), grain)?)
+}
+
+/// The robot at the start of a maze.
+fn placed(
+    maze: &Maze,
+    corridor_width: f64,
+    robot: EpuckConfig,
+    seed: u64,
+) -> Result<SimulatedEpuck, TrialError> {
+    let size = CorridorSize {
+        corridor_width,
+        wall_thickness: 0.0,
+    };
+    let world = World::from_maze(maze, &size)?;
+    let start = start_of(maze, &world)?;
+    let robot = Epuck::new(robot)?;
+    Ok(SimulatedEpuck::new(Arc::new(world), robot, start, seed)?)
+}
+
+fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
+    let (cell, direction) = maze.start().ok_or(TrialError::NoStart)?;
+    let heading = match direction {
+        Direction::North => Heading::NORTH,
+        Direction::East => Heading::EAST,
+        Direction::South => Heading::SOUTH,
+        Direction::West => Heading::WEST,
+    };
+    Ok(Pose::new(world.cell_centre(cell), heading))
+}
+
+impl Trial<'_> {
+    /// The robot of the paper with wheels that slip by this share.
+    #[must_use]
+    pub fn slipping(share: f64) -> EpuckConfig {
+        EpuckConfig {
+            wheels: vec![Fault::Slip(Slip { share })],
+            ..epuck()
+        }
+    }
+
+    /// Plays both episodes. What goes wrong on the way is a result.
+    ///
+    /// # Errors
+    /// [`TrialError`] if it cannot be begun.
+    pub fn play(&self) -> Result<Record, TrialError> {
+        let mut config = walker_config(self.corridor_width)?;
+        if let Mode::Reckoned(_) = self.mode {
+            config.heading = HeadingBy::Walls;
+        }
+        let body = placed(self.maze, self.corridor_width, self.robot.clone(), self.seed)?;
+        let start = *body.path().first().ok_or(TrialError::NoStart)?;
+        let mut record = Record::default();
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let walker = Walker::new(body, config);
+        let mut agent = match Cpm::begin(walker, self.patterns, self.mode.config()) {
+            Ok(agent) => agent,
+            Err(error) => {
+                record.trouble = Some(error.to_string());
+                return Ok(record);
+            }
+        };
+        if let Err(error) = self.episodes(&mut agent, start, &mut rng, &mut record) {
+            record.trouble = Some(error.to_string());
+        }
+        let body = agent.walker().body();
+        record.bumps = body.bumps().len() as u32;
+        record.path = body.path().to_vec();
+        Ok(record)
+    }
+
+    fn episodes(
+        &self,
+        agent: &mut Cpm<'_, SimulatedEpuck>,
+        start: Pose,
+        rng: &mut ChaCha8Rng,
+        record: &mut Record,
+    ) -> Result<(), TrialError> {
+        let mut score = Score::of(self.maze);
+        let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
+            score.see(agent, step);
+        });
+        record.closures = score.closures;
+        record.contradictions = agent.explorer().contradictions();
+        record.traversals = agent.explorer().traversals();
+        record.fragments = agent.explorer().map().fragments().count() as u32;
+        record.true_fragments = score.lengths.len() as u32;
+        record.map = agent.explorer().map().clone();
+        record.truth = score.truth.clone();
+        record.first = Some(first?);
+        agent.optimize()?;
+        record.second_from = agent.walker().body().path().len();
+        agent.walker_mut().body_mut().place(start)?;
+        agent.placed_at_start()?;
+        if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
+            record.is_shortest = score.is_shortest(self.maze, &plan);
+            record.second = Some(agent.drive_plan(&plan)?);
+        }
+        Ok(())
+    }
+}
+
+/// What really happened, for scoring.
+struct Score {
+    fragments: TrueFragments,
+    closures: Closures,
+    /// The true way from − to + of each fragment of the map.
+    truth: BTreeMap<FragmentId, Way>,
+    /// Observations of each true fragment when it was first walked.
+    lengths: BTreeMap<u32, u32>,
+}
+
+impl Score {
+    fn of(maze: &Maze) -> Self {
+        Self {
+            fragments: TrueFragments::of(maze),
+            closures: Closures::default(),
+            truth: BTreeMap::new(),
+            lengths: BTreeMap::new(),
+        }
+    }
+
+    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+        let (Some(arrival), Walk::Arrived { observations, .. }) = (step.arrival, &step.walk) else {
+            return;
+        };
+        let body = agent.walker().body();
+        let Some(way) = agent.walker().departed_at(body.path()).and_then(|from| {
+            let cell = body.world().cell_at(from.position)?;
+            self.fragments.way(cell, from.heading)
+        }) else {
+            return;
+        };
+        let is_old = self.lengths.contains_key(&way.fragment);
+        let told = agent.explorer().map().end_at(agent.explorer().at());
+        let known = told.and_then(|end| self.truth.get(&end.fragment).copied());
+        let is_same = known.is_some_and(|known| known.fragment == way.fragment);
+        match arrival {
+            Arrival::Duplicate if is_same => self.closures.right += 1,
+            Arrival::Duplicate => self.closures.wrong += 1,
+            Arrival::New if is_old => self.closures.missed += 1,
+            _ => {}
+        }
+        if let Some(end) = told {
+            self.truth.entry(end.fragment).or_insert(way);
+        }
+        let length = (observations.len() as u32).max(1);
+        self.lengths.entry(way.fragment).or_insert(length);
+    }
+
+    /// Whether a plan is as short as any way over the fragments that were walked, by observations, give or take what they vary by.
+    fn is_shortest(&self, maze: &Maze, plan: &Plan) -> bool {
+        let mut planned = 0;
+        for leg in &plan.legs {
+            let way = self.truth.get(&leg.enter.fragment);
+            let Some(length) = way.and_then(|way| self.lengths.get(&way.fragment)) else {
+                return false;
+            };
+            planned += length;
+        }
+        let Some((start, _)) = maze.start() else {
+            return false;
+        };
+        // Bellman–Ford: mazes have few fragments.
+        let mut reached = BTreeMap::from([(start, 0)]);
+        for _ in 0..self.fragments.count() {
+            for (from, way) in self.fragments.ways() {
+                let (Some(at), Some(length)) = (reached.get(&from), self.lengths.get(&way.fragment)) else {
+                    continue;
+                };
+                let there = at + length;
+                let known = reached.entry(way.to).or_insert(there);
+                *known = there.min(*known);
+            }
+        }
+        let goals = maze.goals().iter().filter_map(|goal| reached.get(goal));
+        goals.min().is_some_and(|shortest| f64::from(planned) <= 1.05 * f64::from(*shortest) + 2.0)
+    }
+}
+
+/// Why a trial cannot be played.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TrialError {
+    /// The maze marks no start.
+    #[error("the maze marks no start: mark a cell with S")]
+    NoStart,
+    /// The maze makes no world.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The robot cannot be built.
+    #[error(transparent)]
+    Epuck(#[from] EpuckError),
+    /// It cannot stand at the start.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// Its sensors cannot be read.
+    #[error(transparent)]
+    Curve(#[from] RangeCurveError),
+    /// It could not wander.
+    #[error(transparent)]
+    Wander(#[from] WalkError<StepError>),
+    /// It learned nothing.
+    #[error(transparent)]
+    Learn(#[from] LearnError),
+    /// An episode broke off.
+    #[error(transparent)]
+    Agent(#[from] AgentError<StepError>),
+}
