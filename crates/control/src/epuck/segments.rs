@@ -239,13 +239,21 @@ impl Segments {
         &self.segments
     }
 
-    /// The bearings of the spaces, rad: the branches of a junction, counter-clockwise from the one by which the robot came.
+    /// The bearings of the spaces, rad: the branches of a junction, counter-clockwise from the one by which the robot came, that nearest to
+    /// behind.
     pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
-        let spaces = self
-            .segments
-            .iter()
-            .filter(|segment| segment.mean < self.space_below);
-        spaces.map(|segment| segment.bearing)
+        let spaces = || {
+            let below = self
+                .segments
+                .iter()
+                .filter(|segment| segment.mean < self.space_below);
+            below.map(|segment| segment.bearing)
+        };
+        let entry = (0..)
+            .zip(spaces())
+            .max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+        let first = entry.map_or(0, |(index, _)| index);
+        spaces().skip(first).chain(spaces().take(first))
     }
 
     /// How many ways lead on, those that are half hidden among them, where ways and walls alternate.

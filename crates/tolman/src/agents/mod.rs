@@ -5,6 +5,7 @@
 
 mod avoid;
 mod cast;
+pub mod cpm;
 pub mod diktiometry;
 pub mod mslst;
 mod oracle;

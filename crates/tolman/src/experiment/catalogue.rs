@@ -1,8 +1,8 @@
 //! The experiments there are.
 
 use super::{
-    BoxError, Error, Experiment, Options, baselines, diktiometry, micromouse, mslst, mslst_sweeps,
-    quantizers,
+    BoxError, Error, Experiment, Options, baselines, cpm, diktiometry, micromouse, mslst,
+    mslst_sweeps, quantizers,
 };
 
 /// One experiment of the catalogue.
@@ -48,6 +48,11 @@ pub const fn catalogue() -> &'static [Entry] {
             name: "diktiometry",
             title: "Diktiometry: maps considered as adaptive planning resources",
             open: diktiometry::open,
+        },
+        Entry {
+            name: "cpm",
+            title: "CPM: common-pattern maps on an e-puck",
+            open: cpm::open,
         },
     ]
 }

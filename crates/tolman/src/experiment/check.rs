@@ -109,7 +109,9 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 Statistic::Percent { field } | Statistic::Count { field, .. } => {
                     (&[field], &[Kind::Flag])
                 }
-                Statistic::Mean { field } | Statistic::Median { field } => (&[field], NUMERIC),
+                Statistic::Mean { field }
+                | Statistic::Median { field }
+                | Statistic::Least { field } => (&[field], NUMERIC),
                 Statistic::Ratio { over, under } => (&[over, under], NUMERIC),
                 Statistic::Multiple { field, .. } => (&[field], NUMERIC),
             };

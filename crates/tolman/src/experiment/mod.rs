@@ -14,6 +14,7 @@ mod build;
 mod catalogue;
 mod check;
 mod config_file;
+mod cpm;
 mod diktiometry;
 mod error;
 mod files;

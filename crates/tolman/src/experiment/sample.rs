@@ -27,6 +27,7 @@ pub(super) enum Sample {
 pub(super) enum Centre {
     Mean,
     Median,
+    Least,
 }
 
 impl Sample {
@@ -50,6 +51,7 @@ impl Sample {
             Statistic::Count { field, whole } => flags(field, f64::from(*whole)),
             Statistic::Mean { field } => numbers(field, Centre::Mean),
             Statistic::Median { field } => numbers(field, Centre::Median),
+            Statistic::Least { field } => numbers(field, Centre::Least),
             Statistic::Ratio { over, under } => Self::Pairs(
                 runs.iter()
                     .filter_map(|run| Some((number(run, over)?, number(run, under)?)))
@@ -76,7 +78,7 @@ impl Sample {
         }
     }
 
-    /// The value: part of a whole, mean, median, or ratio of sums.
+    /// The value: part of a whole, mean, median, least, or ratio of sums.
     pub(super) fn value(&self) -> f64 {
         match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
@@ -84,6 +86,7 @@ impl Sample {
                 Centre::Mean => mean(numbers),
                 // A sample is neither empty nor infinite: the runner refuses such runs.
                 Centre::Median => stats::quantile(numbers, 0.5).unwrap_or(f64::NAN),
+                Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
         }
@@ -126,6 +129,7 @@ impl Sample {
             Self::Numbers { numbers, centre } => match centre {
                 Centre::Mean => stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
                 Centre::Median => stats::median_interval(numbers, LEVEL),
+                Centre::Least => return None,
             },
             Self::Pairs(pairs) => stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng),
         }

@@ -284,6 +284,12 @@ impl Metric {
         Self::new(name, 2, Statistic::Median { field })
     }
 
+    /// The least of a numeric field.
+    pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
+        let field = field.into();
+        Self::new(name, 2, Statistic::Least { field })
+    }
+
     /// The percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
         let field = field.into();
@@ -376,6 +382,11 @@ pub enum Statistic {
     },
     /// The median of a field.
     Median {
+        /// A numeric field.
+        field: String,
+    },
+    /// The least of a field, of which no interval is told.
+    Least {
         /// A numeric field.
         field: String,
     },

@@ -63,8 +63,8 @@ impl Verdict {
                     | Statistic::Multiple { .. } => {
                         around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
                     }
-                    // A spread says nothing of a median's error.
-                    Statistic::Median { .. } => return None,
+                    // A spread says nothing of a median's error, nor of a minimum's.
+                    Statistic::Median { .. } | Statistic::Least { .. } => return None,
                 };
                 (own, Basis::PaperInterval)
             }

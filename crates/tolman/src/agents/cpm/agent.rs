@@ -100,9 +100,14 @@ impl<'a, B: Body> Cpm<'a, B> {
             };
             // "… then it lets the lower layers regain the control of the robot."
             let from = self.walker.pose();
-            let walk = self.walker.walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
+            let walk = self
+                .walker
+                .walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
             let (arrival, sighting) = match &walk {
-                Walk::Arrived { observations, sighting } => {
+                Walk::Arrived {
+                    observations,
+                    sighting,
+                } => {
                     let traversal = Traversal {
                         patterns: self.patterns.patterns(observations),
                         motion: self.motion(from)?,
@@ -118,7 +123,12 @@ impl<'a, B: Body> Cpm<'a, B> {
                     (None, None)
                 }
             };
-            let step = Step { leg, arrival, sighting, walk };
+            let step = Step {
+                leg,
+                arrival,
+                sighting,
+                walk,
+            };
             see(self, &step);
         };
         Ok(Episode {
@@ -160,14 +170,22 @@ impl<'a, B: Body> Cpm<'a, B> {
                 Walk::Arrived { sighting: at, .. } => sighting = Some(at),
                 Walk::TurnedBack { .. } => return Err(AgentError::Walk(WalkError::Lost)),
             }
-            let expected = self.explorer.map().junction(leg.arrive.junction).map(|junction| junction.sighting());
+            let expected = self
+                .explorer
+                .map()
+                .junction(leg.arrive.junction)
+                .map(|junction| junction.sighting());
             if expected != sighting {
                 break;
             }
         }
         let arrived = sighting.is_some_and(|at| at.landmark == Some(Landmark::Goal));
         Ok(Episode {
-            done: if arrived { Done::Reached } else { Done::NotThere },
+            done: if arrived {
+                Done::Reached
+            } else {
+                Done::NotThere
+            },
             seconds: (self.walker.time_us() - begun_us) as f64 * 1e-6,
             observations: self.walker.observations() - observed,
         })
@@ -191,7 +209,10 @@ impl<'a, B: Body> Cpm<'a, B> {
             return Err(AgentError::NoStart);
         };
         self.walker.begin()?;
-        self.explorer.place(Port { junction, number: 0 })?;
+        self.explorer.place(Port {
+            junction,
+            number: 0,
+        })?;
         Ok(())
     }
 }

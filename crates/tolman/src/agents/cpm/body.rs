@@ -33,10 +33,7 @@ impl SimulatedEpuck {
         start: Pose,
         seed: u64,
     ) -> Result<Self, PlaceError> {
-        let names = [
-            (Landmark::Start, "start"),
-            (Landmark::Goal, "destination"),
-        ];
+        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
         let landmarks = names
             .into_iter()
             .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())))
@@ -105,7 +102,10 @@ impl Robot for SimulatedEpuck {
 impl Body for SimulatedEpuck {
     fn landmark(&self) -> Option<Landmark> {
         let here = self.solo.truth().pose.position;
-        let mut at = self.landmarks.iter().filter(|(_, zone)| zone.contains(here));
+        let mut at = self
+            .landmarks
+            .iter()
+            .filter(|(_, zone)| zone.contains(here));
         at.next().map(|(landmark, _)| *landmark)
     }
 }

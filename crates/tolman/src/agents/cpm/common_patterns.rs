@@ -16,6 +16,10 @@ pub struct CommonPatterns {
     clusters: u32,
 }
 
+/// The landmark element at a landmark. Start and goal have a common pattern of their own, which no path has; as the farthest from all others
+/// it makes d_max, and so says how alike fragments have to be. The paper gives no value.
+const LANDMARK: f64 = 100.0;
+
 /// Lets a robot wander through a learning maze, at junctions by a branch at random, until it has made so many observations
 /// ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
 ///
@@ -29,8 +33,16 @@ pub fn wander<B: Body>(
     let mut seen = Vec::with_capacity(observations);
     let mut degree = walker.begin()?.degree;
     while seen.len() < observations {
-        let branch = if degree == 1 { 0 } else { rng.random_range(1..degree) };
-        if let Walk::Arrived { observations, sighting } = walker.walk(branch as usize, 0, None)? {
+        let branch = if degree == 1 {
+            0
+        } else {
+            rng.random_range(1..degree)
+        };
+        if let Walk::Arrived {
+            observations,
+            sighting,
+        } = walker.walk(branch as usize, 0, None)?
+        {
             seen.extend(observations);
             degree = sighting.degree;
         }
@@ -86,11 +98,16 @@ impl CommonPatterns {
                 patterns[group] = Some(dictionary.learn(&ahead, &back, 0.0)?);
             }
         }
+        let mut landmark = [0.0; FEATURES];
+        landmark[FEATURES - 1] = LANDMARK;
+        dictionary.learn(&landmark, &landmark, 0.0)?;
         // A unit stands for what was seen and, half turned, for what is seen walking the other way.
         let mut units = Vec::new();
         for (rank, id) in ids.into_iter().enumerate() {
             let seen = observations.iter().filter(|observation| {
-                network.nearest(&observation.feature).is_ok_and(|nearest| nearest.id == id)
+                network
+                    .nearest(&observation.feature)
+                    .is_ok_and(|nearest| nearest.id == id)
             });
             let (mut ahead, mut back, mut count) = ([0.0; FEATURES], [0.0; FEATURES], 0.0);
             for observation in seen {
@@ -135,7 +152,8 @@ impl CommonPatterns {
     #[must_use]
     pub fn patterns(&self, observations: &[Observation]) -> Vec<PatternId> {
         let each = observations.iter();
-        each.map(|observation| self.pattern(&observation.feature)).collect()
+        each.map(|observation| self.pattern(&observation.feature))
+            .collect()
     }
 
     /// The patterns as the map knows them.

@@ -88,7 +88,10 @@ impl TrueFragments {
 }
 
 fn quarter(direction: Direction) -> u32 {
-    (0..).zip(DIRECTIONS).find(|(_, other)| *other == direction).map_or(0, |(index, _)| index)
+    (0..)
+        .zip(DIRECTIONS)
+        .find(|(_, other)| *other == direction)
+        .map_or(0, |(index, _)| index)
 }
 
 fn opposite(direction: Direction) -> Direction {

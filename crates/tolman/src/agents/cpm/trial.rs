@@ -6,9 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::cpm::{
-    Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, Landmark, Plan,
-};
+use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, Landmark, Plan};
 use tolman_maze::{Direction, Maze};
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
@@ -93,7 +91,8 @@ impl Record {
     /// Whether the goal was found, the shortest known way was planned and led to the goal.
     #[must_use]
     pub fn is_solved(&self) -> bool {
-        let reached = |episode: Option<Episode>| episode.is_some_and(|episode| episode.done == Done::Reached);
+        let reached =
+            |episode: Option<Episode>| episode.is_some_and(|episode| episode.done == Done::Reached);
         reached(self.first) && reached(self.second) && self.is_shortest
     }
 
@@ -118,7 +117,7 @@ pub struct Closures {
 }
 
 /// The learning maze: 1000 observations (section 5).
-pub const OBSERVATIONS: usize = 1000;
+const OBSERVATIONS: usize = 1000;
 
 /// Learns the common patterns in a maze.
 ///
@@ -185,7 +184,12 @@ impl Trial<'_> {
         if let Mode::Reckoned(_) = self.mode {
             config.heading = HeadingBy::Walls;
         }
-        let body = placed(self.maze, self.corridor_width, self.robot.clone(), self.seed)?;
+        let body = placed(
+            self.maze,
+            self.corridor_width,
+            self.robot.clone(),
+            self.seed,
+        )?;
         let start = *body.path().first().ok_or(TrialError::NoStart)?;
         let mut record = Record::default();
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
@@ -302,7 +306,9 @@ impl Score {
         let mut reached = BTreeMap::from([(start, 0)]);
         for _ in 0..self.fragments.count() {
             for (from, way) in self.fragments.ways() {
-                let (Some(at), Some(length)) = (reached.get(&from), self.lengths.get(&way.fragment)) else {
+                let (Some(at), Some(length)) =
+                    (reached.get(&from), self.lengths.get(&way.fragment))
+                else {
                     continue;
                 };
                 let there = at + length;
@@ -311,7 +317,9 @@ impl Score {
             }
         }
         let goals = maze.goals().iter().filter_map(|goal| reached.get(goal));
-        goals.min().is_some_and(|shortest| f64::from(planned) <= 1.05 * f64::from(*shortest) + 2.0)
+        goals
+            .min()
+            .is_some_and(|shortest| f64::from(planned) <= 1.05 * f64::from(*shortest) + 2.0)
     }
 }
 

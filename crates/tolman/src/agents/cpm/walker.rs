@@ -120,6 +120,9 @@ const TRIMMED: f64 = 0.8;
 /// A junction is seen from there on, in corridors' widths before its middle.
 const IN_SIGHT: f64 = 0.5;
 
+/// A wall that reads more than this on average is nearer than any beside the middle of a corridor: the robot was off its path.
+const TOO_NEAR: f64 = 220.0;
+
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
 
@@ -306,7 +309,9 @@ impl<B: Body> Walker<B> {
                 Place::Junction => view
                     .profile
                     .meet_point(&self.config.pilot.curve, &self.config.meet_point),
-                Place::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => self.before_the_wall(),
+                Place::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => {
+                    self.before_the_wall()
+                }
                 Place::DeadEnd | Place::Path | Place::Closed => break,
             };
             if middle.coords.norm() < NEAR {
@@ -371,7 +376,12 @@ impl<B: Body> Walker<B> {
     fn observation(&self, view: &View) -> Result<Option<Observation>, WalkError<B::Error>> {
         let ahead = view.profile.segments(&self.config.features)?;
         let back = view.profile.half_turned().segments(&self.config.features)?;
-        if ahead.ways() != 2 {
+        let nearest = ahead
+            .segments()
+            .iter()
+            .map(|segment| segment.mean)
+            .fold(0.0, f64::max);
+        if ahead.ways() != 2 || nearest > TOO_NEAR {
             return Ok(None);
         }
         Ok(Some(Observation {
@@ -406,7 +416,9 @@ pub enum WalkError<E> {
         branches: usize,
     },
     /// No junction, dead end or landmark came.
-    #[error("no junction, dead end or landmark within {strides} strides: check the sensors, or the maze has none")]
+    #[error(
+        "no junction, dead end or landmark within {strides} strides: check the sensors, or the maze has none"
+    )]
     Endless {
         /// How many strides were driven.
         strides: u32,

@@ -1,0 +1,120 @@
+//! Where the e-puck runs.
+
+use std::fs;
+use std::path::PathBuf;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::{Braided, Cell, Direction, Maze, MazeFile};
+use tolman_sim::{CorridorSize, World};
+
+use crate::experiment::BoxError;
+
+/// One maze.
+#[derive(Clone, Debug)]
+pub(super) struct Venue {
+    /// Its name, and that of its row.
+    pub(super) name: String,
+    pub(super) maze: Maze,
+    /// From wall to wall, m.
+    pub(super) corridor_width: f64,
+}
+
+/// Where nothing else is said, m.
+const CORRIDOR_WIDTH: f64 = 0.25;
+
+/// Cells along each side of an aliased maze.
+const ALIASED_SIDE: u16 = 5;
+
+impl Venue {
+    fn new(name: &str, file: MazeFile) -> Result<Self, BoxError> {
+        if file.maze.start().is_none() {
+            return Err(format!("the maze {name} marks no start: mark a cell with S").into());
+        }
+        Ok(Self {
+            name: file.name.unwrap_or_else(|| name.to_owned()),
+            maze: file.maze,
+            corridor_width: file.corridor_width.unwrap_or(CORRIDOR_WIDTH),
+        })
+    }
+
+    pub(super) fn world(&self) -> Result<World, BoxError> {
+        let size = CorridorSize {
+            corridor_width: self.corridor_width,
+            wall_thickness: 0.0,
+        };
+        Ok(World::from_maze(&self.maze, &size)?)
+    }
+}
+
+/// The paper's three mazes, drawn anew.
+pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
+    [
+        include_str!("../../../../../mazes/cpm-1.maze"),
+        include_str!("../../../../../mazes/cpm-2.maze"),
+        include_str!("../../../../../mazes/cpm-3.maze"),
+    ]
+    .into_iter()
+    .map(|text| Venue::new("", tolman_maze::read(text)?))
+    .collect()
+}
+
+/// Where the common patterns are learned.
+pub(super) fn learning() -> Result<Venue, BoxError> {
+    let text = include_str!("../../../../../mazes/cpm-learning.maze");
+    Venue::new("", tolman_maze::read(text)?)
+}
+
+/// The mazes that the caller names; the later of two of one name gets a number.
+pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
+    let mut venues: Vec<Venue> = Vec::new();
+    for path in files {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let in_file =
+            |error: BoxError| -> BoxError { format!("{}: {error}", path.display()).into() };
+        let text = fs::read_to_string(path).map_err(|error| in_file(error.into()))?;
+        let file = tolman_maze::read(&text).map_err(|error| in_file(error.into()))?;
+        let mut venue = Venue::new(&stem, file).map_err(in_file)?;
+        let name = venue.name.clone();
+        let mut count = 1;
+        while venues.iter().any(|before| before.name == venue.name) {
+            count += 1;
+            venue.name = format!("{name} ({count})");
+        }
+        venues.push(venue);
+    }
+    Ok(venues)
+}
+
+/// A random maze whose fragments are short and alike: half of its dead ends opened, start in the south-west, goal in the dead end
+/// farthest from it.
+pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut maze = Braided {
+        width: ALIASED_SIDE,
+        height: ALIASED_SIDE,
+        share: 0.5,
+    }
+    .generate(&mut rng)?;
+    let start = Cell::new(0, 0);
+    let ahead = if maze.is_open(start, Direction::North) {
+        Direction::North
+    } else {
+        Direction::East
+    };
+    let steps = maze.steps_to(&[start]);
+    let grid = maze.grid();
+    let farthest = maze
+        .grid()
+        .cells()
+        .filter(|cell| maze.degree(*cell) == 1 && *cell != start)
+        .max_by_key(|cell| steps[grid.index(*cell)]);
+    let goal = farthest.unwrap_or(Cell::new(ALIASED_SIDE - 1, ALIASED_SIDE - 1));
+    maze.set_start(Some((start, ahead)));
+    maze.set_goals(vec![goal]);
+    Ok(Venue {
+        name: "Aliased".into(),
+        maze,
+        corridor_width: CORRIDOR_WIDTH,
+    })
+}
