@@ -2,8 +2,8 @@ use rand::Rng;
 use thiserror::Error;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Aim, Arrival, CpmConfig, CpmError, Decision, Done, Explorer, Landmark, Leg, Motion, Plan, Port,
-    Sighting, Traversal,
+    Aim, Arrival, CpmConfig, CpmError, Decision, Done, Explorer, Junction, Landmark, Leg, Motion,
+    Plan, Port, Sighting, Traversal,
 };
 
 use super::body::Body;
@@ -174,7 +174,7 @@ impl<'a, B: Body> Cpm<'a, B> {
                 .explorer
                 .map()
                 .junction(leg.arrive.junction)
-                .map(|junction| junction.sighting());
+                .map(Junction::sighting);
             if expected != sighting {
                 break;
             }

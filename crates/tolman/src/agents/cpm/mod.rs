@@ -19,5 +19,5 @@ pub use body::{Body, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, Grain, LearnError, wander};
 pub use fragments::{TrueFragments, Way};
 pub use robot::{epuck, soinn, walker_config};
-pub use trial::{Closures, Mode, Record, Trial, TrialError, learn, placed};
+pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};
 pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};

@@ -13,9 +13,6 @@ use super::walker::{HeadingBy, WalkerConfig};
 /// A sweep of 100 samples at 4.83 rad/s takes one sample a step.
 const STEP_US: u64 = 13_000;
 
-/// How fast it drives forward, m/s, so that 0.5 s take it on by 2 cm. The paper gives no speed.
-const SPEED: f64 = 0.045;
-
 /// The paper's e-puck.
 #[must_use]
 pub fn epuck() -> EpuckConfig {
@@ -48,10 +45,7 @@ pub fn walker_config(width: f64) -> Result<WalkerConfig, RangeCurveError> {
             samples: 100,
             sweep_speed: TAU / 100.0 / (STEP_US as f64 * 1e-6),
             curve: RangeCurve::new(points.collect())?,
-            forward: ForwardConfig {
-                speed: SPEED,
-                ..ForwardConfig::for_width(width)
-            },
+            forward: ForwardConfig::for_width(width),
             keep_off: KeepOffConfig::ours(),
         },
         alignment: Alignment::Mounts,

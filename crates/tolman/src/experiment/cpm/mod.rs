@@ -156,7 +156,7 @@ impl Cpm {
 
 /// Our own reading: dead reckoning beside the patterns.
 fn better() -> Mode {
-    Mode::Reckoned(CpmConfig::online())
+    Mode::Reckoned(CpmConfig::robust())
 }
 
 /// Part of a whole; all of nothing.
