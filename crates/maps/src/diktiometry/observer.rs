@@ -17,6 +17,7 @@ use super::report::{Plan, PlanStep, Predicted, Restructured, StepReport, TrackRe
 use super::restructuring::{Hints, deposit, restructure};
 use super::signature::Signature;
 use super::track::{Match, Track};
+use super::updater::block;
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
 ///
@@ -214,10 +215,12 @@ impl Observer {
 
     /// The robot is where it was, and now knows that the action leads nowhere.
     fn blocked(&mut self, step: &Move, report: &mut StepReport) {
-        let place = &mut self.map.paths.places[self.tracks[0].place.index()];
-        if !place.blocked.contains(&step.action) {
-            place.blocked.push(step.action);
-        }
+        block(
+            &mut self.map,
+            self.tracks[0].place,
+            step.action,
+            &self.config,
+        );
         report.tracks = self
             .tracks
             .iter()

@@ -108,7 +108,10 @@ fn prime_pump(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Oppor
     let links = map.paths.outgoing(from);
     let neighbours = links.filter_map(|(id, link)| {
         let width = width(map, from, link.to)?;
-        let likely = map.paths.likeliest(from, link.action) == Some(id);
+        let blocked = map.paths.places[from.index()]
+            .blocked
+            .contains(&link.action);
+        let likely = !blocked && map.paths.likeliest(from, link.action) == Some(id);
         let loose = width >= 0.5 * config.least_distance();
         (likely && loose).then_some((width, link))
     });
@@ -182,7 +185,10 @@ pub(super) fn actions_along(map: &Diktiometry, way: &[u32]) -> Option<Vec<Action
         let tail = PlaceId(tail);
         let mut links = map.paths.outgoing(tail);
         let found = links.find(|(id, link)| {
-            link.to.0 == head && map.paths.likeliest(tail, link.action) == Some(*id)
+            let blocked = map.paths.places[tail.index()]
+                .blocked
+                .contains(&link.action);
+            link.to.0 == head && !blocked && map.paths.likeliest(tail, link.action) == Some(*id)
         });
         found.map(|(_, link)| link.action)
     })

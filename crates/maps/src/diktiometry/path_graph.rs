@@ -29,7 +29,7 @@ pub struct Place {
     pub outgoing: Vec<LinkId>,
     /// Links that lead to it, by id.
     pub incoming: Vec<LinkId>,
-    /// Actions that were tried here and led nowhere.
+    /// Actions that led nowhere when they were last tried here. No plan uses them.
     pub blocked: Vec<Action>,
     /// Actions that the robot says it could try here.
     pub exits: Exits,
@@ -241,7 +241,7 @@ impl PathGraph {
     }
 }
 
-/// For planning: from every place, each action along its likeliest link. The nodes are the ids of places.
+/// For planning: from every place, each action that is not blocked along its likeliest link. The nodes are the ids of places.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()
@@ -250,7 +250,8 @@ impl Graph for PathGraph {
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
         let place = PlaceId(node);
         for (id, link) in self.outgoing(place) {
-            if self.likeliest(place, link.action) == Some(id) {
+            let blocked = self.places[place.index()].blocked.contains(&link.action);
+            if !blocked && self.likeliest(place, link.action) == Some(id) {
                 visit(link.to.0, 1);
             }
         }

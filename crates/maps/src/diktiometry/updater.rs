@@ -28,10 +28,27 @@ pub(super) fn arrive(
     config: &Config,
 ) -> (LinkId, Result<(), Excluded>) {
     let link = map.paths.link_to(from, action, to);
-    count(map, from, action, link, config);
+    map.paths.places[from.index()]
+        .blocked
+        .retain(|blocked| *blocked != action);
+    expect(map, from, action, Some(link), config);
+    let taken = &mut map.paths.links[link.index()];
+    taken.traversed = taken.traversed.saturating_add(1);
+    let visits = &mut map.paths.places[to.index()].visits;
+    *visits = visits.saturating_add(1);
     let place = &mut map.paths.places[to.index()];
     estimate(place, robot, config.separation);
     (link, narrow(map, from, to, projection.displacement))
+}
+
+/// An action led nowhere: no plan uses it until it leads somewhere again, and the links it should have gone along were expected
+/// in vain.
+pub(super) fn block(map: &mut Diktiometry, from: PlaceId, action: Action, config: &Config) {
+    let blocked = &mut map.paths.places[from.index()].blocked;
+    if !blocked.contains(&action) {
+        blocked.push(action);
+    }
+    expect(map, from, action, None, config);
 }
 
 /// Narrows what is known of two places by an estimate of the displacement between them.
@@ -107,8 +124,14 @@ pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     }
 }
 
-/// Counts what was expected and what was met.
-fn count(map: &mut Diktiometry, from: PlaceId, action: Action, link: LinkId, config: &Config) {
+/// Counts that the links of an action, and the places they lead to, were expected, and that one of them, if any, was met.
+fn expect(
+    map: &mut Diktiometry,
+    from: PlaceId,
+    action: Action,
+    taken: Option<LinkId>,
+    config: &Config,
+) {
     let fading = config.transients.fading;
     for at in 0..map.paths.places[from.index()].outgoing.len() {
         let id = map.paths.places[from.index()].outgoing[at];
@@ -116,15 +139,11 @@ fn count(map: &mut Diktiometry, from: PlaceId, action: Action, link: LinkId, con
         if one.action != action {
             continue;
         }
-        let met = if id == link { 1.0 } else { 0.0 };
+        let met = if taken == Some(id) { 1.0 } else { 0.0 };
         one.expected = one.expected * fading + 1.0;
         one.met = one.met * fading + met;
         let place = &mut map.paths.places[one.to.index()];
         place.expected = place.expected * fading + 1.0;
         place.met = place.met * fading + met;
     }
-    let link = &mut map.paths.links[link.index()];
-    link.traversed = link.traversed.saturating_add(1);
-    let place = &mut map.paths.places[link.to.index()];
-    place.visits = place.visits.saturating_add(1);
 }

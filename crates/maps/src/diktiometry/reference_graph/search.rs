@@ -1,4 +1,5 @@
 use alloc::collections::BinaryHeap;
+use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::{Ordering, Reverse};
 
@@ -32,28 +33,26 @@ pub(in crate::diktiometry) fn search(
 ) -> Vec<Reached> {
     let mut reached: Vec<Reached> = Vec::new();
     // Where a frame stands in `reached`, by id of the frame.
-    let mut settled: Vec<(FrameId, usize)> = Vec::new();
+    let mut settled: Vec<Option<u32>> = vec![None; graph.frames.len()];
     let mut frontier = BinaryHeap::new();
     frontier.push(Reverse(Entry {
         width: 0.0,
         frame: start,
         hops: 0,
-        position: PointBox::ORIGIN,
     }));
     while let Some(Reverse(entry)) = frontier.pop() {
-        let Err(slot) = settled.binary_search_by_key(&entry.frame, |(frame, _)| *frame) else {
+        if settled[entry.frame.index()].is_some() {
             continue; // It was reached by a narrower way.
-        };
-        let mut position = entry.position;
-        let relations = &graph.frames[entry.frame.index()].relations;
-        for relation in relations {
-            let there = settled.binary_search_by_key(&relation.to, |(frame, _)| *frame);
-            if let Ok(there) = there {
-                let there = reached[settled[there].1].position - relation.position;
-                position = position.intersection(there).unwrap_or(position);
-            }
         }
-        settled.insert(slot, (entry.frame, reached.len()));
+        let relations = &graph.frames[entry.frame.index()].relations;
+        let ways = relations.iter().filter_map(|relation| {
+            let there = settled[relation.to.index()]?;
+            Some(reached[there as usize].position - relation.position)
+        });
+        // Ways that exclude each other are told apart elsewhere; here the first counts.
+        let both = |a: PointBox, b: PointBox| a.intersection(b).unwrap_or(a);
+        let position = ways.reduce(both).unwrap_or(PointBox::ORIGIN);
+        settled[entry.frame.index()] = Some(reached.len() as u32);
         reached.push(Reached {
             frame: entry.frame,
             position,
@@ -66,15 +65,15 @@ pub(in crate::diktiometry) fn search(
             continue;
         }
         for relation in relations {
-            let there = settled.binary_search_by_key(&relation.to, |(frame, _)| *frame);
-            let next = position + relation.position;
-            let width = next.width();
-            if there.is_err() && width <= limits.width {
+            if settled[relation.to.index()].is_some() {
+                continue;
+            }
+            let width = (position + relation.position).width();
+            if width <= limits.width {
                 frontier.push(Reverse(Entry {
                     width,
                     frame: relation.to,
                     hops: entry.hops + 1,
-                    position: next,
                 }));
             }
         }
@@ -87,7 +86,6 @@ struct Entry {
     width: f64,
     frame: FrameId,
     hops: u32,
-    position: PointBox,
 }
 
 impl Ord for Entry {

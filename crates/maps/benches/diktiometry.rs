@@ -1,0 +1,100 @@
+//! A move taken in by the observer of a diktiometry, on open worlds of places that all look alike: while the world is being
+//! learned and once it is known.
+//!
+//! Criterion measures moves on known maps; the table is of single moves, of which percentiles say more on a busy machine.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a bench that cannot set itself up has failed, and its table is its result"
+)]
+
+#[expect(dead_code, reason = "the tests need more of it")]
+#[path = "../tests/diktiometry/walk.rs"]
+mod walk;
+
+extern crate alloc;
+
+use core::time::Duration;
+use std::time::Instant;
+
+use criterion::Criterion;
+use tolman_maps::diktiometry::{Action, Config, StepReport};
+use tolman_maze::Direction;
+use walk::{ODOMETRY, Walk, open};
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    println!("| places | moves | map | median µs | 90 % µs | mean µs |");
+    println!("| ---: | ---: | --- | ---: | ---: | ---: |");
+    for (side, moves) in [(10, 1000), (20, 2500), (32, 6000)] {
+        let config = Config::new(Config::compass_actions(), 1.0);
+        let mut walk = Walk::new(open(side), ODOMETRY, config, 1);
+        let mut learning = Vec::new();
+        let mut script: Vec<Action> = Vec::new();
+        for _ in 0..moves {
+            if script.is_empty() {
+                let advice = walk.observer.opportunities().into_iter().next();
+                script = advice.map_or(Vec::new(), |advice| advice.script);
+                script.reverse();
+            }
+            let possible = |direction: &Direction| {
+                let here = walk.robot.at();
+                walk.robot.world().neighbour(here, *direction).is_some()
+            };
+            let advised = script.pop().map(|action| Direction::ALL[action.0 as usize]);
+            let direction = advised.filter(possible);
+            let direction = direction.unwrap_or_else(|| walk.robot.wander().unwrap());
+            learning.push(timed(&mut walk, direction).0);
+        }
+        let score = walk.score();
+        assert!(
+            score.places == usize::from(side) * usize::from(side),
+            "{score:?}"
+        );
+        row(score.places, "being learned", learning);
+        let known = (0..4 * moves).map(|_| {
+            let direction = walk.robot.wander().unwrap();
+            timed(&mut walk, direction).0
+        });
+        row(score.places, "known", known.collect());
+        criterion.bench_function(
+            &format!("diktiometry/{} places, a move", score.places),
+            |bench| {
+                bench.iter_custom(|count| {
+                    (0..count)
+                        .map(|_| {
+                            let direction = walk.robot.wander().unwrap();
+                            timed(&mut walk, direction).0
+                        })
+                        .sum()
+                });
+            },
+        );
+    }
+    criterion.final_summary();
+}
+
+/// One move, of which only the observer's part is timed.
+fn timed(walk: &mut Walk, direction: Direction) -> (Duration, StepReport) {
+    let moved = walk.robot.go(direction).unwrap();
+    let step = walk.told(&moved);
+    let start = Instant::now();
+    let report = walk.observer.step(&step).unwrap();
+    let time = start.elapsed();
+    walk.log.push((moved.to, walk.observer.place()));
+    (time, report)
+}
+
+fn row(places: usize, map: &str, mut times: Vec<Duration>) {
+    times.sort_unstable();
+    let micros = |time: Duration| time.as_secs_f64() * 1e6;
+    let at = |share: usize| micros(times[(times.len() - 1) * share / 100]);
+    let mean = micros(times.iter().sum()) / times.len() as f64;
+    println!(
+        "| {places} | {} | {map} | {:.1} | {:.1} | {mean:.1} |",
+        times.len(),
+        at(50),
+        at(90)
+    );
+}
