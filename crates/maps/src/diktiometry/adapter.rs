@@ -6,7 +6,7 @@ use tolman_geom::PointBox;
 
 use super::ids::{LinkId, PlaceId};
 use super::map::Site;
-use super::matching::{Choice, Matcher, remember};
+use super::matching::{Choice, Look, Matcher, remember};
 use super::observation::{Exits, Move};
 use super::observer::Observer;
 use super::path_graph::{Fate, Note, Successor};
@@ -61,8 +61,17 @@ impl Observer {
         if let Some(before) = track.link {
             self.follow(before, link);
         }
+        let lookalikes = match (choice.look, &step.percept) {
+            (Look::Strange, Some(view)) => self
+                .views
+                .sets(view, &self.config.percepts, &self.map.paths)
+                .len(),
+            _ => 0,
+        };
         let place = &mut self.map.paths.places[to.index()];
-        let new_view = remember(place, step.percept.as_ref(), &self.config.percepts);
+        // What looks like another place is no new view of this one: the robot may be there.
+        let new_view =
+            lookalikes == 0 && remember(place, step.percept.as_ref(), &self.config.percepts);
         if step.exits != Exits::Unknown {
             place.exits = step.exits.clone();
         }

@@ -7,7 +7,7 @@ use tolman_geom::PointBox;
 use super::config::{GeometricIndexing, Use};
 use super::ids::{PlaceId, TrackId};
 use super::indexing::{ActiveFrame, Candidate, expected, moved, plies};
-use super::matching::{Choice, Matcher, Situation, Traversal, choose};
+use super::matching::{Choice, Look, Matcher, Situation, Traversal, choose};
 use super::observation::Move;
 use super::observer::Observer;
 use super::path_graph::Standing;
@@ -63,7 +63,21 @@ impl Observer {
                 estimate: projection.displacement,
             });
         }
-        let surprise = if choice.excluded.is_some() {
+        if choice.look == Look::Strange
+            && rank == Rank::Best
+            && let Some(there) = choice.matches.first().and_then(|best| best.candidate)
+            && let Some(link) = self.link(from, step.action, there.place)
+        {
+            report.contradictions.push(Contradiction {
+                track: track.id,
+                culprit: Culprit::Look(link),
+                known: there.offset + projection.displacement,
+                estimate: projection.displacement,
+            });
+        }
+        let surprise = if choice.look == Look::Strange {
+            Surprise::Look
+        } else if choice.excluded.is_some() {
             Surprise::Excluded
         } else if self.rivals {
             Surprise::Rivals
@@ -117,7 +131,8 @@ impl Observer {
             };
             next.push((child, line));
         }
-        if rank == Rank::Best && choice.excluded.is_some() {
+        let lost = choice.excluded.is_some() || choice.look == Look::Strange;
+        if rank == Rank::Best && lost {
             self.suppose(track, step, next);
         }
     }
@@ -324,16 +339,20 @@ const SUPPOSED: f64 = 0.5;
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Surprise {
     None,
+    /// The place looks different.
+    Look,
     /// It expected another place.
     Excluded,
     /// Other tracks explain the same moves.
     Rivals,
 }
 
-/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error loses it. A new place
+/// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error or looks
+/// strange loses it. A new place
 /// posits one where another place was expected, or where another track needs none.
 fn confidence_after(confidence: f64, matcher: Matcher, surprise: Surprise) -> f64 {
     match (matcher, surprise) {
+        (_, Surprise::Look) => 0.7 * confidence,
         (Matcher::Continue, _) => confidence + 0.2 * (1.0 - confidence),
         (Matcher::NewPlace, Surprise::Excluded) => 0.9 * confidence,
         (Matcher::NewPlace, Surprise::Rivals) => 0.7 * confidence,

@@ -5,7 +5,7 @@ mod matcher;
 mod order;
 mod view;
 
-pub(super) use engine::{Choice, choose};
+pub(super) use engine::{Choice, Look, choose};
 pub use matcher::Matcher;
 pub(super) use matcher::Situation;
 pub(super) use order::Traversal;

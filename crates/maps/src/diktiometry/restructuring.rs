@@ -9,7 +9,7 @@ mod transients;
 
 use alloc::vec::Vec;
 
-use super::config::Config;
+use super::config::{Config, GeometricMerge};
 use super::ids::{LinkId, PlaceId};
 use super::journal::Distinction;
 use super::map::Diktiometry;
@@ -72,6 +72,9 @@ pub(super) fn restructure(
     distinctions: &[Distinction],
 ) -> Vec<Restructured> {
     let mut done = Vec::new();
+    // What was just split is not merged in the same breath, so that this ends: every round but the first takes a merge, and
+    // merges use up the places that there were.
+    let mut born: Vec<PlaceId> = Vec::new();
     loop {
         let (hint, changed) = if let Some(hint) = hints.changed.pop() {
             (hint, true)
@@ -93,6 +96,9 @@ pub(super) fn restructure(
             if stand != [Fate::Standing; 2] || !accepted(&merge_verdicts(map, &pair, config)) {
                 continue;
             }
+            if born.contains(&pair.a) || born.contains(&pair.b) {
+                continue;
+            }
             if distinctions.iter().any(|one| separates(map, one, &pair)) {
                 continue;
             }
@@ -109,6 +115,7 @@ pub(super) fn restructure(
         {
             let new = split::split(map, place, &diagnosis);
             done.push(Restructured::Split { kept: place, new });
+            born.push(new);
         }
     }
 }
@@ -122,13 +129,17 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
 /// What each restructurer says of two places being one.
 fn merge_verdicts(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> [Verdict; 4] {
     let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
-    let views = if share_a_view(a, b, &config.percepts) {
+    let geometry = geometric::merge(map, pair, config);
+    // What stands where nothing else can looks new, but is the same.
+    let settled = config.restructuring.geometric_merge == GeometricMerge::Narrow
+        && geometry == Verdict::Propose;
+    let views = if settled || share_a_view(a, b, &config.percepts) {
         Verdict::Abstain
     } else {
         Verdict::Reject
     };
     [
-        geometric::merge(map, pair, config),
+        geometry,
         views,
         local_path::merge(map, pair, config),
         non_local_path::merge(map, pair, config),

@@ -2,6 +2,7 @@ use alloc::vec::Vec;
 
 use super::matcher::{Applicable, applicable};
 use super::order::{Age, Standing, Traversal, precedes};
+use super::view::agrees;
 use super::{Matcher, Situation};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::indexing::{Candidate, Expectation};
@@ -17,6 +18,18 @@ pub(in crate::diktiometry) struct Choice {
     pub(in crate::diktiometry) twins: Vec<PlaceId>,
     /// A place that was expected, where none of those was met: by its position or by its look.
     pub(in crate::diktiometry) excluded: Option<Candidate>,
+    /// Whether the best match looks as it did.
+    pub(in crate::diktiometry) look: Look,
+}
+
+/// Whether the place that was matched looks as it did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::diktiometry) enum Look {
+    /// It does, or is new.
+    #[default]
+    Known,
+    /// It does not.
+    Strange,
 }
 
 /// A matcher and the place it matched; none for a new one.
@@ -138,6 +151,14 @@ pub(in crate::diktiometry) fn choose(
         matcher.then(nearest).then(place(a).cmp(&place(b)))
     });
     let best = choice.matches.first().and_then(|best| best.candidate);
+    if let Some(best) = best {
+        let place = &situation.map.paths.places[best.place.index()];
+        choice.look = if agrees(place, situation.percept, &situation.config.percepts) {
+            Look::Known
+        } else {
+            Look::Strange
+        };
+    }
     if let Some(best) = best.filter(|best| best.is_certain(least_distance)) {
         choice.twins = certain;
         choice.twins.retain(|place| *place != best.place);

@@ -44,23 +44,29 @@ pub(in crate::diktiometry) enum Applicable {
 }
 
 /// The matcher that applies to a candidate.
+///
+/// The paper asks for a consistent view as well. Here an expected place where it is expected, and one that no other
+/// can be near, may look new: its view set grows.
 pub(in crate::diktiometry) fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,
 ) -> Applicable {
     let Situation { map, config, .. } = *situation;
     let place = &map.paths.places[candidate.place.index()];
-    if !agrees(place, situation.percept, &config.percepts) {
+    let expected = candidate.expectation == Expectation::Expected;
+    let certain = candidate.is_certain(config.least_distance());
+    let known = agrees(place, situation.percept, &config.percepts);
+    // What stands where nothing else can looks new, but is the same.
+    let settled = config.matching.identity == Identity::Certain
+        && ((expected && candidate.is_possible()) || certain);
+    if !known && !settled {
         return Applicable::None;
     }
-    let expected = candidate.expectation == Expectation::Expected;
     if candidate.is_possible() {
         return match config.matching.identity {
             _ if expected => Applicable::Matcher(Matcher::Continue),
             Identity::Meets => Applicable::Matcher(Matcher::Link),
-            Identity::Certain if candidate.is_certain(config.least_distance()) => {
-                Applicable::Matcher(Matcher::Link)
-            }
+            Identity::Certain if certain => Applicable::Matcher(Matcher::Link),
             Identity::Certain => Applicable::Doubtful,
         };
     }
