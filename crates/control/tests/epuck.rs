@@ -134,16 +134,16 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
                 let segments = seen.1;
                 if segments.place() == Place::Junction {
                     let (off, _) = truth(&pilot, maze);
-                    // The middle of the cell, or where four cells make a room.
-                    let to_corner = (off.coords.abs() - Point::new(0.125, 0.125).coords).norm();
-                    let nearest = off.coords.norm().min(to_corner);
-                    assert!(nearest < 0.06, "{off} is not the middle");
+                    assert!(off.coords.norm() < 0.06, "{off} is not the middle");
                 }
                 let way = segments.spaces().nth(1).unwrap_or(0.0);
                 pilot.turn(way).unwrap();
-                pilot.follow(1.0).unwrap();
+                pilot.follow(4.0).unwrap();
             }
-            Place::DeadEnd if segments.spaces().all(|way| way.abs() > PI / 2.0) => {
+            Place::DeadEnd
+                if pilot.ahead().is_some_and(|ahead| ahead < 0.75 * WIDTH)
+                    && segments.spaces().all(|way| way.abs() > PI / 2.0) =>
+            {
                 let way = segments.spaces().next().unwrap();
                 pilot.turn(way).unwrap();
                 pilot.follow(0.5).unwrap();
@@ -152,12 +152,14 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
         }
     }
     if slip < 0.2 {
-        assert_eq!(pilot.robot().bumps, 0, "slip {slip}, seed {seed}");
+        assert_eq!(
+            pilot.robot().bumps,
+            0,
+            "slip {slip}, seed {seed}, in {maze}"
+        );
     }
-    // In the learning maze four cells make a room, whose cells are no corridors.
-    let rooms = maze.grid().width() == 7;
     assert!(
-        rooms || wrong * 5 <= right,
+        wrong * 5 <= right,
         "{wrong} of {} seen wrongly",
         right + wrong
     );
