@@ -2,10 +2,11 @@
 
 use alloc::sync::Arc;
 
-use tolman::agents::Mind;
 use tolman::agents::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
+use tolman::agents::{Guess, Mind, Place};
 use tolman::episode::{self, Episode};
 use tolman::pioneer::calibrated;
+use tolman::replay::{Recorder, Shape};
 use tolman_maps::mslst_graph::DUMMY;
 
 use crate::support::{own_course, trial};
@@ -125,4 +126,48 @@ fn files_that_hold_no_map_say_why() {
         let told = damaged(from, to);
         assert!(told.contains(expected), "{from} → {to}: {told}");
     }
+}
+
+#[test]
+fn a_replay_shows_where_the_robot_believed_to_be() {
+    let course = own_course("j.maze");
+    let learned = learned();
+    let trial = trial(&course, 3);
+    let mut recorder = Recorder::new(&trial).knowing(&learned.survey.positions);
+    let mslst = Mslst::new(Arc::new(learned.map.clone()), &config());
+    let mut mind = Mind::Brain(Box::new(mslst));
+    let mut guessed = Vec::new();
+    let episode = episode::run(&trial, &mut mind, |step| {
+        recorder.see(step);
+        if let Some(Guess {
+            place: Place::Node(node),
+            ..
+        }) = step.mind.thought().guesses.first()
+        {
+            guessed.push(*node);
+        }
+    })
+    .unwrap();
+    let replay = recorder.finish("MSLST", &episode);
+    let [belief] = &replay.tracks[0].beliefs[..] else {
+        panic!("{} beliefs", replay.tracks[0].beliefs.len());
+    };
+    // Every first shape is the node it guessed then, where that node truly lies.
+    let mut shown = belief
+        .entries
+        .iter()
+        .filter_map(|entry| entry.shapes.first());
+    assert!(belief.entries.len() > 3);
+    assert!(shown.all(|shape| {
+        guessed.iter().any(|node| {
+            let position = learned.survey.positions[*node as usize];
+            *shape
+                == Shape::Point {
+                    position,
+                    weight: 1.0,
+                }
+        })
+    }));
+    let notes = &replay.tracks[0].notes;
+    assert!(notes.iter().any(|notes| notes.name == "thinks"));
 }

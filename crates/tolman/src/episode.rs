@@ -84,6 +84,8 @@ pub struct Episode {
 pub struct Step<'a> {
     /// The action it belongs to.
     pub action: Direction,
+    /// Who chose it.
+    pub mind: &'a Mind,
     /// What the motors were told.
     pub command: TurnTranslate,
     /// How the action ended with this step; none while it goes on.
@@ -147,6 +149,7 @@ pub fn run(
             episode.record(&drive);
             watch(&Step {
                 action,
+                mind,
                 command: proposal.command,
                 ends: proposal.ends,
                 robot: drive.robot(),

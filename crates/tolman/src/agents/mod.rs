@@ -10,6 +10,7 @@ pub mod diktiometry;
 pub mod mslst;
 mod oracle;
 mod random;
+mod thought;
 mod unlocalized;
 mod wall_follow;
 
@@ -26,6 +27,7 @@ pub use avoid::Avoid;
 pub use cast::{Agent, Cast};
 pub use oracle::{Oracle, Policy};
 pub use random::Random;
+pub use thought::{Guess, Place, Thought};
 pub use unlocalized::{Chart, UnlocalizedOracle};
 pub use wall_follow::WallFollow;
 
@@ -44,6 +46,11 @@ pub struct Perception<'a> {
 pub trait Brain: Debug {
     /// The next action.
     fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction;
+
+    /// What it made of its situation when it last chose; nothing, where a brain does not ask where it is.
+    fn thought(&self) -> Thought {
+        Thought::default()
+    }
 }
 
 /// Chooses high-level actions from the truth.

@@ -9,7 +9,7 @@ use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
 use super::oracle::{Oracle, Policy};
-use super::{Brain, Perception};
+use super::{Brain, Guess, Perception, Place, Thought};
 use crate::course::Course;
 use crate::episode::EpisodeError;
 use crate::pioneer::{heading_free, without_noise};
@@ -35,7 +35,7 @@ pub struct UnlocalizedOracle {
 pub struct Chart {
     policy: Arc<Policy>,
     /// Positions where the robot can stand and from which a way leads to the destination.
-    places: Vec<Place>,
+    places: Vec<Standpoint>,
     /// The number of the place of each position of the policy's lattice.
     numbers: Vec<Option<u32>>,
     /// How far a completed action's way scatters, m (standard deviation).
@@ -43,7 +43,7 @@ pub struct Chart {
 }
 
 #[derive(Clone, Debug)]
-struct Place {
+struct Standpoint {
     position: Point,
     /// Ranges in robot units, beam 0 to the north.
     scan: Vec<f64>,
@@ -89,7 +89,7 @@ impl Chart {
             rest.map_err(|source| EpisodeError::Step { step: 0, source })?;
             let scan = solo.sensing().scan.as_ref();
             numbers.push(Some(places.len() as u32));
-            places.push(Place {
+            places.push(Standpoint {
                 position,
                 scan: scan.map_or_else(Vec::new, |scan| heading_free(scan, Heading::NORTH)),
             });
@@ -105,7 +105,7 @@ impl Chart {
     }
 
     /// The probability, but for a factor, of seeing `scan` at a place.
-    fn likelihood(&self, place: &Place, scan: &[f64]) -> f64 {
+    fn likelihood(&self, place: &Standpoint, scan: &[f64]) -> f64 {
         if scan.is_empty() || scan.len() != place.scan.len() {
             return 1.0;
         }
@@ -249,5 +249,20 @@ impl Brain for UnlocalizedOracle {
         let position = self.most_likely().unwrap_or_else(Point::origin);
         let pose = Pose::new(position, self.heading);
         self.oracle.choose_at(pose, perception.last)
+    }
+
+    fn thought(&self) -> Thought {
+        let mut guesses: Vec<Guess> = self
+            .belief()
+            .map(|(position, weight)| Guess {
+                place: Place::At(position),
+                weight,
+            })
+            .collect();
+        guesses.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+        Thought {
+            words: String::new(),
+            guesses,
+        }
     }
 }

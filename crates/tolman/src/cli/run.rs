@@ -39,6 +39,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let name = Name {
         word: arguments.brain.word(),
         title: agent.name(),
+        nodes: &[],
     };
     let mind = |course: &_, robot: &_| {
         let mind = Cast::default().mind(agent, course, robot);

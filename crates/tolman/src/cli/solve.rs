@@ -30,6 +30,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let name = Name {
         word: "mslst",
         title: "MSLST",
+        nodes: &file.learned.survey.positions,
     };
     let mind = |_: &_, _: &_| {
         let mslst = Mslst::new(Arc::new(file.learned.map), &file.config);

@@ -6,11 +6,13 @@ use tolman_maze::Direction;
 use tolman_robot::{Body, Robot};
 
 use super::floor::Floor;
-use super::{Fact, Mark, Marks, Notes, Replay, Scenery, Track};
+use super::{Belief, BeliefAt, Fact, Mark, Marks, Notes, Replay, Scenery, Shape, Track};
+use crate::agents::{Place, Thought};
 use crate::episode::{Episode, Step, Trial};
 
 /// Watches an episode and makes its replay: the robot's way, the action under way and how the last one
-/// ended, whether it is in a corridor, how much of the maze it has seen, and where it bumped and failed.
+/// ended, whether it is in a corridor, what it thinks and where it believes to be, how much of the maze it has seen, and
+/// where it bumped and failed.
 ///
 /// ```
 /// use tolman::agents::{Agent, Cast};
@@ -36,12 +38,23 @@ pub struct Recorder<'a> {
     trial: &'a Trial<'a>,
     detector: Option<CorridorDetector>,
     step: u32,
+    between_actions: bool,
     action: Notes,
     ended: Notes,
     corridor: Notes,
+    thoughts: Notes,
+    belief: Belief,
+    /// Where the nodes of the robot's map lie, by id.
+    nodes: &'a [Point],
     bumps: Marks,
     failures: Marks,
 }
+
+/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
+const SHOWN_GUESSES: usize = 8;
+
+/// What is believed less is not shown.
+const LEAST_WEIGHT: f64 = 0.01;
 
 impl<'a> Recorder<'a> {
     /// Watches a run of this trial.
@@ -52,16 +65,62 @@ impl<'a> Recorder<'a> {
             // A ring it cannot read is one the episode refuses.
             detector: CorridorDetector::new(trial.robot.ring, trial.course.corridor_width).ok(),
             step: 0,
+            between_actions: true,
             action: Notes::new("action"),
             ended: Notes::new("last action"),
             corridor: Notes::new("corridor"),
+            thoughts: Notes::new("thinks"),
+            belief: Belief {
+                name: "belief".to_owned(),
+                entries: Vec::new(),
+            },
+            nodes: &[],
             bumps: Marks::new(Mark::Bump, "bump"),
             failures: Marks::new(Mark::Failure, "failed action"),
         }
     }
 
+    /// Shows beliefs in nodes of the robot's map where these truly lie, by id. Without this they are told in
+    /// words alone.
+    #[must_use]
+    pub const fn knowing(mut self, nodes: &'a [Point]) -> Self {
+        self.nodes = nodes;
+        self
+    }
+
+    /// Takes down what the mind thought when it chose the action that begins after `step`.
+    fn overhear(&mut self, step: u32, thought: &Thought) {
+        if !thought.words.is_empty() {
+            self.thoughts.say(step, thought.words.as_str());
+        }
+        let shapes: Vec<Shape> = thought
+            .guesses
+            .iter()
+            .filter(|guess| guess.weight >= LEAST_WEIGHT)
+            .take(SHOWN_GUESSES)
+            .filter_map(|guess| {
+                let position = match guess.place {
+                    Place::At(position) => position,
+                    Place::Node(id) => *self.nodes.get(id as usize)?,
+                };
+                Some(Shape::Point {
+                    position,
+                    weight: guess.weight,
+                })
+            })
+            .collect();
+        let before = self.belief.entries.last().map(|entry| &entry.shapes);
+        if before.map_or(!shapes.is_empty(), |before| *before != shapes) {
+            self.belief.entries.push(BeliefAt { step, shapes });
+        }
+    }
+
     /// Sees one step.
     pub fn see(&mut self, seen: &Step<'_>) {
+        if self.between_actions {
+            self.overhear(self.step, &seen.mind.thought());
+        }
+        self.between_actions = seen.ends.is_some();
         self.step += 1;
         let step = self.step;
         self.action.say(step, word(seen.action));
@@ -107,6 +166,12 @@ impl<'a> Recorder<'a> {
             track.series.push(floor.coverage(path()));
         }
         track.notes = vec![self.action, self.ended, self.corridor];
+        if !self.thoughts.notes.is_empty() {
+            track.notes.push(self.thoughts);
+        }
+        if !self.belief.entries.is_empty() {
+            track.beliefs.push(self.belief);
+        }
         let mut arrival = Marks::new(Mark::Arrival, "arrived");
         if episode.reached {
             arrival.steps.push(episode.steps);

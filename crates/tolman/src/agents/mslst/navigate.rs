@@ -6,7 +6,7 @@ use tolman_maze::Direction;
 use tolman_planners::compressed;
 
 use super::{MslstConfig, MslstMap};
-use crate::agents::{Avoid, Brain, Perception};
+use crate::agents::{Avoid, Brain, Guess, Perception, Place, Thought};
 use crate::pioneer::heading_free;
 
 /// The MSLST brain: Phase III, *Navigation Using the Graph*.
@@ -128,6 +128,13 @@ impl Mslst {
     }
 }
 
+fn said(words: &str) -> Thought {
+    Thought {
+        words: words.to_owned(),
+        guesses: Vec::new(),
+    }
+}
+
 impl Brain for Mslst {
     fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
         self.remember(perception);
@@ -135,6 +142,36 @@ impl Brain for Mslst {
         match &self.situation {
             Situation::OnPath { path, .. } => path[0],
             Situation::Lost | Situation::Doubtful => self.wander.wander(rng),
+        }
+    }
+
+    fn thought(&self) -> Thought {
+        match &self.situation {
+            Situation::Lost => said("lost: acts randomly"),
+            Situation::Doubtful => said("believes to have arrived: acts randomly"),
+            Situation::OnPath { belief, path } => {
+                let (count, matched) = (belief.candidates.len(), belief.matched);
+                let guess = |weight: f64| {
+                    move |id: u32| Guess {
+                        place: Place::Node(id),
+                        weight,
+                    }
+                };
+                let others = belief.candidates.iter().copied();
+                let others = others.filter(|id| belief.node != Some(*id));
+                Thought {
+                    words: format!(
+                        "one of {count} nodes that match {matched}, {} actions to go",
+                        path.len()
+                    ),
+                    guesses: belief
+                        .node
+                        .into_iter()
+                        .map(guess(1.0))
+                        .chain(others.map(guess(1.0 / count as f64)))
+                        .collect(),
+                }
+            }
         }
     }
 }

@@ -10,6 +10,7 @@ use tolman::course::Course;
 use tolman::episode::{self, Episode, EpisodeError, Trial};
 use tolman::pioneer::{body, calibrated};
 use tolman::replay::{Fact, Recorder};
+use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::live::Live;
@@ -64,11 +65,13 @@ pub(in crate::cli) struct Outing {
 
 /// What a brain is called.
 #[derive(Clone, Copy)]
-pub(in crate::cli) struct Name {
+pub(in crate::cli) struct Name<'a> {
     /// On the command line and in sentences.
     pub(in crate::cli) word: &'static str,
     /// In tables and titles.
     pub(in crate::cli) title: &'static str,
+    /// Where the nodes of its map lie, by id; empty for none.
+    pub(in crate::cli) nodes: &'a [Point],
 }
 
 /// Reads a maze file as a course for the calibrated robot.
@@ -88,7 +91,7 @@ pub(in crate::cli) fn course(path: &Path) -> Result<Course, Failure> {
 /// Bad input if maze, start or files do not serve; what the mind's maker says.
 pub(in crate::cli) fn carry_out(
     arguments: &Outing,
-    name: Name,
+    name: Name<'_>,
     mind: impl FnOnce(&Course, &LaserPioneerConfig) -> Result<Mind, Failure>,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
@@ -112,7 +115,7 @@ pub(in crate::cli) fn carry_out(
         false => None,
     };
     let mut commands = Vec::new();
-    let mut recorder = Recorder::new(&trial);
+    let mut recorder = Recorder::new(&trial).knowing(name.nodes);
     let episode = episode::run(&trial, &mut mind, |step| {
         commands.push(step.command);
         recorder.see(step);

@@ -170,6 +170,6 @@ impl Experiment for Baselines {
         let Some((trial, mut mind)) = self.cast(job)? else {
             return Ok(None);
         };
-        Ok(Some(venue::replay(job, &trial, &mut mind)?))
+        Ok(Some(venue::replay(job, &trial, &mut mind, &[])?))
     }
 }

@@ -200,7 +200,14 @@ impl Contest {
         robot: &LaserPioneerConfig,
     ) -> Result<Replay, BoxError> {
         let (trial, mut mind) = self.cast(job, robot)?;
-        Ok(venue::replay(job, &trial, &mut mind)?)
+        let learned = match self.apprentice(job.row) {
+            Some(apprentice) => Some(apprentice.learned(self, robot, job.run % MAPS)?),
+            None => None,
+        };
+        let nodes = learned
+            .as_ref()
+            .map_or(&[][..], |learned| &learned.survey.positions);
+        Ok(venue::replay(job, &trial, &mut mind, nodes)?)
     }
 
     /// Refuses what no run can measure.

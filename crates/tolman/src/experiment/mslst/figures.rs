@@ -3,12 +3,13 @@
 use tolman_geom::Point;
 use tolman_maps::mslst_graph::{DUMMY, Node};
 
-use super::Mslst;
 use super::contest::{Apprentice, Contest};
+use super::{MAPS, Mslst};
 use crate::agents::mslst::Learned;
 use crate::agents::mslst::drawing::{self, SHOWN_ACTIONS};
-use crate::draw::{Figure, Plan, Series};
-use crate::experiment::{BoxError, Run};
+use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Plan, Series};
+use crate::experiment::{BoxError, Field, Run};
+use crate::stats::wilson_interval;
 
 /// How many runs one plan shows at most.
 const SHOWN: usize = 25;
@@ -25,9 +26,10 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
             figures.push(states(contest, apprentice, &learned, &at));
             figures.push(graph(contest, apprentice, &learned, &at));
             let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
-            let runs: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
-            figures.push(ways(experiment, contest, apprentice, &runs, &at)?);
+            let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
+            figures.push(ways(experiment, contest, apprentice, &shown, &at)?);
         }
+        figures.extend(between_maps(contest, runs, number)?);
     }
     Ok(figures)
 }
@@ -67,6 +69,51 @@ fn graph(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str
 /// How many edges lead to other nodes.
 fn ways_from(node: &Node) -> usize {
     node.edges.iter().filter(|edge| edge.head != DUMMY).count()
+}
+
+/// How many runs a map must have for its success to be drawn.
+const LEAST_RUNS: u64 = 5;
+
+/// How success differs from map to map; none while the maps have too few runs to tell.
+fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<Figure>, BoxError> {
+    let ranks = Axis::linear("maps, from the worst to the best");
+    let mut chart = Chart::new(
+        ranks,
+        Axis::linear("runs that arrive, %").between(0.0, 100.0),
+    );
+    let mut drawn = 0;
+    for (index, apprentice) in (0_u32..).zip(&contest.apprentices) {
+        let mut maps = vec![(0_u64, 0_u64); MAPS as usize];
+        let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+        for run in runs.iter().filter(of_row) {
+            let (arrived, all) = &mut maps[(run.run % MAPS) as usize];
+            *arrived += u64::from(run.fields.get("reached").and_then(Field::as_flag) == Some(true));
+            *all += 1;
+        }
+        maps.retain(|(_, all)| *all >= LEAST_RUNS);
+        maps.sort_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)));
+        let mut points = Vec::new();
+        for (rank, (arrived, all)) in (1_u32..).zip(maps) {
+            let percent = 100.0 * arrived as f64 / all as f64;
+            let spread = wilson_interval(arrived, all, 0.95)?.scaled(100.0);
+            points.push(LinePoint::new(f64::from(rank), percent).spread(spread));
+        }
+        if points.len() > 1 {
+            drawn += 1;
+            chart.line(Line::new(&apprentice.row, Series(index), points));
+        }
+    }
+    let name = &contest.venue.course.name;
+    let figure = || {
+        Figure::new(
+            format!("maps-{number}"),
+            format!("MSLST in {name}: the spread between maps"),
+            chart.drawing(format!("Success in {name} by map, from the worst map to the best.")),
+        )
+        .caption("Each map with the 95 % interval (Wilson) that its runs allow. Equal maps would make a line that stays inside.")
+        .table(&contest.venue.table)
+    };
+    Ok((drawn > 0).then(figure))
 }
 
 /// Where the first runs went.

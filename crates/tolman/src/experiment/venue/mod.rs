@@ -4,6 +4,7 @@ mod files;
 mod measured;
 mod paper;
 
+use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::{BoxError, Job, Row};
@@ -15,7 +16,7 @@ use crate::replay::{Recorder, Replay};
 
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::fields;
-use paper::PaperRow;
+pub(super) use paper::{LARGE_STEPS, PaperRow};
 
 /// One world with its table.
 #[derive(Debug)]
@@ -40,14 +41,22 @@ pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
             step_limit: paper::J_STEPS,
             paper: paper::TABLE_2,
         },
-        Venue {
-            table: "3 (Large)".into(),
-            title: "The Large maze".into(),
-            course: built_in("Large", include_str!("../../../../../mazes/large.maze"))?,
-            step_limit: paper::LARGE_STEPS,
-            paper: paper::TABLE_3,
-        },
+        large_like(built_in(
+            "Large",
+            include_str!("../../../../../mazes/large.maze"),
+        )?),
     ])
+}
+
+/// A course that stands for the paper's Large maze, with its limit and its rows.
+pub(super) fn large_like(course: Course) -> Venue {
+    Venue {
+        table: "3 (Large)".into(),
+        title: "The Large maze".into(),
+        course,
+        step_limit: paper::LARGE_STEPS,
+        paper: paper::TABLE_3,
+    }
 }
 
 fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
@@ -62,13 +71,18 @@ impl Venue {
     /// The row of a brain, with what the paper says of it.
     pub(super) fn row(&self, name: &str) -> Row {
         let row = Row::new(name);
-        match self.paper.iter().find(|paper| paper.row == name) {
+        match self.paper(name) {
             Some(paper) => row
                 .paper("success_percent", paper.success_percent)
                 .paper_mean("actions", paper.actions.0, paper.actions.1)
                 .paper_mean("steps", paper.steps.0, paper.steps.1),
             None => row,
         }
+    }
+
+    /// What the paper says of a brain here.
+    pub(super) fn paper(&self, name: &str) -> Option<&'static PaperRow> {
+        self.paper.iter().find(|paper| paper.row == name)
     }
 
     /// What the runs here depend on.
@@ -92,13 +106,14 @@ impl Venue {
     }
 }
 
-/// Plays a run as it can be watched.
+/// Plays a run as it can be watched; `nodes` says where the nodes of the robot's map lie, if it has one.
 pub(super) fn replay(
     job: &Job<'_>,
     trial: &Trial<'_>,
     mind: &mut Mind,
+    nodes: &[Point],
 ) -> Result<Replay, EpisodeError> {
-    let mut recorder = Recorder::new(trial);
+    let mut recorder = Recorder::new(trial).knowing(nodes);
     let episode = episode::run(trial, mind, |step| recorder.see(step))?;
     let title = format!("{} in {}, run {}", job.row, trial.course.name, job.run);
     Ok(recorder.finish(title, &episode))

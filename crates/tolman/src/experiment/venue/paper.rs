@@ -2,14 +2,14 @@
 
 /// A row of the paper's tables 2 and 3; means with their standard deviations.
 #[derive(Debug)]
-pub(super) struct PaperRow {
-    pub(super) row: &'static str,
-    pub(super) success_percent: f64,
-    pub(super) actions: (f64, f64),
-    pub(super) steps: (f64, f64),
+pub(in crate::experiment) struct PaperRow {
+    pub(in crate::experiment) row: &'static str,
+    pub(in crate::experiment) success_percent: f64,
+    pub(in crate::experiment) actions: (f64, f64),
+    pub(in crate::experiment) steps: (f64, f64),
 }
 
-pub(super) const TABLE_2: &[PaperRow] = &[
+pub(in crate::experiment) const TABLE_2: &[PaperRow] = &[
     PaperRow {
         row: "Avoid",
         success_percent: 68.0,
@@ -30,7 +30,7 @@ pub(super) const TABLE_2: &[PaperRow] = &[
     },
 ];
 
-pub(super) const TABLE_3: &[PaperRow] = &[
+pub(in crate::experiment) const TABLE_3: &[PaperRow] = &[
     PaperRow {
         row: "Avoid",
         success_percent: 40.0,
@@ -58,5 +58,5 @@ pub(super) const TABLE_3: &[PaperRow] = &[
 ];
 
 /// The paper's limits, time steps.
-pub(super) const J_STEPS: u32 = 200;
-pub(super) const LARGE_STEPS: u32 = 500;
+pub(in crate::experiment) const J_STEPS: u32 = 200;
+pub(in crate::experiment) const LARGE_STEPS: u32 = 500;
