@@ -359,9 +359,13 @@ impl Config {
             .to_vec()
     }
 
-    /// Metres of odometry that two places are apart at the least, if they look alike or if it is not known how they
-    /// look.
+    /// Metres of odometry that two places are apart at the least.
     pub(super) fn least_distance(&self) -> f64 {
+        self.separation * (1.0 - self.shared_scale)
+    }
+
+    /// Metres of odometry that two places which look alike are apart at the least.
+    pub(super) fn least_alike_distance(&self) -> f64 {
         self.alike_separation * (1.0 - self.shared_scale)
     }
 

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use super::matcher::{Applicable, applicable};
+use super::matcher::{Applicable, applicable, is_certain};
 use super::order::{Age, Standing, Traversal, precedes};
 use super::view::agrees;
 use super::{Matcher, Situation};
@@ -66,7 +66,6 @@ pub(in crate::diktiometry) fn choose(
     if !first.iter().any(|one| one.matcher == Matcher::Continue) {
         choice.excluded = expected.first().copied();
     }
-    let least_distance = situation.config.least_distance();
     let mut continues = first
         .iter()
         .filter(|one| one.matcher == Matcher::Continue)
@@ -75,7 +74,7 @@ pub(in crate::diktiometry) fn choose(
     let enough = if rank(Matcher::Continue, Matcher::Link, Age::Old) {
         continues.next().is_some()
     } else {
-        continues.any(|candidate| candidate.is_certain(least_distance))
+        continues.any(|candidate| is_certain(&candidate, situation))
     };
     let mut sets = Vec::from([first]);
     if !enough {
@@ -91,7 +90,7 @@ pub(in crate::diktiometry) fn choose(
         .flatten()
         .filter(is_normal)
         .filter_map(|one| one.candidate)
-        .filter(|candidate| candidate.is_certain(least_distance))
+        .filter(|candidate| is_certain(candidate, situation))
         .map(|candidate| candidate.place)
         .collect();
 
@@ -159,7 +158,7 @@ pub(in crate::diktiometry) fn choose(
             Look::Strange
         };
     }
-    if let Some(best) = best.filter(|best| best.is_certain(least_distance)) {
+    if let Some(best) = best.filter(|best| is_certain(best, situation)) {
         choice.twins = certain;
         choice.twins.retain(|place| *place != best.place);
     }

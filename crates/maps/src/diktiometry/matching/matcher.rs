@@ -54,7 +54,7 @@ pub(in crate::diktiometry) fn applicable(
     let Situation { map, config, .. } = *situation;
     let place = &map.paths.places[candidate.place.index()];
     let expected = candidate.expectation == Expectation::Expected;
-    let certain = candidate.is_certain(config.least_distance());
+    let certain = is_certain(candidate, situation);
     let known = agrees(place, situation.percept, &config.percepts);
     // What stands where nothing else can looks new, but is the same.
     let settled = config.matching.identity == Identity::Certain
@@ -88,6 +88,19 @@ pub(in crate::diktiometry) fn applicable(
         }
     }
     Applicable::None
+}
+
+/// Whether the robot can be at no other place than the candidate: no other is near enough to it, or none that looks
+/// like what the robot sees.
+pub(in crate::diktiometry) fn is_certain(candidate: &Candidate, situation: &Situation<'_>) -> bool {
+    let Situation { map, config, .. } = *situation;
+    let place = &map.paths.places[candidate.place.index()];
+    let looks_alike = agrees(place, situation.percept, &config.percepts);
+    candidate.is_certain(if looks_alike {
+        config.least_alike_distance()
+    } else {
+        config.least_distance()
+    })
 }
 
 /// The least length of a displacement, m.

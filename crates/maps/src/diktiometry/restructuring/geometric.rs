@@ -8,6 +8,7 @@ use super::{Diagnosis, Verdict};
 use crate::diktiometry::config::{Config, GeometricMerge, Use};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::map::Diktiometry;
+use crate::diktiometry::matching::share_a_view;
 use crate::diktiometry::path_graph::Estim;
 use crate::diktiometry::reference_graph::search;
 use crate::diktiometry::updater::merge_estims;
@@ -105,7 +106,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
         return Verdict::Reject;
     }
     let proposed = match limits.geometric_merge {
-        GeometricMerge::Narrow => pair.offset.norm().high() < config.least_distance(),
+        GeometricMerge::Narrow => pair.offset.norm().high() < least_distance(map, pair, config),
         GeometricMerge::Estims => have_one_mode(map, pair, config),
         GeometricMerge::Off => false,
     };
@@ -113,6 +114,16 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
         Verdict::Propose
     } else {
         Verdict::Abstain
+    }
+}
+
+/// How far apart the two are at the least if they are two.
+fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
+    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+    if share_a_view(a, b, &config.percepts) {
+        config.least_alike_distance()
+    } else {
+        config.least_distance()
     }
 }
 
