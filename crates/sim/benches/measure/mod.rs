@@ -7,6 +7,7 @@ use core::fmt;
 use core::time::Duration;
 use std::time::Instant;
 
+use cpu_time::ThreadTime;
 use criterion::Criterion;
 
 /// Lets criterion measure `work` and gives how often it is done a second: the median over samples;
@@ -24,14 +25,11 @@ pub(crate) fn per_second<R>(
     group.sampling_mode(criterion::SamplingMode::Flat);
     group.bench_function(label, |bencher| {
         bencher.iter_custom(|iterations| {
-            let (wall, processor) = (Instant::now(), processor_time());
+            let (wall, processor) = (Instant::now(), ThreadTime::now());
             for _ in 0..iterations {
                 core::hint::black_box(work());
             }
-            let elapsed = wall.elapsed();
-            let used = processor_time()
-                .zip(processor)
-                .map_or(elapsed, |(now, then)| now - then);
+            let (elapsed, used) = (wall.elapsed(), processor.elapsed());
             // The kernel counts processor time in scheduler ticks of up to 4 ms.
             if used > Duration::from_millis(40) {
                 samples.push(iterations as f64 / used.as_secs_f64());
@@ -42,17 +40,6 @@ pub(crate) fn per_second<R>(
     group.finish();
     samples.sort_by(f64::total_cmp);
     samples.get(samples.len() / 2).copied()
-}
-
-/// How long this thread has had a processor, where the system tells.
-fn processor_time() -> Option<Duration> {
-    let schedule = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    schedule
-        .split(' ')
-        .next()?
-        .parse()
-        .ok()
-        .map(Duration::from_nanos)
 }
 
 /// Figures by row and column, grouped, each with its ratio to one row of its group.
