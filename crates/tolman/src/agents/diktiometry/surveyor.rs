@@ -1,5 +1,7 @@
 //! The robot of the paper's simulations: control routines that end at corners and doorways, and what it measures on the way.
 
+use core::f64::consts::FRAC_PI_2;
+
 use tolman_geom::{Heading, Interval, IntervalError, Point, PointBox, Pose};
 use tolman_maze::Direction;
 use tolman_robot::{CameraSensing, Odometry, Ring, Robot, TurnTranslate};
@@ -46,7 +48,7 @@ impl SurveyorConfig {
             motor_share: 0.1,
             columns: 24,
             colour_sd: 0.02,
-            place_radius: 0.13,
+            place_radius: 0.07,
         }
     }
 
@@ -63,7 +65,7 @@ impl SurveyorConfig {
             reach: 20.0,
             image: vec![Fault::Gaussian(Gaussian::absolute(self.colour_sd))],
             pioneer: LaserPioneerConfig {
-                ring: Ring::full(72, 4.0),
+                ring: Ring::full(180, 4.0),
                 motor_noise: MotorNoise {
                     turn: Gaussian::relative(self.motor_share),
                     translate: Gaussian::relative(self.motor_share),
@@ -176,6 +178,10 @@ const STRIDE: f64 = 0.06;
 const ARRIVED: f64 = 0.5 * CORRIDOR_WIDTH;
 /// What a turn may miss, rad.
 const ALIGNED: f64 = 0.02;
+/// What need not be mended of where the robot stopped, m.
+const SETTLED: f64 = 0.01;
+/// How far to both sides of a direction a wall across it is looked for, rad.
+const WALL: f64 = 0.4;
 /// Time steps after which a routine is lost: the longest corridor of 60 cells.
 const PATIENCE: u32 = 2000;
 
@@ -186,6 +192,15 @@ struct View {
     right: f64,
     ahead: f64,
     heading: Heading,
+}
+
+/// How far the robot stands from the middle of a place, m.
+#[derive(Clone, Copy, Debug)]
+struct Offset {
+    /// Too far ahead.
+    along: f64,
+    /// Too far to the left.
+    aside: f64,
 }
 
 /// Something beside the way that begins and ends: an opening, a doorway.
@@ -308,10 +323,12 @@ impl Surveyor {
                 while along - middle > 0.2 * STRIDE {
                     along += self.drive(ahead, self.view(ahead)?, -STRIDE.min(along - middle))?;
                 }
+                self.settle(ahead)?;
                 return self.arrive(RoutineOutcome::Completed);
             }
             let room = view.ahead - ARRIVED;
             if room < 0.2 * STRIDE {
+                self.settle(ahead)?;
                 return self.arrive(RoutineOutcome::Completed);
             }
             along += self.drive(ahead, view, STRIDE.min(room))?;
@@ -389,6 +406,89 @@ impl Surveyor {
         Ok(distance)
     }
 
+    /// Moves to the middle of the place, as far as walls and corners around it tell where that is.
+    fn settle(&mut self, ahead: Heading) -> Result<(), SurveyError> {
+        let Offset { along, .. } = self.offset(ahead)?;
+        if along.abs() > SETTLED {
+            let view = self.view(ahead)?;
+            self.drive(ahead, view, -along)?;
+        }
+        let Offset { aside, .. } = self.offset(ahead)?;
+        if aside.abs() > SETTLED {
+            let left = ahead.turned(FRAC_PI_2);
+            self.turn_to(left)?;
+            self.command(0.0, -aside)?;
+        }
+        Ok(())
+    }
+
+    /// How far the robot stands from the middle of a place. Only distances to walls and corners are used, which no error of the
+    /// compass changes: two corners that are equally far say that one stands between them.
+    fn offset(&self, ahead: Heading) -> Result<Offset, SurveyError> {
+        let nearest =
+            |quarters: f64, spread: f64| self.nearest(ahead.turned(quarters * FRAC_PI_2), spread);
+        let walls = [0.0, 1.0, 2.0, 3.0].map(|quarter| nearest(quarter, WALL));
+        let corners = [0.5, 1.5, 2.5, 3.5].map(|quarter| nearest(quarter, 0.5 * FRAC_PI_2));
+        let mut known = [0.0; 4];
+        let mut edges = [0.0; 4];
+        for (known, wall) in known.iter_mut().zip(walls) {
+            *known = wall?;
+        }
+        for (edge, corner) in edges.iter_mut().zip(corners) {
+            *edge = corner?;
+        }
+        let [front, left, back, right] = known;
+        let [front_left, back_left, back_right, front_right] = edges;
+        let half = 0.5 * CORRIDOR_WIDTH;
+        let closed = |range: f64| range < OPEN;
+        // Where both ends of an axis are open, the corners beside an open side tell; a doorway has none.
+        let between = |far: f64, near: f64| (far * far - near * near) / (4.0 * half);
+        let axis = |plus: f64, minus: f64, sides: [(f64, f64, f64); 2]| match (
+            closed(plus),
+            closed(minus),
+        ) {
+            (true, true) => 0.5 * (minus - plus),
+            (true, false) => half - plus,
+            (false, true) => minus - half,
+            (false, false) => {
+                let open = sides.into_iter().filter(|(side, ..)| !closed(*side));
+                let open: Vec<f64> = open.map(|(_, far, near)| between(far, near)).collect();
+                open.iter().sum::<f64>() / open.len().max(1) as f64
+            }
+        };
+        let limit = |offset: f64| offset.clamp(-0.3, 0.3);
+        Ok(Offset {
+            along: limit(axis(
+                front,
+                back,
+                [
+                    (left, back_left, front_left),
+                    (right, back_right, front_right),
+                ],
+            )),
+            aside: limit(axis(
+                left,
+                right,
+                [
+                    (front, front_right, front_left),
+                    (back, back_right, back_left),
+                ],
+            )),
+        })
+    }
+
+    /// The shortest range within so many radians of a heading.
+    fn nearest(&self, heading: Heading, spread: f64) -> Result<f64, SurveyError> {
+        let compass = self.compass()?;
+        let scan = self.solo.sensing().laser.scan.as_ref();
+        let scan = scan.ok_or(SurveyError::Blind { sensor: "laser" })?;
+        let beams = (0..scan.ring.beams).zip(&scan.ranges).filter(|(beam, _)| {
+            let looks = compass.turned(scan.ring.bearing(*beam));
+            looks.turn_to(heading).abs() <= spread
+        });
+        Ok(beams.map(|(_, range)| *range).fold(f64::INFINITY, f64::min))
+    }
+
     /// What the routine ended with: a picture is taken standing still.
     fn arrive(&mut self, outcome: RoutineOutcome) -> Result<Arrival, SurveyError> {
         self.solo.step(&TurnTranslate::STOP)?;
@@ -437,10 +537,9 @@ impl Surveyor {
             let beam = libm::round(heading.turn_to(direction) / scan.ring.spacing);
             scan.ranges[beam.rem_euclid(beams) as usize]
         };
-        let quarter = core::f64::consts::FRAC_PI_2;
         Ok(View {
-            left: range(ahead.turned(quarter)),
-            right: range(ahead.turned(-quarter)),
+            left: range(ahead.turned(FRAC_PI_2)),
+            right: range(ahead.turned(-FRAC_PI_2)),
             ahead: range(ahead),
             heading,
         })
