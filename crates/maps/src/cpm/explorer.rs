@@ -219,12 +219,8 @@ impl Explorer {
         };
         self.traversals += 1;
         self.best.mapper.map.version = Some(dictionary.version());
-        match arrival {
-            Arrival::Known | Arrival::Duplicate => {
-                self.before_duplicate.get_or_insert(self.traversals - 1);
-            }
-            Arrival::Contradiction => self.contradictions += 1,
-            Arrival::New | Arrival::Loop | Arrival::Revised => {}
+        if arrival == Arrival::Contradiction {
+            self.contradictions += 1;
         }
         Ok(arrival)
     }
@@ -239,7 +235,10 @@ impl Explorer {
             !online || trusts(&config, dictionary, &before, walk, known, sense)
         });
         let (new, arrival) = match walked {
-            Walked::Known => return Arrival::Known,
+            Walked::Known => {
+                self.came_again();
+                return Arrival::Known;
+            }
             Walked::New(new) => (new, Arrival::New),
             Walked::Contradicted(new) => (new, Arrival::Contradiction),
         };
@@ -249,9 +248,17 @@ impl Explorer {
             None
         };
         match (merges, arrival) {
-            (Some(_), Arrival::New) => Arrival::Duplicate,
+            (Some(_), Arrival::New) => {
+                self.came_again();
+                Arrival::Duplicate
+            }
             _ => arrival,
         }
+    }
+
+    /// The fragment walked last was walked before.
+    fn came_again(&mut self) {
+        self.before_duplicate.get_or_insert(self.traversals);
     }
 
     /// With hypotheses: each makes others of the walk, of which the likeliest are kept.
@@ -296,6 +303,9 @@ impl Explorer {
             }
         }
         self.best = Hypothesis { cost: 0.0, ..best };
+        if let Belief::Known | Belief::Duplicate = belief {
+            self.came_again();
+        }
         Ok(match belief {
             _ if parent > 0 => Arrival::Revised,
             Belief::NewPlace => Arrival::New,

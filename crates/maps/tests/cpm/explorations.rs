@@ -3,14 +3,14 @@
 use alloc::collections::BTreeSet;
 
 use proptest::prelude::*;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::world::{
     Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
 };
 use tolman_maps::cpm::{
-    Aim, Arrival, Candidates, CpmConfig, Decision, Done, Explorer, JunctionId, Landmark, Mapping,
-    Onward, theorem_1,
+    Aim, Arrival, Candidates, CpmConfig, Decision, Dictionary, Done, Explorer, JunctionId,
+    Landmark, Mapping, Onward, PatternId, theorem_1,
 };
 
 /// Lets an explorer pursue an aim.
@@ -73,35 +73,43 @@ fn drawn((maze, seed): (MazeConfig, u64)) -> (World, ChaCha8Rng) {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
     #[test]
     fn online_every_maze_is_explored_rightly_and_within_theorem_1(maze in mazes()) {
-        let (world, mut rng) = drawn(maze);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
-        let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
-        // How many fragments it has walked when it has walked all, whether it knows that or not.
-        let mut walked = BTreeSet::new();
-        let mut until_all = 0;
-        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-            let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
-                unreachable!("it was not told to give up");
-            };
-            explorer.arrive(leg.turn, &walk, world.dictionary()).unwrap();
-            if walked.insert(world.end_at(rover.at()).unwrap().corridor) {
-                until_all = explorer.traversals();
+        let (world, rng) = drawn(maze);
+        for (config, reckoning) in [
+            (CpmConfig::online(), Reckoning::None),
+            (CpmConfig::robust(), Reckoning::Bounded),
+        ] {
+            let mut rng = rng.clone();
+            let mut rover = Rover::new(&world, Noise::NONE, reckoning);
+            let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+            // How many fragments it has walked when it has walked all, whether it knows that or not.
+            let mut walked = BTreeSet::new();
+            let mut until_all = 0;
+            while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+                let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
+                    unreachable!("it was not told to give up");
+                };
+                explorer.arrive(leg.turn, &walk, world.dictionary()).unwrap();
+                if walked.insert(world.end_at(rover.at()).unwrap().corridor) {
+                    until_all = explorer.traversals();
+                }
             }
-        }
-        prop_assert_eq!(explorer.decide(Aim::Explore, &mut rng), Decision::Done(Done::Reached));
-        prop_assert_eq!(world.check(explorer.map(), explorer.at(), rover.at()), MapCheck::Right);
-        prop_assert_eq!(explorer.map().fragments().len(), world.corridors().len());
-        prop_assert!(explorer.map().is_optimized(&CpmConfig::online().matching, world.dictionary()));
-        prop_assert!(explorer.map().is_complete());
-        prop_assert_eq!(explorer.contradictions(), 0);
-        let first = explorer.before_duplicate().unwrap_or(explorer.traversals());
-        let fragments = world.corridors().len() as u32;
-        let bound = theorem_1(&vec![1.0; first as usize], 1.0, fragments);
-        prop_assert!(f64::from(until_all) <= bound, "{until_all} of {bound}");
-        if let Some(best) = world.shortest_covering_walk() {
-            prop_assert!(explorer.traversals() >= best);
+            prop_assert_eq!(explorer.decide(Aim::Explore, &mut rng), Decision::Done(Done::Reached));
+            prop_assert_eq!(world.check(explorer.map(), explorer.at(), rover.at()), MapCheck::Right);
+            prop_assert_eq!(explorer.map().fragments().len(), world.corridors().len());
+            prop_assert!(explorer.map().is_optimized(&CpmConfig::online().matching, world.dictionary()));
+            prop_assert!(explorer.map().is_complete());
+            prop_assert_eq!(explorer.contradictions(), 0);
+            let first = explorer.before_duplicate().unwrap_or(explorer.traversals());
+            let fragments = world.corridors().len() as u32;
+            let bound = theorem_1(&vec![1.0; first as usize], 1.0, fragments);
+            prop_assert!(f64::from(until_all) <= bound, "{until_all} of {bound}");
+            if let Some(best) = world.shortest_covering_walk() {
+                prop_assert!(explorer.traversals() >= best);
+            }
         }
     }
 
@@ -192,4 +200,51 @@ fn a_large_maze_needs_few_comparisons() {
     let all = explore(Candidates::All);
     assert_eq!(all.0, MapCheck::Right);
     assert_eq!(explore(Candidates::Best(3)), all);
+}
+
+/// Patterns learned on the way: "the robot … is expected to be capable of deciding if the current path-fragment is best represented by the
+/// existed CP, or if a new CP is best added." What was written before stays valid.
+#[test]
+fn patterns_are_learned_while_mapping() {
+    for seed in 0..10 {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let world = World::random(&MazeConfig::small(), &mut rng).unwrap();
+        let truth = world.dictionary();
+        let mut dictionary = Dictionary::new(truth.dimension());
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
+        let mut versions = Vec::new();
+        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+            let Outcome::Arrived(mut walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
+                unreachable!("it was not told to give up");
+            };
+            for pattern in &mut walk.patterns {
+                let mut sensed = |pattern: PatternId| -> Vec<f64> {
+                    let features = truth.prototype(pattern).unwrap().iter();
+                    features
+                        .map(|feature| feature + 0.02 * (rng.random::<f64>() - 0.5))
+                        .collect()
+                };
+                let (ahead, behind) = (sensed(*pattern), sensed(truth.half_turned(*pattern)));
+                *pattern = dictionary.learn(&ahead, &behind, 0.1).unwrap();
+            }
+            explorer.arrive(leg.turn, &walk, &dictionary).unwrap();
+            versions.push(dictionary.version());
+        }
+        assert_eq!(
+            world.check(explorer.map(), explorer.at(), rover.at()),
+            MapCheck::Right
+        );
+        assert!(
+            versions
+                .iter()
+                .all(|version| dictionary.check_version(*version) == Ok(()))
+        );
+        assert!(versions.first() != versions.last());
+        assert!(
+            (20..=31).contains(&dictionary.len()),
+            "{}",
+            dictionary.len()
+        );
+    }
 }
