@@ -1,7 +1,7 @@
 //! What is learned of worlds in which every place looks the same, of worlds that are painted, and after a kidnapping.
 
 use tolman_maps::diktiometry::{
-    Action, Config, Identity, Percepts, Rotation, SignatureKind, StepReport,
+    Action, Config, GeometricMerge, Identity, Percepts, Rotation, SignatureKind, StepReport,
 };
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractMove, MoveError};
@@ -90,6 +90,7 @@ fn a_random_walk_teaches_a_world_of_alike_places() {
 fn boxes_that_merely_meet_confuse_places() {
     let mut config = alike();
     config.matching.identity = Identity::Meets;
+    config.restructuring.geometric_merge = GeometricMerge::Estims;
     let purities = (0..3).map(|seed| {
         let mut walk = Walk::new(open(10), ODOMETRY, config.clone(), seed);
         walk.wander(700);

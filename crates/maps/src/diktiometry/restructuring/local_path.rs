@@ -118,7 +118,8 @@ pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Optio
             .zip(&side)
             .filter(move |(_, on)| **on == wanted)
     };
-    let weight = |wanted: bool| of(wanted).map(|(image, _)| image.weight()).sum::<u32>();
+    let weight =
+        |wanted: bool| of(wanted).fold(0_u32, |sum, (image, _)| sum.saturating_add(image.weight()));
     let differ = of(true).any(|(one, _)| of(false).any(|(other, _)| one.contradicts(other)));
     let enough = weight(true).min(weight(false)) >= limits.visits;
     (differ && enough).then(|| Diagnosis::Links {
@@ -151,7 +152,8 @@ impl Image {
     }
 
     fn weight(&self) -> u32 {
-        self.taken.iter().map(|(_, _, count)| count).sum()
+        let counts = self.taken.iter().map(|(_, _, count)| *count);
+        counts.fold(0, u32::saturating_add)
     }
 
     fn agrees(&self, other: &Self) -> bool {

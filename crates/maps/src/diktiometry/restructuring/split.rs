@@ -45,10 +45,9 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
         }
     };
     let moved = matches!(diagnosis, Diagnosis::Links { .. });
-    let visits: u32 = incoming
-        .iter()
-        .map(|id| map.paths.links[id.index()].traversed)
-        .sum();
+    let visits = incoming.iter().fold(0_u32, |sum, id| {
+        sum.saturating_add(map.paths.links[id.index()].traversed)
+    });
     let twin = &mut map.paths.places[new.index()];
     twin.views = here.views;
     twin.exits = here.exits;
@@ -59,8 +58,12 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
         if link.from == place {
             continue; // A link from the place to itself stays with it.
         }
-        copy(map, &link, link.from, new);
+        let copied = copy(map, &link, link.from, new);
         if moved {
+            let new = &mut map.paths.links[copied.index()];
+            new.traversed = link.traversed;
+            new.expected = link.expected;
+            new.met = link.met;
             map.paths.remove_link(id);
         }
     }
@@ -73,13 +76,12 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
     new
 }
 
-/// A link with the counts of another.
-fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) {
+/// A link of the same action as another. It counts as gone once: what it is worth has to show.
+fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) -> LinkId {
     let id = map.paths.link_to(from, link.action, to);
     let new = &mut map.paths.links[id.index()];
-    new.traversed = new.traversed.saturating_add(link.traversed);
-    new.expected += link.expected;
-    new.met += link.met;
+    new.traversed = new.traversed.max(1);
+    id
 }
 
 /// Cuts a box in two across the axis along which the estims lie farther apart.
