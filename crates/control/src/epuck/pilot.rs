@@ -62,6 +62,19 @@ where
         self.echoes().ok()?.ahead()
     }
 
+    /// Whether walls stand ahead and on both sides, none farther than this from the middle of the robot, m.
+    pub fn is_enclosed(&self, within: f64) -> bool {
+        let Ok(echoes) = self.echoes() else {
+            return false;
+        };
+        let ahead = echoes.ahead().is_some_and(|ahead| ahead < within);
+        let beside = |sensor| {
+            let echo = echoes.of_sensor(sensor);
+            echo.is_some_and(|point| point.y.abs() < within)
+        };
+        ahead && beside(2) && beside(5)
+    }
+
     /// What it holds to.
     pub const fn config(&self) -> &PilotConfig {
         &self.config

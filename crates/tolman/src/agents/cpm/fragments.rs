@@ -81,6 +81,12 @@ impl TrueFragments {
         self.ways.get(&(from, nearest)).copied()
     }
 
+    /// Whether fragments end in a cell.
+    #[must_use]
+    pub fn is_place(&self, cell: Cell) -> bool {
+        (0..4).any(|quarter| self.ways.contains_key(&(cell, quarter)))
+    }
+
     /// All ways out of all places.
     pub fn ways(&self) -> impl Iterator<Item = (Cell, Way)> + '_ {
         self.ways.iter().map(|((from, _), way)| (*from, *way))

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, Landmark, Plan};
+use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, Landmark};
 use tolman_maze::{Direction, Maze};
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
@@ -61,7 +61,7 @@ pub struct Record {
     pub first: Option<Episode>,
     /// The second.
     pub second: Option<Episode>,
-    /// Whether the plan is the shortest way of all that was walked.
+    /// Whether the second episode's way was the shortest of all that was walked.
     pub is_shortest: bool,
     /// How well loops were closed.
     pub closures: Closures,
@@ -234,8 +234,10 @@ impl Trial<'_> {
         agent.walker_mut().body_mut().place(start)?;
         agent.placed_at_start()?;
         if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
-            record.is_shortest = score.is_shortest(self.maze, &plan);
             record.second = Some(agent.drive_plan(&plan)?);
+            let body = agent.walker().body();
+            let path = body.path().get(record.second_from..).unwrap_or_default();
+            record.is_shortest = score.is_shortest(self.maze, body.world(), path);
         }
         Ok(())
     }
@@ -289,16 +291,12 @@ impl Score {
         self.lengths.entry(way.fragment).or_insert(length);
     }
 
-    /// Whether a plan is as short as any way over the fragments that were walked, by observations, give or take what they vary by.
-    fn is_shortest(&self, maze: &Maze, plan: &Plan) -> bool {
-        let mut planned = 0;
-        for leg in &plan.legs {
-            let way = self.truth.get(&leg.enter.fragment);
-            let Some(length) = way.and_then(|way| self.lengths.get(&way.fragment)) else {
-                return false;
-            };
-            planned += length;
-        }
+    /// Whether a drive from the start to the goal was as short as any over the fragments that were walked before, by observations, give or
+    /// take what they vary by, which is less than a cell.
+    fn is_shortest(&self, maze: &Maze, world: &World, path: &[Pose]) -> bool {
+        let Some(driven) = self.length_of(world, path) else {
+            return false;
+        };
         let Some((start, _)) = maze.start() else {
             return false;
         };
@@ -319,7 +317,35 @@ impl Score {
         let goals = maze.goals().iter().filter_map(|goal| reached.get(goal));
         goals
             .min()
-            .is_some_and(|shortest| f64::from(planned) <= 1.05 * f64::from(*shortest) + 2.0)
+            .is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(*shortest) + 8.0)
+    }
+}
+
+impl Score {
+    /// The length of a drive, in observations of the fragments it was along; none if one of them was not walked before.
+    fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
+        let mut cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
+        let mut at = cells.next()?;
+        let (mut under_way, mut length) = (None::<Way>, 0);
+        for cell in cells {
+            if cell == at {
+                under_way = None;
+                continue;
+            }
+            let way = match under_way {
+                Some(way) => way,
+                None => {
+                    let step = world.cell_centre(cell) - world.cell_centre(at);
+                    self.fragments.way(at, Heading::of(step))?
+                }
+            };
+            under_way = Some(way);
+            if cell == way.to {
+                length += self.lengths.get(&way.fragment)?;
+                (at, under_way) = (cell, None);
+            }
+        }
+        Some(length)
     }
 }
 

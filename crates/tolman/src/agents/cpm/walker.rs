@@ -334,8 +334,8 @@ impl<B: Body> Walker<B> {
     /// Whether the only way out is the one it came by, and the wall across the path is near.
     fn is_before_a_wall(&self, segments: &Segments, widths: f64) -> bool {
         let near = widths * self.config.corridor_width;
-        segments.spaces().all(|space| space.abs() > FRAC_PI_2)
-            && self.pilot.ahead().is_some_and(|ahead| ahead < near)
+        // In a bend, too, the robot may see no way but the one behind it for a moment.
+        segments.spaces().all(|space| space.abs() > FRAC_PI_2) && self.pilot.is_enclosed(near)
     }
 
     /// The middle of a dead end: half a corridor's width before the wall ahead.
@@ -367,6 +367,10 @@ impl<B: Body> Walker<B> {
     /// How many strides lead from the middle of a place to within sight of the next where so many observations were written down between.
     #[must_use]
     pub fn strides(&self, observations: u32) -> u32 {
+        // Between neighbouring places next to nothing is written down, and nothing can be skipped.
+        if observations < 4 {
+            return 0;
+        }
         let stride = self.config.pilot.forward.speed * self.config.stride_s;
         let unwritten = (2.0 * TRIMMED - IN_SIGHT) * self.config.corridor_width;
         observations + libm::floor(unwritten / stride) as u32

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maze::{Braided, Cell, Direction, Maze, MazeFile};
+use tolman_maze::{Cell, Direction, Maze, MazeFile, Perfect};
 use tolman_sim::{CorridorSize, World};
 
 use crate::experiment::BoxError;
@@ -86,17 +86,34 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
     Ok(venues)
 }
 
-/// A random maze whose fragments are short and alike: half of its dead ends opened, start in the south-west, goal in the dead end
-/// farthest from it.
+/// A random maze whose fragments are short and alike, without rooms: a way behind every other dead end opened, start in the south-west,
+/// goal in the dead end farthest from it.
 pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut maze = Braided {
-        width: ALIASED_SIDE,
-        height: ALIASED_SIDE,
-        share: 0.5,
+    let side = ALIASED_SIDE;
+    let mut maze = Perfect {
+        width: side,
+        height: side,
     }
     .generate(&mut rng)?;
     let start = Cell::new(0, 0);
+    let dead_ends: Vec<Cell> = maze.dead_ends().filter(|cell| *cell != start).collect();
+    for cell in dead_ends.into_iter().step_by(2) {
+        let first = rng.random_range(0..4_u32) as usize;
+        let shut = (0..4)
+            .map(|turn| Direction::ALL[(first + turn) % 4])
+            .find(|direction| {
+                let inside = maze.grid().neighbour(cell, *direction).is_some();
+                inside && !maze.is_open(cell, *direction) && {
+                    let mut opened = maze.clone();
+                    opened.set_wall(cell, *direction, false);
+                    !has_room(&opened)
+                }
+            });
+        if let Some(direction) = shut {
+            maze.set_wall(cell, direction, false);
+        }
+    }
     let ahead = if maze.is_open(start, Direction::North) {
         Direction::North
     } else {
@@ -116,5 +133,23 @@ pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
         name: "Aliased".into(),
         maze,
         corridor_width: CORRIDOR_WIDTH,
+    })
+}
+
+/// Whether four cells are open to each other: no corridor.
+fn has_room(maze: &Maze) -> bool {
+    let grid = maze.grid();
+    grid.cells().any(|cell| {
+        let east = grid.neighbour(cell, Direction::East);
+        let north = grid.neighbour(cell, Direction::North);
+        match (east, north) {
+            (Some(east), Some(north)) => {
+                maze.is_open(cell, Direction::East)
+                    && maze.is_open(cell, Direction::North)
+                    && maze.is_open(east, Direction::North)
+                    && maze.is_open(north, Direction::East)
+            }
+            _ => false,
+        }
     })
 }
