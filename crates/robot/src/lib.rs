@@ -10,10 +10,14 @@
 #![no_std]
 
 extern crate alloc;
+#[cfg(feature = "epuck-serial")]
+extern crate std;
 
 mod body;
 mod column_image;
 pub mod epuck;
+#[cfg(feature = "epuck-serial")]
+pub mod epuck_serial;
 mod laser_robot;
 mod odometry;
 mod robot;
