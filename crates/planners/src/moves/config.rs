@@ -31,13 +31,13 @@ impl MoveExplorerConfig {
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
-            known_step: 1.0,
-            unknown_wall: 0.1,
-            sight: 1.0,
-            early_proof: 0.75,
-            patience: 0.3,
-            base: 0.04,
-            nearness: 1.5,
+            known_step: 0.971,
+            unknown_wall: 0.113,
+            sight: 0.593,
+            early_proof: 1.0,
+            patience: 0.234,
+            base: 0.083,
+            nearness: 1.57,
         }
     }
 

@@ -18,6 +18,7 @@ use crate::{Passages, Unknown};
 /// - While no way to the goal is known, it does so only where it is as good as on its way; else it makes for the
 ///   goal by the way that takes fewest steps if all unknown walls are open. Where it could stop and look on the way,
 ///   unknown sides that it would see are worth a detour.
+/// - As soon as a way is known the mouse drives to the goal, where it has to be once anyway; only then it looks at the rest.
 ///
 /// It always ends: each stop it makes for shows a wall nobody has looked at, and on the way there that stop only gets more
 /// attractive.
@@ -99,8 +100,9 @@ impl<const N: usize> MoveExplorer<N> {
             (Some(moves), Goal::Visited) if moves == open => {
                 return MoveDecision::Finished { moves };
             }
-            (Some(moves), Goal::Ahead) if moves == open => nearest(goals, &here),
-            (Some(closed), _) => {
+            // Sooner or later it has to be there, and it is seldom nearer than now.
+            (Some(_), Goal::Ahead) => nearest(goals, &here),
+            (Some(closed), Goal::Visited) => {
                 let proof = self.best_proof(&hopes, &here, open, closed);
                 proof.map(|(_, cell)| cell)
             }
