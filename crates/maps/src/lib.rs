@@ -1,6 +1,7 @@
 //! What a robot has learned of its surroundings, one module per kind of map.
 //!
 //! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
+//! - [`wall_belief`]: the same walls for a mouse whose sensors and wheels err, and where on them it is.
 //! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how junctions join them.
 //! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of any robot's moves.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
@@ -19,4 +20,6 @@ pub mod cpm;
 pub mod diktiometry;
 #[cfg(feature = "alloc")]
 pub mod mslst_graph;
+#[cfg(feature = "alloc")]
+pub mod wall_belief;
 pub mod wall_map;

@@ -1,0 +1,224 @@
+use alloc::vec;
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+
+use rand::{Rng, RngExt};
+use thiserror::Error;
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maze::Knowledge;
+
+use super::{RangeReading, WallBelief};
+
+/// How a [`PoseFilter`] models wheels and sensors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseFilterConfig {
+    /// How many particles. > 0.
+    pub particles: u32,
+    /// Standard deviation of a distance or a turn, as a share of it. ≥ 0.
+    pub slip: f64,
+    /// Standard deviation of the turn that nobody asked for, rad per metre. ≥ 0.
+    pub drift: f64,
+    /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps particles apart. ≥ 0.
+    pub spread: f64,
+    /// Standard deviation of a range, m. > 0.
+    pub range: f64,
+    /// The same as a share of the range. ≥ 0.
+    pub relative_range: f64,
+    /// The share of readings that have nothing to do with the walls in the map, such as those that meet a post. Within 0 … 1.
+    pub outliers: f64,
+}
+
+/// A number of the configuration out of its range.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("{field} is {value}: give a finite number in the range that its documentation states")]
+pub struct FilterError {
+    /// The name of the field.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+}
+
+/// Where a mouse is, as a cloud of particles: Monte Carlo localization (Probabilistic robotics, table 8.2), with the low
+/// variance sampler of table 4.4 whenever half of the particles no longer count.
+///
+/// A ray is expected to end at any wall that may stand on its way ([`WallBelief::meetings`]); an unknown one stops it as
+/// often as not.
+#[derive(Clone, Debug)]
+pub struct PoseFilter {
+    config: PoseFilterConfig,
+    particles: Vec<Particle>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Particle {
+    pose: Pose,
+    weight: f64,
+}
+
+impl PoseFilter {
+    /// All particles at `pose`.
+    ///
+    /// # Errors
+    /// If a number of the configuration is out of its range.
+    pub fn new(config: PoseFilterConfig, pose: Pose) -> Result<Self, FilterError> {
+        let fields = [
+            (
+                "particles",
+                f64::from(config.particles),
+                config.particles > 0,
+            ),
+            ("slip", config.slip, config.slip >= 0.0),
+            ("drift", config.drift, config.drift >= 0.0),
+            ("spread", config.spread, config.spread >= 0.0),
+            ("range", config.range, config.range > 0.0),
+            (
+                "relative_range",
+                config.relative_range,
+                config.relative_range >= 0.0,
+            ),
+            (
+                "outliers",
+                config.outliers,
+                (0.0..=1.0).contains(&config.outliers),
+            ),
+        ];
+        if let Some((field, value, _)) = fields
+            .into_iter()
+            .find(|(_, value, holds)| !(*holds && value.is_finite()))
+        {
+            return Err(FilterError { field, value });
+        }
+        let weight = 1.0 / f64::from(config.particles);
+        Ok(Self {
+            config,
+            particles: vec![Particle { pose, weight }; config.particles as usize],
+        })
+    }
+
+    /// Puts all particles at `pose`: somebody has carried the mouse there.
+    pub fn place(&mut self, pose: Pose) {
+        let weight = 1.0 / self.particles.len() as f64;
+        self.particles.fill(Particle { pose, weight });
+    }
+
+    /// The mouse was told to drive `distance` metres and to turn by `turn` radians meanwhile. O(particles).
+    pub fn drive(&mut self, distance: f64, turn: f64, rng: &mut impl Rng) {
+        let config = self.config;
+        for particle in &mut self.particles {
+            let [a, b] = gaussians(rng);
+            let [c, d] = gaussians(rng);
+            let [e, _] = gaussians(rng);
+            let made = distance * (1.0 + config.slip * a);
+            let turned = turn * (1.0 + config.slip * b) + config.drift * distance.abs() * e;
+            let mut pose = particle.pose.displaced(made, turned);
+            pose.position += Vector::new(c, d) * config.spread;
+            particle.pose = pose;
+        }
+    }
+
+    /// Weighs every particle by what the sensors read. O(particles · readings · cells along a ray).
+    pub fn sense<const N: usize>(
+        &mut self,
+        walls: &WallBelief<N>,
+        readings: &[RangeReading],
+        rng: &mut impl Rng,
+    ) {
+        for particle in &mut self.particles {
+            for reading in readings {
+                particle.weight *= likelihood(&self.config, walls, particle.pose, *reading);
+            }
+        }
+        let sum: f64 = self.particles.iter().map(|particle| particle.weight).sum();
+        let even = 1.0 / self.particles.len() as f64;
+        // Nothing fits: better no opinion than none that is a number.
+        let usable = sum.is_normal();
+        for particle in &mut self.particles {
+            particle.weight = if usable { particle.weight / sum } else { even };
+        }
+        let squares: f64 = self.particles.iter().map(|p| p.weight * p.weight).sum();
+        if 2.0 < even.recip() * squares {
+            self.resample(rng);
+        }
+    }
+
+    fn resample(&mut self, rng: &mut impl Rng) {
+        let count = self.particles.len();
+        let even = 1.0 / count as f64;
+        let mut mark = uniform(rng) * even;
+        let mut sum = 0.0;
+        let mut drawn = Vec::with_capacity(count);
+        for particle in &self.particles {
+            sum += particle.weight;
+            while mark < sum && drawn.len() < count {
+                drawn.push(Particle {
+                    pose: particle.pose,
+                    weight: even,
+                });
+                mark += even;
+            }
+        }
+        // Rounding may leave the last place empty.
+        while let (Some(last), true) = (drawn.last().copied(), drawn.len() < count) {
+            drawn.push(last);
+        }
+        self.particles = drawn;
+    }
+
+    /// The mean of the particles.
+    #[must_use]
+    pub fn estimate(&self) -> Pose {
+        let (mut position, mut direction) = (Vector::zeros(), Vector::zeros());
+        for Particle { pose, weight } in &self.particles {
+            position += pose.position.coords * *weight;
+            direction += pose.heading.unit() * *weight;
+        }
+        Pose::new(Point::from(position), Heading::of(direction))
+    }
+}
+
+/// How likely a reading is for a mouse at `pose`, up to a factor.
+fn likelihood<const N: usize>(
+    config: &PoseFilterConfig,
+    walls: &WallBelief<N>,
+    pose: Pose,
+    reading: RangeReading,
+) -> f64 {
+    let heading = pose.heading.turned(reading.bearing);
+    let mut left = 1.0;
+    let mut hit = 0.0;
+    for meeting in walls.meetings(pose.position, heading, reading.max_range) {
+        let share = if meeting.known == Knowledge::Wall {
+            left
+        } else {
+            left / 2.0
+        };
+        hit += share * bell(config, reading.range, meeting.range);
+        left -= share;
+        if left < 0.05 {
+            break;
+        }
+    }
+    // What is left meets nothing.
+    hit += left * bell(config, reading.range, reading.max_range);
+    config.outliers / reading.max_range + (1.0 - config.outliers) * hit
+}
+
+/// The density of a reading whose expectation is `range`.
+fn bell(config: &PoseFilterConfig, reading: f64, range: f64) -> f64 {
+    let relative = config.relative_range * range;
+    let sd = libm::sqrt(config.range * config.range + relative * relative);
+    let off = (reading - range) / sd;
+    libm::exp(-0.5 * off * off) / (sd * libm::sqrt(TAU))
+}
+
+/// Two independent normal numbers (Box and Muller 1958).
+fn gaussians(rng: &mut impl Rng) -> [f64; 2] {
+    let radius = libm::sqrt(-2.0 * libm::log(1.0 - uniform(rng)));
+    let angle = TAU * uniform(rng);
+    [radius * libm::cos(angle), radius * libm::sin(angle)]
+}
+
+/// Uniform in [0, 1).
+fn uniform(rng: &mut impl Rng) -> f64 {
+    f64::from(rng.random::<u32>()) / 4_294_967_296.0
+}

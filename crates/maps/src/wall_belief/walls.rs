@@ -1,0 +1,302 @@
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+
+use crate::wall_map::TooLarge;
+
+/// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
+///
+/// A reading that meets a wall speaks for it, one that passes speaks against it. A wall is believed in, or taken for open,
+/// once [`WallBelief::CONVINCED`] more readings say so than say the contrary; it is unknown before and may be again.
+///
+/// ```
+/// use tolman_geom::{Heading, Point, Pose};
+/// use tolman_maps::wall_belief::{RangeReading, WallBelief};
+/// use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+///
+/// let mut belief = WallBelief::<16>::new(Grid::new(4, 4), 0.18, 0.012)?;
+/// let pose = Pose::new(Point::new(0.09, 0.09), Heading::EAST);
+/// // Two cells on a wall stands: 0.36 + 0.09 m, less half its thickness.
+/// let reading = RangeReading { bearing: 0.0, range: 0.443, max_range: 1.0 };
+/// for _ in 0..WallBelief::<16>::CONVINCED {
+///     belief.observe(pose, reading);
+/// }
+/// assert_eq!(belief.knowledge(Cell::new(1, 0), Direction::East), Knowledge::Open);
+/// assert_eq!(belief.knowledge(Cell::new(2, 0), Direction::East), Knowledge::Wall);
+/// assert_eq!(belief.knowledge(Cell::new(0, 0), Direction::North), Knowledge::Unknown);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallBelief<const N: usize> {
+    grid: Grid,
+    pitch: f64,
+    thickness: f64,
+    /// By y, then x: readings for the wall in the east less those against it.
+    east: [[i8; N]; N],
+    north: [[i8; N]; N],
+}
+
+/// What one range sensor says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RangeReading {
+    /// Where it looks, rad counter-clockwise from ahead.
+    pub bearing: f64,
+    /// How far it sees, m.
+    pub range: f64,
+    /// What it reads where it meets nothing, m.
+    pub max_range: f64,
+}
+
+/// Where a ray may end: at a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// How far away, m.
+    pub range: f64,
+    /// Whether the wall is believed in; else it is unknown.
+    pub known: Knowledge,
+}
+
+/// The lines of the grid that a ray crosses where a wall may stand, the nearest first, up to the first that is believed
+/// in. See [`WallBelief::meetings`].
+#[derive(Clone, Debug)]
+pub struct Meetings<'a, const N: usize> {
+    belief: &'a WallBelief<N>,
+    crossings: Crossings,
+    max_range: f64,
+    ended: bool,
+}
+
+/// How far from a line, as a share of the pitch, a reading may end and still count as the wall on it.
+const TOLERANCE: f64 = 0.25;
+
+/// A ray that leaves the axes by more tells of walls to the side.
+const STRAIGHT: f64 = 0.985;
+
+impl<const N: usize> WallBelief<N> {
+    /// How many readings more must speak for a wall than against it, or the other way round.
+    pub const CONVINCED: i8 = 2;
+    /// Readings beyond so many change nothing, so that a wrong belief can be given up.
+    const MOST: i8 = 6;
+
+    /// Nothing is believed but the border. `pitch` is from the middle of a cell to the next, `thickness` that of a wall, m.
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub const fn new(grid: Grid, pitch: f64, thickness: f64) -> Result<Self, TooLarge> {
+        if grid.width() as usize > N || grid.height() as usize > N {
+            return Err(TooLarge { grid, side: N });
+        }
+        Ok(Self {
+            grid,
+            pitch,
+            thickness,
+            east: [[0; N]; N],
+            north: [[0; N]; N],
+        })
+    }
+
+    /// From the middle of a cell to the next, m.
+    #[must_use]
+    pub const fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
+    /// The middle of a cell.
+    #[must_use]
+    pub fn middle(&self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
+        Point::new(along(cell.x), along(cell.y))
+    }
+
+    /// The cell a point lies in, none outside the maze.
+    #[must_use]
+    pub fn cell_at(&self, point: Point) -> Option<Cell> {
+        let index = |along: f64| {
+            let index = libm::floor(along / self.pitch);
+            (0.0..f64::from(u16::MAX))
+                .contains(&index)
+                .then_some(index as u16)
+        };
+        let cell = Cell::new(index(point.x)?, index(point.y)?);
+        self.grid.contains(cell).then_some(cell)
+    }
+
+    /// Takes in one reading made at `pose`: the walls it passes are open, and it ends at one. Where it ends between two lines of
+    /// the grid it says nothing of the farther one; far from parallel to both axes it says nothing at all. One of full range
+    /// met nothing. O(cells along the ray).
+    pub fn observe(&mut self, pose: Pose, reading: RangeReading) {
+        let heading = pose.heading.turned(reading.bearing);
+        let unit = heading.unit();
+        if unit.x.abs().max(unit.y.abs()) < STRAIGHT || !reading.range.is_finite() {
+            return;
+        }
+        let met = reading.range < reading.max_range;
+        let face = self.thickness / 2.0;
+        for crossing in Crossings::new(self, pose.position, heading) {
+            if !crossing.along_axis {
+                // It leaves its row: what it sees from there on is to the side.
+                return;
+            }
+            let beyond = reading.range + face - crossing.distance;
+            if beyond > TOLERANCE * self.pitch {
+                self.vote(crossing.cell, crossing.side, -1);
+            } else {
+                if met && beyond > -TOLERANCE * self.pitch {
+                    self.vote(crossing.cell, crossing.side, 1);
+                }
+                return;
+            }
+        }
+    }
+
+    fn vote(&mut self, cell: Cell, side: Direction, vote: i8) {
+        let Some(beyond) = self.grid.neighbour(cell, side) else {
+            return;
+        };
+        let (plane, cell) = match side {
+            Direction::East => (&mut self.east, cell),
+            Direction::West => (&mut self.east, beyond),
+            Direction::North => (&mut self.north, cell),
+            Direction::South => (&mut self.north, beyond),
+        };
+        let row = plane.get_mut(usize::from(cell.y));
+        if let Some(votes) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
+            *votes = (*votes + vote).clamp(-Self::MOST, Self::MOST);
+        }
+    }
+
+    /// Where a ray from `origin` may end that reaches `max_range`.
+    #[must_use]
+    pub fn meetings(&self, origin: Point, heading: Heading, max_range: f64) -> Meetings<'_, N> {
+        Meetings {
+            belief: self,
+            crossings: Crossings::new(self, origin, heading),
+            max_range,
+            ended: false,
+        }
+    }
+}
+
+impl<const N: usize> Walls for WallBelief<N> {
+    fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
+        let beyond = self.grid.neighbour(cell, direction);
+        let (Some(beyond), true) = (beyond, self.grid.contains(cell)) else {
+            return Knowledge::Wall;
+        };
+        let (plane, cell) = match direction {
+            Direction::East => (&self.east, cell),
+            Direction::West => (&self.east, beyond),
+            Direction::North => (&self.north, cell),
+            Direction::South => (&self.north, beyond),
+        };
+        let row = plane.get(usize::from(cell.y));
+        let votes = row.and_then(|row| row.get(usize::from(cell.x)));
+        match votes.copied().unwrap_or(0) {
+            Self::CONVINCED.. => Knowledge::Wall,
+            ..=-2 => Knowledge::Open,
+            _ => Knowledge::Unknown,
+        }
+    }
+}
+
+impl<const N: usize> Iterator for Meetings<'_, N> {
+    type Item = Meeting;
+
+    fn next(&mut self) -> Option<Meeting> {
+        while !self.ended {
+            let crossing = self.crossings.next()?;
+            let face = self.belief.thickness / 2.0 / crossing.slope;
+            let range = (crossing.distance - face).max(0.0);
+            if range >= self.max_range {
+                self.ended = true;
+                return None;
+            }
+            let known = self.belief.knowledge(crossing.cell, crossing.side);
+            self.ended = known == Knowledge::Wall;
+            if known != Knowledge::Open {
+                return Some(Meeting { range, known });
+            }
+        }
+        None
+    }
+}
+
+/// The sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A fast voxel traversal algorithm for ray
+/// tracing", 1987).
+#[derive(Clone, Debug)]
+struct Crossings {
+    grid: Grid,
+    cell: Option<Cell>,
+    /// Along x and y: the distance to the next line, from one line to the next, the side crossed there, and the share of
+    /// the ray that goes that way.
+    axes: [Axis; 2],
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    next: f64,
+    step: f64,
+    side: Direction,
+    slope: f64,
+}
+
+struct Crossing {
+    cell: Cell,
+    side: Direction,
+    distance: f64,
+    slope: f64,
+    /// Whether the ray runs along the axis it crosses here, more than across it.
+    along_axis: bool,
+}
+
+impl Crossings {
+    fn new<const N: usize>(belief: &WallBelief<N>, origin: Point, heading: Heading) -> Self {
+        let unit = heading.unit();
+        let pitch = belief.pitch;
+        let axis = |at: f64, slope: f64, ahead: Direction, back: Direction| {
+            let line = if slope > 0.0 {
+                libm::floor(at / pitch) + 1.0
+            } else {
+                libm::floor(at / pitch)
+            };
+            let steep = slope.abs().max(1e-12);
+            Axis {
+                next: (line * pitch - at).abs() / steep,
+                step: pitch / steep,
+                side: if slope > 0.0 { ahead } else { back },
+                slope: steep,
+            }
+        };
+        Self {
+            grid: belief.grid,
+            cell: belief.cell_at(origin),
+            axes: [
+                axis(origin.x, unit.x, Direction::East, Direction::West),
+                axis(origin.y, unit.y, Direction::North, Direction::South),
+            ],
+        }
+    }
+}
+
+impl Iterator for Crossings {
+    type Item = Crossing;
+
+    fn next(&mut self) -> Option<Crossing> {
+        let cell = self.cell?;
+        let [x, y] = &mut self.axes;
+        let (axis, other) = if x.next <= y.next { (x, y) } else { (y, x) };
+        let crossing = Crossing {
+            cell,
+            side: axis.side,
+            distance: axis.next,
+            slope: axis.slope,
+            along_axis: axis.slope > other.slope,
+        };
+        axis.next += axis.step;
+        self.cell = self.grid.neighbour(cell, axis.side);
+        Some(crossing)
+    }
+}
