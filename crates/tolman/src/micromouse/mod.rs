@@ -8,6 +8,8 @@
 //! The searches: [`Certify`] stops when the best run is proven, and hands out a [`Certificate`] that [`check`] verifies;
 //! [`TargetSearch`], [`CounterSearch`] and [`RandomSearch`] are the paper's.
 //!
+//! [`noisy`] is the same mouse on the continuous simulator, among thick walls and with a particle filter.
+//!
 //! ```
 //! use tolman::micromouse::{Searcher, Trial, check};
 //!
@@ -37,6 +39,7 @@ mod counter;
 mod driver;
 mod judgement;
 mod mouse;
+pub mod noisy;
 mod order;
 mod q_learning;
 mod random;

@@ -3,11 +3,12 @@
 //!
 //! The searches of tables 1 to 3 that leave things to chance have as many runs as the caller asks for, all others
 //! make the same run each time and have one. In the tables `sets` and `competition` a run is a maze of the set; the
-//! latter is of the competition model, which the paper does not know.
+//! latter is of the competition model, which the paper does not know. The table `noise` is the paper's outlook.
 
 mod comparisons;
 mod competition;
 mod figures;
+mod noise;
 mod paper;
 mod sets;
 
@@ -31,6 +32,7 @@ struct Micromouse {
     paper: Vec<PaperTable>,
     sets: Vec<MazeSet>,
     tables: Vec<Table>,
+    skipped: Option<String>,
 }
 
 /// The name of the table of sets.
@@ -55,10 +57,13 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     }
     tables.push(table);
     tables.push(competition::table(&sets));
+    tables.push(noise::table());
+    let complaints: Vec<String> = sets.iter().filter_map(MazeSet::complaint).collect();
     Ok(Box::new(Micromouse {
         paper,
         sets,
         tables,
+        skipped: (!complaints.is_empty()).then(|| complaints.join(" ")),
     }))
 }
 
@@ -131,6 +136,10 @@ impl Experiment for Micromouse {
         &self.tables
     }
 
+    fn skipped(&self) -> Option<&str> {
+        self.skipped.as_deref()
+    }
+
     fn config(&self) -> Result<toml::Table, BoxError> {
         let mut config = toml::Table::new();
         config.insert(
@@ -160,6 +169,9 @@ impl Experiment for Micromouse {
         if job.table == COMPETITION {
             let set = self.set(job.row).ok_or("there is no such row")?;
             return competition::run(set, job.run as usize);
+        }
+        if job.table == noise::NOISE {
+            return noise::run(job);
         }
         let compared = comparisons::run(&self.paper, job.table, job.row, job.run, job.seed)?;
         if let Some(fields) = compared {
@@ -191,6 +203,9 @@ impl Experiment for Micromouse {
         if run.table == COMPETITION {
             let set = self.set(&run.row).ok_or("there is no such row")?;
             return competition::check(set, run);
+        }
+        if run.table == noise::NOISE {
+            return noise::check(run);
         }
         if let Some(checked) = comparisons::check(run) {
             return checked;
@@ -225,6 +240,8 @@ impl Experiment for Micromouse {
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(self, runs)
+        let mut figures = figures::of(self, runs)?;
+        figures.push(noise::figure(runs));
+        Ok(figures)
     }
 }

@@ -18,6 +18,50 @@ pub(super) struct MazeSet {
     pub(super) name: String,
     /// Names of files and mazes, by name.
     pub(super) mazes: Vec<(String, Maze)>,
+    /// How many files were left out, by the reason.
+    pub(super) left_out: LeftOut,
+}
+
+/// Files of a folder that no mouse can have a score in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct LeftOut {
+    no_maze: usize,
+    no_way: usize,
+    no_fit: usize,
+}
+
+impl MazeSet {
+    /// What was left out, for people; none if nothing was.
+    pub(super) fn complaint(&self) -> Option<String> {
+        let LeftOut {
+            no_maze,
+            no_way,
+            no_fit,
+        } = self.left_out;
+        let out = no_maze + no_way + no_fit;
+        if out == 0 {
+            return None;
+        }
+        let reasons = [
+            (no_way, "without a way to the goal".to_owned()),
+            (
+                no_fit,
+                format!("without a start or of more than {SIDE} cells a side"),
+            ),
+            (no_maze, "that are no mazes".to_owned()),
+        ];
+        let reasons: Vec<String> = reasons
+            .into_iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, reason)| format!("{count} {reason}"))
+            .collect();
+        let all = out + self.mazes.len();
+        Some(format!(
+            "{}: {out} of {all} files left out, {}.",
+            self.name,
+            reasons.join(", ")
+        ))
+    }
 }
 
 /// The set that is for the competition model alone.
@@ -43,18 +87,20 @@ pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSe
         if let Some(path) = folder.map(|folder| folder.join(path))
             && path.is_dir()
         {
+            let (mazes, left_out) = in_folder(&path)?;
             sets.push(MazeSet {
                 name: name.to_owned(),
-                mazes: in_folder(&path)?,
+                mazes,
+                left_out,
             });
         }
     }
     sets.push(ours()?);
     for path in named {
-        let mazes = if path.is_dir() {
+        let (mazes, left_out) = if path.is_dir() {
             in_folder(path)?
         } else {
-            vec![(stem(path), maze(path)?)]
+            (vec![(stem(path), maze(path)?)], LeftOut::default())
         };
         if mazes.is_empty() {
             return Err(format!("{} holds no maze: name another folder", path.display()).into());
@@ -62,6 +108,7 @@ pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSe
         sets.push(MazeSet {
             name: told_apart(stem(path), &sets),
             mazes,
+            left_out,
         });
     }
     Ok(sets)
@@ -83,24 +130,27 @@ fn ours() -> Result<MazeSet, BoxError> {
     Ok(MazeSet {
         name: "braided 16".to_owned(),
         mazes: mazes?,
+        left_out: LeftOut::default(),
     })
 }
 
-/// All mazes of a folder that can be solved and fit a mouse, by name.
-fn in_folder(folder: &Path) -> Result<Vec<(String, Maze)>, BoxError> {
+/// All mazes of a folder that can be solved and fit a mouse, by name, and how many others there are.
+fn in_folder(folder: &Path) -> Result<(Vec<(String, Maze)>, LeftOut), BoxError> {
     let files = files_in(folder)
         .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
     let mut mazes = Vec::new();
+    let mut left_out = LeftOut::default();
     for path in &files {
         let text = text(path)?;
-        // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
-        if let Ok(file) = tolman_maze::read(&text)
-            && fits(&file.maze)
-        {
-            mazes.push((stem(path), file.maze));
+        match tolman_maze::read(&text) {
+            Ok(file) if fits(&file.maze) => mazes.push((stem(path), file.maze)),
+            Ok(_) => left_out.no_fit += 1,
+            // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
+            Err(_) if tolman_maze::parse(&text).is_ok() => left_out.no_way += 1,
+            Err(_) => left_out.no_maze += 1,
         }
     }
-    Ok(mazes)
+    Ok((mazes, left_out))
 }
 
 fn text(path: &Path) -> Result<String, BoxError> {
@@ -142,4 +192,48 @@ fn told_apart(name: String, sets: &[MazeSet]) -> String {
     numbered
         .find(|candidate| !taken(candidate))
         .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOUND: &str = "+---+---+\n| S   G |\n+---+---+\n";
+
+    #[test]
+    fn what_is_left_out_is_counted() {
+        let folder = std::env::temp_dir().join(format!("tolman-sets-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let mut large = Maze::open(tolman_maze::Grid::new(33, 2));
+        large.set_start(Some((
+            tolman_maze::Cell::new(0, 0),
+            tolman_maze::Direction::North,
+        )));
+        large.set_goals(vec![tolman_maze::Cell::new(9, 1)]);
+        for (name, text) in [
+            ("a.maze", SOUND.to_owned()),
+            ("b.maze", SOUND.replace("S   G", "S | G")),
+            ("c.maze", large.to_string()),
+            ("d.maze", "no maze".to_owned()),
+        ] {
+            fs::write(folder.join(name), text).unwrap();
+        }
+        let (mazes, left_out) = in_folder(&folder).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let set = MazeSet {
+            name: "mine".to_owned(),
+            mazes,
+            left_out,
+        };
+        assert_eq!(
+            set.complaint().unwrap(),
+            "mine: 3 of 4 files left out, 1 without a way to the goal, 1 without a start or of more than 32 cells a side, \
+             1 that are no mazes."
+        );
+        let whole = MazeSet {
+            left_out: LeftOut::default(),
+            ..set
+        };
+        assert_eq!(whole.complaint(), None);
+    }
 }
