@@ -4,17 +4,21 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
+use super::estimator::trusted_odometry;
 use super::ids::{LinkId, PlaceId};
 use super::map::Site;
 use super::matching::{Choice, Look, Matcher, remember};
 use super::observation::{Exits, Move};
 use super::observer::Observer;
 use super::path_graph::{Fate, Note, Successor};
-use super::projector::Projection;
+use super::projector::{Projection, between_places};
 use super::report::{Contradiction, Culprit};
 use super::restructuring::{Hints, elide_place};
 use super::track::Track;
 use super::updater::arrive;
+
+/// How many of the places met before the last are related to a new one directly: two moves back, three, …
+const SPAN: usize = 4;
 
 impl Observer {
     /// The updater: the best track's best match changes the map.
@@ -61,6 +65,7 @@ impl Observer {
         if let Some(before) = track.link {
             self.follow(before, link);
         }
+        self.relate_lately(track, to, trusted_odometry(step, choice, best.matcher));
         let lookalikes = match (choice.look, &step.percept) {
             (Look::Strange, Some(view)) => self
                 .views
@@ -91,6 +96,38 @@ impl Observer {
             .extend(track.history.iter().map(|entry| entry.place));
         hints.changed.push(to);
         (to, Some(link))
+    }
+
+    /// Relates the places met lately to the one just met by the way between them. Where in a place the robot stopped matters at the
+    /// ends of a way alone, while relations from each place to the next count it at both ends of every move; so nothing
+    /// is to be won where robots stop at a point.
+    fn relate_lately(&mut self, track: &Track, to: PlaceId, moved: PointBox) {
+        if self.config.place_radius <= 0.0 {
+            return;
+        }
+        let earlier = track.history.iter().rev().skip(1).take(SPAN);
+        for entry in earlier {
+            let way = between_places(entry.since + moved, &self.config);
+            let Some(from) = self
+                .map
+                .paths
+                .resolve(entry.place)
+                .filter(|from| *from != to)
+            else {
+                continue;
+            };
+            if way.is_bounded() {
+                let [start, end] = [from, to].map(|place| {
+                    let place = &self.map.paths.places[place.index()];
+                    (place.frame, place.position)
+                });
+                // A way that contradicts the relations was told of as a move already.
+                let estimate = start.1 + way - end.1;
+                if self.map.reference.allows(start.0, end.0, estimate).is_ok() {
+                    let _ = self.map.reference.relate(start.0, end.0, estimate);
+                }
+            }
+        }
     }
 
     /// A place where the track is projected to be, in the frame it came from or in one of its own.

@@ -117,8 +117,10 @@ impl Observer {
                 place,
                 action: Some(step.action),
                 doubts: choice.doubts.clone(),
+                since: PointBox::ORIGIN,
             };
-            child.remember(entry, self.config.tracks.history);
+            let moved = trusted_odometry(step, &choice, chosen.matcher);
+            child.remember(entry, moved, self.config.tracks.history);
             self.carry_active(&mut child, &projection);
             let line = TrackReport {
                 track: id,
@@ -165,6 +167,7 @@ impl Observer {
                     place,
                     action: None,
                     doubts: Vec::new(),
+                    since: PointBox::ORIGIN,
                 }]),
                 active: Vec::from([ActiveFrame { frame, robot }]),
             };
@@ -329,6 +332,19 @@ impl Observer {
             seen.push(track.place);
             new
         });
+    }
+}
+
+/// The odometry of a move, if nothing says that it is wrong or that the robot was carried off.
+pub(super) fn trusted_odometry(step: &Move, choice: &Choice, matcher: Matcher) -> PointBox {
+    let plain = matches!(
+        matcher,
+        Matcher::Continue | Matcher::Link | Matcher::NewPlace
+    );
+    if plain && choice.excluded.is_none() && choice.look == Look::Known {
+        step.odometry.position
+    } else {
+        PointBox::UNBOUNDED
     }
 }
 

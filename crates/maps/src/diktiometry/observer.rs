@@ -72,6 +72,7 @@ impl Observer {
                 place,
                 action: None,
                 doubts: Vec::new(),
+                since: PointBox::ORIGIN,
             }]),
             active: Vec::from([ActiveFrame {
                 frame,

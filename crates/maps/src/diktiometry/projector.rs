@@ -34,7 +34,7 @@ pub(super) fn project(
 }
 
 /// The robot's displacement is the places' up to where in the places it stopped.
-fn between_places(robot: PointBox, config: &Config) -> PointBox {
+pub(super) fn between_places(robot: PointBox, config: &Config) -> PointBox {
     let Ok(stops) = Interval::about(0.0, 2.0 * config.place_radius) else {
         return robot; // Its radius was checked to be a number, and not negative.
     };

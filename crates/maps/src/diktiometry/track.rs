@@ -1,5 +1,7 @@
 use alloc::vec::Vec;
 
+use tolman_geom::PointBox;
+
 use super::ids::{Action, LinkId, PlaceId, TrackId};
 use super::indexing::ActiveFrame;
 
@@ -25,7 +27,7 @@ pub struct Track {
 }
 
 /// One entry of a track's history.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Match {
     /// The place that was matched.
     pub place: PlaceId,
@@ -33,10 +35,16 @@ pub struct Match {
     pub action: Option<Action>,
     /// Places that "were considered as matches but rejected" and could be the same still.
     pub doubts: Vec<PlaceId>,
+    /// How the robot has moved since, by odometry, m; unbounded if something on the way is doubtful.
+    pub since: PointBox,
 }
 
 impl Track {
-    pub(super) fn remember(&mut self, entry: Match, length: usize) {
+    /// Adds a match; all before it lie a displacement further back.
+    pub(super) fn remember(&mut self, entry: Match, moved: PointBox, length: usize) {
+        for before in &mut self.history {
+            before.since = before.since + moved;
+        }
         self.history.push(entry);
         let surplus = self.history.len().saturating_sub(length);
         self.history.drain(..surplus);
