@@ -1,0 +1,146 @@
+//! How CPM explores random mazes of corridors and junctions: the table in docs/cpm.md.
+//!
+//! `cargo run --release -p tolman-maps --example cpm_worlds`
+#![expect(clippy::print_stdout, reason = "its table is its result")]
+
+use core::error::Error;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::cpm::world::{
+    Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
+};
+use tolman_maps::cpm::{
+    Aim, Alignment, CpmConfig, Decision, Explorer, Mapping, Matching, Onward, Similarity,
+};
+
+const MAZES: u32 = 200;
+
+/// What became of all mazes.
+#[derive(Default)]
+struct Tally {
+    right: u32,
+    wrong: u32,
+    ratio: f64,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let literal = CpmConfig {
+        matching: Matching::Positions(Similarity::literal()),
+        ..CpmConfig::online()
+    };
+    let go_on = CpmConfig {
+        onward: Onward::GoOn,
+        ..CpmConfig::online()
+    };
+    let aligned = CpmConfig {
+        matching: Matching::Alignment(Alignment::tuned()),
+        mapping: Mapping::Online,
+        ..CpmConfig::online()
+    };
+    let robust = CpmConfig::robust();
+    let explorers = [
+        ("online, (3)–(5) to the letter", literal, Reckoning::None),
+        ("online, \"go on\"", go_on, Reckoning::None),
+        ("online", CpmConfig::online(), Reckoning::None),
+        ("online, aligned", aligned, Reckoning::None),
+        ("hypotheses, no dead reckoning", robust, Reckoning::None),
+        ("hypotheses", robust, Reckoning::Bounded),
+    ];
+    let calm = Noise {
+        substitution: 0.05,
+        slip: 0.05,
+        heading: 0.05,
+        ..Noise::NONE
+    };
+    let noisy = Noise {
+        substitution: 0.1,
+        insertion: 0.03,
+        deletion: 0.03,
+        slip: 0.1,
+        heading: 0.1,
+    };
+    let wild = Noise {
+        substitution: 0.2,
+        insertion: 0.05,
+        deletion: 0.05,
+        slip: 0.2,
+        heading: 0.2,
+    };
+    println!("| explorer | mazes | no noise | calm | noisy | wild |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    for (name, config, reckoning) in explorers {
+        for alike in [false, true] {
+            let cells: Result<Vec<String>, _> = [Noise::NONE, calm, noisy, wild]
+                .map(|noise| explore(config, reckoning, noise, alike))
+                .into_iter()
+                .collect();
+            let mazes = if alike { "alike" } else { "distinctive" };
+            println!("| {name} | {mazes} | {} |", cells?.join(" | "));
+        }
+    }
+    Ok(())
+}
+
+/// Mazes of all sorts: from trees to all loops there may be, ports in four directions or in eight.
+fn maze(number: u32, alike: bool) -> MazeConfig {
+    let distinctive = MazeConfig {
+        columns: 3 + number % 2,
+        rows: 3 + number / 2 % 2,
+        loops: f64::from(number % 5) / 4.0,
+        diagonals: f64::from(number % 3) / 2.0,
+        ..MazeConfig::small()
+    };
+    if !alike {
+        return distinctive;
+    }
+    MazeConfig {
+        likeness: Likeness::Kinds(1 + number % 3),
+        symmetrical: f64::from(number % 4) / 3.0,
+        ..distinctive
+    }
+}
+
+fn explore(
+    config: CpmConfig,
+    reckoning: Reckoning,
+    noise: Noise,
+    alike: bool,
+) -> Result<String, Box<dyn Error>> {
+    let mut tally = Tally::default();
+    for number in 0..MAZES {
+        let mut rng = ChaCha8Rng::seed_from_u64(number.into());
+        let world = World::random(&maze(number, alike), &mut rng)?;
+        let mut rover = Rover::new(&world, noise, reckoning);
+        let most_traversals = 8 * world.corridors().len() as u32;
+        let mut explorer = Explorer::new(
+            CpmConfig {
+                most_traversals,
+                ..config
+            },
+            rover.sighting(),
+        )?;
+        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+            if let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng)? {
+                explorer.arrive(leg.turn, &walk, world.dictionary())?;
+            }
+        }
+        let finished = explorer.traversals() < most_traversals;
+        match world.check(explorer.map(), explorer.at(), rover.at()) {
+            MapCheck::Right => {
+                tally.right += 1;
+                let best = world.shortest_covering_walk().unwrap_or(1);
+                tally.ratio += f64::from(explorer.traversals()) / f64::from(best);
+            }
+            _ if finished => tally.wrong += 1,
+            _ => {}
+        }
+    }
+    let percent = |count: u32| 100.0 * f64::from(count) / f64::from(MAZES);
+    let ratio = tally.ratio / f64::from(tally.right.max(1));
+    Ok(format!(
+        "{:.1} / {:.1} / {ratio:.2}",
+        percent(tally.right),
+        percent(tally.wrong)
+    ))
+}
