@@ -378,3 +378,96 @@ pub enum TrialError {
     #[error(transparent)]
     Agent(#[from] AgentError<StepError>),
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_maze::{Cell, Grid};
+    use tolman_sim::noise::{DropOut, Stuck};
+
+    use super::*;
+
+    const WIDTH: f64 = 0.25;
+
+    fn read(text: &str) -> Maze {
+        tolman_maze::read(text).unwrap().maze
+    }
+
+    fn patterns() -> CommonPatterns {
+        let maze = read(include_str!("../../../../../mazes/cpm-learning.maze"));
+        learn(&maze, WIDTH, Grain::Units, 1).unwrap()
+    }
+
+    fn play(maze: &Maze, patterns: &CommonPatterns, robot: EpuckConfig) -> Record {
+        let trial = Trial {
+            maze,
+            corridor_width: WIDTH,
+            patterns,
+            robot,
+            mode: Mode::Paper(CpmConfig::online()),
+            seed: 3,
+        };
+        trial.play().unwrap()
+    }
+
+    #[test]
+    fn the_second_episode_is_the_shorter_one_bit_for_bit() {
+        let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
+        let patterns = patterns();
+        let record = play(&maze, &patterns, epuck());
+        assert!(record.is_solved(), "{:?}", record.trouble);
+        assert!(record.reduction_percent().unwrap() > 50.0);
+        assert_eq!(record.bumps, 0);
+        assert_eq!(record.path, play(&maze, &patterns, epuck()).path);
+    }
+
+    #[test]
+    fn a_goal_that_is_walled_off_is_not_there() {
+        let mut maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
+        let goal = maze.goals()[0];
+        for direction in Direction::ALL {
+            maze.set_wall(goal, direction, true);
+        }
+        let record = play(&maze, &patterns(), epuck());
+        assert!(!record.is_solved() && record.trouble.is_none());
+        assert_eq!(record.first.unwrap().done, Done::NotThere);
+        assert!(record.second.is_none());
+    }
+
+    #[test]
+    fn a_maze_without_junctions_is_walked_to_its_end() {
+        let mut maze = Maze::solid(Grid::new(4, 1));
+        for x in 0..3 {
+            maze.set_wall(Cell::new(x, 0), Direction::East, false);
+        }
+        maze.set_start(Some((Cell::new(0, 0), Direction::East)));
+        maze.set_goals(vec![Cell::new(3, 0)]);
+        let record = play(&maze, &patterns(), epuck());
+        assert!(record.is_solved(), "{:?}", record.trouble);
+    }
+
+    #[test]
+    fn sensors_that_fail_are_told() {
+        let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
+        let patterns = patterns();
+        let faulty = |fault| EpuckConfig {
+            proximity: vec![fault],
+            ..epuck()
+        };
+        let silent = faulty(Fault::DropOut(DropOut { probability: 1.0 }));
+        let trouble = play(&maze, &patterns, silent).trouble.unwrap();
+        assert!(trouble.contains("check the proximity sensors"), "{trouble}");
+        // A sensor that always says the same shows no way on, or one everywhere: an end without the goal, whichever.
+        let stuck = faulty(Fault::Stuck(Stuck {
+            probability: 1.0,
+            steps: u32::MAX,
+        }));
+        assert!(!play(&maze, &patterns, stuck).is_solved());
+    }
+
+    #[test]
+    fn wheels_that_slip_by_half_end_one_way_or_the_other() {
+        let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
+        let record = play(&maze, &patterns(), Trial::slipping(0.5));
+        assert!(record.is_solved() || record.trouble.is_some() || record.first.is_some());
+    }
+}

@@ -367,8 +367,8 @@ impl<B: Body> Walker<B> {
     /// How many strides lead from the middle of a place to within sight of the next where so many observations were written down between.
     #[must_use]
     pub fn strides(&self, observations: u32) -> u32 {
-        // Between neighbouring places next to nothing is written down, and nothing can be skipped.
-        if observations < 4 {
+        // Between neighbouring places nothing is written down, and how far apart they are is not known.
+        if observations == 0 {
             return 0;
         }
         let stride = self.config.pilot.forward.speed * self.config.stride_s;
