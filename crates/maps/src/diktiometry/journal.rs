@@ -24,7 +24,7 @@ pub struct Journal {
     pub start: Start,
     /// The moves.
     pub moves: Vec<Move>,
-    /// Pairs of places that were told to be different, with the number of moves before that.
+    /// Pairs of places that were told to be different.
     pub distinctions: Vec<Distinction>,
 }
 
