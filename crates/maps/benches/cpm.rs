@@ -7,8 +7,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
 use tolman_maps::cpm::{
-    Aim, Alignment, Candidates, CpmConfig, Decision, Explorer, Localizer, LocalizerConfig,
-    Matching, Similarity,
+    Aim, Alignment, CpmConfig, Decision, Explorer, Localizer, LocalizerConfig, Matching, Similarity,
 };
 
 fn world(columns: u32, rows: u32) -> World {
@@ -72,18 +71,9 @@ fn cpm(criterion: &mut Criterion) {
             Reckoning::Bounded,
         ),
         (
-            "16×16, online, all compared",
+            "16×16, online",
             &large,
             CpmConfig::online(),
-            Reckoning::None,
-        ),
-        (
-            "16×16, online, 16 compared",
-            &large,
-            CpmConfig {
-                candidates: Candidates::Best(16),
-                ..CpmConfig::online()
-            },
             Reckoning::None,
         ),
     ] {

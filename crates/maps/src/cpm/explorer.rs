@@ -229,10 +229,9 @@ impl Explorer {
     fn reason(&mut self, exit: Port, walk: &Traversal, dictionary: &Dictionary) -> Arrival {
         let online = self.looks_at_map();
         let config = self.config;
-        let before = self.map().clone();
         let mapper = &mut self.best.mapper;
-        let walked = mapper.walk(exit, walk, |known, sense| {
-            !online || trusts(&config, dictionary, &before, walk, known, sense)
+        let walked = mapper.walk(exit, walk, |map, known, sense| {
+            !online || trusts(&config, dictionary, map, walk, known, sense)
         });
         let (new, arrival) = match walked {
             Walked::Known => {
@@ -285,7 +284,7 @@ impl Explorer {
         let mut all = all.into_iter();
         let Some((best, belief, parent)) = all.next() else {
             let exit = self.best.mapper.exit(turn)?;
-            self.best.mapper.walk(exit, walk, |_, _| false);
+            self.best.mapper.walk(exit, walk, |_, _, _| false);
             self.rivals.clear();
             return Ok(Arrival::Contradiction);
         };

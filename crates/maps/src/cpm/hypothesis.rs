@@ -79,10 +79,7 @@ impl Hypothesis {
             return None;
         }
         let fragment = map.fragment(end.fragment)?;
-        let sense = match end.sign {
-            Sign::Minus => Sense::Same,
-            Sign::Plus => Sense::Inverted,
-        };
+        let sense = Sense::entered_at(end.sign);
         let motion = walk.motion.map(|motion| sense.of_motion(motion));
         let gain = judge.evidence(fragment, &walk.patterns, sense)
             + self.motion_evidence(fragment.motion, motion)?;

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-use super::map::{CpMap, End, FragmentId, Port, Sign};
+use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::traversal::Sighting;
 use super::turn::{NoSuchTurn, Turn};
@@ -350,7 +350,7 @@ impl<'a> Localizer<'a> {
                 sign: Sign::Minus,
             },
             ahead: Port {
-                junction: super::map::JunctionId(0),
+                junction: JunctionId(0),
                 number: 0,
             },
             probability: 0.0,

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use super::config::{Candidates, CpmConfig};
-use super::map::{CpMap, End, Fragment, FragmentId, Port, PortState};
+use super::map::{CpMap, End, Fragment, FragmentId, Junction, Port, PortState};
 use super::pattern::Dictionary;
 use super::similarity::{Matching, Sense};
 use super::traversal::{Sighting, Traversal};
@@ -44,31 +44,25 @@ impl Mapper {
         &mut self,
         exit: Port,
         walk: &Traversal,
-        trust: impl Fn(&Fragment, Sense) -> bool,
+        trust: impl Fn(&CpMap, &Fragment, Sense) -> bool,
     ) -> Walked {
         let Some(end) = self.map.end_at(exit) else {
             return Walked::New(self.append(exit, walk));
         };
-        let sense = match end.sign {
-            super::map::Sign::Minus => Sense::Same,
-            super::map::Sign::Plus => Sense::Inverted,
-        };
+        let sense = Sense::entered_at(end.sign);
         let expected = self.map.beyond(exit);
         let place = expected.and_then(|port| self.map.junction(port.junction));
         let known = self.map.fragment(end.fragment);
         if let (Some(place), Some(known), Some(port)) = (place, known, expected)
             && place.sighting() == walk.sighting
-            && trust(known, sense)
+            && trust(&self.map, known, sense)
         {
             self.at = port;
             self.confirm(end, walk);
             return Walked::Known;
         }
         // The robot is not where the map has it. What it has walked hangs on nothing then, until it is recognized.
-        let sighting = self
-            .map
-            .junction(exit.junction)
-            .map(super::map::Junction::sighting);
+        let sighting = self.map.junction(exit.junction).map(Junction::sighting);
         let degree = sighting.map_or(1, |sighting| sighting.degree);
         let turn = Turn::between(self.at.number, exit.number, degree).unwrap_or(Turn::BACK);
         let landmark = None;
@@ -97,10 +91,8 @@ impl Mapper {
             return;
         };
         fragment.traversals += 1;
-        let motion = match end.sign {
-            super::map::Sign::Minus => walk.motion,
-            super::map::Sign::Plus => walk.motion.map(super::traversal::Motion::reversed),
-        };
+        let sense = Sense::entered_at(end.sign);
+        let motion = walk.motion.map(|motion| sense.of_motion(motion));
         // Bounds that contradict each other were no bounds; the older ones stay.
         fragment.motion = match (fragment.motion, motion) {
             (Some(a), Some(b)) => a.intersection(b).or(Some(a)),

@@ -10,7 +10,7 @@ pub struct PatternId(pub u32);
 ///
 /// A dictionary only grows: a pattern keeps its number and its prototype for good, so that sequences that were
 /// written with an earlier [version](Self::version) stay readable beside new ones. A version is a number of patterns, and
-/// its [fingerprint](Self::fingerprint) tells it from those of other robots.
+/// its [fingerprint](Version::fingerprint) tells it from those of other robots.
 ///
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternId};

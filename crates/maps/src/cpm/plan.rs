@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_planners::{Graph, a_star};
 
-use super::map::{CpMap, End, JunctionId, Port};
+use super::map::{CpMap, End, Fragment, JunctionId, Port};
 use super::turn::Turn;
 
 /// A way through the map, as section 4.3 words it: "follow the path until reaching the junction, perform Δ, follow the
@@ -82,9 +82,7 @@ impl CpMap {
             (self.beyond(port)?.junction == to).then(|| self.end_at(port))?
         });
         ends.min_by_key(|end| {
-            let length = self
-                .fragment(end.fragment)
-                .map(super::map::Fragment::length);
+            let length = self.fragment(end.fragment).map(Fragment::length);
             (length, *end)
         })
     }

@@ -23,6 +23,14 @@ pub enum Sense {
 }
 
 impl Sense {
+    /// How a fragment is walked that is entered at an end.
+    pub(super) const fn entered_at(sign: Sign) -> Self {
+        match sign {
+            Sign::Minus => Self::Same,
+            Sign::Plus => Self::Inverted,
+        }
+    }
+
     /// The sign of the other fragment's end that an end belongs to.
     #[must_use]
     pub const fn of(self, sign: Sign) -> Sign {

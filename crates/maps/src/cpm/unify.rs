@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-use super::map::{CpMap, End, Fragment, FragmentId, JunctionId, Port, PortState};
+use super::map::{CpMap, End, Fragment, FragmentId, JunctionId, Port, PortState, Sign};
 use super::similarity::Sense;
 
 /// Why two fragments cannot be one, though they are similar: something that follows from it is not so.
@@ -164,7 +164,7 @@ impl Unification {
             fragment.motion = motion;
             fragment.traversals += absorbed.traversals;
         }
-        for sign in super::map::Sign::BOTH {
+        for sign in Sign::BOTH {
             self.meet(survivor.port(sense.of(sign)), absorbed.port(sign))?;
         }
         Ok(())
