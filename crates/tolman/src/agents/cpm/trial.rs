@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, Landmark};
-use tolman_maze::{Direction, Maze};
+use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, JunctionId, Landmark};
+use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
@@ -218,6 +218,7 @@ impl Trial<'_> {
         record: &mut Record,
     ) -> Result<(), TrialError> {
         let mut score = Score::of(self.maze);
+        score.begin(agent, start);
         let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
             score.see(agent, step);
         });
@@ -249,6 +250,8 @@ struct Score {
     closures: Closures,
     /// The true way from − to + of each fragment of the map.
     truth: BTreeMap<FragmentId, Way>,
+    /// The cell of each place of the map.
+    places: BTreeMap<JunctionId, Cell>,
     /// Observations of each true fragment when it was first walked.
     lengths: BTreeMap<u32, u32>,
 }
@@ -259,7 +262,14 @@ impl Score {
             fragments: TrueFragments::of(maze),
             closures: Closures::default(),
             truth: BTreeMap::new(),
+            places: BTreeMap::new(),
             lengths: BTreeMap::new(),
+        }
+    }
+
+    fn begin(&mut self, agent: &Cpm<'_, SimulatedEpuck>, start: Pose) {
+        if let Some(cell) = agent.walker().body().world().cell_at(start.position) {
+            self.places.insert(agent.explorer().at().junction, cell);
         }
     }
 
@@ -278,9 +288,18 @@ impl Score {
         let told = agent.explorer().map().end_at(agent.explorer().at());
         let known = told.and_then(|end| self.truth.get(&end.fragment).copied());
         let is_same = known.is_some_and(|known| known.fragment == way.fragment);
+        // The place that the map says it is at, where that is a place of the map.
+        let here = body.world().cell_at(body.truth().pose.position);
+        let junction = agent.explorer().at().junction;
+        let stands = self.places.get(&junction).copied();
+        if let Some(here) = here {
+            self.places.entry(junction).or_insert(here);
+        }
         match arrival {
             Arrival::Duplicate if is_same => self.closures.right += 1,
             Arrival::Duplicate => self.closures.wrong += 1,
+            Arrival::Loop if stands == here => self.closures.right += 1,
+            Arrival::Loop => self.closures.wrong += 1,
             Arrival::New if is_old => self.closures.missed += 1,
             _ => {}
         }
@@ -381,7 +400,7 @@ pub enum TrialError {
 
 #[cfg(test)]
 mod tests {
-    use tolman_maze::{Cell, Grid};
+    use tolman_maze::Grid;
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
