@@ -54,8 +54,8 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let mut config = Config::new(Config::compass_actions(), separation);
     config.place_radius = robot.place_radius;
     if office.config().colours > 1 {
-        // Walls of many colours: two places that look alike are far apart.
-        config.alike_separation = 3.0 * PITCH;
+        // A doorway does not look like the corners beside it, and those are a pitch apart.
+        config.alike_separation = PITCH;
         config.search.width = 4.0 * config.alike_separation;
         config.percepts = Percepts::Signatures(SignatureKind {
             rows: 3,

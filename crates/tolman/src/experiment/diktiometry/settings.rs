@@ -64,8 +64,8 @@ const FURNISHED: OfficeConfig = OfficeConfig {
 
 pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
     let small = office(5, 1, &BARE)?;
-    let large = office(9, 2, &BARE)?;
-    let complicated = office(10, 3, &FURNISHED)?;
+    let large = office(7, 2, &BARE)?;
+    let complicated = office(7, 3, &FURNISHED)?;
     Ok(vec![
         Trial {
             name: "3b",
@@ -76,19 +76,19 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
         Trial {
             name: "3c",
             title: "A larger world, random walk and exploration scripts (figure 3c), 2000 moves",
-            note: "9 × 9 cells, all places alike.",
+            note: "7 × 7 cells, all places alike.",
             settings: compared(&large, 2000),
         },
         Trial {
             name: "4",
             title: "A complicated world (figure 4), 3000 moves",
-            note: "10 × 10 cells with doorways and walls of eight colours.",
+            note: "7 × 7 cells with doorways and walls of eight colours.",
             settings: compared(&complicated, 3000),
         },
         Trial {
             name: "ablation",
             title: "The complicated world with a part of the mapper left out, 1000 moves with scripts",
-            note: "10 × 10 cells with doorways and walls of eight colours.",
+            note: "7 × 7 cells with doorways and walls of eight colours.",
             settings: ablations(&complicated),
         },
         Trial {
