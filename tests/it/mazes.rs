@@ -4,17 +4,18 @@ use tolman::course::Course;
 use tolman::episode::{self, Trial, random_start};
 use tolman::pioneer::body;
 use tolman_geom::{Heading, Pose};
+use tolman_robot::{Body, epuck};
 
 use tolman::agents::{Agent, Cast};
 
-use crate::support::{course, data_of_others, files, mind, root, trial};
+use crate::support::{course, course_for, data_of_others, files, mind, root, trial};
 
 /// Every random start is on the floor, clear of the walls and outside the destination.
-fn check_starts(course: &Course) {
+fn check_starts(course: &Course, body: &Body) {
     for seed in 0..50 {
-        let start = random_start(course, &body(), seed);
+        let start = random_start(course, body, seed);
         assert!(
-            course.world.clear_for(&body(), start),
+            course.world.clear_for(body, start),
             "{}: {start:?}",
             course.name
         );
@@ -33,7 +34,15 @@ fn the_projects_mazes_are_courses() {
     let files = files(&root().join("mazes"));
     assert!(files.len() >= 2);
     for file in files {
-        check_starts(&course(&file));
+        let name = file.file_stem().unwrap().to_string_lossy();
+        // Those of CPM are an e-puck's.
+        let body = match name.starts_with("cpm-") {
+            true => Body::Circle {
+                radius: epuck::BODY_RADIUS,
+            },
+            false => body(),
+        };
+        check_starts(&course_for(&file, &body), &body);
     }
 }
 
@@ -45,7 +54,8 @@ fn the_mazes_of_others_are_courses() {
         let text = std::fs::read_to_string(&file).unwrap();
         // Some of them cannot be solved, and say so in their names.
         if let Ok(maze) = tolman_maze::read(&text) {
-            check_starts(&Course::new(&file.to_string_lossy(), &maze, &body()).unwrap());
+            let course = Course::new(&file.to_string_lossy(), &maze, &body()).unwrap();
+            check_starts(&course, &body());
             courses += 1;
         }
     }

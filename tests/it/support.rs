@@ -9,6 +9,7 @@ use tolman::agents::{Agent, Cast, Mind};
 use tolman::course::Course;
 use tolman::episode::{Trial, random_start};
 use tolman::pioneer::{body, calibrated};
+use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
 /// The workspace's folder.
@@ -42,11 +43,16 @@ pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The course of a maze file.
+/// The course of a maze file for the calibrated robot.
 pub(crate) fn course(path: &Path) -> Course {
+    course_for(path, &body())
+}
+
+/// The course of a maze file for a robot of this body.
+pub(crate) fn course_for(path: &Path, body: &Body) -> Course {
     let text = fs::read_to_string(path).unwrap();
     let file = tolman_maze::read(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-    Course::new(&path.to_string_lossy(), &file, &body()).unwrap()
+    Course::new(&path.to_string_lossy(), &file, body).unwrap()
 }
 
 /// One of the project's own mazes.
