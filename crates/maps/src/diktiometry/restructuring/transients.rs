@@ -95,7 +95,7 @@ mod tests {
     fn wilson_agrees_with_the_textbook() {
         // 0 of n: z² / (n + z²).
         assert!((wilson_upper(0.0, 20.0) - 6.634_896_6 / 26.634_896_6).abs() < 1e-8);
-        // 5 of 10 lies symmetric about one half.
-        assert!((wilson_upper(5.0, 10.0) - 0.815_688).abs() < 1e-5);
+        // n / 2 of n: 1/2 + z / (2 √(n + z²)).
+        assert!((wilson_upper(5.0, 10.0) - 0.815_774_5).abs() < 1e-7);
     }
 }

@@ -17,8 +17,9 @@ use crate::replay::{
 
 /// Only every so many time steps of the simulator become steps of the replay.
 const COARSE: usize = 6;
-/// Nodes that moved less than this are left where they are, m.
-const STILL: f64 = 0.03;
+/// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width. Most moves of the robot
+/// shift most of the map a little, which nobody could see and every replay would have to carry.
+const STILL: f64 = 0.3;
 
 pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
     let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
@@ -131,10 +132,10 @@ impl Watch {
             });
         }
         // The last of several at one step counts.
-        self.belief.entries.retain(|entry| entry.step < step);
+        self.belief.entries.pop_if(|entry| entry.step >= step);
         self.belief.entries.push(BeliefAt { step, shapes });
         let sample = |series: &mut Series, value: f64| {
-            series.samples.retain(|sample| sample.step < step);
+            series.samples.pop_if(|sample| sample.step >= step);
             series.samples.push(Sample { step, value });
         };
         sample(
@@ -175,7 +176,7 @@ impl Watch {
                 .last()
                 .map_or(node.position, |last| last.position);
             if (last - position).norm() > STILL {
-                node.moves.retain(|moved| moved.step < step);
+                node.moves.pop_if(|moved| moved.step >= step);
                 node.moves.push(NodeMove { step, position });
             }
         }
@@ -185,7 +186,7 @@ impl Watch {
             }
         }
         if let Some(here) = self.nodes.get_mut(&survey.observer().place()) {
-            here.visits.retain(|visit| *visit < step);
+            here.visits.pop_if(|visit| *visit >= step);
             here.visits.push(step);
         }
         for (id, link) in map.paths.links() {
