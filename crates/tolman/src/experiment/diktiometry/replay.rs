@@ -16,7 +16,7 @@ use crate::replay::{
 };
 
 /// Only every so many time steps of the simulator become steps of the replay.
-const COARSE: usize = 6;
+const COARSE: usize = 12;
 /// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width. Most moves of the robot
 /// shift most of the map a little, which nobody could see and every replay would have to carry.
 const STILL: f64 = 0.3;

@@ -86,7 +86,7 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
             settings: compared(&complicated, 3000),
         },
         Trial {
-            name: "ablation",
+            name: ABLATION,
             title: "The complicated world with a part of the mapper left out, 1000 moves with scripts",
             note: "7 × 7 cells with doorways and walls of eight colours.",
             settings: ablations(&complicated),
@@ -121,6 +121,9 @@ fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
 
 /// What a row does to the mapper.
 type Change = fn(&mut Config);
+
+/// The table of parts left out.
+pub(super) const ABLATION: &str = "ablation";
 
 const ABLATIONS: [(&str, Change); 16] = [
     ("all", |_| {}),
