@@ -108,12 +108,17 @@ impl Maze {
         }
     }
 
+    /// The cell one step from `cell` to that side; none if a wall stands there.
+    #[must_use]
+    pub fn beside(&self, cell: Cell, direction: Direction) -> Option<Cell> {
+        let next = self.grid.neighbour(cell, direction)?;
+        self.is_open(cell, direction).then_some(next)
+    }
+
     /// The cells one step from `cell`, in the order of [`Direction::ALL`].
     pub fn neighbours(&self, cell: Cell) -> impl Iterator<Item = (Direction, Cell)> + '_ {
-        Direction::ALL.into_iter().filter_map(move |direction| {
-            let next = self.grid.neighbour(cell, direction)?;
-            self.is_open(cell, direction).then_some((direction, next))
-        })
+        let beside = move |direction| Some((direction, self.beside(cell, direction)?));
+        Direction::ALL.into_iter().filter_map(beside)
     }
 
     /// To how many sides `cell` is open: 0 enclosed, 1 a dead end, 2 a corridor or bend, 3 or 4 a

@@ -7,7 +7,8 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_geom::{Heading, Pose};
+use tolman_control::heading_of;
+use tolman_geom::Pose;
 use tolman_maps::wall_belief::{
     FilterError, PoseFilter, PoseFilterConfig, RangeReading, WallBelief,
 };
@@ -218,7 +219,7 @@ impl<'a> Outing<'a> {
     fn new(maze: &'a Maze, config: &NoisyConfig, seed: u64) -> Result<Self, NoisyError> {
         let start = maze.start().ok_or(NoisyError::NoStart)?;
         let belief = WallBelief::new(maze.grid(), SIZE.pitch(), SIZE.wall_thickness)?;
-        let pose = Pose::new(belief.middle(start.0), heading(start.1));
+        let pose = Pose::new(belief.middle(start.0), heading_of(start.1));
         let world = World::from_maze(maze, &SIZE)?;
         let robot = config.robot();
         let rates = (robot.turn_per_step, robot.translate_per_step);
@@ -245,7 +246,7 @@ impl<'a> Outing<'a> {
         }
         self.steps += 1;
         let run_1 = self.steps;
-        let pose = Pose::new(self.belief.middle(self.start.0), heading(self.start.1));
+        let pose = Pose::new(self.belief.middle(self.start.0), heading_of(self.start.1));
         self.solo.place(pose)?;
         self.filter.place(pose);
         self.reckoned = pose;
@@ -317,7 +318,7 @@ impl<'a> Outing<'a> {
     /// Where it looks, about.
     fn looks_to(&self) -> Direction {
         let pose = self.pose();
-        let off = |side: &Direction| pose.heading.turn_to(heading(*side)).abs();
+        let off = |side: &Direction| pose.heading.turn_to(heading_of(*side)).abs();
         Direction::ALL
             .into_iter()
             .min_by(|a, b| off(a).total_cmp(&off(b)))
@@ -350,8 +351,8 @@ impl<'a> Outing<'a> {
         self.turn_to(looks)?;
         let ahead = if cells < 0 { -1.0 } else { 1.0 };
         let target = self.belief.middle(leap.end);
-        let along = heading(looks).unit();
-        let left = heading(looks.left()).unit();
+        let along = heading_of(looks).unit();
+        let left = heading_of(looks.left()).unit();
         for _ in 0..PATIENCE {
             let pose = self.pose();
             let away = target - pose.position;
@@ -368,7 +369,7 @@ impl<'a> Outing<'a> {
             }
             // Towards the middle of the corridor, the more the farther from it.
             let aside = (3.0 * away.dot(&left) / self.belief.pitch()).clamp(-0.4, 0.4);
-            let wanted = heading(looks).turned(ahead * aside);
+            let wanted = heading_of(looks).turned(ahead * aside);
             let off = pose.heading.turn_to(wanted);
             let touched = self.time_step(TurnTranslate {
                 turn: (off / self.rates.0).clamp(-1.0, 1.0),
@@ -388,7 +389,7 @@ impl<'a> Outing<'a> {
 
     fn turn_to(&mut self, side: Direction) -> Result<(), NoisyError> {
         for _ in 0..PATIENCE {
-            let off = self.pose().heading.turn_to(heading(side));
+            let off = self.pose().heading.turn_to(heading_of(side));
             if off.abs() < CLOSE.0 {
                 break;
             }
@@ -432,15 +433,6 @@ fn readings(sensing: &LaserSensing) -> Vec<RangeReading> {
             max_range: scan.ring.max_range,
         })
         .collect()
-}
-
-const fn heading(direction: Direction) -> Heading {
-    match direction {
-        Direction::North => Heading::NORTH,
-        Direction::East => Heading::EAST,
-        Direction::South => Heading::SOUTH,
-        Direction::West => Heading::WEST,
-    }
 }
 
 #[cfg(test)]

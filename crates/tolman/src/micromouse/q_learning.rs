@@ -93,9 +93,7 @@ impl<'a> QLearner<'a> {
     }
 
     fn beyond(&self, cell: Cell, direction: Direction) -> Cell {
-        let open = self.maze.is_open(cell, direction);
-        let next = self.maze.grid().neighbour(cell, direction);
-        next.filter(|_| open).unwrap_or(cell)
+        self.maze.beside(cell, direction).unwrap_or(cell)
     }
 
     /// The cells from the start to a goal that what is learned leads over, none if it leads to none.

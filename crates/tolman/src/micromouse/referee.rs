@@ -122,7 +122,7 @@ impl<'a> Referee<'a> {
         let open = |direction| {
             let mut at = self.cell;
             let mut open = 0;
-            while let Some(next) = self.beside(at, direction) {
+            while let Some(next) = self.maze.beside(at, direction) {
                 at = next;
                 open += 1;
             }
@@ -164,7 +164,7 @@ impl<'a> Referee<'a> {
         };
         for _ in 0..cells.abs() {
             // A wall stops the mouse where it is; the rest of the movement is lost.
-            let Some(next) = self.beside(self.cell, direction) else {
+            let Some(next) = self.maze.beside(self.cell, direction) else {
                 break;
             };
             self.cell = next;
@@ -198,11 +198,6 @@ impl<'a> Referee<'a> {
                 Event::Moved
             }
         }
-    }
-
-    fn beside(&self, cell: Cell, direction: Direction) -> Option<Cell> {
-        let open = self.maze.is_open(cell, direction);
-        self.maze.grid().neighbour(cell, direction).filter(|_| open)
     }
 
     /// Whether the runs are over, or the time is.

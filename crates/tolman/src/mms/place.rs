@@ -67,12 +67,6 @@ impl Place {
             y: 2 * cell.y as u32 + 1,
         }
     }
-
-    /// Whether it is the middle of a cell.
-    #[must_use]
-    pub const fn is_middle(self) -> bool {
-        self.x % 2 == 1 && self.y % 2 == 1
-    }
 }
 
 /// What lies half a step ahead of a place.

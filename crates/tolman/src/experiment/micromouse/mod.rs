@@ -115,6 +115,17 @@ impl Micromouse {
     }
 }
 
+/// Refuses a score that is not that of its runs, and runs that no mouse has the time for.
+fn check_score(run_1: f64, run_2: f64, score: f64) -> Result<(), BoxError> {
+    if (run_1 / 30.0 + run_2 - score).abs() > 1e-9 {
+        return Err(format!("{run_1} / 30 + {run_2} is not {score}").into());
+    }
+    if run_1 + run_2 > f64::from(MAX_STEPS) {
+        return Err(format!("{run_1} + {run_2} steps are more than {MAX_STEPS}").into());
+    }
+    Ok(())
+}
+
 impl Experiment for Micromouse {
     fn name(&self) -> &str {
         "micromouse"
@@ -223,12 +234,7 @@ impl Experiment for Micromouse {
             return Err("a run that finished has a score, another has none".into());
         }
         if let (Some(run_1), Some(run_2), Some(score)) = (run_1, run_2, number("score")) {
-            if (run_1 / 30.0 + run_2 - score).abs() > 1e-9 {
-                return Err(format!("{run_1} / 30 + {run_2} is not {score}").into());
-            }
-            if run_1 + run_2 > f64::from(MAX_STEPS) {
-                return Err(format!("{run_1} + {run_2} steps are more than {MAX_STEPS}").into());
-            }
+            check_score(run_1, run_2, score)?;
             if number("optimum").is_none_or(|optimum| run_2 < optimum) {
                 return Err(format!("{run_2} steps are fewer than the optimum").into());
             }

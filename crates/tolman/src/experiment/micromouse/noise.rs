@@ -4,9 +4,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
+use super::check_score;
 use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
-use crate::micromouse::MAX_STEPS;
 use crate::micromouse::noisy::{self, Localization, NoisyConfig, NoisyEnd};
 
 /// The name of the table.
@@ -96,15 +96,7 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
     let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
     let arrived = run.fields.get("arrived").and_then(Field::as_flag) == Some(true);
     match (number("run_1"), number("run_2"), number("score")) {
-        (Some(run_1), Some(run_2), Some(score)) if arrived => {
-            if run_1 + run_2 > f64::from(MAX_STEPS) {
-                return Err(format!("{run_1} + {run_2} steps are more than {MAX_STEPS}").into());
-            }
-            if (run_1 / 30.0 + run_2 - score).abs() > 1e-9 {
-                return Err(format!("{run_1} / 30 + {run_2} is not {score}").into());
-            }
-            Ok(())
-        }
+        (Some(run_1), Some(run_2), Some(score)) if arrived => check_score(run_1, run_2, score),
         (None, None, None) if !arrived => Ok(()),
         _ => Err("a run that arrived has a score, another has none".into()),
     }
