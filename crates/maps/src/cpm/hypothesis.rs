@@ -138,17 +138,21 @@ impl Hypothesis {
             return Vec::new();
         };
         let positions = map.positions_from(fragment.minus.junction);
+        let area = self.area();
         let mut all = Vec::new();
         for (id, other) in judge.others(map, new) {
             for sense in [Sense::Same, Sense::Inverted] {
-                let evidence = judge.evidence(other, &fragment.patterns, sense);
                 // Where both fragments begin has to be one place.
                 let begin = other.port(sense.of(Sign::Minus)).junction;
                 let apart = positions.get(&begin);
-                if evidence <= 0.0 || apart.is_some_and(|apart| !apart.meets(PointBox::ORIGIN)) {
+                if apart.is_some_and(|apart| !apart.meets(PointBox::ORIGIN)) {
                     continue;
                 }
-                let coincide = apart.map_or(0.0, |apart| coincidence(*apart, self.area()));
+                let evidence = judge.evidence(other, &fragment.patterns, sense);
+                if evidence <= 0.0 {
+                    continue;
+                }
+                let coincide = apart.map_or(0.0, |apart| coincidence(*apart, area));
                 let gain = Cell::new(evidence + coincide);
                 let agree = |a: &Fragment, b: &Fragment, sense: Sense| {
                     let evidence = judge.evidence(a, &b.patterns, sense);

@@ -123,9 +123,11 @@ impl PoseFilter {
         readings: &[RangeReading],
         rng: &mut impl Rng,
     ) {
-        for particle in &mut self.particles {
-            for reading in readings {
-                particle.weight *= likelihood(&self.config, walls, particle.pose, *reading);
+        for reading in readings {
+            let nothing = bell(&self.config, reading.range, reading.max_range);
+            for particle in &mut self.particles {
+                particle.weight *=
+                    likelihood(&self.config, walls, particle.pose, *reading, nothing);
             }
         }
         let sum: f64 = self.particles.iter().map(|particle| particle.weight).sum();
@@ -176,12 +178,13 @@ impl PoseFilter {
     }
 }
 
-/// How likely a reading is for a mouse at `pose`, up to a factor.
+/// How likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density where no wall is met.
 fn likelihood<const N: usize>(
     config: &PoseFilterConfig,
     walls: &WallBelief<N>,
     pose: Pose,
     reading: RangeReading,
+    nothing: f64,
 ) -> f64 {
     let heading = pose.heading.turned(reading.bearing);
     let mut left = 1.0;
@@ -199,7 +202,7 @@ fn likelihood<const N: usize>(
         }
     }
     // What is left meets nothing.
-    hit += left * bell(config, reading.range, reading.max_range);
+    hit += left * nothing;
     config.outliers / reading.max_range + (1.0 - config.outliers) * hit
 }
 

@@ -74,6 +74,8 @@ const STRAIGHT: f64 = 0.985;
 impl<const N: usize> WallBelief<N> {
     /// How many readings more must speak for a wall than against it, or the other way round.
     pub const CONVINCED: i8 = 2;
+    /// So many for an opening.
+    const DOUBTED: i8 = -Self::CONVINCED;
     /// Readings beyond so many change nothing, so that a wrong belief can be given up.
     const MOST: i8 = 6;
 
@@ -196,7 +198,7 @@ impl<const N: usize> Walls for WallBelief<N> {
         let votes = row.and_then(|row| row.get(usize::from(cell.x)));
         match votes.copied().unwrap_or(0) {
             Self::CONVINCED.. => Knowledge::Wall,
-            ..=-2 => Knowledge::Open,
+            ..=Self::DOUBTED => Knowledge::Open,
             _ => Knowledge::Unknown,
         }
     }

@@ -1,6 +1,7 @@
-use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;
+
+use tolman_planners::{Graph, steps_from};
 
 use super::{World, WorldPort};
 
@@ -13,7 +14,7 @@ impl World {
     /// ends. O(2ⁿ · n) in the number n of odd places.
     #[must_use]
     pub fn shortest_covering_walk(&self) -> Option<u32> {
-        let from_start = self.steps_from(self.start.place);
+        let from_start = steps_from(self, [self.start.place]);
         let reached = |place: u32| from_start[place as usize].is_some();
         let numbers = 0..self.places.len() as u32;
         let mut odd: Vec<u32> = Vec::new();
@@ -29,7 +30,7 @@ impl World {
             return None;
         }
         let steps: Vec<Vec<Option<u32>>> =
-            odd.iter().map(|place| self.steps_from(*place)).collect();
+            odd.iter().map(|place| steps_from(self, [*place])).collect();
         // The least sum of ways for each set of odd places that are done with.
         let mut least = vec![u32::MAX; 1 << odd.len()];
         least[0] = 0;
@@ -60,23 +61,23 @@ impl World {
         }
         (repeated < u32::MAX).then_some(ends / 2 + repeated)
     }
+}
 
-    /// Corridors to each place; none where no way leads.
-    fn steps_from(&self, place: u32) -> Vec<Option<u32>> {
-        let mut steps = vec![None; self.places.len()];
-        steps[place as usize] = Some(0);
-        let mut queue = VecDeque::from([(place, 0)]);
-        while let Some((place, so_far)) = queue.pop_front() {
-            for number in 0..self.sighting(place).degree {
-                let beyond = self.beyond(WorldPort { place, number });
-                if let Some(next) = beyond.map(|port| port.place)
-                    && steps[next as usize].is_none()
-                {
-                    steps[next as usize] = Some(so_far + 1);
-                    queue.push_back((next, so_far + 1));
-                }
+/// The places of a world, a corridor from each to the next.
+impl Graph for World {
+    fn node_count(&self) -> usize {
+        self.places.len()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        for number in 0..self.sighting(node).degree {
+            let port = WorldPort {
+                place: node,
+                number,
+            };
+            if let Some(beyond) = self.beyond(port) {
+                visit(beyond.place, 1);
             }
         }
-        steps
     }
 }
