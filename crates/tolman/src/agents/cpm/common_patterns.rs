@@ -2,18 +2,20 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_control::epuck::FEATURES;
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
-use tolman_quantizers::{ConfigError, InputError, Quantizer, Soinn, SoinnConfig, UnknownUnit};
+use tolman_quantizers::{ConfigError, InputError, Quantizer, Soinn, SoinnConfig};
 
 use super::body::Body;
 use super::walker::{Observation, Walk, WalkError, Walker};
 
-/// C: the common patterns, clusters of a SOINN ("a representative vector of each cluster is a common-pattern CP", section 4.1).
+/// C: the common patterns. In the paper "a representative vector of each cluster is a common-pattern CP" (section 4.1); ours
+/// stand for units of SOINN, since with clusters fewer loops are recognized.
 #[derive(Clone, Debug)]
 pub struct CommonPatterns {
     dictionary: Dictionary,
-    /// The prototypes of SOINN's units, each with the pattern of its cluster.
+    /// What SOINN's units stand for, each with its pattern: what was seen and, half turned, what is seen walking the other way.
     units: Vec<([f64; FEATURES], PatternId)>,
-    clusters: u32,
+    unit_count: u32,
+    cluster_count: u32,
 }
 
 /// The landmark element at a landmark. Start and goal have a common pattern of their own, which no path has; as the farthest from all others
@@ -56,34 +58,19 @@ impl CommonPatterns {
     ///
     /// # Errors
     /// [`LearnError`].
-    pub fn learn(
-        observations: &[Observation],
-        config: SoinnConfig,
-        grain: Grain,
-    ) -> Result<Self, LearnError> {
+    pub fn learn(observations: &[Observation], config: SoinnConfig) -> Result<Self, LearnError> {
         let mut soinn = Soinn::<f64>::new(FEATURES, config)?;
         for observation in observations {
             soinn.observe(&observation.feature)?;
         }
         let network = soinn.network();
-        let clusters = network.clusters();
-        let groups = match grain {
-            Grain::Clusters => clusters.count(),
-            Grain::Units => network.len(),
-        };
-        let group_of = |id, rank: usize| -> Result<usize, UnknownUnit> {
-            match grain {
-                Grain::Clusters => Ok(clusters.label(id)? as usize),
-                Grain::Units => Ok(rank),
-            }
-        };
-        // Each cluster's representative: the mean of what fell into it, and of the same seen the other way.
-        let mut means = vec![([0.0; FEATURES], [0.0; FEATURES], 0.0); groups];
+        // Each unit's representative: the mean of what is nearest to it, and of the same seen the other way.
+        let mut means = vec![([0.0; FEATURES], [0.0; FEATURES], 0.0); network.len()];
         let ids: Vec<_> = network.ids().collect();
         for observation in observations {
             let nearest = network.nearest(&observation.feature)?.id;
             let rank = ids.iter().position(|id| *id == nearest).unwrap_or(0);
-            let (ahead, back, count) = &mut means[group_of(nearest, rank)?];
+            let (ahead, back, count) = &mut means[rank];
             for feature in 0..FEATURES {
                 ahead[feature] += observation.feature[feature];
                 back[feature] += observation.half_turned[feature];
@@ -91,37 +78,18 @@ impl CommonPatterns {
             *count += 1.0;
         }
         let mut dictionary = Dictionary::new(FEATURES);
-        let mut patterns = vec![None; groups];
-        for (group, (ahead, back, count)) in means.iter().enumerate() {
-            if *count > 0.0 {
+        let mut units = Vec::new();
+        for (ahead, back, count) in means {
+            if count > 0.0 {
                 let [ahead, back] = [ahead, back].map(|sum| sum.map(|sum| sum / count));
-                patterns[group] = Some(dictionary.learn(&ahead, &back, 0.0)?);
+                let pattern = dictionary.learn(&ahead, &back, 0.0)?;
+                units.push((ahead, pattern));
+                units.push((back, dictionary.half_turned(pattern)));
             }
         }
         let mut landmark = [0.0; FEATURES];
         landmark[FEATURES - 1] = LANDMARK;
         dictionary.learn(&landmark, &landmark, 0.0)?;
-        // A unit stands for what was seen and, half turned, for what is seen walking the other way.
-        let mut units = Vec::new();
-        for (rank, id) in ids.into_iter().enumerate() {
-            let seen = observations.iter().filter(|observation| {
-                network
-                    .nearest(&observation.feature)
-                    .is_ok_and(|nearest| nearest.id == id)
-            });
-            let (mut ahead, mut back, mut count) = ([0.0; FEATURES], [0.0; FEATURES], 0.0);
-            for observation in seen {
-                for feature in 0..FEATURES {
-                    ahead[feature] += observation.feature[feature];
-                    back[feature] += observation.half_turned[feature];
-                }
-                count += 1.0;
-            }
-            if let Some(pattern) = patterns[group_of(id, rank)?].filter(|_| count > 0.0) {
-                units.push((ahead.map(|sum| sum / count), pattern));
-                units.push((back.map(|sum| sum / count), dictionary.half_turned(pattern)));
-            }
-        }
         if units.is_empty() {
             return Err(LearnError::Nothing {
                 observations: observations.len(),
@@ -130,11 +98,12 @@ impl CommonPatterns {
         Ok(Self {
             dictionary,
             units,
-            clusters: clusters.count() as u32,
+            unit_count: network.len() as u32,
+            cluster_count: network.clusters().count() as u32,
         })
     }
 
-    /// The common pattern that stands for a feature: that of the nearest unit's cluster ("classified to the corresponded CP").
+    /// The common pattern that stands for a feature: that of the nearest unit ("classified to the corresponded CP").
     #[must_use]
     pub fn pattern(&self, feature: &[f64; FEATURES]) -> PatternId {
         let distance = |unit: &[f64; FEATURES]| {
@@ -164,24 +133,15 @@ impl CommonPatterns {
 
     /// How many units SOINN has.
     #[must_use]
-    pub const fn unit_count(&self) -> usize {
-        self.units.len()
+    pub const fn unit_count(&self) -> u32 {
+        self.unit_count
     }
 
     /// How many clusters they make.
     #[must_use]
     pub const fn cluster_count(&self) -> u32 {
-        self.clusters
+        self.cluster_count
     }
-}
-
-/// What a common pattern is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Grain {
-    /// A cluster of SOINN's, as in the paper.
-    Clusters,
-    /// A unit of SOINN's.
-    Units,
 }
 
 /// Why no patterns were learned.
@@ -194,9 +154,6 @@ pub enum LearnError {
     /// An observation.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A unit is gone.
-    #[error(transparent)]
-    Unit(#[from] UnknownUnit),
     /// A prototype.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),

@@ -7,8 +7,7 @@ use tolman_maze::{Cell, Direction, Maze};
 /// The fragments that a maze really has, for scoring; no robot knows them.
 #[derive(Clone, Debug)]
 pub struct TrueFragments {
-    ways: BTreeMap<(Cell, u32), Way>,
-    count: u32,
+    ways: BTreeMap<(Cell, Direction), Way>,
 }
 
 /// A fragment as one leaves a place by it.
@@ -24,6 +23,7 @@ pub struct Way {
     pub cells: u32,
 }
 
+/// Counter-clockwise from a heading of 0.
 const DIRECTIONS: [Direction; 4] = [
     Direction::East,
     Direction::North,
@@ -43,12 +43,12 @@ impl TrueFragments {
         let mut count = 0;
         for from in maze.reachable().filter(|cell| is_place(*cell)) {
             for (out, next) in maze.neighbours(from) {
-                if ways.contains_key(&(from, quarter(out))) {
+                if ways.contains_key(&(from, out)) {
                     continue;
                 }
                 let (mut at, mut came, mut cells) = (next, out, 1);
                 while !is_place(at) {
-                    let back = opposite(came);
+                    let back = came.opposite();
                     let Some((on, next)) = maze.neighbours(at).find(|(on, _)| *on != back) else {
                         break;
                     };
@@ -60,46 +60,24 @@ impl TrueFragments {
                     to,
                     cells,
                 };
-                ways.insert((from, quarter(out)), way(true, at));
-                ways.insert((at, quarter(opposite(came))), way(false, from));
+                ways.insert((from, out), way(true, at));
+                ways.insert((at, came.opposite()), way(false, from));
                 count += 1;
             }
         }
-        Self { ways, count }
-    }
-
-    /// How many there are.
-    #[must_use]
-    pub const fn count(&self) -> u32 {
-        self.count
+        Self { ways }
     }
 
     /// The way by which one leaves a place that looks in this heading.
     #[must_use]
     pub fn way(&self, from: Cell, heading: Heading) -> Option<Way> {
         let nearest = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
-        self.ways.get(&(from, nearest)).copied()
-    }
-
-    /// Whether fragments end in a cell.
-    #[must_use]
-    pub fn is_place(&self, cell: Cell) -> bool {
-        (0..4).any(|quarter| self.ways.contains_key(&(cell, quarter)))
+        let direction = DIRECTIONS[nearest as usize % DIRECTIONS.len()];
+        self.ways.get(&(from, direction)).copied()
     }
 
     /// All ways out of all places.
     pub fn ways(&self) -> impl Iterator<Item = (Cell, Way)> + '_ {
         self.ways.iter().map(|((from, _), way)| (*from, *way))
     }
-}
-
-fn quarter(direction: Direction) -> u32 {
-    (0..)
-        .zip(DIRECTIONS)
-        .find(|(_, other)| *other == direction)
-        .map_or(0, |(index, _)| index)
-}
-
-fn opposite(direction: Direction) -> Direction {
-    DIRECTIONS[(quarter(direction) as usize + 2) % 4]
 }

@@ -16,7 +16,7 @@ mod walker;
 
 pub use agent::{AgentError, Cpm, Episode, Step};
 pub use body::{Body, Reckoned, SimulatedEpuck};
-pub use common_patterns::{CommonPatterns, Grain, LearnError, wander};
+pub use common_patterns::{CommonPatterns, LearnError, wander};
 pub use fragments::{TrueFragments, Way};
 pub use robot::{epuck, soinn, walker_config};
 pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};

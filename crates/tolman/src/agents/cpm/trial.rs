@@ -5,16 +5,18 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
+use tolman_control::heading_of;
 use tolman_geom::{Heading, Pose};
 use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, JunctionId, Landmark};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Maze};
+use tolman_planners::{Arcs, costs_from};
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
 
 use super::agent::{AgentError, Cpm, Episode, Step};
 use super::body::SimulatedEpuck;
-use super::common_patterns::{CommonPatterns, Grain, LearnError, wander};
+use super::common_patterns::{CommonPatterns, LearnError, wander};
 use super::fragments::{TrueFragments, Way};
 use super::robot::{epuck, soinn, walker_config};
 use super::walker::{HeadingBy, Walk, WalkError, Walker};
@@ -123,18 +125,13 @@ const OBSERVATIONS: usize = 1000;
 ///
 /// # Errors
 /// [`TrialError`].
-pub fn learn(
-    maze: &Maze,
-    corridor_width: f64,
-    grain: Grain,
-    seed: u64,
-) -> Result<CommonPatterns, TrialError> {
+pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatterns, TrialError> {
     let config = walker_config(corridor_width)?;
     let body = placed(maze, corridor_width, epuck(), seed)?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut walker = Walker::new(body, config);
     let observations = wander(&mut walker, OBSERVATIONS, &mut rng)?;
-    Ok(CommonPatterns::learn(&observations, soinn(), grain)?)
+    Ok(CommonPatterns::learn(&observations, soinn())?)
 }
 
 /// The robot at the start of a maze.
@@ -156,13 +153,7 @@ fn placed(
 
 fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
     let (cell, direction) = maze.start().ok_or(TrialError::NoStart)?;
-    let heading = match direction {
-        Direction::North => Heading::NORTH,
-        Direction::East => Heading::EAST,
-        Direction::South => Heading::SOUTH,
-        Direction::West => Heading::WEST,
-    };
-    Ok(Pose::new(world.cell_centre(cell), heading))
+    Ok(Pose::new(world.cell_centre(cell), heading_of(direction)))
 }
 
 impl Trial<'_> {
@@ -319,24 +310,16 @@ impl Score {
         let Some((start, _)) = maze.start() else {
             return false;
         };
-        // Bellman–Ford: mazes have few fragments.
-        let mut reached = BTreeMap::from([(start, 0)]);
-        for _ in 0..self.fragments.count() {
-            for (from, way) in self.fragments.ways() {
-                let (Some(at), Some(length)) =
-                    (reached.get(&from), self.lengths.get(&way.fragment))
-                else {
-                    continue;
-                };
-                let there = at + length;
-                let known = reached.entry(way.to).or_insert(there);
-                *known = there.min(*known);
-            }
-        }
-        let goals = maze.goals().iter().filter_map(|goal| reached.get(goal));
-        goals
-            .min()
-            .is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(*shortest) + 8.0)
+        let node = |cell: Cell| maze.grid().index(cell) as u32;
+        let walked = |(from, way): (Cell, Way)| {
+            let length = self.lengths.get(&way.fragment)?;
+            Some((node(from), node(way.to), *length))
+        };
+        let arcs: Vec<_> = self.fragments.ways().filter_map(walked).collect();
+        let costs = costs_from(&Arcs::new(maze.grid().cell_count(), &arcs), [node(start)]);
+        let goals = maze.goals().iter();
+        let shortest = goals.filter_map(|goal| costs[node(*goal) as usize]).min();
+        shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
     }
 }
 
@@ -400,7 +383,7 @@ pub enum TrialError {
 
 #[cfg(test)]
 mod tests {
-    use tolman_maze::Grid;
+    use tolman_maze::{Direction, Grid};
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
@@ -413,7 +396,7 @@ mod tests {
 
     fn patterns() -> CommonPatterns {
         let maze = read(include_str!("../../../../../mazes/cpm-learning.maze"));
-        learn(&maze, WIDTH, Grain::Units, 1).unwrap()
+        learn(&maze, WIDTH, 1).unwrap()
     }
 
     fn play(maze: &Maze, patterns: &CommonPatterns, robot: EpuckConfig) -> Record {

@@ -58,16 +58,10 @@ pub enum HeadingBy {
 /// One observation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// What place it looks like.
-    pub place: Place,
     /// The 11-d vector.
     pub feature: [f64; FEATURES],
     /// That of the same place seen by a robot that walks the other way.
     pub half_turned: [f64; FEATURES],
-    /// What the robot believed where it was.
-    pub pose: Pose,
-    /// When, µs.
-    pub time_us: u64,
 }
 
 /// How a walk ended.
@@ -173,11 +167,6 @@ impl<B: Body> Walker<B> {
     pub fn departed_at(&self, path: &[Pose]) -> Option<Pose> {
         let step = self.departed_us / self.config.pilot.step_us;
         path.get(usize::try_from(step).ok()?).copied()
-    }
-
-    /// When it had turned into the fragment that it walked last, µs.
-    pub const fn departed_us(&self) -> u64 {
-        self.departed_us
     }
 
     /// How it observes.
@@ -389,11 +378,8 @@ impl<B: Body> Walker<B> {
             return Ok(None);
         }
         Ok(Some(Observation {
-            place: view.segments.place(),
             feature: ahead.feature(0.0)?,
             half_turned: back.feature(0.0)?,
-            pose: self.pose(),
-            time_us: self.time_us(),
         }))
     }
 }

@@ -7,7 +7,7 @@ mod venue;
 use tolman_maps::cpm::CpmConfig;
 
 use super::{BoxError, Experiment, Fields, Job, Kind, Metric, Options, Row, Table};
-use crate::agents::cpm::{CommonPatterns, Grain, Mode, Record, Trial, epuck, learn};
+use crate::agents::cpm::{CommonPatterns, Mode, Record, Trial, epuck, learn};
 use crate::draw::Figure;
 use crate::experiment::Run;
 use crate::replay::Replay;
@@ -27,7 +27,7 @@ const ALIASED_MAZES: u32 = 200;
 #[derive(Debug)]
 struct Cpm {
     venues: Vec<Venue>,
-    /// What the robot learned in the learning maze: the clusters of SOINN, as the paper.
+    /// What the robot learned in the learning maze.
     patterns: CommonPatterns,
     tables: Vec<Table>,
 }
@@ -43,13 +43,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         venue::from_files(&options.mazes)?
     };
     let learning = venue::learning()?;
-    let patterns = learn(
-        &learning.maze,
-        learning.corridor_width,
-        Grain::Units,
-        options.seed,
-    )?;
-    let mut tables = vec![figure_9(&venues)];
+    let patterns = learn(&learning.maze, learning.corridor_width, options.seed)?;
+    let mut tables = vec![figure_9(&venues, options.mazes.is_empty())];
     if options.mazes.is_empty() {
         tables.push(aliased());
     }
@@ -60,7 +55,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     }))
 }
 
-fn figure_9(venues: &[Venue]) -> Table {
+/// `papers`: the mazes are the paper's.
+fn figure_9(venues: &[Venue], papers: bool) -> Table {
     let mut table = fields(Table::new(
         FIGURE_9,
         "Time from the first to the second episode",
@@ -89,9 +85,12 @@ fn figure_9(venues: &[Venue]) -> Table {
          runs. A run without a loop has precision and recall 1. The paper's robot needs no more than two episodes either.",
     );
     for venue in venues {
-        let papers = |row: Row| row.paper("solved_percent", 100.0);
+        let mut row = Row::new(&venue.name);
+        if papers {
+            row = row.paper("solved_percent", 100.0);
+        }
         table = table
-            .row(papers(Row::new(&venue.name)))
+            .row(row)
             .row(Row::new(format!("{}{BETTER}", venue.name)));
     }
     table
@@ -204,7 +203,7 @@ impl Experiment for Cpm {
             config.insert(name.into(), format!("{mode:?}").into());
         }
         let mut dictionary = toml::Table::new();
-        dictionary.insert("units".into(), (self.patterns.unit_count() as i64).into());
+        dictionary.insert("units".into(), self.patterns.unit_count().into());
         dictionary.insert("clusters".into(), self.patterns.cluster_count().into());
         config.insert("dictionary".into(), dictionary.into());
         let mut mazes = toml::Table::new();

@@ -70,6 +70,8 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
     for path in files {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        // A maze's own name has no control characters; that of its file may, and terminals obey them.
+        let stem = stem.replace(char::is_control, "\u{fffd}");
         let in_file =
             |error: BoxError| -> BoxError { format!("{}: {error}", path.display()).into() };
         let text = fs::read_to_string(path).map_err(|error| in_file(error.into()))?;
