@@ -19,9 +19,9 @@ use core::time::Duration;
 use std::time::Instant;
 
 use criterion::Criterion;
-use tolman_maps::diktiometry::{Action, Config, StepReport};
+use tolman_maps::diktiometry::{Config, StepReport};
 use tolman_maze::Direction;
-use walk::{ODOMETRY, Walk, open};
+use walk::{ODOMETRY, Scripted, Walk, open};
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
@@ -31,20 +31,9 @@ fn main() {
         let config = Config::new(Config::compass_actions(), 1.0);
         let mut walk = Walk::new(open(side), ODOMETRY, config, 1);
         let mut learning = Vec::new();
-        let mut script: Vec<Action> = Vec::new();
+        let mut planner = Scripted::new(1.0, 1);
         for _ in 0..moves {
-            if script.is_empty() {
-                let advice = walk.observer.opportunities().into_iter().next();
-                script = advice.map_or(Vec::new(), |advice| advice.script);
-                script.reverse();
-            }
-            let possible = |direction: &Direction| {
-                let here = walk.robot.at();
-                walk.robot.world().neighbour(here, *direction).is_some()
-            };
-            let advised = script.pop().map(|action| Direction::ALL[action.0 as usize]);
-            let direction = advised.filter(possible);
-            let direction = direction.unwrap_or_else(|| walk.robot.wander().unwrap());
+            let direction = planner.choose(&walk);
             learning.push(timed(&mut walk, direction).0);
         }
         let score = walk.score();

@@ -56,6 +56,32 @@ impl AbstractWorld {
         }
     }
 
+    /// The corridors of a maze whose cells are `spacing` metres apart: a place at every bend, junction and dead end, numbered
+    /// in the order of their cells; a move leads straight on to the next. All places look alike.
+    #[must_use]
+    pub fn from_corridors(maze: &Maze, spacing: f64) -> Self {
+        let ways = |cell| Direction::ALL.map(|direction| maze.is_open(cell, direction));
+        let straight = [[true, false, true, false], [false, true, false, true]];
+        let is_place = |cell| !straight.contains(&ways(cell));
+        let cells: Vec<_> = maze.grid().cells().filter(|cell| is_place(*cell)).collect();
+        let number = |cell| cells.iter().position(|other| *other == cell);
+        let next = |cell, direction| {
+            let mut along = core::iter::successors(maze.beside(cell, direction), |cell| {
+                maze.beside(*cell, direction)
+            });
+            along.find(|cell| is_place(*cell)).and_then(number)
+        };
+        let neighbours = cells.iter().map(|&cell| {
+            Direction::ALL.map(|direction| next(cell, direction).map(|place| place as u32))
+        });
+        let point = |x: u16, y: u16| Point::new(f64::from(x) * spacing, f64::from(y) * spacing);
+        Self {
+            neighbours: neighbours.collect(),
+            places: cells.iter().map(|cell| point(cell.x, cell.y)).collect(),
+            looks: vec![[0.0; 4]; cells.len()],
+        }
+    }
+
     /// Any places, m, and where the ways north, east, south and west lead from each, by number. None if there is not one entry of
     /// ways a place, or a way leads to a place that there is not. All places look alike.
     #[must_use]
@@ -75,6 +101,15 @@ impl AbstractWorld {
         let mut draws = Chance::of_run(seed).draws(Channel::named("abstract paint"));
         for look in self.looks.iter_mut().flatten() {
             *look = (draws.uniform() * f64::from(colours)).floor();
+        }
+        self
+    }
+
+    /// Paints the walls around one place anew, each in a colour it did not have.
+    #[must_use]
+    pub fn repainted(mut self, place: u32, colours: u32) -> Self {
+        if let Some(look) = self.looks.get_mut(place as usize) {
+            *look = look.map(|colour| (colour + 1.0) % f64::from(colours));
         }
         self
     }
@@ -213,6 +248,14 @@ impl AbstractRobot {
     pub fn kidnap(&mut self, to: u32) {
         if (to as usize) < self.world.places.len() {
             self.at = to;
+        }
+    }
+
+    /// Lets the world change round the robot, which stays where it is: doors shut and open. One without its place changes
+    /// nothing.
+    pub fn find_itself_in(&mut self, world: Arc<AbstractWorld>) {
+        if (self.at as usize) < world.places.len() {
+            self.world = world;
         }
     }
 

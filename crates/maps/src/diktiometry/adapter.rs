@@ -66,26 +66,23 @@ impl Observer {
             self.follow(before, link);
         }
         self.relate_lately(track, to, trusted_odometry(step, choice, best.matcher));
-        let lookalikes = match (choice.look, &step.percept) {
-            (Look::Strange, Some(view)) => self
-                .views
-                .sets(view, &self.config.percepts, &self.map.paths)
-                .len(),
-            _ => 0,
+        // What looks like another place is no new view of this one: the robot may be there.
+        let looks_elsewhere = match (choice.look, &step.percept) {
+            (Look::Strange, Some(view)) => {
+                let percepts = &self.config.percepts;
+                !self.views.alike(view, percepts, &self.map.paths).is_empty()
+            }
+            _ => false,
         };
         let place = &mut self.map.paths.places[to.index()];
-        // What looks like another place is no new view of this one: the robot may be there.
         let new_view =
-            lookalikes == 0 && remember(place, step.percept.as_ref(), &self.config.percepts);
+            !looks_elsewhere && remember(place, step.percept.as_ref(), &self.config.percepts);
         if step.exits != Exits::Unknown {
             place.exits = step.exits.clone();
         }
-        let (frame, position) = (place.frame, place.position);
         if let (true, Some(view)) = (new_view, &step.percept) {
             self.views.insert(to, view);
         }
-        let grid = &mut self.map.reference.frames[frame.index()].grid;
-        grid.visit(position.middle(), self.config.separation);
         let pairs = choice.doubts.iter().chain(&choice.twins);
         for &other in pairs.filter(|&&other| other != to) {
             self.note(to, other);

@@ -49,7 +49,7 @@ impl Observer {
                 all.into_iter().find(|one| one.place == to)
             });
         if let (Rank::Best, Some(excluded)) = (rank, choice.excluded)
-            && let Some(link) = self.link(from, step.action, excluded.place)
+            && let Some(link) = self.map.paths.between(from, step.action, excluded.place)
         {
             let known = self.motion(from, excluded.place);
             report.contradictions.push(Contradiction {
@@ -66,7 +66,7 @@ impl Observer {
         if choice.look == Look::Strange
             && rank == Rank::Best
             && let Some(there) = choice.matches.first().and_then(|best| best.candidate)
-            && let Some(link) = self.link(from, step.action, there.place)
+            && let Some(link) = self.map.paths.between(from, step.action, there.place)
         {
             report.contradictions.push(Contradiction {
                 track: track.id,
@@ -91,7 +91,8 @@ impl Observer {
                 Some(self.write(track, step, &projection, &choice, contradictions, hints))
             } else {
                 let there = chosen.candidate.map(|candidate| candidate.place);
-                there.map(|place| (place, self.link(from, step.action, place)))
+                let paths = &self.map.paths;
+                there.map(|place| (place, paths.between(from, step.action, place)))
             };
             let Some((place, link)) = landed else {
                 continue; // Only the best track may make places.
@@ -145,10 +146,10 @@ impl Observer {
         let (Use::On, Some(percept)) = (self.config.indexing.perceptual, &step.percept) else {
             return;
         };
-        let sets = self
+        let alike = self
             .views
-            .sets(percept, &self.config.percepts, &self.map.paths);
-        for place in sets.into_iter().next().unwrap_or_default() {
+            .most_alike(percept, &self.config.percepts, &self.map.paths);
+        for place in alike {
             let taken = next.iter().any(|(other, _)| other.place == place);
             if taken || next.len() >= self.config.tracks.cap {
                 continue;
@@ -301,12 +302,11 @@ impl Observer {
         for track in self.tracks.iter_mut().filter(|track| track.place == kept) {
             let came = track.link.map(|link| &links[link.index()]);
             let moved = came.filter(|link| link.standing == Standing::Removed);
-            if let Some(link) = moved {
-                let mut along = self.map.paths.along(link.from, link.action);
-                if let Some((id, _)) = along.find(|(_, link)| link.to == new) {
-                    track.place = new;
-                    track.link = Some(id);
-                }
+            if let Some(link) = moved
+                && let Some(id) = self.map.paths.between(link.from, link.action, new)
+            {
+                track.place = new;
+                track.link = Some(id);
             }
         }
     }

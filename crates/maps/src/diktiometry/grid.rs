@@ -1,46 +1,31 @@
-//! "Local grid-based methods to maintain estimates of how well areas have been visited or traversed."
+//! "Local grid-based methods to maintain estimates of how well areas have been visited or traversed": traversed is all that
+//! the matchers' order asks for.
 
 use alloc::vec::Vec;
 
 use tolman_geom::{Point, Vector};
 
-/// What is known of the area around a frame's origin, in square cells of the length that its user names.
+/// How well the area around a frame's origin was traversed, in square cells of the length that its user names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Grid {
     /// Cells that the robot was in, by their number.
-    cells: Vec<(CellNumber, CellKnowledge)>,
+    cells: Vec<(CellNumber, Traversals)>,
 }
 
 /// Column and row.
 type CellNumber = (i32, i32);
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct CellKnowledge {
-    visits: u32,
-    /// Traversals heading east, north, west, south.
-    traversals: [u32; 4],
-}
+/// How often a cell was traversed heading east, north, west, south.
+type Traversals = [u32; 4];
 
 impl Grid {
-    /// The robot was at a place here.
-    pub(super) fn visit(&mut self, at: Point, cell: f64) {
-        let visits = &mut self.entry(number(at, cell)).visits;
-        *visits = visits.saturating_add(1);
-    }
-
     /// The robot went straight from one point to the other.
     pub(super) fn traverse(&mut self, from: Point, to: Point, cell: f64) {
         let heading = quadrant(to - from);
         crossed(from, to, cell, |number| {
-            let count = &mut self.entry(number).traversals[heading];
+            let count = &mut self.entry(number)[heading];
             *count = count.saturating_add(1);
         });
-    }
-
-    /// How often the cell around a point was visited.
-    #[must_use]
-    pub fn visits(&self, at: Point, cell: f64) -> u32 {
-        self.knowledge(number(at, cell)).visits
     }
 
     /// How often the way between two points was gone, in this direction: the least over the cells it crosses.
@@ -49,21 +34,21 @@ impl Grid {
         let heading = quadrant(to - from);
         let mut least = u32::MAX;
         crossed(from, to, cell, |number| {
-            least = least.min(self.knowledge(number).traversals[heading]);
+            least = least.min(self.traversals_of(number)[heading]);
         });
         least
     }
 
-    fn knowledge(&self, number: CellNumber) -> CellKnowledge {
+    fn traversals_of(&self, number: CellNumber) -> Traversals {
         let at = self.cells.binary_search_by_key(&number, |(key, _)| *key);
-        at.map_or_else(|_| CellKnowledge::default(), |at| self.cells[at].1)
+        at.map_or_else(|_| Traversals::default(), |at| self.cells[at].1)
     }
 
-    fn entry(&mut self, number: CellNumber) -> &mut CellKnowledge {
+    fn entry(&mut self, number: CellNumber) -> &mut Traversals {
         let at = match self.cells.binary_search_by_key(&number, |(key, _)| *key) {
             Ok(at) => at,
             Err(at) => {
-                self.cells.insert(at, (number, CellKnowledge::default()));
+                self.cells.insert(at, (number, Traversals::default()));
                 at
             }
         };

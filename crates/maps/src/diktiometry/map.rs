@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 
 use super::config::SearchLimits;
-use super::ids::{Action, FrameId, LinkId, PlaceId};
+use super::ids::{FrameId, LinkId, PlaceId};
 use super::path_graph::{Fate, PathGraph, Standing};
 use super::reference_graph::{ReferenceGraph, search};
 
@@ -57,13 +57,15 @@ impl Diktiometry {
     ) -> Option<PointBox> {
         let start = self.paths.place(self.paths.resolve(from)?)?;
         let end = self.paths.place(self.paths.resolve(to)?)?;
-        let frames = if start.frame == end.frame {
-            PointBox::ORIGIN
-        } else {
-            let reached = search(&self.reference, start.frame, limits);
-            let there = reached.iter().find(|reached| reached.frame == end.frame);
-            there?.position
-        };
+        let reached = search(&self.reference, start.frame, limits);
+        let there = reached.iter().find(|reached| reached.frame == end.frame)?;
+        Some(there.position + end.position - start.position)
+    }
+
+    /// Where `to` lies as seen from `from` by the relation between their frames alone, m; none if they are not related.
+    pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
+        let [start, end] = [from, to].map(|place| &self.paths.places[place.index()]);
+        let frames = self.reference.known(start.frame, end.frame)?;
         Some(frames + end.position - start.position)
     }
 
@@ -179,17 +181,6 @@ impl Diktiometry {
             let used = !frame.places.is_empty() || frame.relations.is_empty();
             (!(sorted && mutual && used)).then_some(Flaw::OneSided(id))
         })
-    }
-
-    /// Where an action from a place led, as the links say; see [`Observer::predict`](super::Observer::predict).
-    pub(super) fn outcomes(
-        &self,
-        place: PlaceId,
-        action: Action,
-    ) -> impl Iterator<Item = (LinkId, PlaceId, u32)> {
-        self.paths
-            .along(place, action)
-            .map(|(id, link)| (id, link.to, link.traversed))
     }
 }
 

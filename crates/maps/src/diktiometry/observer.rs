@@ -6,7 +6,7 @@ use tolman_planners::path_to;
 use super::config::{Config, Percepts};
 use super::error::{StartError, StepError};
 use super::estimator::Rank;
-use super::ids::{Action, LinkId, PlaceId, TrackId};
+use super::ids::{Action, PlaceId, TrackId};
 use super::indexing::{ActiveFrame, ViewIndex};
 use super::journal::{Distinction, Recorder};
 use super::map::{Diktiometry, Site};
@@ -137,17 +137,13 @@ impl Observer {
         let Some(place) = self.map.paths.resolve(place) else {
             return Vec::new();
         };
-        let all: f64 = self
-            .map
-            .outcomes(place, action)
-            .map(|(_, _, traversed)| f64::from(traversed))
-            .sum();
-        self.map
-            .outcomes(place, action)
-            .map(|(_, to, traversed)| Predicted {
-                place: to,
-                probability: f64::from(traversed) / all,
-                displacement: self.motion(place, to),
+        let links = || self.map.paths.along(place, action);
+        let all: f64 = links().map(|(_, link)| f64::from(link.traversed)).sum();
+        links()
+            .map(|(_, link)| Predicted {
+                place: link.to,
+                probability: f64::from(link.traversed) / all,
+                displacement: self.motion(place, link.to),
             })
             .collect()
     }
@@ -246,7 +242,8 @@ impl Observer {
             let rank = if rank == 0 { Rank::Best } else { Rank::Other };
             self.advance(&track, rank, step, report, &mut hints, &mut next);
         }
-        self.tracks = self.select(next.iter().map(|(track, _)| track.clone()).collect());
+        let (children, lines): (Vec<Track>, Vec<TrackReport>) = next.into_iter().unzip();
+        self.tracks = self.select(children);
         let occupied: Vec<PlaceId> = self.tracks.iter().map(|track| track.place).collect();
         report.restructured = restructure(
             &mut self.map,
@@ -264,8 +261,8 @@ impl Observer {
         if let Some(best) = self.tracks.first() {
             deposit(&mut self.map, best.place, &best.history, &self.config);
         }
-        for (track, mut line) in next {
-            let Some(now) = self.tracks.iter().find(|other| other.id == track.id) else {
+        for mut line in lines {
+            let Some(now) = self.tracks.iter().find(|track| track.id == line.track) else {
                 continue;
             };
             line.confidence = now.confidence;
@@ -283,25 +280,12 @@ impl Observer {
         });
     }
 
-    pub(super) fn link(&self, from: PlaceId, action: Action, to: PlaceId) -> Option<LinkId> {
-        let mut along = self.map.paths.along(from, action);
-        along.find(|(_, link)| link.to == to).map(|(id, _)| id)
-    }
-
     /// Where one place lies as seen from another by what is known of their two frames, m; by a search only if they
     /// are not related.
     pub(super) fn motion(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
-        let [start, end] = [from, to].map(|place| &self.map.paths.places[place.index()]);
-        let frames = if start.frame == end.frame {
-            Some(PointBox::ORIGIN)
-        } else {
-            let relation = self.map.reference.relation(start.frame, end.frame);
-            relation.map(|relation| relation.position)
-        };
-        match frames {
-            Some(frames) => Some(frames + end.position - start.position),
-            None => self.map.displacement(from, to, &self.config.search),
-        }
+        self.map
+            .related(from, to)
+            .or_else(|| self.map.displacement(from, to, &self.config.search))
     }
 }
 

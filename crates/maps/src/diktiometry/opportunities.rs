@@ -5,7 +5,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
-use tolman_planners::path_to;
+use tolman_planners::{path_to, steps_from};
 
 use super::config::{Config, Use};
 use super::ids::{Action, PlaceId};
@@ -105,15 +105,9 @@ fn go_to_unknown(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Op
 }
 
 fn prime_pump(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Opportunity> {
-    let links = map.paths.outgoing(from);
-    let neighbours = links.filter_map(|(id, link)| {
+    let neighbours = map.paths.ways(from).filter_map(|(_, link)| {
         let width = width(map, from, link.to)?;
-        let blocked = map.paths.places[from.index()]
-            .blocked
-            .contains(&link.action);
-        let likely = !blocked && map.paths.likeliest(from, link.action) == Some(id);
-        let loose = width >= 0.5 * config.least_distance();
-        (likely && loose).then_some((width, link))
+        (width >= 0.5 * config.least_distance()).then_some((width, link))
     });
     let widest =
         neighbours.max_by(|(a, one), (b, other)| a.total_cmp(b).then(other.to.cmp(&one.to)));
@@ -148,16 +142,20 @@ fn shuttle(map: &Diktiometry, track: &Track, config: &Config) -> Option<Opportun
 
 fn close_loop(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Opportunity> {
     let notes = &map.paths.places[from.index()].notes;
-    let others = notes
-        .iter()
-        .filter_map(|note| map.paths.resolve(note.other));
-    let loops = others.filter_map(|other| {
-        let way = path_to(&map.paths, from.0, |place| place == other.0)?;
-        let script = actions_along(map, &way).filter(|script| !script.is_empty())?;
-        // A place that is one with another saves a place and its links.
-        offered(OpportunityKind::CloseLoop, other, script, 1.0, config)
+    if notes.is_empty() {
+        return None;
+    }
+    let steps = steps_from(&map.paths, [from.0]);
+    let others = notes.iter().filter_map(|note| {
+        let other = map.paths.resolve(note.other)?;
+        let steps = steps[other.index()].filter(|steps| *steps > 0)?;
+        Some((steps, other))
     });
-    loops.min_by(|a, b| a.cost.total_cmp(&b.cost).then(a.place.cmp(&b.place)))
+    let (_, other) = others.min()?;
+    let way = path_to(&map.paths, from.0, |place| place == other.0)?;
+    let script = actions_along(map, &way)?;
+    // A place that is one with another saves a place and its links.
+    offered(OpportunityKind::CloseLoop, other, script, 1.0, config)
 }
 
 /// The script, if it is not too long.
@@ -182,26 +180,14 @@ fn offered(
 pub(super) fn actions_along(map: &Diktiometry, way: &[u32]) -> Option<Vec<Action>> {
     let hops = way.iter().zip(way.iter().skip(1));
     hops.map(|(&tail, &head)| {
-        let tail = PlaceId(tail);
-        let mut links = map.paths.outgoing(tail);
-        let found = links.find(|(id, link)| {
-            let blocked = map.paths.places[tail.index()]
-                .blocked
-                .contains(&link.action);
-            link.to.0 == head && !blocked && map.paths.likeliest(tail, link.action) == Some(*id)
-        });
-        found.map(|(_, link)| link.action)
+        let mut ways = map.paths.ways(PlaceId(tail));
+        ways.find(|(_, link)| link.to.0 == head)
+            .map(|(_, link)| link.action)
     })
     .collect()
 }
 
 /// How well the displacement between two linked places is known: the box's longer side, m.
 fn width(map: &Diktiometry, from: PlaceId, to: PlaceId) -> Option<f64> {
-    let [from, to] = [from, to].map(|place| &map.paths.places[place.index()]);
-    let frames = if from.frame == to.frame {
-        PointBox::ORIGIN
-    } else {
-        map.reference.relation(from.frame, to.frame)?.position
-    };
-    Some((frames + to.position - from.position).width())
+    map.related(from, to).map(PointBox::width)
 }

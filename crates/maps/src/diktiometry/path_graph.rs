@@ -45,6 +45,37 @@ pub struct Place {
     pub notes: Vec<Note>,
 }
 
+impl Place {
+    fn new(frame: FrameId, position: PointBox) -> Self {
+        Self {
+            fate: Fate::Standing,
+            frame,
+            position,
+            envelope: position,
+            estims: Vec::new(),
+            views: Vec::new(),
+            outgoing: Vec::new(),
+            incoming: Vec::new(),
+            blocked: Vec::new(),
+            exits: Exits::Unknown,
+            visits: 0,
+            expected: 0.0,
+            met: 0.0,
+            histories: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Takes the place out of the map. What it knew is handed on, so that the dead weigh nothing.
+    pub(super) fn bury(&mut self, fate: Fate) -> Self {
+        let grave = Self {
+            fate,
+            ..Self::new(self.frame, self.position)
+        };
+        core::mem::replace(self, grave)
+    }
+}
+
 /// What became of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
@@ -183,35 +214,30 @@ impl PathGraph {
         best.map(|(id, _)| id)
     }
 
+    /// The link of an action between two places, if there is one.
+    #[must_use]
+    pub fn between(&self, from: PlaceId, action: Action, to: PlaceId) -> Option<LinkId> {
+        let mut along = self.along(from, action);
+        along.find(|(_, link)| link.to == to).map(|(id, _)| id)
+    }
+
+    /// The links that a plan may follow from a place: of each action that is not blocked there, the likeliest.
+    pub fn ways(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
+        let blocked = self.place(place).map_or(&[][..], |place| &place.blocked);
+        self.outgoing(place).filter(move |(id, link)| {
+            !blocked.contains(&link.action) && self.likeliest(place, link.action) == Some(*id)
+        })
+    }
+
     pub(super) fn add_place(&mut self, frame: FrameId, position: PointBox) -> PlaceId {
         let id = PlaceId(self.places.len() as u32);
-        self.places.push(Place {
-            fate: Fate::Standing,
-            frame,
-            position,
-            envelope: position,
-            estims: Vec::new(),
-            views: Vec::new(),
-            outgoing: Vec::new(),
-            incoming: Vec::new(),
-            blocked: Vec::new(),
-            exits: Exits::Unknown,
-            visits: 0,
-            expected: 0.0,
-            met: 0.0,
-            histories: Vec::new(),
-            notes: Vec::new(),
-        });
+        self.places.push(Place::new(frame, position));
         id
     }
 
     /// The link for an action between two places, made where there is none.
     pub(super) fn link_to(&mut self, from: PlaceId, action: Action, to: PlaceId) -> LinkId {
-        let known = self
-            .along(from, action)
-            .find(|(_, link)| link.to == to)
-            .map(|(id, _)| id);
-        if let Some(known) = known {
+        if let Some(known) = self.between(from, action, to) {
             return known;
         }
         let id = LinkId(self.links.len() as u32);
@@ -248,12 +274,8 @@ impl Graph for PathGraph {
     }
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        let place = PlaceId(node);
-        for (id, link) in self.outgoing(place) {
-            let blocked = self.places[place.index()].blocked.contains(&link.action);
-            if !blocked && self.likeliest(place, link.action) == Some(id) {
-                visit(link.to.0, 1);
-            }
+        for (_, link) in self.ways(PlaceId(node)) {
+            visit(link.to.0, 1);
         }
     }
 }

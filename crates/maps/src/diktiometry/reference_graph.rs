@@ -64,6 +64,14 @@ impl ReferenceGraph {
         at.ok().map(|at| &relations[at])
     }
 
+    /// Where the origin of `to` lies in `from` by the relation between the two, m; none if they are not related.
+    pub(super) fn known(&self, from: FrameId, to: FrameId) -> Option<PointBox> {
+        if from == to {
+            return Some(PointBox::ORIGIN);
+        }
+        self.relation(from, to).map(|relation| relation.position)
+    }
+
     pub(super) fn add_frame(&mut self) -> FrameId {
         let id = FrameId(self.frames.len() as u32);
         self.frames.push(Frame::default());
@@ -77,18 +85,9 @@ impl ReferenceGraph {
         to: FrameId,
         estimate: PointBox,
     ) -> Result<(), Excluded> {
-        let known = if from == to {
-            PointBox::ORIGIN
-        } else {
-            match self.relation(from, to) {
-                Some(relation) => relation.position,
-                None => return Ok(()),
-            }
-        };
-        if known.meets(estimate) {
-            Ok(())
-        } else {
-            Err(Excluded { known, estimate })
+        match self.known(from, to) {
+            Some(known) if !known.meets(estimate) => Err(Excluded { known, estimate }),
+            _ => Ok(()),
         }
     }
 

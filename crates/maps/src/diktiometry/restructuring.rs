@@ -8,6 +8,7 @@ mod split;
 mod transients;
 
 use alloc::vec::Vec;
+use core::iter;
 
 use super::config::{Config, GeometricMerge};
 use super::ids::{LinkId, PlaceId};
@@ -47,9 +48,17 @@ enum Diagnosis {
     },
 }
 
-/// Whether a diagnosis is accepted: proposed by one, rejected by none.
-fn accepted(verdicts: &[Verdict]) -> bool {
-    verdicts.contains(&Verdict::Propose) && !verdicts.contains(&Verdict::Reject)
+/// Whether a diagnosis is accepted: proposed by one, rejected by none. Nobody is asked after the first rejection.
+fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
+    let mut proposed = false;
+    for verdict in verdicts {
+        match verdict {
+            Verdict::Propose => proposed = true,
+            Verdict::Abstain => {}
+            Verdict::Reject => return false,
+        }
+    }
+    proposed
 }
 
 /// Where something changed that may settle what was put off.
@@ -93,7 +102,7 @@ pub(super) fn restructure(
         }
         for pair in pairs {
             let stand = [pair.a, pair.b].map(|place| map.paths.places[place.index()].fate);
-            if stand != [Fate::Standing; 2] || !accepted(&merge_verdicts(map, &pair, config)) {
+            if stand != [Fate::Standing; 2] || !accepted(merge_verdicts(map, &pair, config)) {
                 continue;
             }
             if born.contains(&pair.a) || born.contains(&pair.b) {
@@ -126,24 +135,28 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
     ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
 }
 
-/// What each restructurer says of two places being one.
-fn merge_verdicts(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> [Verdict; 4] {
-    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+/// What each restructurer says of two places being one; asked one after the other, as far as need be.
+fn merge_verdicts(
+    map: &Diktiometry,
+    pair: &geometric::Pair,
+    config: &Config,
+) -> impl Iterator<Item = Verdict> {
     let geometry = geometric::merge(map, pair, config);
     // What stands where nothing else can looks new, but is the same.
     let settled = config.restructuring.geometric_merge == GeometricMerge::Narrow
         && geometry == Verdict::Propose;
-    let views = if settled || share_a_view(a, b, &config.percepts) {
-        Verdict::Abstain
-    } else {
-        Verdict::Reject
+    let views = move || {
+        let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+        if settled || share_a_view(a, b, &config.percepts) {
+            Verdict::Abstain
+        } else {
+            Verdict::Reject
+        }
     };
-    [
-        geometry,
-        views,
-        local_path::merge(map, pair, config),
-        non_local_path::merge(map, pair, config),
-    ]
+    iter::once(geometry)
+        .chain(iter::once_with(views))
+        .chain(iter::once_with(|| local_path::merge(map, pair, config)))
+        .chain(iter::once_with(|| non_local_path::merge(map, pair, config)))
 }
 
 /// What is proposed for a place that is two. Neither restructurer has grounds to reject what the other sees: places at one

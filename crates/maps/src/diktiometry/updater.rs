@@ -64,12 +64,7 @@ pub(super) fn narrow(
     });
     let frames = start.1 + displacement - end.1;
     map.reference.relate(start.0, end.0, frames)?;
-    let end_from_start = if start.0 == end.0 {
-        PointBox::ORIGIN
-    } else {
-        let relation = map.reference.relation(start.0, end.0);
-        relation.map_or(frames, |relation| relation.position)
-    };
+    let end_from_start = map.reference.known(start.0, end.0).unwrap_or(frames);
     // Forward, as the paper does, and backward.
     let arrived = start.1 + displacement - end_from_start;
     contract(&mut map.paths.places[to.index()], arrived);

@@ -1,12 +1,13 @@
 //! What is learned of worlds in which every place looks the same, of worlds that are painted, and after a kidnapping.
 
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Action, Config, GeometricMerge, Identity, Percepts, Rotation, SignatureKind, StepReport,
+    Config, GeometricMerge, Identity, Percepts, Rotation, SignatureKind,
 };
-use tolman_maze::Direction;
-use tolman_sim::abstract_world::{AbstractMove, MoveError};
+use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 
-use super::walk::{ODOMETRY, Score, Walk, open};
+use super::walk::{ODOMETRY, Score, Scripted, Walk, blocks, open};
 
 fn alike() -> Config {
     Config::new(Config::compass_actions(), 1.0)
@@ -24,33 +25,6 @@ fn painted() -> Config {
             views: 2,
         }),
         ..alike()
-    }
-}
-
-/// Walks at random and, one time in `every`, does what is advised.
-fn walk_with_scripts(
-    walk: &mut Walk,
-    moves: usize,
-    every: usize,
-    mut seen: impl FnMut(usize, &AbstractMove, &StepReport),
-) {
-    let mut script: Vec<Action> = Vec::new();
-    for number in 0..moves {
-        if script.is_empty() && number % every == 0 {
-            let advice = walk.observer.opportunities().into_iter().next();
-            script = advice.map_or(Vec::new(), |advice| advice.script);
-            script.reverse();
-        }
-        let advised = script
-            .pop()
-            .map(|action| Direction::ALL[action.0 as usize])
-            .filter(|direction| {
-                let here = walk.robot.at();
-                walk.robot.world().neighbour(here, *direction).is_some()
-            });
-        let direction = advised.unwrap_or_else(|| walk.robot.wander().unwrap());
-        let (moved, report) = walk.go(direction);
-        seen(number, &moved, &report);
     }
 }
 
@@ -103,8 +77,57 @@ fn boxes_that_merely_meet_confuse_places() {
 #[test]
 fn scripts_teach_a_larger_world() {
     let mut walk = Walk::new(open(10), ODOMETRY, alike(), 1);
-    walk_with_scripts(&mut walk, 1500, 1, |_, _, _| ());
+    walk.heed(1.0, 1500);
     assert_eq!(walk.score(), perfect(100));
+}
+
+#[test]
+fn scripts_teach_corridors_in_which_a_robot_stops_only_roughly() {
+    let maze = blocks(6, 0.25, &mut ChaCha8Rng::seed_from_u64(1));
+    let world = AbstractWorld::from_corridors(&maze, 1.0);
+    // The bends and junctions of 36 cells, and the ways between them as the maze has them.
+    let straight = maze.grid().cells().filter(|cell| maze.degree(*cell) == 2);
+    assert!(world.places().len() >= 36 - straight.count());
+    for place in 0..world.places().len() as u32 {
+        for direction in world.exits(place) {
+            let there = world.neighbour(place, direction).unwrap();
+            assert_eq!(world.neighbour(there, direction.opposite()), Some(place));
+        }
+    }
+    let errors = MoveError {
+        stop: 0.0175,
+        ..ODOMETRY
+    };
+    let config = Config {
+        place_radius: errors.stop,
+        ..alike()
+    };
+    let places = world.places().len();
+    let mut walk = Walk::new(world, errors, config, 1);
+    walk.heed(1.0, 1200);
+    assert_eq!(walk.score(), perfect(places));
+}
+
+/// A wall is painted anew: the place is still where it was, and is known by either look.
+#[test]
+fn the_view_set_of_a_place_that_looks_new_grows() {
+    let errors = MoveError {
+        look: 0.2,
+        ..ODOMETRY
+    };
+    let mut walk = Walk::new(open(5).painted(5, 1), errors, painted(), 1);
+    walk.heed(1.0, 400);
+    assert_eq!(walk.score(), perfect(25));
+    let views = |walk: &Walk| {
+        let places = walk.observer.map().paths.places();
+        places.map(|(_, place)| place.views.len()).sum::<usize>()
+    };
+    assert_eq!(views(&walk), 25);
+    let world = walk.robot.world().clone().repainted(7, 5).repainted(18, 5);
+    walk.robot.find_itself_in(world.into());
+    walk.heed(0.3, 400);
+    assert_eq!(walk.score(), perfect(25));
+    assert_eq!(views(&walk), 27);
 }
 
 #[test]
@@ -120,7 +143,7 @@ fn an_error_of_scale_shared_by_all_moves_does_no_harm() {
     };
     for seed in 0..3 {
         let mut walk = Walk::new(open(8), errors, config.clone(), seed);
-        walk_with_scripts(&mut walk, 1000, 1, |_, _, _| ());
+        walk.heed(1.0, 1000);
         assert_eq!(walk.score(), perfect(64), "seed {seed}");
     }
 }
@@ -135,9 +158,11 @@ fn moves_that_break_their_bounds_are_told_and_confuse_no_places() {
     let mut contradictions = 0;
     for seed in 0..4 {
         let mut walk = Walk::new(open(5), errors, alike(), seed);
-        walk_with_scripts(&mut walk, 1000, 3, |_, _, report| {
+        let mut planner = Scripted::new(0.3, seed);
+        for _ in 0..1000 {
+            let (_, report) = planner.go(&mut walk);
             contradictions += report.contradictions.len();
-        });
+        }
         let score = walk.score();
         assert!(score.purity > 0.99, "seed {seed}: {score:?}");
         assert!(score.link_recall > 0.95, "seed {seed}: {score:?}");
@@ -155,7 +180,7 @@ fn a_kidnapped_robot_is_found_again_by_what_it_sees() {
     for seed in 0..10 {
         let world = open(7).painted(5, seed);
         let mut walk = Walk::new(world, errors, painted(), seed);
-        walk_with_scripts(&mut walk, 800, 1, |_, _, _| ());
+        walk.heed(1.0, 800);
         assert_eq!(walk.score(), perfect(49), "seed {seed}");
         let truths = walk.truths();
         walk.robot.kidnap(seed as u32 * 4);

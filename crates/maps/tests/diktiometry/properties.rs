@@ -6,7 +6,6 @@ use tolman_maps::diktiometry::{
     Action, Config, Exits, GeometricIndexing, GeometricMerge, Identity, JournalLength, Move,
     Observer, Order, Outcome, Percepts, Rotation, Signature, SignatureKind, Start, StepError, Use,
 };
-use tolman_maze::Direction;
 
 use super::walk::{ODOMETRY, Walk, open};
 
@@ -203,19 +202,7 @@ proptest! {
         errors.stop = 0.02 * f64::from(stop);
         config.place_radius = errors.stop;
         let mut walk = Walk::new(open(4), errors, config, seed);
-        let mut script: Vec<Direction> = Vec::new();
-        for number in 0..200_u32 {
-            if script.is_empty() && number % 4 < obedience {
-                let advice = walk.observer.opportunities();
-                let best = advice.into_iter().next().map_or(Vec::new(), |best| best.script);
-                script = best.iter().rev().map(|action| Direction::ALL[action.0 as usize]).collect();
-            }
-            let possible = |direction: &Direction| {
-                walk.robot.world().neighbour(walk.robot.at(), *direction).is_some()
-            };
-            let direction = script.pop().filter(possible);
-            walk.go(direction.unwrap_or_else(|| walk.robot.wander().unwrap()));
-        }
+        walk.heed(0.25 * f64::from(obedience), 200);
         let score = walk.score();
         prop_assert!(score.purity > 1.0 - 1e-12);
         let truths = walk.truths();

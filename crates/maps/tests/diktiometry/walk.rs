@@ -1,11 +1,13 @@
 //! A robot in an abstract world, its observer, and how right the observer is.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, VecDeque};
 
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
     Action, Config, Exits, Move, Observer, Outcome, PlaceId, Signature, Start, StepReport,
 };
-use tolman_maze::{Direction, Grid, Maze};
+use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveError};
 
 pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
@@ -19,6 +21,25 @@ pub(crate) const ODOMETRY: MoveError = MoveError {
 
 pub(crate) fn open(side: u16) -> AbstractWorld {
     AbstractWorld::from_maze(&Maze::open(Grid::new(side, side)), 1.0)
+}
+
+/// Corridors between blocks: a square grid in which a share of the inner walls stands, but for those that would cut a cell
+/// off.
+pub(crate) fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
+    let grid = Grid::new(side, side);
+    let mut maze = Maze::open(grid);
+    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    for cell in grid.cells() {
+        for direction in [Direction::North, Direction::East] {
+            if grid.neighbour(cell, direction).is_some() && rng.random_range(0.0..1.0) < walls {
+                maze.set_wall(cell, direction, true);
+                if maze.reachable().count() < grid.cells().count() {
+                    maze.set_wall(cell, direction, false);
+                }
+            }
+        }
+    }
+    maze
 }
 
 pub(crate) struct Walk {
@@ -80,6 +101,14 @@ impl Walk {
         for _ in 0..moves {
             let direction = self.robot.wander().unwrap();
             self.go(direction);
+        }
+    }
+
+    /// Heeds this share of the advice.
+    pub(crate) fn heed(&mut self, heed: f64, moves: usize) {
+        let mut planner = Scripted::new(heed, 0);
+        for _ in 0..moves {
+            planner.go(self);
         }
     }
 
@@ -158,6 +187,44 @@ impl Walk {
             link_precision: right_links as f64 / (right_links + wrong) as f64,
             link_recall: met as f64 / taken.len() as f64,
         }
+    }
+}
+
+/// A planner that walks at random but for this share of its decisions, in which it begins the best script that is advised.
+pub(crate) struct Scripted {
+    heed: f64,
+    script: VecDeque<Action>,
+    rng: ChaCha8Rng,
+}
+
+impl Scripted {
+    pub(crate) fn new(heed: f64, seed: u64) -> Self {
+        Self {
+            heed,
+            script: VecDeque::new(),
+            rng: ChaCha8Rng::seed_from_u64(seed),
+        }
+    }
+
+    /// Where to go from where the robot is. A script that the world does not allow is given up.
+    pub(crate) fn choose(&mut self, walk: &Walk) -> Direction {
+        if self.script.is_empty() && self.rng.random_range(0.0..1.0) < self.heed {
+            let advice = walk.observer.opportunities().into_iter().next();
+            self.script = advice.map_or(VecDeque::new(), |advice| advice.script.into());
+        }
+        let advised = self.script.pop_front();
+        let advised = advised.map(|action| Direction::ALL[action.0 as usize]);
+        let (world, here) = (walk.robot.world(), walk.robot.at());
+        let possible = advised.filter(|direction| world.neighbour(here, *direction).is_some());
+        possible.unwrap_or_else(|| {
+            self.script.clear();
+            walk.robot.wander().unwrap()
+        })
+    }
+
+    pub(crate) fn go(&mut self, walk: &mut Walk) -> (AbstractMove, StepReport) {
+        let direction = self.choose(walk);
+        walk.go(direction)
     }
 }
 

@@ -1,7 +1,5 @@
 use alloc::vec::Vec;
 
-use tolman_geom::PointBox;
-
 use super::{Candidate, Expectation};
 use crate::diktiometry::ids::{Action, PlaceId};
 use crate::diktiometry::map::Diktiometry;
@@ -15,19 +13,14 @@ pub(in crate::diktiometry) fn expected(
     action: Action,
     projection: &Projection,
 ) -> Vec<Candidate> {
-    map.outcomes(place, action)
-        .filter_map(|(_, to, _)| {
-            let there = &map.paths.places[to.index()];
-            let frame_from_there = if there.frame == projection.frame {
-                PointBox::ORIGIN
-            } else {
-                map.reference
-                    .relation(projection.frame, there.frame)?
-                    .position
-            };
-            let robot = projection.position - frame_from_there;
+    map.paths
+        .along(place, action)
+        .filter_map(|(_, link)| {
+            let there = &map.paths.places[link.to.index()];
+            let frames = map.reference.known(projection.frame, there.frame)?;
+            let robot = projection.position - frames;
             Some(Candidate {
-                place: to,
+                place: link.to,
                 robot,
                 offset: there.position - robot,
                 expectation: Expectation::Expected,

@@ -6,7 +6,7 @@ use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::path_graph::PathGraph;
 use crate::diktiometry::signature::Signature;
 
-/// How often the hypercube's size is doubled: from the tolerance to eight times it.
+/// How often the hypercube's size is doubled at most: from the tolerance to eight times it.
 const DOUBLINGS: u32 = 3;
 
 /// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
@@ -33,45 +33,63 @@ impl ViewIndex {
         }
     }
 
-    /// Places that look like a percept, one set for each size of an "iteratively growing hypercube", each place once.
-    /// The places are those that stand now, by id.
-    pub(in crate::diktiometry) fn sets(
+    /// The places that look most like a percept: the first of the sets that an "iteratively growing hypercube" finds which is not
+    /// empty. Nobody asks for the sets after it. The places are those that stand now, by id.
+    pub(in crate::diktiometry) fn most_alike(
         &self,
         percept: &Signature,
         percepts: &Percepts,
         paths: &PathGraph,
-    ) -> Vec<Vec<PlaceId>> {
+    ) -> Vec<PlaceId> {
+        let sizes = (0..=DOUBLINGS).map(|doubling| f64::from(1_u32 << doubling));
+        let mut sets = sizes.map(|size| self.within(percept, percepts, paths, size));
+        sets.find(|set| !set.is_empty()).unwrap_or_default()
+    }
+
+    /// The places that look like a percept, by the measure that matchers use. By id.
+    pub(in crate::diktiometry) fn alike(
+        &self,
+        percept: &Signature,
+        percepts: &Percepts,
+        paths: &PathGraph,
+    ) -> Vec<PlaceId> {
+        self.within(percept, percepts, paths, 1.0)
+    }
+
+    /// The places with a view whose columns are near enough to those of a percept in a hypercube of `size` tolerances.
+    fn within(
+        &self,
+        percept: &Signature,
+        percepts: &Percepts,
+        paths: &PathGraph,
+        size: f64,
+    ) -> Vec<PlaceId> {
         let Percepts::Signatures(kind) = percepts else {
             return Vec::new();
         };
         let columns = percept.columns();
         let enough = libm::ceil(kind.share * columns as f64 - 1e-9) as usize;
-        let mut sets: Vec<Vec<PlaceId>> = Vec::new();
-        for doubling in 0..=DOUBLINGS {
-            let size = kind.tolerance * f64::from(1_u32 << doubling);
-            // (view, offset) of every column that is near one of the percept's.
-            let mut votes: Vec<(u32, usize)> = Vec::new();
-            for column in 0..columns {
-                self.tree.within(percept.column(column), size, |found| {
+        // (view, offset) of every column that is near one of the percept's.
+        let mut votes: Vec<(u32, usize)> = Vec::new();
+        for column in 0..columns {
+            let half_size = kind.tolerance * size;
+            self.tree
+                .within(percept.column(column), half_size, |found| {
                     let offset = (found.column as usize + columns - column) % columns;
                     if offset == 0 || kind.rotation == Rotation::Free {
                         votes.push((found.view, offset));
                     }
                 });
-            }
-            votes.sort_unstable();
-            let mut set: Vec<PlaceId> = votes
-                .chunk_by(|a, b| a == b)
-                .filter(|alike| alike.len() >= enough)
-                .filter_map(|alike| self.views.get(alike[0].0 as usize))
-                .filter_map(|place| paths.resolve(*place))
-                .filter(|place| sets.iter().all(|set| !set.contains(place)))
-                .collect();
-            set.sort_unstable();
-            set.dedup();
-            sets.push(set);
         }
-        sets.retain(|set| !set.is_empty());
-        sets
+        votes.sort_unstable();
+        let mut set: Vec<PlaceId> = votes
+            .chunk_by(|a, b| a == b)
+            .filter(|alike| alike.len() >= enough)
+            .filter_map(|alike| self.views.get(alike[0].0 as usize))
+            .filter_map(|place| paths.resolve(*place))
+            .collect();
+        set.sort_unstable();
+        set.dedup();
+        set
     }
 }

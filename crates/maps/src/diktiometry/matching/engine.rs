@@ -1,8 +1,7 @@
 use alloc::vec::Vec;
 
-use super::matcher::{Applicable, applicable, is_certain};
+use super::matcher::{Applicable, Certainty, Finding, Look, find};
 use super::order::{Age, Standing, Traversal, precedes};
-use super::view::agrees;
 use super::{Matcher, Situation};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::indexing::{Candidate, Expectation};
@@ -22,21 +21,27 @@ pub(in crate::diktiometry) struct Choice {
     pub(in crate::diktiometry) look: Look,
 }
 
-/// Whether the place that was matched looks as it did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::diktiometry) enum Look {
-    /// It does, or is new.
-    #[default]
-    Known,
-    /// It does not.
-    Strange,
-}
-
-/// A matcher and the place it matched; none for a new one.
+/// A matcher and the place it matched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::diktiometry) struct Chosen {
     pub(in crate::diktiometry) matcher: Matcher,
+    /// None for a new place.
     pub(in crate::diktiometry) candidate: Option<Candidate>,
+    look: Look,
+    certainty: Certainty,
+}
+
+impl Chosen {
+    const NEW_PLACE: Self = Self {
+        matcher: Matcher::NewPlace,
+        candidate: None,
+        look: Look::Known,
+        certainty: Certainty::Uncertain,
+    };
+
+    fn is_certain(&self) -> bool {
+        self.certainty == Certainty::Certain
+    }
 }
 
 /// Applies the matchers to the sets of candidates, the best set first: "the maximal applicable matchers are used … If no
@@ -66,15 +71,12 @@ pub(in crate::diktiometry) fn choose(
     if !first.iter().any(|one| one.matcher == Matcher::Continue) {
         choice.excluded = expected.first().copied();
     }
-    let mut continues = first
-        .iter()
-        .filter(|one| one.matcher == Matcher::Continue)
-        .filter_map(|one| one.candidate);
+    let mut continues = first.iter().filter(|one| one.matcher == Matcher::Continue);
     // Where the robot can be at no other place, others could only turn out to be the same.
     let enough = if rank(Matcher::Continue, Matcher::Link, Age::Old) {
         continues.next().is_some()
     } else {
-        continues.any(|candidate| is_certain(&candidate, situation))
+        continues.any(Chosen::is_certain)
     };
     let mut sets = Vec::from([first]);
     if !enough {
@@ -89,8 +91,8 @@ pub(in crate::diktiometry) fn choose(
         .iter()
         .flatten()
         .filter(is_normal)
+        .filter(|one| one.is_certain())
         .filter_map(|one| one.candidate)
-        .filter(|candidate| is_certain(candidate, situation))
         .map(|candidate| candidate.place)
         .collect();
 
@@ -106,10 +108,7 @@ pub(in crate::diktiometry) fn choose(
     let applicable = normal.unwrap_or_else(|| {
         let posits_error = sets.into_iter().find(|set| !set.is_empty());
         let mut all = posits_error.unwrap_or_default();
-        all.push(Chosen {
-            matcher: Matcher::NewPlace,
-            candidate: None,
-        });
+        all.push(Chosen::NEW_PLACE);
         all
     });
     let age = |one: &Chosen| {
@@ -149,18 +148,13 @@ pub(in crate::diktiometry) fn choose(
         let matcher = a.matcher.cmp(&b.matcher);
         matcher.then(nearest).then(place(a).cmp(&place(b)))
     });
-    let best = choice.matches.first().and_then(|best| best.candidate);
-    if let Some(best) = best {
-        let place = &situation.map.paths.places[best.place.index()];
-        choice.look = if agrees(place, situation.percept, &situation.config.percepts) {
-            Look::Known
-        } else {
-            Look::Strange
-        };
-    }
-    if let Some(best) = best.filter(|best| is_certain(best, situation)) {
-        choice.twins = certain;
-        choice.twins.retain(|place| *place != best.place);
+    if let Some(best) = choice.matches.first() {
+        choice.look = best.look;
+        if best.is_certain() {
+            choice.twins = certain;
+            let itself = best.candidate.map(|candidate| candidate.place);
+            choice.twins.retain(|place| Some(*place) != itself);
+        }
     }
     choice.doubts.sort_unstable();
     choice.doubts.dedup();
@@ -170,17 +164,26 @@ pub(in crate::diktiometry) fn choose(
 /// The candidates of a set that a matcher applies to; those that none can tell go to `doubts`.
 fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceId>) -> Vec<Chosen> {
     set.iter()
-        .filter_map(|candidate| match applicable(candidate, situation) {
-            Applicable::Matcher(matcher) => Some(Chosen {
-                matcher,
-                candidate: Some(*candidate),
-            }),
-            Applicable::Doubtful => {
-                debug_assert_eq!(candidate.expectation, Expectation::Unexpected);
-                doubts.push(candidate.place);
-                None
+        .filter_map(|candidate| {
+            let Finding {
+                applicable,
+                look,
+                certainty,
+            } = find(candidate, situation);
+            match applicable {
+                Applicable::Matcher(matcher) => Some(Chosen {
+                    matcher,
+                    candidate: Some(*candidate),
+                    look,
+                    certainty,
+                }),
+                Applicable::Doubtful => {
+                    debug_assert_eq!(candidate.expectation, Expectation::Unexpected);
+                    doubts.push(candidate.place);
+                    None
+                }
+                Applicable::None => None,
             }
-            Applicable::None => None,
         })
         .collect()
 }

@@ -43,23 +43,73 @@ pub(in crate::diktiometry) enum Applicable {
     None,
 }
 
+/// What there is to say of a candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::diktiometry) struct Finding {
+    pub(in crate::diktiometry) applicable: Applicable,
+    pub(in crate::diktiometry) look: Look,
+    pub(in crate::diktiometry) certainty: Certainty,
+}
+
+/// Whether a place looks like what the robot sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::diktiometry) enum Look {
+    /// It does, or nothing is known of its look.
+    #[default]
+    Known,
+    /// It does not.
+    Strange,
+}
+
+/// Whether the robot can be at no other place than the candidate: no other is near enough to it, or none that looks
+/// like what the robot sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::diktiometry) enum Certainty {
+    /// It cannot.
+    Certain,
+    /// It may.
+    Uncertain,
+}
+
+/// Holds a candidate against the matchers. Its views are compared with the percept once.
+pub(in crate::diktiometry) fn find(candidate: &Candidate, situation: &Situation<'_>) -> Finding {
+    let Situation { map, config, .. } = *situation;
+    let place = &map.paths.places[candidate.place.index()];
+    let (look, least_distance) = if agrees(place, situation.percept, &config.percepts) {
+        (Look::Known, config.least_alike_distance())
+    } else {
+        (Look::Strange, config.least_distance())
+    };
+    let certainty = if candidate.is_certain(least_distance) {
+        Certainty::Certain
+    } else {
+        Certainty::Uncertain
+    };
+    Finding {
+        applicable: applicable(candidate, situation, look, certainty),
+        look,
+        certainty,
+    }
+}
+
 /// The matcher that applies to a candidate.
 ///
 /// The paper asks for a consistent view as well. Here an expected place where it is expected, and one that no other
 /// can be near, may look new: its view set grows.
-pub(in crate::diktiometry) fn applicable(
+fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,
+    look: Look,
+    certainty: Certainty,
 ) -> Applicable {
     let Situation { map, config, .. } = *situation;
     let place = &map.paths.places[candidate.place.index()];
     let expected = candidate.expectation == Expectation::Expected;
-    let certain = is_certain(candidate, situation);
-    let known = agrees(place, situation.percept, &config.percepts);
+    let certain = certainty == Certainty::Certain;
     // What stands where nothing else can looks new, but is the same.
     let settled = config.matching.identity == Identity::Certain
         && ((expected && candidate.is_possible()) || certain);
-    if !known && !settled {
+    if look == Look::Strange && !settled {
         return Applicable::None;
     }
     if candidate.is_possible() {
@@ -88,19 +138,6 @@ pub(in crate::diktiometry) fn applicable(
         }
     }
     Applicable::None
-}
-
-/// Whether the robot can be at no other place than the candidate: no other is near enough to it, or none that looks
-/// like what the robot sees.
-pub(in crate::diktiometry) fn is_certain(candidate: &Candidate, situation: &Situation<'_>) -> bool {
-    let Situation { map, config, .. } = *situation;
-    let place = &map.paths.places[candidate.place.index()];
-    let looks_alike = agrees(place, situation.percept, &config.percepts);
-    candidate.is_certain(if looks_alike {
-        config.least_alike_distance()
-    } else {
-        config.least_distance()
-    })
 }
 
 /// The least length of a displacement, m.

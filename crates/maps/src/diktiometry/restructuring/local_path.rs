@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use tolman_geom::{Point, PointBox};
+use tolman_geom::Point;
 
 use super::geometric::Pair;
 use super::{Diagnosis, Verdict};
@@ -57,16 +57,7 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
     if of_a.to == of_b.to {
         return true;
     }
-    let seen = |from: PlaceId, to: PlaceId| -> Option<PointBox> {
-        let [from, to] = [from, to].map(|place| &map.paths.places[place.index()]);
-        let frames = if from.frame == to.frame {
-            PointBox::ORIGIN
-        } else {
-            map.reference.relation(from.frame, to.frame)?.position
-        };
-        Some(frames + to.position - from.position)
-    };
-    match (seen(pair.a, of_a.to), seen(pair.b, of_b.to)) {
+    match (map.related(pair.a, of_a.to), map.related(pair.b, of_b.to)) {
         (Some(a), Some(b)) => (a - b).contains(Point::origin()),
         _ => true,
     }

@@ -6,7 +6,7 @@ use crate::diktiometry::config::{Config, Percepts};
 use crate::diktiometry::ids::{LinkId, PlaceId};
 use crate::diktiometry::map::Diktiometry;
 use crate::diktiometry::observation::Exits;
-use crate::diktiometry::path_graph::{Estim, Fate, Note, PathGraph, Place, Standing, Successor};
+use crate::diktiometry::path_graph::{Estim, Fate, Note, PathGraph, Standing, Successor};
 use crate::diktiometry::updater::merge_estims;
 
 /// Makes one place of two, the older; none, and nothing done, if what is known of their frames forbids it.
@@ -21,7 +21,7 @@ pub(super) fn merge(
     let (kept, lost) = (a.min(b), a.max(b));
     let shift = join_frames(map, kept, lost)?;
     move_links(&mut map.paths, kept, lost);
-    let gone = bury(&mut map.paths.places[lost.index()], kept);
+    let gone = map.paths.places[lost.index()].bury(Fate::MergedInto(kept));
     let place = &mut map.paths.places[kept.index()];
     place.envelope = place.envelope.hull(gone.envelope + shift);
     let middle = shift.middle();
@@ -58,24 +58,6 @@ pub(super) fn merge(
         new
     });
     Some(kept)
-}
-
-/// Marks a place as merged; what it knew is handed on, so that the dead weigh nothing.
-fn bury(place: &mut Place, kept: PlaceId) -> Place {
-    let known = place.clone();
-    *place = Place {
-        fate: Fate::MergedInto(kept),
-        estims: Vec::new(),
-        views: Vec::new(),
-        blocked: Vec::new(),
-        exits: Exits::Unknown,
-        histories: Vec::new(),
-        notes: Vec::new(),
-        outgoing: Vec::new(),
-        incoming: Vec::new(),
-        ..*place
-    };
-    known
 }
 
 /// Puts both places at one point, and brings what is known of the one's frame to the other's. Where the frame that was left
