@@ -13,9 +13,10 @@ extern crate alloc;
 #[path = "../tests/diktiometry/walk.rs"]
 mod walk;
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::Config;
+use tolman_maze::Direction;
 use tolman_sim::abstract_world::AbstractWorld;
 use walk::{ODOMETRY, Scripted, Walk, blocks, open};
 
@@ -27,11 +28,18 @@ struct Table {
     print: fn(u64),
 }
 
-const TABLES: [Table; 1] = [Table {
-    name: "growth",
-    runs: 20,
-    print: growth,
-}];
+const TABLES: [Table; 2] = [
+    Table {
+        name: "growth",
+        runs: 20,
+        print: growth,
+    },
+    Table {
+        name: "doors",
+        runs: 4,
+        print: doors,
+    },
+];
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
@@ -106,4 +114,94 @@ fn growth(runs: u64) {
             );
         }
     }
+}
+
+/// A world that changes: after every so many moves, a door by chance is shut or opened.
+fn doors(runs: u64) {
+    println!(
+        "| moves between changes | fading | link precision | of links not seen shut | plans that work |"
+    );
+    println!("| ---: | ---: | ---: | ---: | ---: |");
+    const SIDE: u16 = 7;
+    for (period, moves) in [(25, 6000), (2000, 20_000)] {
+        for fading in [1.0, 0.98, 0.92] {
+            let (mut precision, mut open_precision, mut works, mut plans) = (0.0, 0.0, 0, 0);
+            for seed in 0..runs {
+                let mut config = alike();
+                config.transients.fading = fading;
+                let mut walk = Walk::new(open(SIDE), ODOMETRY, config, seed);
+                let mut planner = Scripted::new(0.3, seed);
+                let mut rng = ChaCha8Rng::seed_from_u64(seed);
+                let cells = u32::from(SIDE) * u32::from(SIDE);
+                let inner = |place: &u32| open(SIDE).neighbour(*place, Direction::East).is_some();
+                // Every fifth way to the east has a door.
+                let doors: Vec<u32> = (0..cells).step_by(3).filter(inner).collect();
+                for number in 1..=moves {
+                    if number % period == 0 {
+                        let door = doors[rng.random_range(0..doors.len() as u32) as usize];
+                        let world = walk.robot.world().clone();
+                        let shut = world.neighbour(door, Direction::East).is_none();
+                        let to = shut.then_some(door + 1);
+                        let world = world.with_way(door, Direction::East, to);
+                        walk.robot.find_itself_in(world.into());
+                    }
+                    planner.go(&mut walk);
+                    if number > moves / 2 && number % 20 == 0 {
+                        plans += 1;
+                        works += u32::from(plan_works(&walk, rng.random_range(0..cells)));
+                    }
+                    if number > moves / 2 && number % 100 == 0 {
+                        let (all, seen) = link_precision(&walk);
+                        precision += all;
+                        open_precision += seen;
+                    }
+                }
+            }
+            let checks = f64::from(moves / 200) * runs as f64;
+            println!(
+                "| {period} | {fading} | {:.3} | {:.3} | {:.3} |",
+                precision / checks,
+                open_precision / checks,
+                f64::from(works) / f64::from(plans)
+            );
+        }
+    }
+}
+
+/// Whether a plan leads to the place of the map that stands for a true one.
+fn plan_works(walk: &Walk, to: u32) -> bool {
+    let truths = walk.truths();
+    let Some((goal, _)) = truths.iter().find(|(_, truth)| **truth == to) else {
+        return false;
+    };
+    let Some(plan) = walk.observer.plan(walk.observer.place(), *goal) else {
+        return false;
+    };
+    let end = plan.steps.iter().try_fold(walk.robot.at(), |at, step| {
+        let direction = Direction::ALL[step.action.0 as usize];
+        walk.robot.world().neighbour(at, direction)
+    });
+    end == Some(to)
+}
+
+/// The share of links that lead where their action leads: of all, and of those that were not seen shut.
+fn link_precision(walk: &Walk) -> (f64, f64) {
+    let (truths, paths) = (walk.truths(), &walk.observer.map().paths);
+    let (mut all, mut open) = ([0, 0], [0, 0]);
+    for (_, link) in paths.links() {
+        let [Some(from), Some(to)] = [link.from, link.to].map(|end| truths.get(&end)) else {
+            continue;
+        };
+        let direction = Direction::ALL[link.action.0 as usize];
+        let right = usize::from(walk.robot.world().neighbour(*from, direction) == Some(*to));
+        all[right] += 1;
+        if paths
+            .place(link.from)
+            .is_some_and(|place| place.is_open(link.action))
+        {
+            open[right] += 1;
+        }
+    }
+    let share = |counts: [u32; 2]| f64::from(counts[1]) / f64::from(counts[0] + counts[1]);
+    (share(all), share(open))
 }

@@ -43,6 +43,7 @@
 
 mod adapter;
 mod config;
+mod counts;
 mod error;
 mod estimator;
 mod grid;
@@ -70,6 +71,7 @@ pub use config::{
     JournalLength, Matching, Opportunities, Order, Percepts, Restructuring, Rotation, SearchLimits,
     SignatureKind, Tracking, Transients, Use,
 };
+pub use counts::Counts;
 pub use error::{StartError, StepError};
 pub use grid::Grid;
 pub use ids::{Action, FrameId, LinkId, PlaceId, TrackId};

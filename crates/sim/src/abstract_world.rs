@@ -114,6 +114,25 @@ impl AbstractWorld {
         self
     }
 
+    /// Opens, leads elsewhere or shuts the way from a place in a direction and, if it leads to a place, the way back from there: a
+    /// door. Places that do not exist change nothing.
+    #[must_use]
+    pub fn with_way(mut self, place: u32, direction: Direction, to: Option<u32>) -> Self {
+        let back = direction.opposite() as usize;
+        let before = self.neighbour(place, direction);
+        let count = self.places.len();
+        if (place as usize) < count && to.is_none_or(|to| (to as usize) < count) {
+            self.neighbours[place as usize][direction as usize] = to;
+            if let Some(before) = before {
+                self.neighbours[before as usize][back] = None;
+            }
+            if let Some(to) = to {
+                self.neighbours[to as usize][back] = Some(place);
+            }
+        }
+        self
+    }
+
     /// Where the places are, m, by number.
     #[must_use]
     pub fn places(&self) -> &[Point] {

@@ -8,14 +8,14 @@ use super::estimator::trusted_odometry;
 use super::ids::{LinkId, PlaceId};
 use super::map::Site;
 use super::matching::{Choice, Look, Matcher, remember};
-use super::observation::{Exits, Move};
+use super::observation::Move;
 use super::observer::Observer;
 use super::path_graph::{Fate, Note, Successor};
 use super::projector::{Projection, between_places};
 use super::report::{Contradiction, Culprit};
 use super::restructuring::{Hints, elide_place};
 use super::track::Track;
-use super::updater::arrive;
+use super::updater::{arrive, see_exits};
 
 /// How many of the places met before the last are related to a new one directly: two moves back, three, …
 const SPAN: usize = 4;
@@ -77,12 +77,10 @@ impl Observer {
         let place = &mut self.map.paths.places[to.index()];
         let new_view =
             !looks_elsewhere && remember(place, step.percept.as_ref(), &self.config.percepts);
-        if step.exits != Exits::Unknown {
-            place.exits = step.exits.clone();
-        }
         if let (true, Some(view)) = (new_view, &step.percept) {
             self.views.insert(to, view);
         }
+        see_exits(&mut self.map, to, &step.exits, &self.config);
         let pairs = choice.doubts.iter().chain(&choice.twins);
         for &other in pairs.filter(|&&other| other != to) {
             self.note(to, other);

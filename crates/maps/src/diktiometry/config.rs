@@ -203,11 +203,9 @@ pub struct Tracking {
 pub struct Transients {
     /// Whether they are elided.
     pub elision: Use,
-    /// Elided when they are met, for certain, in less than this share of the times they are expected, 0 … 1.
+    /// Elided when they are met, with 99 % certainty, in less than this share of the times they are expected, 0 … 1.
     pub rate: f64,
-    /// … and were expected at least this often.
-    pub expected: f64,
-    /// Factor by which older counts fade with each expectation, 0 < … ≤ 1; below 1 in worlds that change.
+    /// Factor by which older counts fade with each expectation, 0 < … ≤ 1; at 1 nothing is ever forgotten.
     pub fading: f64,
 }
 
@@ -319,9 +317,9 @@ impl Config {
             },
             transients: Transients {
                 elision: Use::On,
-                rate: 0.05,
-                expected: 20.0,
-                fading: 1.0,
+                // Together: what is gone is elided after 20 to 40 expectations in vain, what works half the time never.
+                rate: 0.3,
+                fading: 0.92,
             },
             restructuring: Restructuring {
                 geometric_merge: GeometricMerge::Narrow,
@@ -426,11 +424,6 @@ impl Config {
                 "transients.rate",
                 self.transients.rate,
                 share.contains(&self.transients.rate),
-            ),
-            (
-                "transients.expected",
-                self.transients.expected,
-                self.transients.expected >= 1.0,
             ),
             (
                 "transients.fading",

@@ -37,7 +37,8 @@ pub enum Outcome {
     Blocked,
 }
 
-/// Which actions the robot sees that it could try. It serves advice alone; no place is recognized by it.
+/// Which actions the robot sees that it could try. It serves plans, advice and the counts of links; no place is recognized by
+/// it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {
@@ -46,6 +47,17 @@ pub enum Exits {
     Unknown,
     /// These.
     Seen(Vec<Action>),
+}
+
+impl Exits {
+    /// Whether an action may be worth a try.
+    #[must_use]
+    pub fn allow(&self, action: Action) -> bool {
+        match self {
+            Self::Unknown => true,
+            Self::Seen(seen) => seen.contains(&action),
+        }
+    }
 }
 
 /// How the robot begins: what it sees of the first place.

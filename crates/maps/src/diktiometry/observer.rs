@@ -13,6 +13,7 @@ use super::map::{Diktiometry, Site};
 use super::matching::remember;
 use super::observation::{Exits, Move, Outcome, Start};
 use super::opportunities::{Opportunity, actions_along, opportunities};
+use super::path_graph::Link;
 use super::report::{Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
 use super::restructuring::{Hints, deposit, restructure};
 use super::signature::Signature;
@@ -138,11 +139,13 @@ impl Observer {
             return Vec::new();
         };
         let links = || self.map.paths.along(place, action);
-        let all: f64 = links().map(|(_, link)| f64::from(link.traversed)).sum();
+        // What was met ages ago has faded to nothing.
+        let weight = |link: &Link| link.counts.met().max(f64::MIN_POSITIVE);
+        let all: f64 = links().map(|(_, link)| weight(link)).sum();
         links()
             .map(|(_, link)| Predicted {
                 place: link.to,
-                probability: f64::from(link.traversed) / all,
+                probability: weight(link) / all,
                 displacement: self.motion(place, link.to),
             })
             .collect()

@@ -10,7 +10,6 @@ use tolman_planners::{path_to, steps_from};
 use super::config::{Config, Use};
 use super::ids::{Action, PlaceId};
 use super::map::Diktiometry;
-use super::observation::Exits;
 use super::track::Track;
 
 /// An opportunity script: a "short, stereotyped sequence of actions designed to help mapping in particular situations".
@@ -79,13 +78,9 @@ pub(super) fn opportunities(map: &Diktiometry, track: &Track, config: &Config) -
 pub(super) fn untried(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<Action> {
     let here = &map.paths.places[place.index()];
     let all = (0..config.actions.len() as u32).map(Action);
-    all.filter(|action| match &here.exits {
-        Exits::Unknown => true,
-        Exits::Seen(seen) => seen.contains(action),
-    })
-    .filter(|action| !here.blocked.contains(action))
-    .filter(|&action| map.paths.along(place, action).next().is_none())
-    .collect()
+    all.filter(|action| here.is_open(*action))
+        .filter(|&action| map.paths.along(place, action).next().is_none())
+        .collect()
 }
 
 /// Whether a place may still turn out to be another: whoever explores from it may explore what is known already.

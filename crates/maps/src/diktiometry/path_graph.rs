@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 use tolman_planners::Graph;
 
+use super::counts::Counts;
 use super::ids::{Action, FrameId, LinkId, PlaceId};
 use super::observation::Exits;
 use super::signature::Signature;
@@ -29,16 +30,14 @@ pub struct Place {
     pub outgoing: Vec<LinkId>,
     /// Links that lead to it, by id.
     pub incoming: Vec<LinkId>,
-    /// Actions that led nowhere when they were last tried here. No plan uses them.
+    /// Actions that led nowhere when they were last tried here.
     pub blocked: Vec<Action>,
-    /// Actions that the robot says it could try here.
+    /// Actions that the robot said it could try when it was last here.
     pub exits: Exits,
     /// How often the robot was thought to be here.
     pub visits: u32,
-    /// How often it was expected to be here, fading.
-    pub expected: f64,
-    /// How often of these it was, fading.
-    pub met: f64,
+    /// How often it was expected to be here, and how often of these it was.
+    pub counts: Counts,
     /// Histories of tracks left here, the oldest first.
     pub histories: Vec<Vec<Match>>,
     /// Delayed gratification: what is to be decided once more is known.
@@ -59,11 +58,16 @@ impl Place {
             blocked: Vec::new(),
             exits: Exits::Unknown,
             visits: 0,
-            expected: 0.0,
-            met: 0.0,
+            counts: Counts::default(),
             histories: Vec::new(),
             notes: Vec::new(),
         }
+    }
+
+    /// Whether an action could be tried here when the robot last was here, by what it saw and what came of it.
+    #[must_use]
+    pub fn is_open(&self, action: Action) -> bool {
+        self.exits.allow(action) && !self.blocked.contains(&action)
     }
 
     /// Takes the place out of the map. What it knew is handed on, so that the dead weigh nothing.
@@ -114,10 +118,8 @@ pub struct Link {
     pub to: PlaceId,
     /// How often the robot is thought to have gone along it.
     pub traversed: u32,
-    /// How often it was expected to, fading.
-    pub expected: f64,
-    /// How often of these it did, fading.
-    pub met: f64,
+    /// How often it was expected to, and how often of these it did.
+    pub counts: Counts,
     /// Which link was taken after it, and how often.
     pub then: Vec<Successor>,
     /// Whether it is still part of the map.
@@ -205,12 +207,13 @@ impl PathGraph {
             .filter(move |(_, link)| link.action == action)
     }
 
-    /// The link that an action took most often from a place; of equals the older.
+    /// The link that an action took most often from a place, lately more than long ago; of equals the older.
     #[must_use]
     pub fn likeliest(&self, place: PlaceId, action: Action) -> Option<LinkId> {
-        let best = self
-            .along(place, action)
-            .max_by_key(|(id, link)| (link.traversed, core::cmp::Reverse(*id)));
+        let best = self.along(place, action).max_by(|(a, one), (b, other)| {
+            let met = one.counts.met().total_cmp(&other.counts.met());
+            met.then(b.cmp(a))
+        });
         best.map(|(id, _)| id)
     }
 
@@ -221,11 +224,11 @@ impl PathGraph {
         along.find(|(_, link)| link.to == to).map(|(id, _)| id)
     }
 
-    /// The links that a plan may follow from a place: of each action that is not blocked there, the likeliest.
+    /// The links that a plan may follow from a place: of each action that is open there, the likeliest.
     pub fn ways(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
-        let blocked = self.place(place).map_or(&[][..], |place| &place.blocked);
         self.outgoing(place).filter(move |(id, link)| {
-            !blocked.contains(&link.action) && self.likeliest(place, link.action) == Some(*id)
+            let here = &self.places[place.index()];
+            here.is_open(link.action) && self.likeliest(place, link.action) == Some(*id)
         })
     }
 
@@ -246,8 +249,7 @@ impl PathGraph {
             action,
             to,
             traversed: 0,
-            expected: 0.0,
-            met: 0.0,
+            counts: Counts::default(),
             then: Vec::new(),
             standing: Standing::Standing,
         });

@@ -5,8 +5,10 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 
 use super::config::Config;
+use super::counts::Expected;
 use super::ids::{Action, LinkId, PlaceId};
 use super::map::Diktiometry;
+use super::observation::Exits;
 use super::path_graph::{Estim, Place};
 use super::projector::Projection;
 use super::reference_graph::Excluded;
@@ -119,6 +121,21 @@ pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     }
 }
 
+/// The robot saw which actions could be tried at a place: links of all others were expected there in vain.
+pub(super) fn see_exits(map: &mut Diktiometry, place: PlaceId, exits: &Exits, config: &Config) {
+    if *exits == Exits::Unknown {
+        return;
+    }
+    let links = map.paths.outgoing(place).map(|(_, link)| link.action);
+    let mut shut: Vec<Action> = links.filter(|action| !exits.allow(*action)).collect();
+    shut.sort_unstable();
+    shut.dedup();
+    for action in shut {
+        expect(map, place, action, None, config);
+    }
+    map.paths.places[place.index()].exits = exits.clone();
+}
+
 /// Counts that the links of an action, and the places they lead to, were expected, and that one of them, if any, was met.
 fn expect(
     map: &mut Diktiometry,
@@ -134,11 +151,13 @@ fn expect(
         if one.action != action {
             continue;
         }
-        let met = if taken == Some(id) { 1.0 } else { 0.0 };
-        one.expected = one.expected * fading + 1.0;
-        one.met = one.met * fading + met;
+        let outcome = if taken == Some(id) {
+            Expected::Met
+        } else {
+            Expected::InVain
+        };
+        one.counts.expect(outcome, fading);
         let place = &mut map.paths.places[one.to.index()];
-        place.expected = place.expected * fading + 1.0;
-        place.met = place.met * fading + met;
+        place.counts.expect(outcome, fading);
     }
 }

@@ -49,7 +49,6 @@ fn config(seed: u32) -> Config {
     // Restructurers that act on little evidence act more often.
     config.restructuring.visits = 1;
     config.restructuring.weight = 1.0;
-    config.transients.expected = 2.0;
     config.transients.rate = 0.9;
     config.transients.fading = 0.7;
     config.journal = JournalLength::All;

@@ -28,7 +28,8 @@ pub(crate) fn open(side: u16) -> AbstractWorld {
 pub(crate) fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(side, side);
     let mut maze = Maze::open(grid);
-    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    // What is reachable is counted from the goals.
+    maze.set_goals(vec![Cell::new(0, 0)]);
     for cell in grid.cells() {
         for direction in [Direction::North, Direction::East] {
             if grid.neighbour(cell, direction).is_some() && rng.random_range(0.0..1.0) < walls {

@@ -35,8 +35,7 @@ pub(super) fn merge(
         place.views.extend(gone.views.into_iter().take(room));
     }
     place.visits = place.visits.saturating_add(gone.visits);
-    place.expected += gone.expected;
-    place.met += gone.met;
+    place.counts.join(gone.counts);
     if place.exits == Exits::Unknown {
         place.exits = gone.exits;
     }
@@ -131,7 +130,7 @@ fn move_links(paths: &mut PathGraph, kept: PlaceId, lost: PlaceId) {
                 let link = &mut paths.links[id.index()];
                 link.standing = Standing::Removed;
                 let then = core::mem::take(&mut link.then);
-                let (traversed, expected, met) = (link.traversed, link.expected, link.met);
+                let (traversed, counts) = (link.traversed, link.counts);
                 for (end, list) in [(ends[0], End::Tail), (ends[1], End::Head)] {
                     let place = &mut paths.places[end.index()];
                     let list = match list {
@@ -142,8 +141,7 @@ fn move_links(paths: &mut PathGraph, kept: PlaceId, lost: PlaceId) {
                 }
                 let link = &mut paths.links[other.index()];
                 link.traversed = link.traversed.saturating_add(traversed);
-                link.expected += expected;
-                link.met += met;
+                link.counts.join(counts);
                 for successor in then {
                     match link.then.iter_mut().find(|one| one.link == successor.link) {
                         Some(one) => one.count = one.count.saturating_add(successor.count),

@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Interval, PointBox};
 
 use super::Diagnosis;
+use crate::diktiometry::counts::Counts;
 use crate::diktiometry::ids::{LinkId, PlaceId};
 use crate::diktiometry::map::{Diktiometry, Site};
 use crate::diktiometry::path_graph::{Estim, Link, Standing};
@@ -62,8 +63,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
         if moved {
             let new = &mut map.paths.links[copied.index()];
             new.traversed = link.traversed;
-            new.expected = link.expected;
-            new.met = link.met;
+            new.counts = link.counts;
             map.paths.remove_link(id);
         }
     }
@@ -80,7 +80,10 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
 fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) -> LinkId {
     let id = map.paths.link_to(from, link.action, to);
     let new = &mut map.paths.links[id.index()];
-    new.traversed = new.traversed.max(1);
+    if new.traversed == 0 {
+        new.traversed = 1;
+        new.counts = Counts::ONCE;
+    }
     id
 }
 

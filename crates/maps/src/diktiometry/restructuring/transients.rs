@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::diktiometry::config::{Config, Transients, Use};
+use crate::diktiometry::counts::Counts;
 use crate::diktiometry::ids::{LinkId, PlaceId};
 use crate::diktiometry::map::Diktiometry;
 use crate::diktiometry::path_graph::{Fate, Standing};
@@ -30,9 +31,7 @@ pub(super) fn elide(
     let mut ends = Vec::new();
     for id in links {
         let link = &map.paths.links[id.index()];
-        if link.standing == Standing::Standing
-            && is_transient(link.met, link.expected, &config.transients)
-        {
+        if link.standing == Standing::Standing && is_transient(&link.counts, &config.transients) {
             ends.push(link.to);
             map.paths.remove_link(id);
             done.push(Restructured::LinkElided(id));
@@ -40,8 +39,7 @@ pub(super) fn elide(
     }
     for end in ends {
         let there = &map.paths.places[end.index()];
-        let unheard = there.incoming.is_empty()
-            && is_transient(there.met, there.expected, &config.transients);
+        let unheard = there.incoming.is_empty() && is_transient(&there.counts, &config.transients);
         if there.fate == Fate::Standing && unheard && !occupied.contains(&end) {
             elide_place(map, end);
             done.push(Restructured::PlaceElided(end));
@@ -71,29 +69,6 @@ pub(in crate::diktiometry) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
 }
 
 /// Whether something is met, for certain, in less than the configured share of the times it is expected.
-fn is_transient(met: f64, expected: f64, config: &Transients) -> bool {
-    expected >= config.expected && wilson_upper(met, expected) < config.rate
-}
-
-/// The upper end of Wilson's score interval at 99 % for a rate of which `met` of `expected` were seen.
-fn wilson_upper(met: f64, expected: f64) -> f64 {
-    /// The 99.5th percentile of the standard normal.
-    const Z: f64 = 2.575_829_303_548_901;
-    let rate = met / expected;
-    let square = Z * Z / expected;
-    let spread = libm::sqrt(rate * (1.0 - rate) / expected + square / (4.0 * expected));
-    (rate + 0.5 * square + Z * spread) / (1.0 + square)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wilson_agrees_with_the_textbook() {
-        // 0 of n: z² / (n + z²).
-        assert!((wilson_upper(0.0, 20.0) - 6.634_896_6 / 26.634_896_6).abs() < 1e-8);
-        // n / 2 of n: 1/2 + z / (2 √(n + z²)).
-        assert!((wilson_upper(5.0, 10.0) - 0.815_774_5).abs() < 1e-7);
-    }
+fn is_transient(counts: &Counts, config: &Transients) -> bool {
+    counts.rate_at_most(config.fading) < config.rate
 }

@@ -200,6 +200,6 @@ fn changing(office: &Arc<Office>) -> Vec<Setting> {
     vec![
         setting("doors stand open", 0, 1.0),
         setting("doors move", 25, 1.0),
-        setting("doors move, counts fade", 25, 0.98),
+        setting("doors move, counts fade", 25, 0.92),
     ]
 }
