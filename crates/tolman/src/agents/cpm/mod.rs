@@ -11,6 +11,7 @@ mod body;
 mod common_patterns;
 mod fragments;
 mod robot;
+mod survey;
 mod trial;
 mod walker;
 
@@ -19,5 +20,6 @@ pub use body::{Body, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, wander};
 pub use fragments::{TrueFragments, Way};
 pub use robot::{epuck, soinn, walker_config};
+pub use survey::{Surveyed, survey};
 pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};
 pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};

@@ -141,14 +141,19 @@ fn placed(
     robot: EpuckConfig,
     seed: u64,
 ) -> Result<SimulatedEpuck, TrialError> {
+    let world = world_of(maze, corridor_width)?;
+    let start = start_of(maze, &world)?;
+    let robot = Epuck::new(robot)?;
+    Ok(SimulatedEpuck::new(Arc::new(world), robot, start, seed)?)
+}
+
+/// A maze of thin walls.
+pub(super) fn world_of(maze: &Maze, corridor_width: f64) -> Result<World, TrialError> {
     let size = CorridorSize {
         corridor_width,
         wall_thickness: 0.0,
     };
-    let world = World::from_maze(maze, &size)?;
-    let start = start_of(maze, &world)?;
-    let robot = Epuck::new(robot)?;
-    Ok(SimulatedEpuck::new(Arc::new(world), robot, start, seed)?)
+    Ok(World::from_maze(maze, &size)?)
 }
 
 fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {

@@ -108,6 +108,16 @@ const ROUNDS: u32 = 4;
 /// is seen from within it is no part of a fragment.
 const PLACE: f64 = 0.6;
 
+/// Two places are not nearer to each other than this, in corridors' widths.
+const APART: f64 = 0.5;
+
+/// How far on from where it is first seen a landmark has its middle, in corridors' widths; less than half, as before a wall the lower
+/// layers turn in the middle.
+const TO_LANDMARK: f64 = 0.4;
+
+/// No way leads back to the place where it began within so many corridors' widths.
+const ROUND: f64 = 2.0;
+
 /// How far from the middle of a place on fragments are written down, in corridors' widths: nearer to it its posts are in the way.
 const TRIMMED: f64 = 0.8;
 
@@ -186,6 +196,9 @@ impl<B: Body> Walker<B> {
         }
         match view.segments.place() {
             Place::Junction => self.settle(view, None),
+            Place::DeadEnd if self.is_before_a_wall(&view.segments, 0.75) => {
+                self.settle(view, None)
+            }
             Place::DeadEnd | Place::Path | Place::Closed => {
                 self.branches = vec![0.0];
                 match self.walk(0, 0, None)? {
@@ -222,28 +235,40 @@ impl<B: Body> Walker<B> {
         skip: u32,
         give_up_after: Option<u32>,
     ) -> Result<Walk, WalkError<B::Error>> {
-        let begun = self.pilot.robot().driven();
-        let place_radius = PLACE * self.config.corridor_width;
-        let trimmed = TRIMMED * self.config.corridor_width;
+        let (begun, origin) = (self.pilot.robot().driven(), self.pose().position);
+        let width = self.config.corridor_width;
+        let mut left = self.pilot.robot().landmark();
         let mut track = Vec::new();
         for stride in 0..self.config.longest_fragment {
             self.pilot.follow(self.config.stride_s)?;
             if stride < skip {
                 continue;
             }
-            let is_under_way = self.pilot.robot().driven() - begun > place_radius;
+            let driven = self.pilot.robot().driven() - begun;
             let view = self.look()?;
-            if let Some(landmark) = self.pilot.robot().landmark().filter(|_| is_under_way) {
+            let landmark = self.pilot.robot().landmark();
+            // The landmark it comes from is left when it is seen no longer.
+            left = left.filter(|left| landmark == Some(*left));
+            if let Some(landmark) = landmark
+                && left.is_none()
+            {
+                self.enter()?;
+                let view = self.look()?;
                 let sighting = self.settle(view, Some(landmark))?;
                 return Ok(self.arrived(track, sighting));
             }
+            // Consecutive sightings of a junction are one: a middle at the place it comes from is that place's, until it has had the
+            // time to come round.
+            let is_origin =
+                |middle: Point| driven < ROUND * width && (middle - origin).norm() < APART * width;
+            let is_under_way = driven > PLACE * width;
             match view.segments.place() {
-                Place::Junction if is_under_way => {
+                Place::Junction if is_under_way && !is_origin(self.middle_of(&view)) => {
                     let sighting = self.settle(view, None)?;
-                    if sighting.degree > 2 {
+                    // Seen from its middle it may be none.
+                    if sighting.degree > 2 && !is_origin(self.pose().position) {
                         return Ok(self.arrived(track, sighting));
                     }
-                    // Seen from its middle it was none.
                 }
                 Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
                     let sighting = self.settle(view, None)?;
@@ -254,7 +279,7 @@ impl<B: Body> Walker<B> {
                 Place::Junction => {}
                 // A way on may be hidden for a moment.
                 Place::DeadEnd | Place::Closed | Place::Path => {
-                    if self.pilot.robot().driven() - begun > trimmed {
+                    if driven > TRIMMED * width {
                         let position = self.pose().position;
                         track.push((position, self.observation(&view)?));
                     }
@@ -273,6 +298,19 @@ impl<B: Body> Walker<B> {
         })
     }
 
+    /// Drives on from where a landmark is first seen to near its middle.
+    fn enter(&mut self) -> Result<(), WalkError<B::Error>> {
+        let width = self.config.corridor_width;
+        let begun = self.pilot.robot().driven();
+        let step_s = self.config.pilot.step_us as f64 * 1e-6;
+        while self.pilot.robot().driven() - begun < TO_LANDMARK * width
+            && !self.pilot.is_enclosed(0.75 * width)
+        {
+            self.pilot.follow(step_s)?;
+        }
+        Ok(())
+    }
+
     /// A walk without what was seen from within the place it led to.
     fn arrived(&self, mut track: Track, sighting: Sighting) -> Walk {
         let middle = self.pose().position;
@@ -285,6 +323,14 @@ impl<B: Body> Walker<B> {
             observations: filled(&track),
             sighting,
         }
+    }
+
+    /// Where the middle of the junction that it sees seems to be, in the frame in which it began.
+    fn middle_of(&self, view: &View) -> Point {
+        let middle = view
+            .profile
+            .meet_point(&self.config.pilot.curve, &self.config.meet_point);
+        self.pose().transform(middle)
     }
 
     /// Drives to the middle of the place that it has seen, and looks what it is.

@@ -1,0 +1,97 @@
+use alloc::sync::Arc;
+
+use tolman_control::heading_of;
+use tolman_geom::Pose;
+use tolman_maps::cpm::Sighting;
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_sim::World;
+use tolman_sim::robots::{Epuck, EpuckConfig};
+
+use super::body::SimulatedEpuck;
+use super::fragments::{TrueFragments, Way};
+use super::trial::{TrialError, world_of};
+use super::walker::{Observation, Walk, Walker, WalkerConfig};
+
+/// One walk along a true fragment of a maze.
+#[derive(Clone, Debug)]
+pub struct Surveyed {
+    /// The place it was to be walked from.
+    pub from: Cell,
+    /// The fragment, and which way it was to be walked.
+    pub way: Way,
+    /// The place it truly led to; none outside the maze.
+    pub to: Option<Cell>,
+    /// What was seen on the way.
+    pub observations: Vec<Observation>,
+    /// The place it led to.
+    pub sighting: Sighting,
+}
+
+/// Walks every fragment of a maze both ways, each from a fresh start in the middle of the place at its end: how far two walks along one
+/// fragment differ, and how far those along two, is what all reasoning on the map stands on.
+///
+/// # Errors
+/// [`TrialError`] if the robot cannot stand at a place, or a walk comes to no end.
+pub fn survey(
+    maze: &Maze,
+    robot: &EpuckConfig,
+    config: &WalkerConfig,
+    seed: u64,
+) -> Result<Vec<Surveyed>, TrialError> {
+    let world: Arc<World> = Arc::new(world_of(maze, config.corridor_width)?);
+    let fragments = TrueFragments::of(maze);
+    let mut walks = Vec::new();
+    for (cell, way) in fragments.ways() {
+        // Whoever came by this fragment looks into the place.
+        let Some(out) = Direction::ALL
+            .into_iter()
+            .find(|direction| fragments.way(cell, heading_of(*direction)) == Some(way))
+        else {
+            continue;
+        };
+        let start = Pose::new(world.cell_centre(cell), heading_of(out.opposite()));
+        let body =
+            SimulatedEpuck::new(Arc::clone(&world), Epuck::new(robot.clone())?, start, seed)?;
+        let mut walker = Walker::new(body, config.clone());
+        walker.begin()?;
+        if let Walk::Arrived {
+            observations,
+            sighting,
+        } = walker.walk(0, 0, None)?
+        {
+            let end = walker.body().truth().pose.position;
+            walks.push(Surveyed {
+                from: cell,
+                way,
+                to: world.cell_at(end),
+                observations,
+                sighting,
+            });
+        }
+    }
+    Ok(walks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::agents::cpm::{epuck, walker_config};
+
+    /// Consecutive sightings of a junction are one, none is passed unseen, and each has as many branches as there are.
+    #[test]
+    fn every_walk_leads_to_the_next_place() {
+        for text in [
+            include_str!("../../../../../mazes/cpm-1.maze"),
+            include_str!("../../../../../mazes/cpm-2.maze"),
+            include_str!("../../../../../mazes/cpm-3.maze"),
+        ] {
+            let maze = tolman_maze::read(text).unwrap().maze;
+            let config = walker_config(0.25).unwrap();
+            for walk in survey(&maze, &epuck(), &config, 4).unwrap() {
+                assert_eq!(walk.to, Some(walk.way.to), "from {:?}", walk.from);
+                let degree = maze.degree(walk.way.to) as u32;
+                assert_eq!(walk.sighting.degree, degree, "at {:?}", walk.to);
+            }
+        }
+    }
+}
