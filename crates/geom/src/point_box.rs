@@ -137,37 +137,41 @@ impl PointBox {
     /// axis. (Cosine and sine each as an interval of its own would be sound, but wider.)
     #[must_use]
     pub fn rotated(self, angles: Interval) -> Self {
+        /// Nearly a full circle, on which all extremes lie.
+        const WHOLE: f64 = 6.25;
+        /// Less than half a circle, on which a corner's shadow has at most one extreme.
+        const PART: f64 = 2.0;
+        if angles.width() >= WHOLE || !self.is_bounded() {
+            let longest = self.norm();
+            let all = longest.hull(-longest);
+            return Self { x: all, y: all };
+        }
+        if angles.width() > PART {
+            let (first, second) = angles.halves();
+            return self.rotated(first).hull(self.rotated(second));
+        }
+        let ends = [angles.low(), angles.high()].map(|end| Interval::point(end).sines());
         Self {
-            x: shadow(self.x, self.y, angles),
-            y: shadow(self.y, -self.x, angles),
+            x: shadow(self.x, self.y, &ends),
+            y: shadow(self.y, -self.x, &ends),
         }
     }
 }
 
-/// All values of a · cos θ − b · sin θ.
-fn shadow(a: Interval, b: Interval, angles: Interval) -> Interval {
-    /// Nearly a full circle, on which all extremes lie.
-    const WHOLE: f64 = 6.25;
-    /// Less than half a circle, on which a corner's shadow has at most one extreme.
-    const PART: f64 = 2.0;
-    if angles.width() >= WHOLE || !a.is_bounded() || !b.is_bounded() {
-        let longest = PointBox { x: a, y: b }.norm();
-        return longest.hull(-longest);
-    }
-    if angles.width() > PART {
-        let (first, second) = angles.halves();
-        return shadow(a, b, first).hull(shadow(a, b, second));
-    }
-    let corners = [a.low(), a.high()].map(|a| [b.low(), b.high()].map(|b| trace(a, b, angles)));
+/// Sine and cosine of both ends of an interval of angles.
+type Ends = [(Interval, Interval); 2];
+
+/// All values of a · cos θ − b · sin θ, for angles over less than half a circle.
+fn shadow(a: Interval, b: Interval, ends: &Ends) -> Interval {
+    let corners = [a.low(), a.high()].map(|a| [b.low(), b.high()].map(|b| trace(a, b, ends)));
     let [[first, second], [third, fourth]] = corners;
     first.hull(second).hull(third.hull(fourth))
 }
 
-/// The shadow of one corner, for angles over less than half a circle.
-fn trace(a: f64, b: f64, angles: Interval) -> Interval {
+/// The shadow of one corner.
+fn trace(a: f64, b: f64, ends: &Ends) -> Interval {
     let (a, b) = (Interval::point(a), Interval::point(b));
-    let ends = [angles.low(), angles.high()].map(|end| {
-        let (sin, cos) = Interval::point(end).sines();
+    let ends = ends.map(|(sin, cos)| {
         let value = a * cos - b * sin;
         let slope = -(a * sin) - b * cos;
         (value, slope)
@@ -176,15 +180,15 @@ fn trace(a: f64, b: f64, angles: Interval) -> Interval {
     let hull = first.hull(second);
     // Over less than half a circle there is an extreme between the ends only where the slope changes sign. Where a
     // slope's sign is not certain, an end is an extreme up to rounding.
-    let longest = PointBox { x: a, y: b }.norm();
+    let longest = || PointBox { x: a, y: b }.norm();
     let rises_then_falls = before.high() >= 0.0 && after.low() <= 0.0;
     let falls_then_rises = before.low() <= 0.0 && after.high() >= 0.0;
     match (rises_then_falls, falls_then_rises) {
-        (true, false) => hull.hull(longest),
-        (false, true) => hull.hull(-longest),
-        (true, true) if hull.low() >= 0.0 => hull.hull(longest),
-        (true, true) if hull.high() <= 0.0 => hull.hull(-longest),
-        (true, true) => hull.hull(longest).hull(-longest),
+        (true, false) => hull.hull(longest()),
+        (false, true) => hull.hull(-longest()),
+        (true, true) if hull.low() >= 0.0 => hull.hull(longest()),
+        (true, true) if hull.high() <= 0.0 => hull.hull(-longest()),
+        (true, true) => hull.hull(longest()).hull(-longest()),
         (false, false) => hull,
     }
 }

@@ -56,12 +56,14 @@ impl Interval {
         if self.width() >= TAU || self.low < -reach || self.high > reach {
             return (ALL, ALL);
         }
-        let (low_sin, low_cos) = sines_of(self.low);
-        let (high_sin, high_cos) = sines_of(self.high);
-        let (mut sin, mut cos) = (low_sin.hull(high_sin), low_cos.hull(high_cos));
-        // Between the ends both grow or fall, but for the quarter turns inside.
-        let first = libm::floor(self.low / FRAC_PI_2) as i32;
-        for quarter in first..=first + 5 {
+        let (mut sin, mut cos) = sines_of(self.low);
+        if self.low < self.high {
+            let (high_sin, high_cos) = sines_of(self.high);
+            (sin, cos) = (sin.hull(high_sin), cos.hull(high_cos));
+        }
+        // Between the ends both grow or fall, but for the quarter turns inside. The quotients are rounded: one more is looked at.
+        let [first, last] = [self.low, self.high].map(|end| libm::floor(end / FRAC_PI_2) as i32);
+        for quarter in first..=last + 1 {
             if multiple_of_half_pi(quarter).meets(self) {
                 let (of_sin, of_cos) = match quarter.rem_euclid(4) {
                     0 => (0.0, 1.0),

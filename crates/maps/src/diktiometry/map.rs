@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use tolman_geom::{Point, PointBox};
+use tolman_geom::PointBox;
 
 use super::config::SearchLimits;
 use super::ids::{FrameId, LinkId, PlaceId};
@@ -22,8 +22,8 @@ pub struct Diktiometry {
 pub struct Drawn {
     /// The place.
     pub place: PlaceId,
-    /// The middle of what is known of its position, m.
-    pub position: Point,
+    /// What is known of its position, m: it is drawn in the middle.
+    pub bounds: PointBox,
 }
 
 /// What the two graphs promise and do not keep. [`Diktiometry::check`] finds none, whatever the robot tells.
@@ -69,8 +69,8 @@ impl Diktiometry {
         Some(frames + end.position - start.position)
     }
 
-    /// All places that can be reached from `origin` in the reference graph, where they are for the eye: in the frame of
-    /// `origin`, which is at (0, 0). By id.
+    /// All places that can be reached from `origin` in the reference graph, where they are for the eye: as seen from
+    /// `origin`, which is at (0, 0). By id. O(frames · degree · log frames + places · log places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<Drawn> {
         let Some(start) = self
@@ -93,7 +93,7 @@ impl Diktiometry {
                     let position = self.paths.places[place.index()].position;
                     Drawn {
                         place,
-                        position: (reached.position + position - start.position).middle(),
+                        bounds: reached.position + position - start.position,
                     }
                 })
             })

@@ -14,9 +14,6 @@ const FIRST: u32 = 25;
 /// So many bytes of replays fit on a page that is to stay below 5 MB with its tables and figures.
 const BUDGET: usize = 4_250_000;
 
-/// How many runs of each row are recorded before the bytes are counted.
-const AT_A_TIME: u32 = 5;
-
 /// Replays of the first runs of each row.
 #[derive(Clone, Debug, Default)]
 pub struct Replays {
@@ -43,8 +40,9 @@ pub struct Recorded {
     pub json: String,
 }
 
-/// Records the first runs of each row, in parallel on the current threads: the greatest number, up to
-/// [`FIRST`], whose replays fit the budget. `None` if the caller asked to stop.
+/// Records the first runs of each row, in parallel on the current threads, up to [`FIRST`], as long as their replays fit
+/// the budget; where no room is left for a run as large as those before, none is played in vain. `None` if the caller
+/// asked to stop.
 pub(super) fn record(
     experiment: &dyn Experiment,
     master_seed: u64,
@@ -58,7 +56,10 @@ pub(super) fn record(
     let most = runs_per_row.min(FIRST);
     let (mut done, mut bytes) = (0, 0);
     while done < most {
-        let runs = done..(done + AT_A_TIME).min(most);
+        let runs = match room(done, bytes).min(most - done) {
+            0 => break,
+            count => done..done + count,
+        };
         let jobs: Vec<Job<'_>> = runs
             .clone()
             .flat_map(|run| jobs_of(experiment, master_seed, run))
@@ -86,9 +87,20 @@ pub(super) fn record(
             replays.recorded.extend(of_run().cloned());
             replays.of_each_row = run + 1;
         }
-        done += AT_A_TIME;
+        done = replays.of_each_row;
     }
     Ok(Some(replays))
+}
+
+/// How many more runs of each row are likely to fit, if `done` of them took so many bytes; the first is always tried.
+fn room(done: u32, bytes: usize) -> u32 {
+    match done {
+        0 => 1,
+        _ => {
+            let each = (bytes / done as usize).max(1);
+            u32::try_from((BUDGET - bytes) / each).unwrap_or(u32::MAX)
+        }
+    }
 }
 
 /// The job of one run index for every row.

@@ -1,21 +1,24 @@
 //! One run: a robot walks an office, its observer maps it, and the truth is kept beside.
 
-use rand::{RngExt, SeedableRng};
+use alloc::collections::BTreeMap;
+
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox};
+use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox, Vector};
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, SearchLimits,
-    Signature, SignatureError, SignatureKind, Start, StartError, StepError, StepReport,
+    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, Signature,
+    SignatureError, SignatureKind, Start, StartError, StepError, StepReport,
 };
 use tolman_maze::Direction;
 use tolman_sim::DoorState;
 
 use super::errors::MoveError;
-use super::office::{Office, PITCH};
+use super::office::{Office, PITCH, TruePlace};
 use super::planner::{Decision, Planner};
 use super::score::{MapScore, Visit, score};
 use super::surveyor::{Arrival, RoutineOutcome, SurveyError, Surveyor, SurveyorConfig};
+use crate::episode::stream;
 
 /// Everything a run depends on but the office and the seed.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +84,8 @@ pub struct Survey<'a> {
     doors: ChaCha8Rng,
     plans: ChaCha8Rng,
     shut: Vec<usize>,
+    /// What is truly there now, by site.
+    truth: BTreeMap<u32, TruePlace>,
     exits: [bool; 4],
     start: Point,
     site: u32,
@@ -101,9 +106,6 @@ pub struct Drawn {
     /// What is known of it, in words.
     pub label: String,
 }
-
-/// Maps of more places are drawn without boxes: each takes a search of its own.
-const MOST_BOXES: usize = 400;
 
 /// What happened in one move.
 #[derive(Debug)]
@@ -155,14 +157,9 @@ impl<'a> Survey<'a> {
     /// # Errors
     /// [`RunError`] if robot or observer cannot be had.
     pub fn new(office: &'a Office, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
-        let stream = |number: u64| {
-            let mut rng = ChaCha8Rng::seed_from_u64(seed);
-            rng.set_stream(number);
-            rng
-        };
-        let places = office.places(&[]);
-        let first = stream(0).random_range(0..places.len() as u32) as usize;
-        let start = places.values().nth(first);
+        let truth = office.places(&[]);
+        let first = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
+        let start = truth.values().nth(first).copied();
         let start = start.ok_or(RunError::NoWay {
             at: Point::origin(),
         })?;
@@ -184,10 +181,11 @@ impl<'a> Survey<'a> {
             planner: Planner::new(config.heed),
             robot,
             observer,
-            walk: stream(1),
-            doors: stream(2),
-            plans: stream(3),
+            walk: stream(seed, 1),
+            doors: stream(seed, 2),
+            plans: stream(seed, 3),
             shut: Vec::new(),
+            truth,
             exits: seen.exits,
             start: start.position,
             site: start.site,
@@ -285,13 +283,14 @@ impl<'a> Survey<'a> {
             DoorState::Open => self.shut.retain(|other| *other != number),
             DoorState::Shut => self.shut.push(number),
         }
+        self.truth = self.office.places(&self.shut);
         Ok(())
     }
 
     /// The true place the robot is at.
     fn true_site(&self, here: Point) -> Result<u32, RunError> {
-        let places = self.office.places(&self.shut);
-        let near = places
+        let near = self
+            .truth
             .values()
             .map(|place| ((place.position - here).norm(), place.site))
             .min_by(|a, b| a.0.total_cmp(&b.0));
@@ -348,11 +347,10 @@ impl<'a> Survey<'a> {
         let to = others[self.plans.random_range(0..others.len() as u32) as usize];
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
         let wanted = self.visits.iter().rev().find(is_to)?.site;
-        let truth = self.office.places(&self.shut);
         let plan = self.observer.plan(here, to);
         let end = plan.and_then(|plan| {
             plan.steps.iter().try_fold(self.site, |site, step| {
-                truth
+                self.truth
                     .get(&site)?
                     .ways
                     .get(step.action.0 as usize)
@@ -375,36 +373,18 @@ impl<'a> Survey<'a> {
         let Some(home) = self.visits.first().map(|visit| visit.place) else {
             return Vec::new();
         };
-        let everything = SearchLimits {
-            width: f64::INFINITY,
-            frames: usize::MAX,
-            depth: u32::MAX,
-        };
-        let layout = map.layout(home);
-        let boxed = layout.len() <= MOST_BOXES;
-        let place = |id: PlaceId, middle: Point| {
-            let known = boxed
-                .then(|| map.displacement(home, id, &everything))
-                .flatten();
-            let ends = |low: Point, high: Point| [low, high].map(|end| self.start + end.coords);
-            let [low, high] = match known {
-                Some(PointBox { x, y }) => {
-                    ends(Point::new(x.low(), y.low()), Point::new(x.high(), y.high()))
-                }
-                None => ends(middle, middle),
-            };
-            let visits = map.paths.place(id).map_or(0, |place| place.visits);
+        let places = map.layout(home).into_iter().map(|drawn| {
+            let PointBox { x, y } = drawn.bounds;
+            let corner = |x: f64, y: f64| self.start + Vector::new(x, y);
+            let visits = map.paths.place(drawn.place).map_or(0, |place| place.visits);
             Drawn {
-                id: id.0,
-                low,
-                high,
-                label: format!("place {}, {visits} visits", id.0),
+                id: drawn.place.0,
+                low: corner(x.low(), y.low()),
+                high: corner(x.high(), y.high()),
+                label: format!("place {}, {visits} visits", drawn.place.0),
             }
-        };
-        layout
-            .into_iter()
-            .map(|drawn| place(drawn.place, drawn.position))
-            .collect()
+        });
+        places.collect()
     }
 
     /// The links of the map, by the ids of the places at their ends.
@@ -417,8 +397,8 @@ impl<'a> Survey<'a> {
     /// How good the map is by now.
     #[must_use]
     pub fn score(&self) -> MapScore {
-        let truth = self.office.places(&self.shut);
-        score(&self.observer.map().paths, &self.visits, &self.gone, &truth)
+        let paths = &self.observer.map().paths;
+        score(paths, &self.visits, &self.gone, &self.truth)
     }
 }
 
@@ -440,6 +420,8 @@ fn exits(arrival: &Arrival) -> Exits {
 
 #[cfg(test)]
 mod tests {
+    use rand::SeedableRng;
+
     use super::super::{OfficeConfig, blocks};
     use super::*;
 

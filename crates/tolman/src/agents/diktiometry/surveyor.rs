@@ -2,6 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use tolman_control::heading_of;
 use tolman_geom::{Heading, Interval, IntervalError, Point, PointBox, Pose};
 use tolman_maze::Direction;
 use tolman_robot::{CameraSensing, Odometry, Ring, Robot, TurnTranslate};
@@ -299,7 +300,7 @@ impl Surveyor {
     /// [`SurveyError`] if a sensor is blind or no place comes.
     pub fn go(&mut self, direction: Direction) -> Result<Arrival, SurveyError> {
         self.gone = PointBox::ORIGIN;
-        let ahead = Heading::of(super::office::unit(direction));
+        let ahead = heading_of(direction);
         self.turn_to(ahead)?;
         let view = self.view(ahead)?;
         if view.ahead < OPEN {
@@ -514,7 +515,7 @@ impl Surveyor {
     fn exits(&self) -> Result<[bool; 4], SurveyError> {
         let mut exits = [false; 4];
         for direction in Direction::ALL {
-            let view = self.view(Heading::of(super::office::unit(direction)))?;
+            let view = self.view(heading_of(direction))?;
             exits[direction.index()] = view.ahead > OPEN;
         }
         Ok(exits)

@@ -30,7 +30,7 @@ pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> 
     Ok(Box::new(Diktiometry { trials, tables }))
 }
 
-/// The shares that a map is scored by; all but the first and the name on the page are the fields' own names.
+/// The shares that a map is scored by: the name of the field and metric, and the name on the page.
 const SHARES: [(&str, &str); 6] = [
     ("purity", "purity"),
     ("link_precision", "link precision"),
@@ -158,6 +158,7 @@ impl Experiment for Diktiometry {
             // Plans are tried where the asymptote is measured.
             let late = f64::from(number) > (1.0 - TAIL) * f64::from(setting.config.moves);
             if late
+                && setting.subject == Subject::Map
                 && number.is_multiple_of(5)
                 && let Some(works) = survey.plan_works()
             {

@@ -165,7 +165,7 @@ impl Watch {
     fn map(&mut self, survey: &Survey<'_>, step: u32) {
         let map = survey.observer().map();
         for drawn in map.layout(self.home) {
-            let position = self.start + drawn.position.coords;
+            let position = self.start + drawn.bounds.middle().coords;
             let id = drawn.place;
             let node = self
                 .nodes
