@@ -22,6 +22,7 @@ Examples:
   tolman experiment baselines
   tolman experiment baselines --quick --out /tmp/look
   tolman experiment baselines --maze taiwan2016f.txt --maze mine.maze --runs 100
+  tolman experiment diktiometry --table 3b --runs 100
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
     /// The experiment; all of them one after the other when left out
@@ -35,6 +36,9 @@ pub(super) struct Arguments {
     /// Runs of each row, 100000 at most, instead of the paper's number
     #[arg(long, value_name = "N")]
     runs: Option<u32>,
+    /// Fill this table alone; may be given several times
+    #[arg(long = "table", value_name = "TABLE", requires = "name")]
+    tables: Vec<String>,
     /// Runs at a time, 256 at most, instead of one a core; results do not depend on it
     #[arg(long, value_name = "N")]
     jobs: Option<u32>,
@@ -124,6 +128,7 @@ impl Arguments {
             runs: self.runs,
             jobs: self.jobs,
             mazes: self.mazes.clone(),
+            tables: self.tables.clone(),
             out: self.out.clone(),
             quick: self.quick,
             program: Program::current(),

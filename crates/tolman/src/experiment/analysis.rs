@@ -1,13 +1,15 @@
 //! What the runs say: every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
-use super::{Experiment, Metric, Pair, PaperValue, Run, Statistic, Table, Verdict, run_seed};
+use super::{
+    Experiment, Metric, Pair, PaperValue, Reached, Run, Statistic, Table, Verdict, run_seed,
+};
 use crate::stats::{self, Interval, Method, PValue};
 
 /// All tables of an experiment, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// In the experiment's order.
+    /// Those that have runs, in the experiment's order.
     pub tables: Vec<TableAnalysis>,
 }
 
@@ -40,6 +42,8 @@ pub struct Measured {
     pub n: u64,
     /// The value, in the metric's unit.
     pub value: f64,
+    /// Whether the value was reached, or is what was not enough.
+    pub reached: Reached,
     /// The standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
     /// The mean, for means and medians.
@@ -88,6 +92,7 @@ impl Analysis {
         let tables = experiment
             .tables()
             .iter()
+            .filter(|table| table.is_filled())
             .map(|table| TableAnalysis {
                 metrics: table
                     .metrics
@@ -146,9 +151,10 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
         Statistic::Multiple { of, .. } => runs_of(of),
         _ => Vec::new(),
     };
+    let by_row: Vec<Vec<&Run>> = table.rows.iter().map(|row| runs_of(&row.name)).collect();
     let mut samples = Vec::new();
-    for row in &table.rows {
-        if let Some(sample) = Sample::of(&metric.statistic, &runs_of(&row.name), &others) {
+    for (row, runs) in table.rows.iter().zip(&by_row) {
+        if let Some(sample) = Sample::of(&metric.statistic, runs, &others, &by_row) {
             samples.push((row, sample));
         }
     }
@@ -162,6 +168,7 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
                 row: row.name.clone(),
                 n: sample.len() as u64,
                 value,
+                reached: sample.reached(),
                 sd: sample.sd(),
                 mean: sample.mean(),
                 median: sample.median(),

@@ -1,5 +1,6 @@
 //! The experiments there are.
 
+use super::chosen::choose;
 use super::{
     BoxError, Error, Experiment, Options, baselines, cpm, diktiometry, micromouse, mslst,
     mslst_sweeps, quantizers,
@@ -60,7 +61,8 @@ pub const fn catalogue() -> &'static [Entry] {
 /// Makes an experiment ready by its name.
 ///
 /// # Errors
-/// [`Error::Unknown`] if there is none of that name, [`Error::Open`] if what it needs cannot be read.
+/// [`Error::Unknown`] if there is none of that name, [`Error::Open`] if what it needs cannot be read, [`Error::NoRow`]
+/// if it lacks a table that the options choose.
 pub fn open(name: &str, options: &Options) -> Result<Box<dyn Experiment>, Error> {
     let entry = catalogue()
         .iter()
@@ -72,8 +74,9 @@ pub fn open(name: &str, options: &Options) -> Result<Box<dyn Experiment>, Error>
                 known: known.join(", "),
             }
         })?;
-    (entry.open)(options).map_err(|source| Error::Open {
+    let experiment = (entry.open)(options).map_err(|source| Error::Open {
         name: name.to_owned(),
         source,
-    })
+    })?;
+    choose(experiment, &options.tables)
 }

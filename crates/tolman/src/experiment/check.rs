@@ -3,8 +3,8 @@
 use alloc::collections::BTreeSet;
 
 use super::{
-    BoxError, Error, Experiment, Field, Kind, Metric, Options, Presence, Run, Statistic, Tolerance,
-    plots,
+    BoxError, Error, Experiment, Field, Kind, Measure, Metric, Options, Presence, Run, Settling,
+    Statistic, Tolerance, plots,
 };
 use crate::draw::Figure;
 
@@ -82,7 +82,9 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
             .metrics
             .iter()
             .filter_map(|metric| match &metric.statistic {
-                Statistic::Multiple { of, .. } => Some(of),
+                Statistic::Multiple { of, .. } | Statistic::Settling(Settling { of, .. }) => {
+                    Some(of)
+                }
                 _ => None,
             });
         let compared = table.pairwise.iter().flat_map(|pairwise| &pairwise.rows);
@@ -105,6 +107,15 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
             if let Some(what) = unsound(metric) {
                 return refuse(format!("{place} has the metric {:?} {what}", metric.name));
             }
+            if let Statistic::Settling(Settling { curve, .. }) = &metric.statistic {
+                let is_it = |field: &Measure| field.name == *curve && field.kind == Kind::Curve;
+                if !table.fields.iter().any(is_it) {
+                    return refuse(format!(
+                        "{place} has the metric {:?} of {curve:?}, which is no curve",
+                        metric.name
+                    ));
+                }
+            }
             let (fields, kinds): (&[&String], &[Kind]) = match &metric.statistic {
                 Statistic::Percent { field } | Statistic::Count { field, .. } => {
                     (&[field], &[Kind::Flag])
@@ -114,6 +125,7 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 | Statistic::Least { field } => (&[field], NUMERIC),
                 Statistic::Ratio { over, under } => (&[over, under], NUMERIC),
                 Statistic::Multiple { field, .. } => (&[field], NUMERIC),
+                Statistic::Settling(Settling { level, scale, .. }) => (&[level, scale], NUMERIC),
             };
             let measured = |name: &String| {
                 let mut fields = table.fields.iter();
@@ -168,9 +180,12 @@ pub(super) fn run(experiment: &dyn Experiment, run: &Run) -> Result<(), BoxError
         if field.kind() != measure.kind {
             return Err(format!("{name} is {field:?} and not a {:?}", measure.kind).into());
         }
-        if let Field::Number(value) = field
-            && !value.is_finite()
-        {
+        let numbers = match field {
+            Field::Number(value) => core::slice::from_ref(value),
+            Field::Curve(values) => values,
+            Field::Flag(_) | Field::Count(_) | Field::Text(_) => &[],
+        };
+        if let Some(value) = numbers.iter().find(|value| !value.is_finite()) {
             return Err(format!("{name} is {value}; measured values must be finite").into());
         }
     }

@@ -13,6 +13,7 @@ mod baselines;
 mod build;
 mod catalogue;
 mod check;
+mod chosen;
 mod config_file;
 mod cpm;
 mod diktiometry;
@@ -35,6 +36,7 @@ mod runner;
 mod runs_file;
 mod sample;
 mod seed;
+mod settling;
 mod summary;
 mod table;
 mod terminal;
@@ -54,6 +56,7 @@ pub use replays::{Recorded, Replays};
 pub use run::{Field, Fields, Job, Kind, Run};
 pub use runner::{Outcome, execute};
 pub use seed::run_seed;
+pub use settling::{Reached, Settling};
 pub use summary::{Summary, SummaryRow};
 pub use table::{
     Comparison, Correction, Measure, Metric, PaperValue, Presence, Row, Statistic, Table, Tolerance,

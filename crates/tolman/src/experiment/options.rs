@@ -48,6 +48,8 @@ pub struct Options {
     pub mazes: Vec<PathBuf>,
     /// The folder of results; `None` is `results/NAME` under the current folder.
     pub out: Option<PathBuf>,
+    /// The names of the tables that are filled; all of them if none is named.
+    pub tables: Vec<String>,
     /// Few runs, for a first look.
     pub quick: bool,
     /// What the command that makes the results again begins with.
@@ -99,6 +101,9 @@ impl Options {
         );
         if self.quick {
             command += " --quick";
+        }
+        for table in &self.tables {
+            command += &format!(" --table {}", quoted(table));
         }
         for maze in &self.mazes {
             command += &format!(" --maze {}", quoted(&maze.to_string_lossy()));

@@ -53,7 +53,7 @@ impl Pairwise {
             .filter_map(|row| {
                 let of_row = |run: &&Run| run.table == table.name && run.row == *row;
                 let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
-                Some((row, Sample::of(&statistic, &runs, &[])?.numbers()))
+                Some((row, Sample::of(&statistic, &runs, &[], &[])?.numbers()))
             })
             .collect();
         let mut pairs = Vec::new();

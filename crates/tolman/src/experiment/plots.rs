@@ -21,6 +21,7 @@ pub(super) fn names(experiment: &dyn Experiment) -> Vec<String> {
 fn plotted(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
     (1_u32..)
         .zip(experiment.tables())
+        .filter(|(_, table)| table.is_filled())
         .flat_map(|(number, table)| {
             let mut seen: Vec<&str> = Vec::new();
             table.metrics.iter().filter_map(move |metric| {

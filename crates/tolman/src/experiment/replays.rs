@@ -111,7 +111,12 @@ fn jobs_of(
 ) -> impl Iterator<Item = Job<'_>> {
     experiment.tables().iter().flat_map(move |table| {
         let seed = run_seed(master_seed, &table.name, run);
-        table.rows.iter().map(move |row| Job {
+        // A row with a number of its own may have fewer.
+        let rows = table
+            .rows
+            .iter()
+            .filter(move |row| row.runs_of(run + 1) > run);
+        rows.map(move |row| Job {
             table: &table.name,
             row: &row.name,
             run,

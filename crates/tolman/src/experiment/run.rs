@@ -80,6 +80,12 @@ impl Fields {
         self.field(name, Field::Text(value.into()))
     }
 
+    /// Adds numbers at equal steps. The runner refuses any that is not finite.
+    #[must_use]
+    pub fn curve(self, name: impl Into<String>, values: Vec<f64>) -> Self {
+        self.field(name, Field::Curve(values))
+    }
+
     /// Adds any field, in place of one of the same name.
     #[must_use]
     pub fn field(mut self, name: impl Into<String>, field: Field) -> Self {
@@ -110,6 +116,8 @@ pub enum Field {
     Number(f64),
     /// A word.
     Text(String),
+    /// Numbers at equal steps.
+    Curve(Vec<f64>),
 }
 
 /// What a field holds.
@@ -123,6 +131,8 @@ pub enum Kind {
     Number,
     /// [`Field::Text`].
     Text,
+    /// [`Field::Curve`].
+    Curve,
 }
 
 impl Field {
@@ -133,6 +143,7 @@ impl Field {
             Self::Count(_) => Kind::Count,
             Self::Number(_) => Kind::Number,
             Self::Text(_) => Kind::Text,
+            Self::Curve(_) => Kind::Curve,
         }
     }
 
@@ -145,7 +156,7 @@ impl Field {
         match self {
             Self::Count(count) => Some(*count as f64),
             Self::Number(number) => Some(*number),
-            Self::Flag(_) | Self::Text(_) => None,
+            Self::Flag(_) | Self::Text(_) | Self::Curve(_) => None,
         }
     }
 
@@ -153,7 +164,7 @@ impl Field {
     pub fn as_flag(&self) -> Option<bool> {
         match self {
             Self::Flag(flag) => Some(*flag),
-            Self::Count(_) | Self::Number(_) | Self::Text(_) => None,
+            Self::Count(_) | Self::Number(_) | Self::Text(_) | Self::Curve(_) => None,
         }
     }
 
@@ -161,7 +172,15 @@ impl Field {
     pub fn as_text(&self) -> Option<&str> {
         match self {
             Self::Text(text) => Some(text),
-            Self::Flag(_) | Self::Count(_) | Self::Number(_) => None,
+            Self::Flag(_) | Self::Count(_) | Self::Number(_) | Self::Curve(_) => None,
+        }
+    }
+
+    /// The numbers of a curve.
+    pub fn as_curve(&self) -> Option<&[f64]> {
+        match self {
+            Self::Curve(values) => Some(values),
+            Self::Flag(_) | Self::Count(_) | Self::Number(_) | Self::Text(_) => None,
         }
     }
 }

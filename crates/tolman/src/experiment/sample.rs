@@ -3,7 +3,8 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::{Field, Run, Statistic};
+use super::settling::settles;
+use super::{Field, Reached, Run, Settling, Statistic};
 use crate::stats::{self, Interval};
 
 /// Resamples of the bootstrap.
@@ -20,6 +21,12 @@ pub(super) enum Sample {
     Numbers { numbers: Vec<f64>, centre: Centre },
     /// A numerator and a denominator for each run.
     Pairs(Vec<(f64, f64)>),
+    /// A curve for each run, and the limit that their mean is to stay below.
+    Curves {
+        curves: Vec<Vec<f64>>,
+        step: f64,
+        limit: f64,
+    },
 }
 
 /// How numbers become one value.
@@ -32,8 +39,13 @@ pub(super) enum Centre {
 
 impl Sample {
     /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of the row
-    /// that [`Statistic::Multiple`] names, sorted by index.
-    pub(super) fn of(statistic: &Statistic, runs: &[&Run], others: &[&Run]) -> Option<Self> {
+    /// that [`Statistic::Multiple`] names, sorted by index; `table` are those of all rows, row by row.
+    pub(super) fn of(
+        statistic: &Statistic,
+        runs: &[&Run],
+        others: &[&Run],
+        table: &[Vec<&Run>],
+    ) -> Option<Self> {
         let number = |run: &Run, field: &str| run.fields.get(field).and_then(Field::as_number);
         let flags = |field: &str, whole: f64| Self::Flags {
             flags: runs
@@ -65,6 +77,16 @@ impl Sample {
                     })
                     .collect(),
             ),
+            Statistic::Settling(settling) => Self::Curves {
+                curves: runs
+                    .iter()
+                    .filter(|run| number(run, &settling.level).is_some())
+                    .filter(|run| number(run, &settling.scale).is_some())
+                    .filter_map(|run| Some(run.fields.get(&settling.curve)?.as_curve()?.to_vec()))
+                    .collect(),
+                step: settling.step,
+                limit: limit(settling, table)?,
+            },
         };
         (sample.len() > 0).then_some(sample)
     }
@@ -75,10 +97,11 @@ impl Sample {
             Self::Flags { flags, .. } => flags.len(),
             Self::Numbers { numbers, .. } => numbers.len(),
             Self::Pairs(pairs) => pairs.len(),
+            Self::Curves { curves, .. } => curves.len(),
         }
     }
 
-    /// The value: part of a whole, mean, median, least, or ratio of sums.
+    /// The value: part of a whole, mean, median, least, ratio of sums, or when the mean curve settles.
     pub(super) fn value(&self) -> f64 {
         match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
@@ -89,6 +112,26 @@ impl Sample {
                 Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
+            Self::Curves { .. } => self.settles().0,
+        }
+    }
+
+    /// Whether what the metric waits for came about; always where it waits for nothing.
+    pub(super) fn reached(&self) -> Reached {
+        self.settles().1
+    }
+
+    fn settles(&self) -> (f64, Reached) {
+        match self {
+            Self::Curves {
+                curves,
+                step,
+                limit,
+            } => {
+                let curves: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
+                settles(&curves, *step, *limit)
+            }
+            Self::Flags { .. } | Self::Numbers { .. } | Self::Pairs(_) => (f64::NAN, Reached::Yes),
         }
     }
 
@@ -96,7 +139,7 @@ impl Sample {
     pub(super) fn sd(&self) -> Option<f64> {
         match self {
             Self::Numbers { numbers, .. } => stats::standard_deviation(numbers).ok(),
-            Self::Flags { .. } | Self::Pairs(_) => None,
+            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
         }
     }
 
@@ -104,7 +147,7 @@ impl Sample {
     pub(super) fn mean(&self) -> Option<f64> {
         match self {
             Self::Numbers { numbers, .. } => stats::mean(numbers).ok(),
-            Self::Flags { .. } | Self::Pairs(_) => None,
+            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
         }
     }
 
@@ -112,7 +155,7 @@ impl Sample {
     pub(super) fn median(&self) -> Option<f64> {
         match self {
             Self::Numbers { numbers, .. } => stats::quantile(numbers, 0.5).ok(),
-            Self::Flags { .. } | Self::Pairs(_) => None,
+            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
         }
     }
 
@@ -132,6 +175,15 @@ impl Sample {
                 Centre::Least => return None,
             },
             Self::Pairs(pairs) => stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng),
+            Self::Curves {
+                curves,
+                step,
+                limit,
+            } => {
+                let curves: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
+                let value = |curves: &[&[f64]]| settles(curves, *step, *limit).0;
+                stats::bca_interval(&curves, value, RESAMPLES, LEVEL, rng)
+            }
         }
         .ok()
     }
@@ -147,8 +199,35 @@ impl Sample {
                 .filter(|(_, under)| *under > 0.0)
                 .map(|(over, under)| over / under)
                 .collect(),
+            // A mean curve settles, one run's does not.
+            Self::Curves { .. } => Vec::new(),
         }
     }
+}
+
+/// What the mean curves of a table are to stay below; `None` if no run says so.
+fn limit(settling: &Settling, table: &[Vec<&Run>]) -> Option<f64> {
+    let mean_of = |runs: &[&Run], field: &str| {
+        let has = |run: &&&Run| {
+            let number = |field: &str| run.fields.get(field).and_then(Field::as_number);
+            number(&settling.level).is_some() && number(&settling.scale).is_some()
+        };
+        let measured = runs.iter().filter(has);
+        let numbers: Vec<f64> = measured
+            .filter_map(|run| run.fields.get(field)?.as_number())
+            .collect();
+        stats::mean(&numbers).ok()
+    };
+    let levels = table
+        .iter()
+        .filter_map(|runs| mean_of(runs, &settling.level));
+    let lowest = levels.reduce(f64::min)?;
+    let scales = table.iter().filter(|runs| {
+        let row = runs.first().map(|run| &run.row);
+        row == Some(&settling.of)
+    });
+    let scale = scales.filter_map(|runs| mean_of(runs, &settling.scale));
+    Some(lowest + settling.margin * scale.reduce(f64::min)?)
 }
 
 fn zeros_and_ones(flags: &[bool]) -> Vec<f64> {

@@ -1,6 +1,6 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
-use super::{Kind, Pairwise};
+use super::{Kind, Pairwise, Settling};
 use crate::stats::{self, PValue};
 
 /// One table of a paper.
@@ -48,6 +48,12 @@ impl Table {
     pub fn row(mut self, row: Row) -> Self {
         self.rows.push(row);
         self
+    }
+
+    /// Whether a row has runs.
+    #[must_use]
+    pub fn is_filled(&self) -> bool {
+        self.rows.iter().any(|row| row.runs != Some(0))
     }
 
     /// Says that every run has this field.
@@ -337,6 +343,11 @@ impl Metric {
         Self::new(name, 2, Statistic::Multiple { field, of })
     }
 
+    /// When the mean of the runs' curves settles.
+    pub fn settling(name: impl Into<String>, settling: Settling) -> Self {
+        Self::new(name, 0, Statistic::Settling(settling))
+    }
+
     /// Sets the name shown on a page.
     #[must_use]
     pub fn titled(mut self, title: impl Into<String>) -> Self {
@@ -367,7 +378,7 @@ impl Metric {
 }
 
 /// How the runs of a row become one value. A run without the field is left out.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Statistic {
     /// 100 × the share of runs whose flag is set.
@@ -411,6 +422,8 @@ pub enum Statistic {
         /// The name of the other row.
         of: String,
     },
+    /// When the mean of curves settles; see [`Settling`].
+    Settling(Settling),
 }
 
 /// How far our value may lie from the paper's and still match it.

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use super::{Analysis, Measured, Metric, MetricAnalysis, Statistic, TableAnalysis};
+use super::{Analysis, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis};
 
 /// Whether text is coloured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,13 +35,17 @@ pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) ->
     }
 }
 
-/// Our value: a mean with its spread, anything else alone.
+/// Our value: a mean with its spread, anything else alone; what was not reached as `> 2000`.
 pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     let sd = match metric.statistic {
         Statistic::Mean { .. } => measured.sd,
         _ => None,
     };
-    value_with_spread(metric, measured.value, sd)
+    let value = value_with_spread(metric, measured.value, sd);
+    match measured.reached {
+        Reached::Yes => value,
+        Reached::No => format!("> {value}"),
+    }
 }
 
 /// A metric's title and unit.

@@ -64,7 +64,9 @@ impl Verdict {
                         around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
                     }
                     // A spread says nothing of a median's error, nor of a minimum's.
-                    Statistic::Median { .. } | Statistic::Least { .. } => return None,
+                    Statistic::Median { .. } | Statistic::Least { .. } | Statistic::Settling(_) => {
+                        return None;
+                    }
                 };
                 (own, Basis::PaperInterval)
             }

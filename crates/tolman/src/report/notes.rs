@@ -32,6 +32,7 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
             Statistic::Ratio { .. } | Statistic::Multiple { .. }
         )
     });
+    let settling = has(|statistic| matches!(statistic, Statistic::Settling(_)));
     let compared = analysis
         .tables
         .iter()
@@ -63,11 +64,16 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
                     @if share { "Percentages and counts: exact binomial (Clopper–Pearson). " }
                     @if median { "Medians: the order statistics that hold it with at least that probability, whatever the distribution; six runs or more. " }
                     @if mean || ratio { "Means and ratios: BCa bootstrap, " (RESAMPLES) " resamples. " }
+                    @if settling { "When a mean curve settles: the same bootstrap over runs, with the limit held. " }
                 }
                 @if mean { li { b { "Means " } "stand with the standard deviation (n − 1)." } }
                 @if median { li { b { "Medians " } "are R-7 quantiles, as in R and NumPy." } }
                 @if count { li { b { "Counts " } "of a few runs, such as 19 of 20, are the share of all our runs times that few." } }
                 @if ratio { li { b { "Ratios " } "are sums over all runs divided by sums over all runs." } }
+                @if settling {
+                    li { b { "Settling. " } "A row settles where the mean curve of all its runs has gone below a limit, which all \
+                         rows of the table share, for good. A value behind > is the length of the runs: the row does not settle." }
+                }
                 @if compared {
                     li { b { "p. " } "Mann–Whitney U, two-sided, against the reference row, corrected for the \
                          comparisons within a metric. " b { "A" sub { "12" } ". " }

@@ -53,11 +53,10 @@ pub struct ErrorSummary {
     pub asymptote: f64,
     /// The mean error per move by odometry over all moves, m².
     pub odometry: f64,
-    /// Moves after which the mean over a [`WINDOW`] of moves is, and in every later window stays, within [`NEAR`] of the
-    /// asymptote; all moves if it never is.
-    pub moves_to_asymptote: usize,
-    /// The mean over each successive window, m².
+    /// The mean error by the map over each successive [`WINDOW`] of moves, m².
     pub curve: Vec<f64>,
+    /// The same by odometry.
+    pub odometry_curve: Vec<f64>,
     /// The share of expectations over the last [`TAIL`] of all moves.
     pub coverage: f64,
 }
@@ -77,26 +76,18 @@ impl ErrorSummary {
         let mean = |part: &[MoveError], value: fn(&MoveError) -> f64| {
             part.iter().map(value).sum::<f64>() / part.len() as f64
         };
-        let by_map = |error: &MoveError| error.map;
         if errors.is_empty() {
             return None;
         }
         let tail = ((errors.len() as f64 * TAIL) as usize).max(1);
         let last = &errors[errors.len() - tail..];
-        let asymptote = mean(last, by_map);
-        let odometry = mean(errors, |error| error.odometry);
-        let curve: Vec<f64> = errors
-            .chunks_exact(WINDOW.min(errors.len()))
-            .map(|window| mean(window, by_map))
-            .collect();
-        let limit = asymptote + NEAR * odometry;
-        let late = curve.iter().rposition(|error| *error > limit);
-        let windows = late.map_or(1, |window| window + 2);
+        let windows = errors.chunks_exact(WINDOW.min(errors.len()));
+        let curve = |value| windows.clone().map(|window| mean(window, value)).collect();
         Some(Self {
-            asymptote,
-            odometry,
-            moves_to_asymptote: (windows * WINDOW).min(errors.len()),
-            curve,
+            asymptote: mean(last, |error| error.map),
+            odometry: mean(errors, |error| error.odometry),
+            curve: curve(|error| error.map),
+            odometry_curve: curve(|error| error.odometry),
             coverage: mean(last, |error| error.coverage),
         })
     }
@@ -106,42 +97,26 @@ impl ErrorSummary {
 mod tests {
     use super::*;
 
-    fn errors(map: impl Iterator<Item = f64>) -> Vec<MoveError> {
-        map.map(|map| MoveError {
-            map,
-            odometry: 0.5,
-            coverage: 1.0,
-        })
-        .collect()
-    }
-
     #[test]
-    fn a_fall_to_an_asymptote_is_found() {
-        // High for 60 moves, then low.
-        let run = errors((0..400).map(|number| if number < 60 { 2.0 } else { 0.1 }));
+    fn the_asymptote_is_the_last_quarter_and_the_curve_goes_by_windows() {
+        // High for 60 moves, then low; ten moves more than a window has.
+        let run: Vec<MoveError> = (0..410)
+            .map(|number| MoveError {
+                map: if number < 60 { 2.0 } else { 0.1 },
+                odometry: 0.5,
+                coverage: if number < 205 { 0.0 } else { 1.0 },
+            })
+            .collect();
         let summary = ErrorSummary::of(&run).unwrap();
         assert!((summary.asymptote - 0.1).abs() < 1e-12);
-        // The third window, moves 50 to 75, is still too high on average.
-        assert_eq!(summary.moves_to_asymptote, 100);
+        assert!((summary.odometry - 0.5).abs() < 1e-12);
+        assert!((summary.coverage - 1.0).abs() < 1e-12);
         assert_eq!(summary.curve.len(), 16);
-    }
-
-    #[test]
-    fn a_relapse_counts() {
-        let run = errors((0..400).map(|number| {
-            if (200..210).contains(&number) {
-                2.0
-            } else {
-                0.1
-            }
-        }));
-        assert_eq!(ErrorSummary::of(&run).unwrap().moves_to_asymptote, 250);
-    }
-
-    #[test]
-    fn a_flat_run_is_there_at_once_and_no_run_is_none() {
-        let flat = ErrorSummary::of(&errors((0..100).map(|_| 0.1))).unwrap();
-        assert_eq!(flat.moves_to_asymptote, WINDOW);
+        // Ten of the third window's moves are high.
+        let third = (10.0 * 2.0 + 15.0 * 0.1) / 25.0;
+        assert!((summary.curve[1] - 2.0).abs() < 1e-12);
+        assert!((summary.curve[2] - third).abs() < 1e-12);
+        assert!((summary.odometry_curve[2] - 0.5).abs() < 1e-12);
         assert!(ErrorSummary::of(&[]).is_none());
     }
 }

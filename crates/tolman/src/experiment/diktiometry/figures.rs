@@ -9,7 +9,7 @@ use crate::draw::{
     Axis, Chart, EdgeLine, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, Plan, Region,
     Series,
 };
-use crate::experiment::{BoxError, Field, Run};
+use crate::experiment::{BoxError, Run};
 use crate::stats::{self, Interval};
 
 /// Width of a plan, user units.
@@ -23,7 +23,7 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
         if trial.settings.len() > MOST_CURVES {
             continue;
         }
-        figures.push(errors(trial, runs)?);
+        figures.push(errors(trial, runs));
         let maps = trial.settings.iter().enumerate();
         for (number, setting) in maps.filter(|(_, setting)| setting.subject == Subject::Map) {
             let first =
@@ -36,18 +36,7 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
     Ok(figures)
 }
 
-/// The means of a run's windows, m².
-pub(super) fn curve_of(run: &Run) -> Result<Vec<f64>, BoxError> {
-    let text = run
-        .fields
-        .get("curve")
-        .and_then(Field::as_text)
-        .unwrap_or_default();
-    let values = text.split_whitespace().map(str::parse::<f64>);
-    Ok(values.collect::<Result<Vec<f64>, _>>()?)
-}
-
-fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
+fn errors(trial: &Trial, runs: &[Run]) -> Figure {
     let mut chart = Chart::new(
         Axis::linear("moves").from_zero(),
         Axis::linear("squared error a move, m²").from_zero(),
@@ -57,8 +46,10 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
         let own = runs
             .iter()
             .filter(|run| run.table == trial.name && run.row == setting.row);
-        let curves: Vec<Vec<f64>> = own.map(curve_of).collect::<Result<_, _>>()?;
-        let windows = curves.iter().map(Vec::len).max().unwrap_or(0);
+        let curves: Vec<&[f64]> = own
+            .filter_map(|run| run.fields.get("curve")?.as_curve())
+            .collect();
+        let windows = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
         let points = (0..windows).filter_map(|window| {
             let values: Vec<f64> = curves
                 .iter()
@@ -77,13 +68,11 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
         "{}: the error of each row against moves.",
         trial.title
     ));
-    Ok(
-        Figure::new(format!("error-{}", trial.name), trial.title, drawing)
-            .caption(format!(
-                "Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles."
-            ))
-            .table(trial.name),
-    )
+    Figure::new(format!("error-{}", trial.name), trial.title, drawing)
+        .caption(format!(
+            "Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles."
+        ))
+        .table(trial.name)
 }
 
 /// The map of a run, moved so that its places lie best on the true ones.

@@ -5,7 +5,8 @@ mod replay;
 mod settings;
 
 use super::{
-    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table,
+    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run,
+    Settling, Table,
 };
 use crate::agents::diktiometry::{ErrorSummary, Isomorphism, NEAR, Survey, TAIL, WINDOW};
 use crate::draw::Figure;
@@ -41,10 +42,11 @@ const SHARES: [(&str, &str); 6] = [
 ];
 
 fn table(trial: &Trial) -> Table {
+    let reference = trial.settings.first().map_or("", |setting| setting.row);
     let mut table = Table::new(trial.name, trial.title)
         .field("ssd_asymptote", Kind::Number)
-        .field("curve", Kind::Text)
-        .optional_field("moves_to_asymptote", Kind::Count)
+        .field("curve", Kind::Curve)
+        .optional_field("odometry", Kind::Number)
         .optional_field("places", Kind::Count)
         .optional_field("visited", Kind::Count)
         .optional_field("isomorphic", Kind::Flag)
@@ -55,9 +57,18 @@ fn table(trial: &Trial) -> Table {
                 .decimals(4),
         )
         .metric(
-            Metric::mean("moves_to_asymptote")
-                .titled("moves to asymptote")
-                .decimals(0),
+            Metric::settling(
+                "moves_to_asymptote",
+                Settling {
+                    curve: "curve".to_owned(),
+                    step: WINDOW as f64,
+                    level: "ssd_asymptote".to_owned(),
+                    margin: NEAR,
+                    scale: "odometry".to_owned(),
+                    of: reference.to_owned(),
+                },
+            )
+            .titled("moves to asymptote"),
         );
     for (name, title) in SHARES {
         table = table
@@ -79,12 +90,11 @@ fn table(trial: &Trial) -> Table {
     for setting in &trial.settings {
         table = table.row(Row::new(setting.row));
     }
-    let reference = trial.settings.first().map_or("", |setting| setting.row);
     table
         .compared_with(reference, Correction::Holm)
         .note(format!(
-            "{} The asymptote is the mean over the last {:.0} % of the moves; it is reached when the means over {WINDOW} moves stay \
-             less than {:.0} % of odometry's error above it.",
+            "{} A row's error at last is the mean over the last {:.0} % of the moves. The asymptote is the lowest of the table; a row is \
+             there when the mean over all its runs and {WINDOW} moves stays less than {:.0} % of odometry's error above it.",
             trial.note,
             100.0 * TAIL,
             100.0 * NEAR,
@@ -166,23 +176,17 @@ impl Experiment for Diktiometry {
                 plans.1 += 1;
             }
         }
-        let errors = survey.errors();
+        let summary = ErrorSummary::of(survey.errors()).ok_or("no move was made")?;
         if setting.subject == Subject::Odometry {
-            let mut alone = errors.to_vec();
-            alone
-                .iter_mut()
-                .for_each(|error| error.map = error.odometry);
-            let summary = ErrorSummary::of(&alone).ok_or("no move was made")?;
             return Ok(Fields::new()
                 .number("ssd_asymptote", summary.odometry)
-                .text("curve", curve(&summary)));
+                .curve("curve", summary.odometry_curve));
         }
-        let summary = ErrorSummary::of(errors).ok_or("no move was made")?;
         let score = survey.score();
         let mut fields = Fields::new()
             .number("ssd_asymptote", summary.asymptote)
-            .text("curve", curve(&summary))
-            .count("moves_to_asymptote", summary.moves_to_asymptote as u64)
+            .number("odometry", summary.odometry)
+            .curve("curve", summary.curve)
             .number("coverage", summary.coverage)
             .count("places", score.places as u64)
             .count("visited", score.visited as u64)
@@ -204,7 +208,7 @@ impl Experiment for Diktiometry {
                 return Err(format!("{name} is {share:?}").into());
             }
         }
-        figures::curve_of(run).map(|_| ())
+        Ok(())
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -220,10 +224,4 @@ impl Experiment for Diktiometry {
             Subject::Odometry => Ok(None),
         }
     }
-}
-
-/// The means of the windows, as words.
-fn curve(summary: &ErrorSummary) -> String {
-    let values = summary.curve.iter().map(|value| format!("{value:.5}"));
-    values.collect::<Vec<String>>().join(" ")
 }
