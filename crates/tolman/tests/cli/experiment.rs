@@ -122,3 +122,34 @@ fn a_folder_of_something_else_is_left_alone() {
     baselines(&folder, "out", &[]).refused(2, &["thesis.tex"]);
     assert_eq!(fs::read_dir(folder.join("out")).unwrap().count(), 1);
 }
+
+#[test]
+fn a_table_is_filled_alone_and_the_others_runs_are_kept() {
+    let folder = folder("table");
+    let all = baselines(&folder, "out", &["--json"]).done();
+    let tables = |summary: &str| {
+        let summary: Value = serde_json::from_str(summary).unwrap();
+        let rows = summary["rows"].as_array().unwrap().clone();
+        let mut tables: Vec<String> = rows
+            .iter()
+            .map(|row| row["table"].as_str().unwrap().to_owned())
+            .collect();
+        tables.dedup();
+        tables
+    };
+    let both = tables(&all);
+    assert_eq!(both.len(), 2, "{both:?}");
+    let chosen = ["--table", &both[1], "--json"];
+    let one = baselines(&folder, "out", &chosen);
+    assert_eq!(one.code, Some(0), "{}", one.err);
+    assert_eq!(tables(&one.out), both[1..]);
+    // All runs are still there, so that none is played.
+    let again = baselines(&folder, "out", &["--json"]);
+    assert!(again.err.contains("there from before"), "{}", again.err);
+    assert!(!again.err.contains("played"), "{}", again.err);
+    assert_eq!(again.out, all);
+    // A table that is not there is named with those that are.
+    let ended = baselines(&folder, "out", &["--table", "nope"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(ended.err.contains("\"nope\""), "{}", ended.err);
+}

@@ -10,21 +10,19 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_sim::{CorridorSize, Door, DoorState, Material, Wall, World, WorldError};
 
-/// From wall to wall of a corridor, m.
-pub const CORRIDOR_WIDTH: f64 = 1.2;
-/// How thick walls are: what lies between two corridors, m.
-pub const WALL_THICKNESS: f64 = 2.8;
-/// How deep the narrow part of a doorway is, in the middle of the wall, m.
-const DOORWAY_DEPTH: f64 = 0.6;
-/// From jamb to jamb of a doorway, m.
-pub const DOORWAY_WIDTH: f64 = 0.8;
-/// From the middle of one cell to that of the next, m.
-pub const PITCH: f64 = CORRIDOR_WIDTH + WALL_THICKNESS;
+/// How deep the narrow part of a doorway is, in the middle of the wall, as a share of the corridor's width.
+const DOORWAY_DEPTH: f64 = 0.5;
+/// From jamb to jamb of a doorway, as a share of the corridor's width.
+const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
 
 /// How an office is furnished.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OfficeConfig {
+    /// From wall to wall of a corridor, m. Openings beside a way are told apart only if the walls between them are thick.
+    pub corridor_width: f64,
+    /// What lies between two corridors side by side, m; 0 for walls that are lines.
+    pub wall_thickness: f64,
     /// Which share of the passages between two cells are doorways, 0 … 1; which ones, `seed` decides.
     pub doorway_share: f64,
     /// How many colours the walls have, each piece as long as a cell its own: 1 makes all places look the same.
@@ -33,14 +31,43 @@ pub struct OfficeConfig {
     pub seed: u64,
 }
 
+impl OfficeConfig {
+    /// Corridors 1.2 m wide and 4 m apart, without doorways, all of one colour.
+    #[must_use]
+    pub const fn bare() -> Self {
+        Self {
+            corridor_width: 1.2,
+            wall_thickness: 2.8,
+            doorway_share: 0.0,
+            colours: 1,
+            seed: 1,
+        }
+    }
+
+    /// From the middle of one cell to that of the next, m.
+    #[must_use]
+    pub const fn pitch(&self) -> f64 {
+        self.corridor_width + self.wall_thickness
+    }
+
+    /// From jamb to jamb of a doorway, m.
+    #[must_use]
+    pub const fn doorway_width(&self) -> f64 {
+        DOORWAY_WIDTH * self.corridor_width
+    }
+}
+
 /// A maze as a world with doorways and painted walls, and what is truly there: the places and the ways between them.
 ///
-/// Where four cells make a square without walls, a pillar stands between them: all floor is corridor.
+/// Where four cells make a square without walls, a pillar stands between them: all floor is corridor. Only what a way leads
+/// to a goal of the maze from belongs to it, if the maze has a goal.
 #[derive(Clone, Debug)]
 pub struct Office {
     maze: Maze,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
+    /// The cells that belong to it, in the order of the grid.
+    cells: Vec<Cell>,
     config: OfficeConfig,
     world: Arc<World>,
 }
@@ -77,7 +104,11 @@ impl Office {
             return Err(OfficeError::NoColours);
         }
         let mut rng = ChaCha8Rng::seed_from_u64(config.seed);
-        let passages = maze.grid().cells().flat_map(|cell| {
+        let cells: Vec<Cell> = match maze.goals() {
+            [] => maze.grid().cells().collect(),
+            _ => maze.reachable().collect(),
+        };
+        let passages = cells.iter().copied().flat_map(|cell| {
             let ahead = [Direction::North, Direction::East];
             ahead.map(|direction| (cell, direction))
         });
@@ -99,31 +130,33 @@ impl Office {
             }
         };
         let size = CorridorSize {
-            corridor_width: CORRIDOR_WIDTH,
-            wall_thickness: WALL_THICKNESS,
+            corridor_width: config.corridor_width,
+            wall_thickness: config.wall_thickness,
         };
+        let scale = Scale(config);
         let bare = World::from_maze(maze, &size)?;
         let mut walls = Vec::new();
         for wall in bare.walls() {
-            pieces(wall, &mut paint, &mut walls);
+            scale.pieces(wall, &mut paint, &mut walls);
         }
-        for cell in maze.grid().cells() {
-            if stands_free(maze, cell) {
-                pillar(cell, &mut paint, &mut walls);
+        for cell in cells.iter().copied() {
+            if config.wall_thickness > 0.0 && stands_free(maze, cell) {
+                scale.pillar(cell, &mut paint, &mut walls);
             }
         }
         for (cell, direction) in &doorways {
-            jambs(*cell, *direction, &mut paint, &mut walls);
+            scale.jambs(*cell, *direction, &mut paint, &mut walls);
         }
         let mut world = World::from_segments(walls)?;
         for (number, (cell, direction)) in doorways.iter().enumerate() {
-            for door in leaves(number, *cell, *direction) {
+            for door in scale.leaves(number, *cell, *direction) {
                 world = world.with_door(door)?;
             }
         }
         Ok(Self {
             maze: maze.clone(),
             doorways,
+            cells,
             config: *config,
             world: Arc::new(world),
         })
@@ -147,14 +180,19 @@ impl Office {
         &self.config
     }
 
-    /// No two places are nearer to each other than this, m: δ_sep.
+    /// No two places are nearer to each other than this, whatever doorways are shut, m: δ_sep. O(places²).
     #[must_use]
-    pub const fn separation(&self) -> f64 {
-        if self.doorways.is_empty() {
-            PITCH
-        } else {
-            0.5 * PITCH
+    pub fn separation(&self) -> f64 {
+        let pitch = self.config.pitch();
+        if !self.doorways.is_empty() {
+            return 0.5 * pitch;
         }
+        let places = self.places(&[]);
+        let distances = places.values().flat_map(|one| {
+            let later = places.range(one.site + 1..);
+            later.map(|(_, other)| (one.position - other.position).norm())
+        });
+        distances.reduce(f64::min).unwrap_or(pitch)
     }
 
     /// How many doorways there are.
@@ -170,7 +208,7 @@ impl Office {
     #[must_use]
     pub fn doorway(&self, number: usize) -> Point {
         let (cell, direction) = self.doorways[number];
-        between(cell, direction)
+        Scale(&self.config).between(cell, direction)
     }
 
     /// What is truly there while some doorways are shut, by site: a place at every bend, junction and dead end of the
@@ -181,15 +219,12 @@ impl Office {
     #[must_use]
     pub fn places(&self, shut: &[usize]) -> BTreeMap<u32, TruePlace> {
         let chart = Chart { office: self, shut };
-        let cells = self
-            .maze
-            .grid()
-            .cells()
-            .filter(|cell| chart.is_corner(*cell));
-        let corners = cells.map(|cell| TruePlace {
+        let corners = self.cells.iter().copied();
+        let corners = corners.filter(|cell| chart.is_corner(*cell));
+        let corners = corners.map(|cell| TruePlace {
             site: self.site(cell),
             kind: PlaceKind::Corner,
-            position: middle(cell),
+            position: Scale(&self.config).middle(cell),
             ways: Direction::ALL.map(|direction| chart.onward(cell, direction)),
         });
         let doorways = (0..self.doorways.len()).filter(|number| !shut.contains(number));
@@ -236,7 +271,8 @@ pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
             let inner = grid.neighbour(cell, direction).is_some();
             if inner && rng.random_range(0.0..1.0) < walls {
                 maze.set_wall(cell, direction, true);
-                if maze.reachable().count() < grid.cells().count() {
+                let steps = maze.steps_to(&[Cell::new(0, 0)]);
+                if steps.contains(&None) {
                     maze.set_wall(cell, direction, false);
                 }
             }
@@ -322,37 +358,10 @@ impl Chart<'_> {
     }
 }
 
-/// The middle of a cell.
-fn middle(cell: Cell) -> Point {
-    Point::new(
-        (f64::from(cell.x) + 0.5) * PITCH,
-        (f64::from(cell.y) + 0.5) * PITCH,
-    )
-}
-
-/// The middle between a cell and the next.
-fn between(cell: Cell, direction: Direction) -> Point {
-    middle(cell) + unit(direction) * (0.5 * PITCH)
-}
-
 /// One metre in a direction.
-pub(super) fn unit(direction: Direction) -> Vector {
+fn unit(direction: Direction) -> Vector {
     let (east, north) = direction.step();
     Vector::new(f64::from(east), f64::from(north))
-}
-
-/// Cuts a wall into pieces no longer than a cell and paints each.
-fn pieces(wall: &Wall, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
-    let along = wall.end - wall.start;
-    let count = libm::ceil(along.norm() / PITCH - 1e-9).max(1.0) as u32;
-    for piece in 0..count {
-        let at = |index: u32| wall.start + along * (f64::from(index) / f64::from(count));
-        walls.push(Wall {
-            start: at(piece),
-            end: at(piece + 1),
-            material: paint(),
-        });
-    }
 }
 
 /// Whether no wall ends at the north-east corner of a cell.
@@ -367,45 +376,49 @@ fn stands_free(maze: &Maze, cell: Cell) -> bool {
         && maze.is_open(east, Direction::North)
 }
 
-/// A pillar at the north-east corner of a cell, which keeps the corridors beside it apart.
-fn pillar(cell: Cell, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
-    let centre = middle(cell) + Vector::new(0.5 * PITCH, 0.5 * PITCH);
-    let corner = |x: f64, y: f64| centre + Vector::new(x, y) * (0.5 * WALL_THICKNESS);
-    let outline = [
-        (-1.0, -1.0),
-        (1.0, -1.0),
-        (1.0, 1.0),
-        (-1.0, 1.0),
-        (-1.0, -1.0),
-    ];
-    let outline = outline.map(|(x, y)| corner(x, y));
-    for ends in outline.windows(2) {
-        walls.push(Wall {
-            start: ends[0],
-            end: ends[1],
-            material: paint(),
-        });
-    }
-}
+/// Where an office's parts are and how they look.
+#[derive(Clone, Copy)]
+struct Scale<'a>(&'a OfficeConfig);
 
-/// What narrows a passage to a doorway: on both sides the outline of a post.
-fn jambs(
-    cell: Cell,
-    direction: Direction,
-    paint: &mut impl FnMut() -> Material,
-    walls: &mut Vec<Wall>,
-) {
-    let (centre, ahead) = (between(cell, direction), unit(direction));
-    for side in [unit(direction.left()), unit(direction.right())] {
-        let corner = |across: f64, along: f64| {
-            centre + side * (0.5 * across) + ahead * (0.5 * along * DOORWAY_DEPTH)
-        };
+impl Scale<'_> {
+    /// The middle of a cell.
+    fn middle(self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.0.pitch();
+        Point::new(along(cell.x), along(cell.y))
+    }
+
+    /// The middle between a cell and the next.
+    fn between(self, cell: Cell, direction: Direction) -> Point {
+        self.middle(cell) + unit(direction) * (0.5 * self.0.pitch())
+    }
+
+    /// Cuts a wall into pieces no longer than a cell and paints each.
+    fn pieces(self, wall: &Wall, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+        let along = wall.end - wall.start;
+        let count = libm::ceil(along.norm() / self.0.pitch() - 1e-9).max(1.0) as u32;
+        for piece in 0..count {
+            let at = |index: u32| wall.start + along * (f64::from(index) / f64::from(count));
+            walls.push(Wall {
+                start: at(piece),
+                end: at(piece + 1),
+                material: paint(),
+            });
+        }
+    }
+
+    /// A pillar at the north-east corner of a cell, which keeps the corridors beside it apart.
+    fn pillar(self, cell: Cell, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+        let half = 0.5 * self.0.pitch();
+        let centre = self.middle(cell) + Vector::new(half, half);
+        let corner = |x: f64, y: f64| centre + Vector::new(x, y) * (0.5 * self.0.wall_thickness);
         let outline = [
-            corner(CORRIDOR_WIDTH, -1.0),
-            corner(DOORWAY_WIDTH, -1.0),
-            corner(DOORWAY_WIDTH, 1.0),
-            corner(CORRIDOR_WIDTH, 1.0),
+            (-1.0, -1.0),
+            (1.0, -1.0),
+            (1.0, 1.0),
+            (-1.0, 1.0),
+            (-1.0, -1.0),
         ];
+        let outline = outline.map(|(x, y)| corner(x, y));
         for ends in outline.windows(2) {
             walls.push(Wall {
                 start: ends[0],
@@ -414,19 +427,90 @@ fn jambs(
             });
         }
     }
+
+    /// What narrows a passage to a doorway: on both sides the outline of a post.
+    fn jambs(
+        self,
+        cell: Cell,
+        direction: Direction,
+        paint: &mut impl FnMut() -> Material,
+        walls: &mut Vec<Wall>,
+    ) {
+        let width = self.0.corridor_width;
+        let (centre, ahead) = (self.between(cell, direction), unit(direction));
+        for side in [unit(direction.left()), unit(direction.right())] {
+            let corner = |across: f64, along: f64| {
+                centre + side * (0.5 * across) + ahead * (0.5 * along * DOORWAY_DEPTH * width)
+            };
+            let outline = [
+                corner(width, -1.0),
+                corner(self.0.doorway_width(), -1.0),
+                corner(self.0.doorway_width(), 1.0),
+                corner(width, 1.0),
+            ];
+            for ends in outline.windows(2) {
+                walls.push(Wall {
+                    start: ends[0],
+                    end: ends[1],
+                    material: paint(),
+                });
+            }
+        }
+    }
+
+    /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like a wall from both sides.
+    fn leaves(self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
+        let across = unit(direction.left()) * (0.5 * self.0.corridor_width);
+        let depth = unit(direction) * (0.5 * self.0.wall_thickness);
+        let centre = self.between(cell, direction);
+        [("a", centre - depth), ("b", centre + depth)].map(|(leaf, at)| Door {
+            name: format!("{number} {leaf}"),
+            start: at - across,
+            end: at + across,
+            material: Material::default(),
+            state: DoorState::Open,
+            schedule: Vec::new(),
+        })
+    }
 }
 
-/// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like a wall from both sides.
-fn leaves(number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
-    let across = unit(direction.left()) * (0.5 * CORRIDOR_WIDTH);
-    let depth = unit(direction) * (0.5 * WALL_THICKNESS);
-    let centre = between(cell, direction);
-    [("a", centre - depth), ("b", centre + depth)].map(|(leaf, at)| Door {
-        name: format!("{number} {leaf}"),
-        start: at - across,
-        end: at + across,
-        material: Material::default(),
-        state: DoorState::Open,
-        schedule: Vec::new(),
-    })
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_the_passages_is_walled_up_and_nothing_is_cut_off() {
+        for seed in 0..10 {
+            let maze = blocks(7, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
+            let all = Maze::open(maze.grid()).opening_count();
+            let walled_up = all - maze.opening_count();
+            assert!(
+                (all / 8..all / 2).contains(&walled_up),
+                "{walled_up} of {all}"
+            );
+            assert!(!maze.steps_to(&[Cell::new(0, 0)]).contains(&None));
+        }
+    }
+
+    #[test]
+    fn what_leads_to_no_goal_is_no_part_of_it() {
+        let text = include_str!("../../../../../mazes/j.maze");
+        let file = tolman_maze::read(text).unwrap();
+        let furniture = OfficeConfig {
+            corridor_width: 0.95,
+            wall_thickness: 0.0,
+            ..OfficeConfig::bare()
+        };
+        let office = Office::new(&file.maze, &furniture).unwrap();
+        // A J has two ends and three bends.
+        let places = office.places(&[]);
+        assert_eq!(places.len(), 5);
+        let degrees = places
+            .values()
+            .map(|place| place.ways.iter().flatten().count());
+        assert_eq!(degrees.sum::<usize>(), 8);
+        // The hook is the shortest way between two places.
+        let nearest = office.separation();
+        assert!((5.0..7.0).contains(&nearest), "{nearest}");
+    }
 }

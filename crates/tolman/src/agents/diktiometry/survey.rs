@@ -5,19 +5,19 @@ use alloc::collections::BTreeMap;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox, Vector};
+use tolman_geom::{Point, PointBox, Vector};
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, Signature,
-    SignatureError, SignatureKind, Start, StartError, StepError, StepReport,
+    Config, Observer, Percepts, PlaceId, Rotation, SignatureKind, StepReport,
 };
 use tolman_maze::Direction;
 use tolman_sim::DoorState;
 
 use super::errors::MoveError;
-use super::office::{Office, PITCH, TruePlace};
+use super::office::{Office, TruePlace};
 use super::planner::{Decision, Planner};
+use super::rover::{Arrival, MapError, Mapped, RoutineOutcome};
 use super::score::{MapScore, Visit, score};
-use super::surveyor::{Arrival, RoutineOutcome, SurveyError, Surveyor, SurveyorConfig};
+use super::surveyor::{Sight, SurveyError, Surveyor, SurveyorConfig};
 use crate::episode::stream;
 
 /// Everything a run depends on but the office and the seed.
@@ -39,10 +39,15 @@ impl SurveyConfig {
     /// A run of the paper in an office: random walk, no advice, no door that moves.
     #[must_use]
     pub fn paper(office: &Office, moves: u32) -> Self {
-        let robot = SurveyorConfig::paper();
+        Self::of(office, SurveyorConfig::paper(), moves)
+    }
+
+    /// The same with another robot.
+    #[must_use]
+    pub fn of(office: &Office, robot: SurveyorConfig, moves: u32) -> Self {
         Self {
-            robot,
             mapper: mapper(office, &robot),
+            robot,
             heed: 0.0,
             moves,
             door_period: 0,
@@ -56,18 +61,26 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let separation = office.separation();
     let mut config = Config::new(Config::compass_actions(), separation);
     config.place_radius = robot.place_radius;
-    if office.config().colours > 1 {
-        // A doorway does not look like the corners beside it, and those are a pitch apart.
-        config.alike_separation = PITCH;
-        config.search.width = 4.0 * config.alike_separation;
-        config.percepts = Percepts::Signatures(SignatureKind {
-            rows: 3,
-            columns: robot.columns as usize,
-            tolerance: 0.15,
+    let signatures = |rows, columns: u32, tolerance| {
+        Percepts::Signatures(SignatureKind {
+            rows,
+            columns: columns as usize,
+            tolerance,
             share: 0.6,
             rotation: Rotation::Aligned,
             views: 4,
-        });
+        })
+    };
+    match robot.sight {
+        Sight::Camera { columns, .. } if office.config().colours > 1 => {
+            // A doorway does not look like the corners beside it, and those are a pitch apart.
+            config.alike_separation = office.config().pitch();
+            config.search.width = 4.0 * config.alike_separation;
+            config.percepts = signatures(3, columns, 0.15);
+        }
+        // Where all walls have one colour a camera tells nothing.
+        Sight::Camera { .. } => {}
+        Sight::Laser { columns } => config.percepts = signatures(1, columns, 0.15),
     }
     config
 }
@@ -77,8 +90,7 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
 pub struct Survey<'a> {
     office: &'a Office,
     config: SurveyConfig,
-    robot: Surveyor,
-    observer: Observer,
+    mapped: Mapped<Surveyor>,
     planner: Planner,
     walk: ChaCha8Rng,
     doors: ChaCha8Rng,
@@ -86,7 +98,6 @@ pub struct Survey<'a> {
     shut: Vec<usize>,
     /// What is truly there now, by site.
     truth: BTreeMap<u32, TruePlace>,
-    exits: [bool; 4],
     start: Point,
     site: u32,
     visits: Vec<Visit>,
@@ -122,21 +133,12 @@ pub struct Surveyed {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The robot cannot.
-    #[error("the robot cannot go on")]
+    /// The robot cannot be built or a doorway not be moved.
+    #[error("the robot cannot begin")]
     Robot(#[from] SurveyError),
-    /// The observer cannot begin.
-    #[error("the observer cannot begin")]
-    Start(#[from] StartError),
-    /// The observer refuses a move.
-    #[error("the observer refuses a move")]
-    Step(#[from] StepError),
-    /// The camera's image is no signature.
-    #[error("the image is no signature")]
-    Signature(#[from] SignatureError),
-    /// A reading is no number.
-    #[error("odometry is no number")]
-    Interval(#[from] IntervalError),
+    /// Robot or observer cannot go on.
+    #[error(transparent)]
+    Map(#[from] MapError<SurveyError>),
     /// The robot is at no place.
     #[error("the robot stands at ({}, {}) m, where no place is; lower the noise", at.x, at.y)]
     OffPlace {
@@ -163,30 +165,21 @@ impl<'a> Survey<'a> {
         let start = start.ok_or(RunError::NoWay {
             at: Point::origin(),
         })?;
-        let mut robot = Surveyor::new(office, config.robot, start.position, seed)?;
-        let seen = robot.look()?;
-        let observer = Observer::new(
-            config.mapper.clone(),
-            Start {
-                percept: percept(&config.mapper, &seen)?,
-                exits: exits(&seen),
-            },
-        )?;
+        let robot = Surveyor::new(office, config.robot.clone(), start.position, seed)?;
+        let mapped = Mapped::new(robot, config.mapper.clone())?;
         let visits = vec![Visit {
             site: start.site,
-            place: observer.place(),
+            place: mapped.observer().place(),
         }];
         Ok(Self {
             office,
             planner: Planner::new(config.heed),
-            robot,
-            observer,
+            mapped,
             walk: stream(seed, 1),
             doors: stream(seed, 2),
             plans: stream(seed, 3),
             shut: Vec::new(),
             truth,
-            exits: seen.exits,
             start: start.position,
             site: start.site,
             visits,
@@ -213,33 +206,20 @@ impl<'a> Survey<'a> {
     /// [`RunError`] if robot or observer cannot go on.
     pub fn step(&mut self) -> Result<Surveyed, RunError> {
         self.move_a_door()?;
-        let decision = self
-            .planner
-            .choose(&self.observer, &self.exits, &mut self.walk);
-        let at = self.robot.position();
+        let decision =
+            self.planner
+                .choose(self.mapped.observer(), self.mapped.exits(), &mut self.walk);
+        let at = self.robot().position();
         let decision = decision.ok_or(RunError::NoWay { at })?;
         let surveyed = self.go(decision)?;
         Ok(surveyed)
     }
 
     fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
-        let before = self.robot.position();
-        let arrival = self.robot.go(decision.direction)?;
-        let here = self.robot.position();
-        let blocked = arrival.outcome == RoutineOutcome::Blocked;
-        let report = self.observer.step(&Move {
-            action: Action(decision.direction.index() as u32),
-            odometry: PoseBox::new(arrival.moved, Interval::ZERO),
-            percept: percept(&self.config.mapper, &arrival)?,
-            exits: exits(&arrival),
-            outcome: if blocked {
-                Outcome::Blocked
-            } else {
-                Outcome::Arrived
-            },
-        })?;
-        self.exits = arrival.exits;
-        if !blocked {
+        let before = self.robot().position();
+        let (arrival, report) = self.mapped.go(decision.direction)?;
+        let here = self.robot().position();
+        if arrival.outcome == RoutineOutcome::Completed {
             self.gone.push((self.site, decision.direction));
             self.errors
                 .push(MoveError::of(&report, arrival.moved, here - before));
@@ -247,7 +227,7 @@ impl<'a> Survey<'a> {
         self.site = self.true_site(here)?;
         self.visits.push(Visit {
             site: self.site,
-            place: self.observer.place(),
+            place: self.observer().place(),
         });
         Ok(Surveyed {
             decision,
@@ -268,7 +248,7 @@ impl<'a> Survey<'a> {
             return Ok(());
         }
         let number = self.doors.random_range(0..doorways as u32) as usize;
-        let near = (self.office.doorway(number) - self.robot.position()).norm() < 3.0;
+        let near = (self.office.doorway(number) - self.robot().position()).norm() < 3.0;
         let is_shut = self.shut.contains(&number);
         if near {
             return Ok(());
@@ -278,7 +258,7 @@ impl<'a> Survey<'a> {
         } else {
             DoorState::Shut
         };
-        self.robot.set_doorway(number, state)?;
+        self.mapped.robot_mut().set_doorway(number, state)?;
         match state {
             DoorState::Open => self.shut.retain(|other| *other != number),
             DoorState::Shut => self.shut.push(number),
@@ -303,13 +283,13 @@ impl<'a> Survey<'a> {
     /// The observer with its map.
     #[must_use]
     pub const fn observer(&self) -> &Observer {
-        &self.observer
+        self.mapped.observer()
     }
 
     /// The robot.
     #[must_use]
     pub const fn robot(&self) -> &Surveyor {
-        &self.robot
+        self.mapped.robot()
     }
 
     /// The doorways that are shut now.
@@ -334,8 +314,8 @@ impl<'a> Survey<'a> {
     /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
     /// no other place.
     pub fn plan_works(&mut self) -> Option<bool> {
-        let paths = &self.observer.map().paths;
-        let here = self.observer.place();
+        let paths = &self.mapped.observer().map().paths;
+        let here = self.observer().place();
         let others: Vec<PlaceId> = paths
             .places()
             .map(|(id, _)| id)
@@ -347,7 +327,7 @@ impl<'a> Survey<'a> {
         let to = others[self.plans.random_range(0..others.len() as u32) as usize];
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
         let wanted = self.visits.iter().rev().find(is_to)?.site;
-        let plan = self.observer.plan(here, to);
+        let plan = self.observer().plan(here, to);
         let end = plan.and_then(|plan| {
             plan.steps.iter().try_fold(self.site, |site, step| {
                 self.truth
@@ -369,7 +349,7 @@ impl<'a> Survey<'a> {
     /// The places of the map, moved so that the first lies where the run truly began.
     #[must_use]
     pub fn drawn(&self) -> Vec<Drawn> {
-        let map = self.observer.map();
+        let map = self.observer().map();
         let Some(home) = self.visits.first().map(|visit| visit.place) else {
             return Vec::new();
         };
@@ -390,32 +370,16 @@ impl<'a> Survey<'a> {
     /// The links of the map, by the ids of the places at their ends.
     #[must_use]
     pub fn links(&self) -> Vec<(u32, u32)> {
-        let links = self.observer.map().paths.links();
+        let links = self.observer().map().paths.links();
         links.map(|(_, link)| (link.from.0, link.to.0)).collect()
     }
 
     /// How good the map is by now.
     #[must_use]
     pub fn score(&self) -> MapScore {
-        let paths = &self.observer.map().paths;
+        let paths = &self.observer().map().paths;
         score(paths, &self.visits, &self.gone, &self.truth)
     }
-}
-
-/// What the camera saw, if the mapper wants to know.
-fn percept(mapper: &Config, arrival: &Arrival) -> Result<Option<Signature>, SignatureError> {
-    match mapper.percepts {
-        Percepts::None => Ok(None),
-        Percepts::Signatures(_) => {
-            let values = arrival.columns.iter().flatten().copied().collect();
-            Signature::new(3, values).map(Some)
-        }
-    }
-}
-
-fn exits(arrival: &Arrival) -> Exits {
-    let open = (0..4).filter(|action| arrival.exits[*action as usize]);
-    Exits::Seen(open.map(Action).collect())
 }
 
 #[cfg(test)]
@@ -430,7 +394,7 @@ mod tests {
         let config = OfficeConfig {
             doorway_share,
             colours,
-            seed: 1,
+            ..OfficeConfig::bare()
         };
         Office::new(&maze, &config).unwrap()
     }

@@ -3,24 +3,30 @@
 use core::f64::consts::FRAC_PI_2;
 
 use tolman_control::heading_of;
-use tolman_geom::{Heading, Interval, IntervalError, Point, PointBox, Pose};
+use tolman_geom::{Heading, IntervalError, Point, Pose};
+use tolman_maps::diktiometry::{Signature, SignatureError};
 use tolman_maze::Direction;
 use tolman_robot::{CameraSensing, Odometry, Ring, Robot, TurnTranslate};
 use tolman_sim::noise::{Bounded, Fault, Gaussian};
 use tolman_sim::robots::{
-    CameraPioneer, CameraPioneerConfig, CameraPioneerError, LaserPioneerConfig, LaserPioneerFaults,
-    MotorNoise,
+    CameraPioneer, CameraPioneerConfig, CameraPioneerError, LaserPioneerConfig, MotorNoise,
 };
 use tolman_sim::{Contact, DoorError, DoorState, PlaceError, Solo, StepError};
 
 use thiserror::Error;
 
-use super::office::{CORRIDOR_WIDTH, DOORWAY_WIDTH, Office};
+use super::office::Office;
+use super::rover::{Arrival, Odometer, RoutineOutcome, Rover};
+use crate::pioneer::calibrated;
 
-/// The robot and its noise. Where the paper names no number, ours stand in [`SurveyorConfig::paper`].
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+/// The robot and the bounds of its errors. Where the paper names no number, ours stand in [`SurveyorConfig::paper`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SurveyorConfig {
+    /// Body, laser and motors. Errors of compass and odometry are added to its own.
+    pub pioneer: LaserPioneerConfig,
+    /// What it tells places apart by.
+    pub sight: Sight,
     /// The largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance travelled".
     pub odometry_share: f64,
     /// The largest error of the compass, rad.
@@ -28,14 +34,26 @@ pub struct SurveyorConfig {
     /// How many time steps an error of odometry or compass stays the same, at least 1. The longer, the less errors
     /// average out within a move; the worst case is the largest number there is: a calibration wrong all along.
     pub hold_steps: u32,
-    /// The standard deviation of what the motors make of a command, as a share of it.
-    pub motor_share: f64,
-    /// Columns of the camera's image.
-    pub columns: u32,
-    /// The standard deviation of each of its measurements, as a share of full light.
-    pub colour_sd: f64,
     /// How far from the middle of a place a control routine may stop, m.
     pub place_radius: f64,
+}
+
+/// What a robot tells places apart by.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Sight {
+    /// The colours that a camera sees all round.
+    Camera {
+        /// Columns of the image.
+        columns: u32,
+        /// The standard deviation of each of its measurements, as a share of full light.
+        colour_sd: f64,
+    },
+    /// The ranges of its laser, as shares of its reach.
+    Laser {
+        /// Columns that the beams are averaged to.
+        columns: u32,
+    },
 }
 
 impl SurveyorConfig {
@@ -43,43 +61,63 @@ impl SurveyorConfig {
     #[must_use]
     pub fn paper() -> Self {
         Self {
-            odometry_share: 0.1,
-            compass_bound: 4_f64.to_radians(),
-            hold_steps: 50,
-            motor_share: 0.1,
-            columns: 24,
-            colour_sd: 0.02,
-            place_radius: 0.07,
-        }
-    }
-
-    fn robot(&self) -> CameraPioneerConfig {
-        let bounded = |share: f64, offset: f64, steps: u32| {
-            vec![Fault::Bounded(Bounded {
-                share,
-                offset,
-                steps,
-            })]
-        };
-        CameraPioneerConfig {
-            columns: self.columns,
-            reach: 20.0,
-            image: vec![Fault::Gaussian(Gaussian::absolute(self.colour_sd))],
             pioneer: LaserPioneerConfig {
                 ring: Ring::full(180, 4.0),
                 motor_noise: MotorNoise {
-                    turn: Gaussian::relative(self.motor_share),
-                    translate: Gaussian::relative(self.motor_share),
-                    drift_sd: self.motor_share * 0.2,
-                },
-                faults: LaserPioneerFaults {
-                    compass: bounded(0.0, self.compass_bound, self.hold_steps),
-                    odometry_distance: bounded(self.odometry_share, 0.0, self.hold_steps),
-                    ..LaserPioneerFaults::default()
+                    turn: Gaussian::relative(0.1),
+                    translate: Gaussian::relative(0.1),
+                    drift_sd: 0.02,
                 },
                 contact: Contact::Slide,
                 ..LaserPioneerConfig::noiseless()
             },
+            sight: Sight::Camera {
+                columns: 24,
+                colour_sd: 0.02,
+            },
+            odometry_share: 0.1,
+            compass_bound: 4_f64.to_radians(),
+            hold_steps: 50,
+            place_radius: 0.07,
+        }
+    }
+
+    /// The robot of MSLST, with its motors and its ring of 72 beams, and the same bounds on odometry and compass.
+    #[must_use]
+    pub fn mslst() -> Self {
+        Self {
+            pioneer: calibrated(),
+            sight: Sight::Laser { columns: 24 },
+            place_radius: 0.1,
+            ..Self::paper()
+        }
+    }
+
+    fn robot(&self) -> CameraPioneerConfig {
+        let bounded = |share: f64, offset: f64| {
+            Fault::Bounded(Bounded {
+                share,
+                offset,
+                steps: self.hold_steps,
+            })
+        };
+        let mut pioneer = self.pioneer.clone();
+        pioneer
+            .faults
+            .compass
+            .push(bounded(0.0, self.compass_bound));
+        let distance = &mut pioneer.faults.odometry_distance;
+        distance.push(bounded(self.odometry_share, 0.0));
+        let (columns, colour_sd) = match self.sight {
+            Sight::Camera { columns, colour_sd } => (columns, colour_sd),
+            // Nobody looks at it.
+            Sight::Laser { .. } => (1, 0.0),
+        };
+        CameraPioneerConfig {
+            columns,
+            reach: 20.0,
+            image: vec![Fault::Gaussian(Gaussian::absolute(colour_sd))],
+            pioneer,
         }
     }
 }
@@ -88,33 +126,12 @@ impl SurveyorConfig {
 #[derive(Debug)]
 pub struct Surveyor {
     config: SurveyorConfig,
+    gauge: Gauge,
     solo: Solo<CameraPioneer>,
-    /// Where the odometry of the action under way says the robot went so far, world axes.
-    gone: PointBox,
+    /// Of the action under way.
+    odometer: Odometer,
     /// Where it truly was at every step.
     path: Vec<Pose>,
-}
-
-/// What a control routine ended with.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Arrival {
-    /// Whether the robot came to the next place, or there was no way.
-    pub outcome: RoutineOutcome,
-    /// How the robot moved, by odometry and compass: east and north, m. Its true way lies inside.
-    pub moved: PointBox,
-    /// The camera's columns, turned by the compass: column 0 looks east, the others follow counter-clockwise.
-    pub columns: Vec<[f64; 3]>,
-    /// Which ways lead on, by direction.
-    pub exits: [bool; 4],
-}
-
-/// How a control routine ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RoutineOutcome {
-    /// At the next place.
-    Completed,
-    /// Where it began, before a wall.
-    Blocked,
 }
 
 /// Why a control routine cannot be carried out.
@@ -146,6 +163,9 @@ pub enum SurveyError {
     /// A reading is no number.
     #[error("odometry is no number")]
     Reading(#[from] IntervalError),
+    /// The camera's image is no signature.
+    #[error("the image is no signature")]
+    Signature(#[from] SignatureError),
     /// A sensor that the routines live on gave nothing.
     #[error("the {sensor} gave nothing; take a robot without drop-outs")]
     Blind {
@@ -167,16 +187,42 @@ pub enum SurveyError {
     },
 }
 
-/// A corridor's side is open where nothing stands within this, m.
-const OPEN: f64 = 0.75 * CORRIDOR_WIDTH;
-/// Walls on both sides that are nearer to each other than this make a doorway, m.
-const NARROW: f64 = 0.5 * (CORRIDOR_WIDTH + DOORWAY_WIDTH);
-/// No opening and no doorway is shorter than this, m.
-const SHORTEST: f64 = 0.3;
-/// Way covered in one time step, m.
-const STRIDE: f64 = 0.06;
-/// How far from a wall ahead a robot in the middle of a cell stands, m.
-const ARRIVED: f64 = 0.5 * CORRIDOR_WIDTH;
+/// What the robot knows of the corridors, all in metres.
+#[derive(Clone, Copy, Debug)]
+struct Gauge {
+    /// From wall to wall of a corridor.
+    corridor: f64,
+    /// From jamb to jamb of a doorway.
+    doorway: f64,
+}
+
+impl Gauge {
+    /// Half a corridor: how far from a wall ahead a robot in the middle of a cell stands.
+    const fn half(self) -> f64 {
+        0.5 * self.corridor
+    }
+
+    /// A corridor's side is open where nothing stands within this.
+    const fn open(self) -> f64 {
+        0.75 * self.corridor
+    }
+
+    /// Walls on both sides that are nearer to each other than this make a doorway.
+    const fn narrow(self) -> f64 {
+        0.5 * (self.corridor + self.doorway)
+    }
+
+    /// No opening and no doorway is shorter than this.
+    const fn shortest(self) -> f64 {
+        0.25 * self.corridor
+    }
+
+    /// Way covered in one time step, and the most that a jamb may be taken for.
+    const fn stride(self) -> f64 {
+        0.05 * self.corridor
+    }
+}
+
 /// What a turn may miss, rad.
 const ALIGNED: f64 = 0.02;
 /// What need not be mended of where the robot stopped, m.
@@ -217,14 +263,14 @@ enum Span {
 
 impl Span {
     /// Where the middle of the span is, once it has ended.
-    fn see(&mut self, there: bool, along: f64) -> Option<f64> {
+    fn see(&mut self, there: bool, along: f64, shortest: f64) -> Option<f64> {
         match (*self, there) {
             (Self::Absent, true) => *self = Self::Since(along),
             (Self::Left | Self::Absent, false) => *self = Self::Absent,
             (Self::Since(start), false) => {
                 *self = Self::Absent;
                 // A beam that misses an edge for a moment makes no place.
-                return (along - start > SHORTEST).then_some(0.5 * (start + along));
+                return (along - start > shortest).then_some(0.5 * (start + along));
             }
             (Self::Left | Self::Since(_), true) => {}
         }
@@ -256,12 +302,18 @@ impl Surveyor {
             });
         }
         let pose = Pose::new(at, Heading::NORTH);
+        let furniture = office.config();
+        let gauge = Gauge {
+            corridor: furniture.corridor_width,
+            doorway: furniture.doorway_width(),
+        };
         let robot = CameraPioneer::new(config.robot())?;
         let solo = Solo::new(office.world().clone(), robot, pose, seed)?;
         Ok(Self {
+            odometer: Odometer::new(share, config.compass_bound),
             config,
+            gauge,
             solo,
-            gone: PointBox::ORIGIN,
             path: vec![pose],
         })
     }
@@ -284,66 +336,6 @@ impl Surveyor {
         Ok(())
     }
 
-    /// What there is to see where the robot stands.
-    ///
-    /// # Errors
-    /// [`SurveyError`] if a sensor is blind.
-    pub fn look(&mut self) -> Result<Arrival, SurveyError> {
-        self.gone = PointBox::ORIGIN;
-        self.arrive(RoutineOutcome::Completed)
-    }
-
-    /// Follows the corridor in a direction to the next corner or doorway: turns there, drives between the walls, and stops
-    /// in the middle of whatever opens or narrows beside the way, or before a wall.
-    ///
-    /// # Errors
-    /// [`SurveyError`] if a sensor is blind or no place comes.
-    pub fn go(&mut self, direction: Direction) -> Result<Arrival, SurveyError> {
-        self.gone = PointBox::ORIGIN;
-        let ahead = heading_of(direction);
-        self.turn_to(ahead)?;
-        let view = self.view(ahead)?;
-        if view.ahead < OPEN {
-            return self.arrive(RoutineOutcome::Blocked);
-        }
-        let mut left = Span::at_start(view.left > OPEN);
-        let mut right = Span::at_start(view.right > OPEN);
-        let mut narrow = Span::at_start(view.left + view.right < NARROW);
-        let mut along = 0.0;
-        let begun = self.path.len();
-        loop {
-            let view = self.view(ahead)?;
-            let middles = [
-                left.see(view.left > OPEN, along),
-                right.see(view.right > OPEN, along),
-                narrow.see(view.left + view.right < NARROW, along),
-            ];
-            if let Some(middle) = middles.into_iter().flatten().next() {
-                // Beginning and end are noticed half a stride late.
-                let middle = middle - 0.5 * STRIDE;
-                while along - middle > 0.2 * STRIDE {
-                    along += self.drive(ahead, self.view(ahead)?, -STRIDE.min(along - middle))?;
-                }
-                self.settle(ahead)?;
-                return self.arrive(RoutineOutcome::Completed);
-            }
-            let room = view.ahead - ARRIVED;
-            if room < 0.2 * STRIDE {
-                self.settle(ahead)?;
-                return self.arrive(RoutineOutcome::Completed);
-            }
-            along += self.drive(ahead, view, STRIDE.min(room))?;
-            let steps = (self.path.len() - begun) as u32;
-            if steps > PATIENCE {
-                return Err(SurveyError::Lost {
-                    direction,
-                    steps,
-                    at: self.position(),
-                });
-            }
-        }
-    }
-
     /// Where the robot truly is, for scoring.
     #[must_use]
     pub fn position(&self) -> Point {
@@ -364,13 +356,14 @@ impl Surveyor {
 
     /// Drives so far, keeping to the middle between the walls, and tells how far odometry says it went.
     fn drive(&mut self, ahead: Heading, view: View, distance: f64) -> Result<f64, SurveyError> {
-        let closed = |range: f64| range < OPEN;
+        let gauge = self.gauge;
+        let closed = |range: f64| range < gauge.open();
         // Metres to the right of the middle.
         let aside = match (closed(view.left), closed(view.right)) {
             (true, true) => 0.5 * (view.left - view.right),
             // It may be a jamb: little is made of one side alone.
-            (true, false) => (view.left - 0.5 * CORRIDOR_WIDTH).clamp(-0.06, 0.06),
-            (false, true) => (0.5 * CORRIDOR_WIDTH - view.right).clamp(-0.06, 0.06),
+            (true, false) => (view.left - gauge.half()).clamp(-gauge.stride(), gauge.stride()),
+            (false, true) => (gauge.half() - view.right).clamp(-gauge.stride(), gauge.stride()),
             (false, false) => 0.0,
         };
         let lean = (4.0 * aside).clamp(-0.4, 0.4) * distance.signum();
@@ -381,7 +374,7 @@ impl Surveyor {
     /// One time step. Adds what odometry and compass say of it to the box of this action.
     fn command(&mut self, turn: f64, distance: f64) -> Result<f64, SurveyError> {
         let before = self.compass()?;
-        let full = LaserPioneerConfig::noiseless();
+        let full = &self.config.pioneer;
         self.solo.step(&TurnTranslate {
             turn: turn / full.turn_per_step,
             translate: distance / full.translate_per_step,
@@ -391,19 +384,7 @@ impl Surveyor {
         let Some(Odometry { distance, .. }) = self.solo.sensing().laser.odometry else {
             return Err(SurveyError::Blind { sensor: "odometry" });
         };
-        if distance.abs() > 0.0 {
-            let share = self.config.odometry_share;
-            let turned = before.turn_to(after);
-            // The chord of an arc is a little shorter than the arc.
-            let chord = 1.0 - turned * turned / 20.0;
-            let ends = [distance / (1.0 + share), distance / (1.0 - share)];
-            let way = Interval::new(ends[0].min(ends[1]) * chord.min(1.0), ends[0].max(ends[1]))?;
-            let start = before.radians();
-            let headings = Interval::new(start.min(start + turned), start.max(start + turned))?;
-            let headings = headings.widened(self.config.compass_bound)?;
-            let step = PointBox::new(way, Interval::ZERO).rotated(headings);
-            self.gone = self.gone + step;
-        }
+        self.odometer.roll(distance, before, after)?;
         Ok(distance)
     }
 
@@ -440,8 +421,9 @@ impl Surveyor {
         }
         let [front, left, back, right] = known;
         let [front_left, back_left, back_right, front_right] = edges;
-        let half = 0.5 * CORRIDOR_WIDTH;
-        let closed = |range: f64| range < OPEN;
+        let half = self.gauge.half();
+        let gauge = self.gauge;
+        let closed = |range: f64| range < gauge.open();
         // Where both ends of an axis are open, the corners beside an open side tell; a doorway has none.
         let between = |far: f64, near: f64| (far * far - near * near) / (4.0 * half);
         let axis = |plus: f64, minus: f64, sides: [(f64, f64, f64); 2]| match (
@@ -457,7 +439,7 @@ impl Surveyor {
                 open.iter().sum::<f64>() / open.len().max(1) as f64
             }
         };
-        let limit = |offset: f64| offset.clamp(-0.3, 0.3);
+        let limit = |offset: f64| offset.clamp(-0.5 * half, 0.5 * half);
         Ok(Offset {
             along: limit(axis(
                 front,
@@ -495,28 +477,48 @@ impl Surveyor {
         self.solo.step(&TurnTranslate::STOP)?;
         self.path.push(self.solo.truth().pose);
         let exits = self.exits()?;
-        let heading = self.compass()?;
-        let image = self.solo.sensing().image.as_ref();
-        let mut columns = image
-            .ok_or(SurveyError::Blind { sensor: "camera" })?
-            .columns
-            .clone();
-        let width = core::f64::consts::TAU / f64::from(self.config.columns);
-        let turn = libm::round(heading.radians() / width) as i64;
-        columns.rotate_right(turn.rem_euclid(i64::from(self.config.columns)) as usize);
         Ok(Arrival {
             outcome,
-            moved: self.gone,
-            columns,
+            moved: self.odometer.moved(),
+            look: Some(self.sight()?),
             exits,
         })
+    }
+
+    /// What the place looks like: column 0 looks east.
+    fn sight(&self) -> Result<Signature, SurveyError> {
+        let heading = self.compass()?;
+        let sensing = self.solo.sensing();
+        let mut columns: Vec<Vec<f64>> = match self.config.sight {
+            Sight::Camera { .. } => {
+                let image = sensing.image.as_ref();
+                let image = image.ok_or(SurveyError::Blind { sensor: "camera" })?;
+                image.columns.iter().map(|column| column.to_vec()).collect()
+            }
+            Sight::Laser { columns } => {
+                let scan = sensing.laser.scan.as_ref();
+                let scan = scan.ok_or(SurveyError::Blind { sensor: "laser" })?;
+                let beams = scan.ranges.len() / columns.max(1) as usize;
+                let mean = |beams: &[f64]| {
+                    let sum: f64 = beams.iter().sum();
+                    vec![sum / (beams.len() as f64 * scan.ring.max_range)]
+                };
+                scan.ranges.chunks(beams.max(1)).map(mean).collect()
+            }
+        };
+        let count = columns.len().max(1);
+        let width = core::f64::consts::TAU / count as f64;
+        let turn = libm::round(heading.radians() / width) as i64;
+        columns.rotate_right(turn.rem_euclid(count as i64) as usize);
+        let rows = columns.first().map_or(0, Vec::len);
+        Ok(Signature::new(rows, columns.concat())?)
     }
 
     fn exits(&self) -> Result<[bool; 4], SurveyError> {
         let mut exits = [false; 4];
         for direction in Direction::ALL {
             let view = self.view(heading_of(direction))?;
-            exits[direction.index()] = view.ahead > OPEN;
+            exits[direction.index()] = view.ahead > self.gauge.open();
         }
         Ok(exits)
     }
@@ -547,6 +549,72 @@ impl Surveyor {
     }
 }
 
+impl Rover for Surveyor {
+    type Error = SurveyError;
+
+    fn look(&mut self) -> Result<Arrival, SurveyError> {
+        self.odometer.begin();
+        self.arrive(RoutineOutcome::Completed)
+    }
+
+    /// Follows the corridor in a direction to the next corner or doorway: turns there, drives between the walls, and stops
+    /// in the middle of whatever opens or narrows beside the way, or before a wall.
+    fn go(&mut self, direction: Direction) -> Result<Arrival, SurveyError> {
+        self.odometer.begin();
+        let gauge = self.gauge;
+        let ahead = heading_of(direction);
+        self.turn_to(ahead)?;
+        let view = self.view(ahead)?;
+        if view.ahead < gauge.open() {
+            return self.arrive(RoutineOutcome::Blocked);
+        }
+        let mut left = Span::at_start(view.left > gauge.open());
+        let mut right = Span::at_start(view.right > gauge.open());
+        let mut narrow = Span::at_start(view.left + view.right < gauge.narrow());
+        let mut along = 0.0;
+        let begun = self.path.len();
+        loop {
+            let view = self.view(ahead)?;
+            let middles = [
+                left.see(view.left > gauge.open(), along, gauge.shortest()),
+                right.see(view.right > gauge.open(), along, gauge.shortest()),
+                narrow.see(
+                    view.left + view.right < gauge.narrow(),
+                    along,
+                    gauge.shortest(),
+                ),
+            ];
+            if let Some(middle) = middles.into_iter().flatten().next() {
+                // Beginning and end are noticed half a stride late.
+                let middle = middle - 0.5 * gauge.stride();
+                while along - middle > 0.2 * gauge.stride() {
+                    along += self.drive(
+                        ahead,
+                        self.view(ahead)?,
+                        -gauge.stride().min(along - middle),
+                    )?;
+                }
+                self.settle(ahead)?;
+                return self.arrive(RoutineOutcome::Completed);
+            }
+            let room = view.ahead - gauge.half();
+            if room < 0.2 * gauge.stride() {
+                self.settle(ahead)?;
+                return self.arrive(RoutineOutcome::Completed);
+            }
+            along += self.drive(ahead, view, gauge.stride().min(room))?;
+            let steps = (self.path.len() - begun) as u32;
+            if steps > PATIENCE {
+                return Err(SurveyError::Lost {
+                    direction,
+                    steps,
+                    at: self.position(),
+                });
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use rand::{RngExt, SeedableRng};
@@ -563,6 +631,7 @@ mod tests {
             doorway_share,
             colours: 5,
             seed,
+            ..OfficeConfig::bare()
         };
         Office::new(&maze, &config).unwrap()
     }
@@ -700,13 +769,16 @@ mod tests {
     #[test]
     fn a_place_looks_the_same_from_wherever_one_comes() {
         let office = office(6, 0.2);
-        let mut seen: Vec<(Point, Vec<[f64; 3]>)> = Vec::new();
+        let mut seen: Vec<(Point, Signature)> = Vec::new();
         walk(&office, &[], 300, 6, |_, to, arrival, _| {
-            seen.push((to.position, arrival.columns.clone()));
+            seen.push((to.position, arrival.look.clone().unwrap()));
         });
-        let alike = |a: &[[f64; 3]], b: &[[f64; 3]]| {
-            let same = |(a, b): (&[f64; 3], &[f64; 3])| (0..3).all(|i| (a[i] - b[i]).abs() < 0.15);
-            a.iter().zip(b).filter(|(a, b)| same((a, b))).count() as f64 / a.len() as f64
+        let alike = |a: &Signature, b: &Signature| {
+            let same = |column: &usize| {
+                let mut pairs = a.column(*column).iter().zip(b.column(*column));
+                pairs.all(|(a, b)| (a - b).abs() < 0.15)
+            };
+            (0..a.columns()).filter(same).count() as f64 / a.columns() as f64
         };
         let (mut same, mut other) = (Vec::new(), Vec::new());
         for (i, (here, a)) in seen.iter().enumerate() {

@@ -68,11 +68,16 @@ fn errors(trial: &Trial, runs: &[Run]) -> Figure {
         "{}: the error of each row against moves.",
         trial.title
     ));
-    Figure::new(format!("error-{}", trial.name), trial.title, drawing)
+    Figure::new(format!("error-{}", slug(trial)), trial.title, drawing)
         .caption(format!(
             "Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles."
         ))
         .table(trial.name)
+}
+
+/// A table's name as part of a file's.
+fn slug(trial: &Trial) -> String {
+    trial.name.replace(' ', "-")
 }
 
 /// The map of a run, moved so that its places lie best on the true ones.
@@ -125,7 +130,7 @@ fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Fig
         score.places
     ));
     Ok(Figure::new(
-        format!("map-{}-{number}", trial.name),
+        format!("map-{}-{number}", slug(trial)),
         format!("{}: the map of run 0", setting.row),
         drawing,
     )

@@ -142,17 +142,15 @@ impl Experiment for Diktiometry {
             for setting in &trial.settings {
                 let mut row = toml::Table::new();
                 let run = &setting.config;
-                row.insert("robot".into(), toml::Value::try_from(run.robot)?);
+                row.insert("robot".into(), toml::Value::try_from(&run.robot)?);
                 row.insert("mapper".into(), format!("{:?}", run.mapper).into());
                 row.insert("heed".into(), run.heed.into());
                 row.insert("moves".into(), run.moves.into());
                 row.insert("door_period".into(), run.door_period.into());
+                let (maze, furniture) = (setting.office.maze(), setting.office.config());
+                row.insert("maze".into(), maze.to_string().into());
+                row.insert("furniture".into(), toml::Value::try_from(furniture)?);
                 rows.insert(setting.row.into(), row.into());
-            }
-            if let Some(setting) = trial.settings.first() {
-                rows.insert("maze".into(), setting.office.maze().to_string().into());
-                let furniture = toml::Value::try_from(setting.office.config())?;
-                rows.insert("furniture".into(), furniture);
             }
             config.insert(trial.name.into(), rows.into());
         }

@@ -6,8 +6,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{Config, GeometricIndexing, GeometricMerge, Identity, Order, Use};
 
-use crate::agents::diktiometry::{Office, OfficeConfig, SurveyConfig, blocks};
+use crate::agents::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use crate::experiment::BoxError;
+use crate::pioneer;
 
 /// "Generally 30% of the time".
 const HEED: f64 = 0.3;
@@ -49,17 +50,13 @@ fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>,
 const WALLED_UP: f64 = 0.25;
 
 /// Every place looks like every other.
-const BARE: OfficeConfig = OfficeConfig {
-    doorway_share: 0.0,
-    colours: 1,
-    seed: 1,
-};
+const BARE: OfficeConfig = OfficeConfig::bare();
 
 /// Doorways, and walls of many colours.
 const FURNISHED: OfficeConfig = OfficeConfig {
     doorway_share: 0.2,
     colours: 8,
-    seed: 1,
+    ..OfficeConfig::bare()
 };
 
 pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
@@ -96,6 +93,15 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
             title: "The complicated world while doors shut and open, 3000 moves with scripts",
             note: "After every 25 moves a doorway by chance is shut or opened. A plan works if its actions lead where it says.",
             settings: changing(&complicated),
+        },
+        Trial {
+            name: "mslst worlds",
+            title: "The mazes and the robot of MSLST, 300 moves with scripts",
+            note: "The robot of MSLST tells places apart by its laser.",
+            settings: vec![
+                mslst("J", include_str!("../../../../../mazes/j.maze"))?,
+                mslst("Large", include_str!("../../../../../mazes/large.maze"))?,
+            ],
         },
     ])
 }
@@ -182,6 +188,27 @@ fn ablations(office: &Arc<Office>) -> Vec<Setting> {
         }
     };
     ABLATIONS.into_iter().map(setting).collect()
+}
+
+/// A maze of MSLST as that paper has it, with that paper's robot.
+fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
+    let file = tolman_maze::read(text)?;
+    let furniture = OfficeConfig {
+        corridor_width: file.corridor_width.unwrap_or(pioneer::CORRIDOR_WIDTH),
+        wall_thickness: 0.0,
+        ..OfficeConfig::bare()
+    };
+    let office = Office::new(&file.maze, &furniture)?;
+    let config = SurveyConfig {
+        heed: HEED,
+        ..SurveyConfig::of(&office, SurveyorConfig::mslst(), 300)
+    };
+    Ok(Setting {
+        row,
+        office: Arc::new(office),
+        config,
+        subject: Subject::Map,
+    })
 }
 
 fn changing(office: &Arc<Office>) -> Vec<Setting> {
