@@ -21,6 +21,7 @@ mod error;
 mod files;
 mod folder;
 mod hash;
+mod maze_file;
 mod micromouse;
 mod mslst;
 mod mslst_sweeps;

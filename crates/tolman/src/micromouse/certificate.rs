@@ -69,6 +69,15 @@ impl Certificate {
             at_least: at_least.map(|steps| steps.min(open_cost)).collect(),
         })
     }
+
+    /// That the costs disagree, if `open` can be hoped for.
+    const fn costs(&self, open: u32) -> CertificateError {
+        CertificateError::Costs {
+            run: self.run.len().saturating_sub(1),
+            closed: self.closed_cost,
+            open,
+        }
+    }
 }
 
 /// What is wrong with a certificate.
@@ -181,17 +190,11 @@ fn check_run(
     certificate: &Certificate,
     known: &impl Fn(Cell, Direction) -> Knowledge,
 ) -> Result<(), CertificateError> {
-    let Certificate {
-        grid,
-        start,
-        goals,
-        run,
-        closed_cost,
-        open_cost,
-        ..
-    } = certificate;
-    let ends_right = run.last().is_some_and(|end| goals.contains(end));
-    if run.first() != Some(start) || !ends_right {
+    let Certificate { grid, run, .. } = certificate;
+    let ends_right = run
+        .last()
+        .is_some_and(|end| certificate.goals.contains(end));
+    if run.first() != Some(&certificate.start) || !ends_right {
         return Err(CertificateError::Ends);
     }
     for (index, step) in (1..).zip(run.windows(2)) {
@@ -206,12 +209,9 @@ fn check_run(
             return Err(CertificateError::Impossible { index, from, to });
         }
     }
-    if run.len() != *closed_cost as usize + 1 || closed_cost != open_cost {
-        return Err(CertificateError::Costs {
-            run: run.len() - 1,
-            closed: *closed_cost,
-            open: *open_cost,
-        });
+    let closed_cost = certificate.closed_cost;
+    if run.len() != closed_cost as usize + 1 || closed_cost != certificate.open_cost {
+        return Err(certificate.costs(certificate.open_cost));
     }
     Ok(())
 }
@@ -220,16 +220,7 @@ fn check_bound(
     certificate: &Certificate,
     known: &impl Fn(Cell, Direction) -> Knowledge,
 ) -> Result<(), CertificateError> {
-    let Certificate {
-        grid,
-        start,
-        goals,
-        run,
-        closed_cost,
-        open_cost,
-        at_least,
-        ..
-    } = certificate;
+    let Certificate { grid, at_least, .. } = certificate;
     if at_least.len() != grid.cell_count() {
         return Err(CertificateError::Size {
             found: at_least.len(),
@@ -237,19 +228,16 @@ fn check_bound(
         });
     }
     let number = |cell: Cell| at_least[grid.index(cell)];
-    if let Some(goal) = goals.iter().find(|goal| number(**goal) != 0) {
+    if let Some(goal) = certificate.goals.iter().find(|goal| number(**goal) != 0) {
         return Err(CertificateError::Bound {
             from: *goal,
             at_least: number(*goal),
             to: *goal,
         });
     }
-    if number(*start) != *open_cost {
-        return Err(CertificateError::Costs {
-            run: run.len() - 1,
-            closed: *closed_cost,
-            open: number(*start),
-        });
+    let from_start = number(certificate.start);
+    if from_start != certificate.open_cost {
+        return Err(certificate.costs(from_start));
     }
     for from in grid.cells() {
         for direction in Direction::ALL {

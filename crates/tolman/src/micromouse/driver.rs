@@ -1,7 +1,7 @@
 //! What all our mice have in common: the map, the place, the two runs.
 
 use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Direction, Maze, Walls};
 use tolman_planners::moves::{Leap, MouseStep};
 use tolman_planners::{Passages, Unknown};
 
@@ -94,15 +94,12 @@ impl<S: Search> Driver<S> {
     fn drive(&mut self, leap: Leap) -> Order {
         let mut cell = self.at;
         for _ in 0..leap.cells {
-            cell = self.map_neighbour(cell, leap.direction).unwrap_or(self.at);
+            let next = self.map.grid().neighbour(cell, leap.direction);
+            cell = next.unwrap_or(cell);
             self.map.visit(cell);
         }
         self.at = leap.end;
         MouseStep::of_leap(&mut self.heading, leap).into()
-    }
-
-    fn map_neighbour(&self, cell: Cell, direction: Direction) -> Option<Cell> {
-        tolman_maze::Walls::grid(&self.map).neighbour(cell, direction)
     }
 
     /// The first run is over.

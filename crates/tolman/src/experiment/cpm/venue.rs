@@ -1,6 +1,5 @@
 //! Where the e-puck runs.
 
-use std::fs;
 use std::path::PathBuf;
 
 use rand::{RngExt, SeedableRng};
@@ -8,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Direction, Maze, MazeFile, Perfect};
 use tolman_sim::{CorridorSize, World};
 
-use crate::experiment::BoxError;
+use crate::experiment::{BoxError, maze_file};
 
 /// One maze.
 #[derive(Clone, Debug)]
@@ -69,20 +68,11 @@ pub(super) fn learning() -> Result<Venue, BoxError> {
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
     for path in files {
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        // A maze's own name has no control characters; that of its file may, and terminals obey them.
-        let stem = stem.replace(char::is_control, "\u{fffd}");
-        let in_file =
-            |error: BoxError| -> BoxError { format!("{}: {error}", path.display()).into() };
-        let text = fs::read_to_string(path).map_err(|error| in_file(error.into()))?;
-        let file = tolman_maze::read(&text).map_err(|error| in_file(error.into()))?;
-        let mut venue = Venue::new(&stem, file).map_err(in_file)?;
-        let name = venue.name.clone();
-        let mut count = 1;
-        while venues.iter().any(|before| before.name == venue.name) {
-            count += 1;
-            venue.name = format!("{name} ({count})");
-        }
+        let mut venue = Venue::new(&maze_file::stem(path), maze_file::read(path)?)
+            .map_err(|error| maze_file::in_file(path, error))?;
+        venue.name = maze_file::told_apart(&venue.name, |name| {
+            venues.iter().any(|before| before.name == name)
+        });
         venues.push(venue);
     }
     Ok(venues)

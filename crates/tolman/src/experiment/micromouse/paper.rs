@@ -1,12 +1,11 @@
 //! The paper's tables: which maze, which search, which values.
 
-use std::fs;
 use std::path::Path;
 
 use tolman_maze::Maze;
 
 use super::{Metric, Row, Table, Tolerance, fields};
-use crate::experiment::BoxError;
+use crate::experiment::{BoxError, maze_file};
 use crate::micromouse::Searcher;
 
 /// One of the paper's tables.
@@ -105,11 +104,7 @@ pub(super) fn tables(folder: &Path) -> Result<Vec<PaperTable>, BoxError> {
             if !path.exists() {
                 continue;
             }
-            let text = fs::read_to_string(&path)
-                .map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
-            let maze = tolman_maze::read(&text)
-                .map_err(|error| format!("{} cannot be used: {error}", path.display()))?
-                .maze;
+            let maze = maze_file::read(&path)?.maze;
             rows.push(PaperRow {
                 name: row,
                 searcher,

@@ -1,13 +1,14 @@
 //! Sets of mazes: those of others where they are found, ours, and those the caller names.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
-use crate::experiment::BoxError;
+use crate::experiment::{BoxError, maze_file};
 use crate::files::files_in;
 use crate::micromouse::SIDE;
 
@@ -100,13 +101,18 @@ pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSe
         let (mazes, left_out) = if path.is_dir() {
             in_folder(path)?
         } else {
-            (vec![(stem(path), maze(path)?)], LeftOut::default())
+            (
+                vec![(maze_file::stem(path), maze(path)?)],
+                LeftOut::default(),
+            )
         };
         if mazes.is_empty() {
             return Err(format!("{} holds no maze: name another folder", path.display()).into());
         }
         sets.push(MazeSet {
-            name: told_apart(stem(path), &sets),
+            name: maze_file::told_apart(&maze_file::stem(path), |name| {
+                sets.iter().any(|set| set.name == name)
+            }),
             mazes,
             left_out,
         });
@@ -141,9 +147,16 @@ fn in_folder(folder: &Path) -> Result<(Vec<(String, Maze)>, LeftOut), BoxError> 
     let mut mazes = Vec::new();
     let mut left_out = LeftOut::default();
     for path in &files {
-        let text = text(path)?;
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == ErrorKind::InvalidData => {
+                left_out.no_maze += 1;
+                continue;
+            }
+            Err(error) => return Err(maze_file::in_file(path, error)),
+        };
         match tolman_maze::read(&text) {
-            Ok(file) if fits(&file.maze) => mazes.push((stem(path), file.maze)),
+            Ok(file) if fits(&file.maze) => mazes.push((maze_file::stem(path), file.maze)),
             Ok(_) => left_out.no_fit += 1,
             // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
             Err(_) if tolman_maze::parse(&text).is_ok() => left_out.no_way += 1,
@@ -153,21 +166,11 @@ fn in_folder(folder: &Path) -> Result<(Vec<(String, Maze)>, LeftOut), BoxError> 
     Ok((mazes, left_out))
 }
 
-fn text(path: &Path) -> Result<String, BoxError> {
-    let text = fs::read_to_string(path)
-        .map_err(|error| format!("the maze file {} cannot be read: {error}", path.display()))?;
-    Ok(text)
-}
-
 fn maze(path: &Path) -> Result<Maze, BoxError> {
-    let maze = tolman_maze::read(&text(path)?)
-        .map_err(|error| format!("the maze file {} cannot be used: {error}", path.display()))?
-        .maze;
+    let maze = maze_file::read(path)?.maze;
     if !fits(&maze) {
-        let path = path.display();
-        return Err(
-            format!("the maze of {path} has no start or more than {SIDE} cells a side").into(),
-        );
+        let reason = format!("it has no start or more than {SIDE} cells a side");
+        return Err(maze_file::in_file(path, reason));
     }
     Ok(maze)
 }
@@ -175,23 +178,6 @@ fn maze(path: &Path) -> Result<Maze, BoxError> {
 fn fits(maze: &Maze) -> bool {
     let side = maze.grid().width().max(maze.grid().height());
     usize::from(side) <= SIDE && maze.start().is_some()
-}
-
-/// The name without folder and extension; control characters of it, which terminals obey, made visible.
-fn stem(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or(path.as_os_str());
-    stem.to_string_lossy().replace(char::is_control, "\u{fffd}")
-}
-
-fn told_apart(name: String, sets: &[MazeSet]) -> String {
-    let taken = |name: &str| sets.iter().any(|set| set.name == name);
-    if !taken(&name) {
-        return name;
-    }
-    let mut numbered = (2..).map(|count: u32| format!("{name} ({count})"));
-    numbered
-        .find(|candidate| !taken(candidate))
-        .unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -218,6 +204,7 @@ mod tests {
         ] {
             fs::write(folder.join(name), text).unwrap();
         }
+        fs::write(folder.join("e.png"), b"\x89PNG\xff").unwrap();
         let (mazes, left_out) = in_folder(&folder).unwrap();
         fs::remove_dir_all(&folder).unwrap();
         let set = MazeSet {
@@ -227,8 +214,8 @@ mod tests {
         };
         assert_eq!(
             set.complaint().unwrap(),
-            "mine: 3 of 4 files left out, 1 without a way to the goal, 1 without a start or of more than 32 cells a side, \
-             1 that are no mazes."
+            "mine: 4 of 5 files left out, 1 without a way to the goal, 1 without a start or of more than 32 cells a side, \
+             2 that are no mazes."
         );
         let whole = MazeSet {
             left_out: LeftOut::default(),
