@@ -10,6 +10,7 @@
 //! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`Matching`], are one;
 //! - a [`Plan`] is a way through it;
 //! - a [`Localizer`] finds where on some maps a robot is that was put somewhere;
+//! - a `MapFile` (feature `serde`) keeps a map with its dictionary;
 //! - [`Environments`] recall the path and the environment that a sequence belongs to.
 //!
 //! [`world`] has mazes of corridors and junctions to try all this in without a robot, in microseconds.
@@ -51,6 +52,8 @@ mod hypothesis;
 mod index;
 mod localizer;
 mod map;
+#[cfg(feature = "serde")]
+mod map_file;
 mod mapper;
 mod pattern;
 mod plan;
@@ -67,6 +70,8 @@ pub use environments::{Environments, RecallError, Recollection};
 pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
 pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
+#[cfg(feature = "serde")]
+pub use map_file::{MapFile, MapFileError, MapFileHeader};
 pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
 pub use plan::{Plan, PlanLeg};
 pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};

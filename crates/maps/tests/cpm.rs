@@ -6,6 +6,8 @@ extern crate alloc;
 mod cpm {
     mod bad_input;
     mod explorations;
+    #[cfg(feature = "serde")]
+    mod files;
     mod localization;
     mod matching;
     mod targets;

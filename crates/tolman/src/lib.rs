@@ -5,7 +5,7 @@
 //! every run of its tables, [`stats`] weighs the runs against each other and against the paper,
 //! [`draw`] makes pictures of them, [`replay`] plays them and [`report`] gathers everything on one page. [`data`] finds what
 //! other people measured, [`files`] writes ours; [`shell`] spells commands. In the [`competition`] a micromouse
-//! explores a maze for its speed run.
+//! explores a maze for its speed run. [`q_learning`] is what papers set themselves against.
 
 extern crate alloc;
 
@@ -21,6 +21,7 @@ pub mod files;
 pub mod micromouse;
 pub mod mms;
 pub mod pioneer;
+pub mod q_learning;
 pub mod replay;
 pub mod report;
 pub mod shell;

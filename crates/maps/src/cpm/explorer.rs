@@ -145,6 +145,25 @@ impl Explorer {
         })
     }
 
+    /// Goes on with a map that was learned before, at one of its ports.
+    ///
+    /// # Errors
+    /// [`CpmError::Turn`] if the map has no such port.
+    pub fn resume(config: CpmConfig, map: CpMap, at: Port) -> Result<Self, CpmError> {
+        Turn::BACK.exit(at.number, map.degree(at.junction))?;
+        Ok(Self {
+            config,
+            best: Hypothesis {
+                mapper: Mapper { map, at },
+                cost: 0.0,
+            },
+            rivals: Vec::new(),
+            traversals: 0,
+            before_duplicate: None,
+            contradictions: 0,
+        })
+    }
+
     /// The map as it is now. Offline it holds duplicates until it is [optimized](Self::optimize).
     #[must_use]
     pub const fn map(&self) -> &CpMap {

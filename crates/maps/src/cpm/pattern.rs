@@ -268,6 +268,16 @@ impl Dictionary {
         }
     }
 
+    /// The version as it was with so many patterns; none if there were never so many.
+    #[cfg(feature = "serde")]
+    pub(super) fn earlier(&self, patterns: u32) -> Option<Version> {
+        let fingerprint = *self.fingerprints.get(patterns as usize)?;
+        Some(Version {
+            patterns,
+            fingerprint,
+        })
+    }
+
     /// Refuses what was written with another dictionary; its own earlier versions are welcome.
     ///
     /// # Errors

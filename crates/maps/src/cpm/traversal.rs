@@ -7,6 +7,7 @@ use super::pattern::PatternId;
 
 /// What tells a place from others that have as many ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Landmark {
     /// Where the robot started.
     Start,
@@ -51,6 +52,7 @@ pub struct Traversal {
 /// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at its start, as far as it
 /// knows them, with the drift of its heading since then allowed for in the bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion {
     /// Where the end lies, seen from the beginning, m.
     pub displacement: PointBox,

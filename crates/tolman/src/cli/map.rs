@@ -1,6 +1,7 @@
 //! `tolman map`: looks at learned maps.
 
 mod show;
+mod show_cpm;
 
 use std::fs;
 use std::io::Write;
@@ -32,13 +33,26 @@ impl Verb {
 /// # Errors
 /// Bad input with the file's name.
 pub(super) fn read(path: &Path) -> Result<MapFile, Failure> {
-    let text = fs::read_to_string(path)
+    parse(path, &text(path)?)
+}
+
+fn parse(path: &Path, text: &str) -> Result<MapFile, Failure> {
+    MapFile::from_json(text)
+        .with_context(|| path.display().to_string())
+        .or_bad_input()
+}
+
+/// The text of a file with a learned map of whichever kind.
+///
+/// # Errors
+/// Bad input with the file's name.
+pub(super) fn text(path: &Path) -> Result<String, Failure> {
+    fs::read_to_string(path)
         .with_context(|| {
             let path = path.display();
-            format!("cannot read {path}; give a file that `tolman learn` wrote")
+            format!(
+                "cannot read {path}; give a file that `tolman learn` or `tolman cpm learn` wrote"
+            )
         })
-        .or_bad_input()?;
-    MapFile::from_json(&text)
-        .with_context(|| path.display().to_string())
         .or_bad_input()
 }

@@ -5,6 +5,7 @@
 
 mod called;
 mod completions;
+mod cpm;
 mod demo;
 mod experiment;
 mod failure;
@@ -44,6 +45,7 @@ Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman learn --maze mazes/j.maze --out j-map.json
   tolman solve --map j-map.json --maze mazes/j.maze --seed 7
+  tolman cpm learn --maze mazes/cpm-3.maze --out map.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/classic --worst 3
   tolman experiment baselines --quick
@@ -62,6 +64,8 @@ enum Verb {
     Demo(demo::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
+    #[command(subcommand)]
+    Cpm(cpm::Verb),
     Mouse(mouse::Arguments),
     MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
@@ -98,6 +102,7 @@ impl Verb {
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),
+            Self::Cpm(verb) => verb.carry_out(out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(&arguments, out),

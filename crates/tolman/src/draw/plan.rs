@@ -161,6 +161,14 @@ impl Plan {
         });
     }
 
+    /// Adds a broad band along positions, without ends: a way of a map, above which other things can be seen.
+    pub fn way(&mut self, positions: &[Point], series: Series) {
+        let path = self.path(positions);
+        self.layers.push(html! {
+            path class={ "way " (series.class()) } d=(path) {}
+        });
+    }
+
     /// Adds a graph, each node at its coordinates.
     pub fn graph(&mut self, graph: &Graph) {
         let markup = graph.markup(&|position| self.at(position));

@@ -56,7 +56,7 @@ pub use driver::{Driver, Next, Search, View};
 pub use judgement::{JudgeError, Judgement};
 pub use mouse::{Mouse, MouseError, SIDE, Sight};
 pub use order::{Movement, Order, OrderError, Rotation};
-pub use q_learning::{QLearner, QLearningConfig};
+pub use q_learning::CellTask;
 pub use random::RandomSearch;
 pub use referee::{Event, MAX_STEPS, Referee, RefereeError, Verdict};
 pub use run_two::RunTwo;

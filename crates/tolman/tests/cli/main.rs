@@ -5,6 +5,7 @@
     reason = "a test that cannot start its command has failed"
 )]
 
+mod cpm;
 mod experiment;
 mod help;
 mod learn;

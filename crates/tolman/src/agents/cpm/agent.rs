@@ -2,8 +2,8 @@ use rand::Rng;
 use thiserror::Error;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Aim, Arrival, CpmConfig, CpmError, Decision, Done, Explorer, Junction, Landmark, Leg, Motion,
-    Plan, Port, Sighting, Traversal,
+    Aim, Arrival, CpMap, CpmConfig, CpmError, Decision, Done, Explorer, Junction, Landmark, Leg,
+    Motion, Plan, Port, Sighting, Traversal,
 };
 
 use super::body::Body;
@@ -63,6 +63,34 @@ impl<'a, B: Body> Cpm<'a, B> {
             walker,
             patterns,
             explorer: Explorer::new(config, start)?,
+        })
+    }
+
+    /// A robot that looks where it is and has a map that begins there.
+    ///
+    /// # Errors
+    /// [`AgentError`], also if it stands somewhere else.
+    pub fn resume(
+        mut walker: Walker<B>,
+        patterns: &'a CommonPatterns,
+        config: CpmConfig,
+        map: CpMap,
+    ) -> Result<Self, AgentError<B::Error>> {
+        let start = map.landmarks(Landmark::Start).next();
+        let junction = start.ok_or(AgentError::NoStart)?;
+        let expected = map.junction(junction).map(Junction::sighting);
+        let found = walker.begin()?;
+        if expected != Some(found) {
+            return Err(AgentError::NotTheStart { found });
+        }
+        let at = Port {
+            junction,
+            number: 0,
+        };
+        Ok(Self {
+            walker,
+            patterns,
+            explorer: Explorer::resume(config, map, at)?,
         })
     }
 
@@ -233,4 +261,13 @@ pub enum AgentError<E> {
     /// The map has no start.
     #[error("the map has no start to be put back to; mark the start of the maze")]
     NoStart,
+    /// The robot stands elsewhere than where its map begins.
+    #[error(
+        "the map does not begin at a place of {} ways with the landmark {:?}; put the robot to the start of the maze it was learned in",
+        .found.degree, .found.landmark
+    )]
+    NotTheStart {
+        /// What it sees.
+        found: Sighting,
+    },
 }

@@ -103,6 +103,24 @@ impl CommonPatterns {
         })
     }
 
+    /// What was learned before, from its dictionary and the counts of SOINN.
+    #[must_use]
+    pub fn restored(dictionary: Dictionary, unit_count: u32, cluster_count: u32) -> Self {
+        let patterns = (0..dictionary.len() as u32).map(PatternId);
+        let units = patterns.filter_map(|pattern| {
+            let prototype = dictionary.prototype(pattern)?;
+            let unit = <[f64; FEATURES]>::try_from(prototype).ok()?;
+            // Landmarks stand for no unit.
+            (unit[FEATURES - 1] < LANDMARK / 2.0).then_some((unit, pattern))
+        });
+        Self {
+            units: units.collect(),
+            dictionary,
+            unit_count,
+            cluster_count,
+        }
+    }
+
     /// The common pattern that stands for a feature: that of the nearest unit ("classified to the corresponded CP").
     #[must_use]
     pub fn pattern(&self, feature: &[f64; FEATURES]) -> PatternId {

@@ -23,8 +23,42 @@ pub struct Way {
     pub cells: u32,
 }
 
+/// Whether a cell is a junction, a dead end, the start or a goal.
+fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
+    let is_start = maze.start().is_some_and(|(start, _)| start == cell);
+    maze.degree(cell) != 2 || maze.goals().contains(&cell) || is_start
+}
+
+/// The cells of a way that leads `out` of a place to `next` and on to the next place, and the direction in which one comes there.
+fn follow(
+    maze: &Maze,
+    out: Direction,
+    next: Cell,
+    is_place: impl Fn(Cell) -> bool,
+) -> (Vec<Cell>, Direction) {
+    let (mut at, mut came, mut cells) = (next, out, vec![next]);
+    while !is_place(at) {
+        let back = came.opposite();
+        let Some((on, next)) = maze.neighbours(at).find(|(on, _)| *on != back) else {
+            break;
+        };
+        (at, came) = (next, on);
+        cells.push(at);
+    }
+    (cells, came)
+}
+
+/// The cells of the fragment that leads `out` of a place, that one first, and the direction in which one comes to its end; none if a wall
+/// stands there.
+pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell>, Direction)> {
+    let (_, next) = maze.neighbours(from).find(|(way, _)| *way == out)?;
+    let (mut cells, came) = follow(maze, out, next, |cell| ends_fragments(maze, cell));
+    cells.insert(0, from);
+    Some((cells, came))
+}
+
 /// Counter-clockwise from a heading of 0.
-const DIRECTIONS: [Direction; 4] = [
+pub(super) const DIRECTIONS: [Direction; 4] = [
     Direction::East,
     Direction::North,
     Direction::West,
@@ -35,10 +69,7 @@ impl TrueFragments {
     /// The fragments of a maze between its junctions, dead ends, start and goals.
     #[must_use]
     pub fn of(maze: &Maze) -> Self {
-        let start = maze.start().map(|(cell, _)| cell);
-        let is_place = |cell: Cell| {
-            maze.degree(cell) != 2 || maze.goals().contains(&cell) || start == Some(cell)
-        };
+        let is_place = |cell: Cell| ends_fragments(maze, cell);
         let mut ways = BTreeMap::new();
         let mut count = 0;
         for from in maze.reachable().filter(|cell| is_place(*cell)) {
@@ -46,22 +77,16 @@ impl TrueFragments {
                 if ways.contains_key(&(from, out)) {
                     continue;
                 }
-                let (mut at, mut came, mut cells) = (next, out, 1);
-                while !is_place(at) {
-                    let back = came.opposite();
-                    let Some((on, next)) = maze.neighbours(at).find(|(on, _)| *on != back) else {
-                        break;
-                    };
-                    (at, came, cells) = (next, on, cells + 1);
-                }
+                let (cells, came) = follow(maze, out, next, is_place);
+                let to = cells.last().copied().unwrap_or(next);
                 let way = |is_forward, to| Way {
                     fragment: count,
                     is_forward,
                     to,
-                    cells,
+                    cells: cells.len() as u32,
                 };
-                ways.insert((from, out), way(true, at));
-                ways.insert((at, came.opposite()), way(false, from));
+                ways.insert((from, out), way(true, to));
+                ways.insert((to, came.opposite()), way(false, from));
                 count += 1;
             }
         }

@@ -4,12 +4,16 @@
 //! In the order of the paper: a [`Body`] is the robot, with [`Landmark`](tolman_maps::cpm::Landmark)s; a [`Walker`] its layers 0 and 1 and its
 //! observations (sections 3.2 and 4.1); [`CommonPatterns`] the dictionary it learns in the learning maze (section 4.1); [`Cpm`] layer 3, which maps,
 //! reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6). A [`Trial`] plays both episodes in a maze and scores them by its
-//! [`TrueFragments`].
+//! [`TrueFragments`]. An [`Errand`] is one episode, of which a [`MapFile`] can be kept; a [`Layout`] says where the parts of a map lie.
 
 mod agent;
 mod body;
 mod common_patterns;
+pub mod drawing;
+mod errand;
 mod fragments;
+mod layout;
+mod map_file;
 mod robot;
 mod survey;
 mod trial;
@@ -18,7 +22,10 @@ mod walker;
 pub use agent::{AgentError, Cpm, Episode, Step};
 pub use body::{Body, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, wander};
+pub use errand::Errand;
 pub use fragments::{TrueFragments, Way};
+pub use layout::{Course, Fit, Layout, OpenPort};
+pub use map_file::{MapFile, MapFileError, System};
 pub use robot::{epuck, soinn, walker_config};
 pub use survey::{Surveyed, survey};
 pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};

@@ -49,7 +49,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    const fn config(self) -> CpmConfig {
+    pub(super) const fn config(self) -> CpmConfig {
         match self {
             Self::Paper(config) | Self::Reckoned(config) => config,
         }
@@ -135,7 +135,7 @@ pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatter
 }
 
 /// The robot at the start of a maze.
-fn placed(
+pub(super) fn placed(
     maze: &Maze,
     corridor_width: f64,
     robot: EpuckConfig,
@@ -176,6 +176,17 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`] if it cannot be begun.
     pub fn play(&self) -> Result<Record, TrialError> {
+        self.watch(|_, _| {})
+    }
+
+    /// [Plays](Self::play) both episodes. `see` is told of every fragment of the first.
+    ///
+    /// # Errors
+    /// [`TrialError`] if it cannot be begun.
+    pub fn watch(
+        &self,
+        see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+    ) -> Result<Record, TrialError> {
         let mut config = walker_config(self.corridor_width)?;
         if let Mode::Reckoned(_) = self.mode {
             config.heading = HeadingBy::Walls;
@@ -197,7 +208,7 @@ impl Trial<'_> {
                 return Ok(record);
             }
         };
-        if let Err(error) = self.episodes(&mut agent, start, &mut rng, &mut record) {
+        if let Err(error) = self.episodes(&mut agent, start, &mut rng, &mut record, see) {
             record.trouble = Some(error.to_string());
         }
         let body = agent.walker().body();
@@ -212,11 +223,13 @@ impl Trial<'_> {
         start: Pose,
         rng: &mut ChaCha8Rng,
         record: &mut Record,
+        mut see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
     ) -> Result<(), TrialError> {
         let mut score = Score::of(self.maze);
         score.begin(agent, start);
         let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
             score.see(agent, step);
+            see(agent, step);
         });
         record.closures = score.closures;
         record.contradictions = agent.explorer().contradictions();
@@ -369,6 +382,9 @@ pub enum TrialError {
     /// The robot cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
+    /// The map leads to no goal.
+    #[error("the map has no way to a goal: learn until the goal is found")]
+    NoPlan,
     /// It cannot stand at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),

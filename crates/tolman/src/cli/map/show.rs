@@ -4,10 +4,11 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use serde_json::json;
+use tolman::agents::cpm;
 use tolman::agents::mslst::{MapFile, drawing};
 use tolman::draw::Figure;
 
-use super::Failure;
+use super::{Failure, show_cpm};
 use crate::cli::{file, run};
 
 /// Tells what a learned map holds, and draws its graph over the maze
@@ -16,21 +17,25 @@ use crate::cli::{file, run};
 Example:
   tolman map show j-map.json --maze mazes/j.maze --svg j-map.svg")]
 pub(crate) struct Arguments {
-    /// The map, made by `tolman learn`
-    file: PathBuf,
+    /// The map, made by `tolman learn` or `tolman cpm learn`
+    pub(super) file: PathBuf,
     /// The maze it was learned in
     #[arg(long, value_name = "FILE", requires = "svg")]
-    maze: Option<PathBuf>,
+    pub(super) maze: Option<PathBuf>,
     /// Draw the graph over the maze
     #[arg(long, value_name = "FILE", requires = "maze")]
-    svg: Option<PathBuf>,
+    pub(super) svg: Option<PathBuf>,
     /// Write the figures as JSON
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let map = super::read(&arguments.file)?;
+    let text = super::text(&arguments.file)?;
+    if cpm::MapFile::is_one(&text) {
+        return show_cpm::carry_out(arguments, &text, out);
+    }
+    let map = super::parse(&arguments.file, &text)?;
     if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
         let course = run::course(maze)?;
         let drawing = drawing::graph_over_maze(&course, &map.learned);

@@ -1,16 +1,14 @@
-//! Figure 9's times, figure 8's map over its maze, and the replay of a run.
+//! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both episodes.
 
 use tolman_geom::Point;
 use tolman_maps::cpm::Landmark;
-use tolman_robot::Body;
-use tolman_robot::epuck::BODY_RADIUS;
 
+use super::Cpm;
+use super::trials::{BETTER, FIGURE_9};
 use super::venue::Venue;
-use super::{BETTER, Cpm, FIGURE_9};
-use crate::agents::cpm::{Record, epuck};
+use crate::agents::cpm::{Record, drawing};
 use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Plan, Series};
-use crate::experiment::{BoxError, Field, Job, Run};
-use crate::replay::{Fact, Mark, Marks, Replay, Scenery, Track};
+use crate::experiment::{BoxError, Field, Run};
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
@@ -29,13 +27,16 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
                 continue;
             };
             figures.push(times(&row, &format!("times-{number}-{kind}"), &runs));
-            let (venue, record) = experiment.play(&longest.job())?;
+            let Some((venue, record)) = experiment.play(&longest.job())? else {
+                continue;
+            };
             figures.push(ways(
                 &venue,
                 &record,
                 &row,
                 &format!("ways-{number}-{kind}"),
             )?);
+            figures.extend(maps(&venue, &record, &row, &format!("{number}-{kind}"))?);
         }
     }
     Ok(figures)
@@ -115,33 +116,24 @@ fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<Figure,
     .table(FIGURE_9))
 }
 
-/// The run as the robot drove it, both episodes.
-pub(super) fn replay(venue: &Venue, record: &Record, job: &Job<'_>) -> Result<Replay, BoxError> {
+/// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by itself.
+fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<[Figure; 2], BoxError> {
     let world = venue.world()?;
-    let body = Body::Circle {
-        radius: BODY_RADIUS,
-    };
-    let mut track = Track::new("e-puck", body, record.path.clone());
-    if record.second.is_some() {
-        track.lifts = vec![record.second_from as u32];
-    }
-    let mut second = Marks::new(Mark::Arrival, "second episode");
-    if record.second.is_some() {
-        second.steps.push(record.second_from as u32);
-    }
-    track.marks = vec![second];
-    let step_s = epuck().step_us as f64 * 1e-6;
-    let title = format!("{}, run {}", job.row, job.run);
-    let mut replay = Replay::new(title, step_s, Scenery::of_world(&world), vec![track]);
-    let outcome = if record.is_solved() {
-        "solved"
-    } else {
-        "not solved"
-    };
-    replay.facts = vec![
-        Fact::new("maze", &venue.name),
-        Fact::new("seed", job.seed.to_string()),
-        Fact::new("outcome", outcome),
-    ];
-    Ok(replay)
+    let over = drawing::over_maze(&record.map, &venue.maze, &world);
+    let graph = drawing::graph(&record.map, &venue.maze, &world);
+    Ok([
+        Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
+            .caption(
+                "The map at the end of that trial's first episode, laid over the maze port by port: each fragment A with its ends − and +, \
+                 junctions as squares, dashed where nobody has been. What fits nowhere in the maze is left out.",
+            )
+            .table(FIGURE_9),
+        Figure::new(format!("graph-{name}"), format!("{row}: the map"), graph)
+            .caption(
+                "The same map as a graph, as the paper's figures 5 (b) and 8 (a): fragment nodes as discs with their length in observations, \
+                 junction nodes as squares; on each edge the fragment's end and the junction's port. The turn Δ from one fragment into another is \
+                 how many ports lie between them, counter-clockwise. Point at a node for its patterns and transitions.",
+            )
+            .table(FIGURE_9),
+    ])
 }

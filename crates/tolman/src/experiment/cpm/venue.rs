@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Direction, Maze, MazeFile, Perfect};
 use tolman_sim::{CorridorSize, World};
 
+use super::trials::BETTER;
 use crate::experiment::{BoxError, maze_file};
 
 /// One maze.
@@ -44,6 +45,13 @@ impl Venue {
         };
         Ok(World::from_maze(&self.maze, &size)?)
     }
+
+    /// The length of the shortest way from start to goal, m.
+    pub(super) fn shortest_metres(&self) -> Option<f64> {
+        let (start, _) = self.maze.start()?;
+        let steps = self.maze.steps_to_goal()[self.maze.grid().index(start)]?;
+        Some(f64::from(steps) * self.corridor_width)
+    }
 }
 
 /// The paper's three mazes, drawn anew.
@@ -58,20 +66,28 @@ pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
     .collect()
 }
 
+/// That of figure 11, drawn anew.
+pub(super) fn real() -> Result<Venue, BoxError> {
+    let text = include_str!("../../../../../mazes/cpm-real.maze");
+    Venue::new("", tolman_maze::read(text)?)
+}
+
 /// Where the common patterns are learned.
 pub(super) fn learning() -> Result<Venue, BoxError> {
     let text = include_str!("../../../../../mazes/cpm-learning.maze");
     Venue::new("", tolman_maze::read(text)?)
 }
 
-/// The mazes that the caller names; the later of two of one name gets a number.
+/// The mazes that the caller names; the later of two of one name gets a number, and so does one whose name is that of another's row.
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
     for path in files {
         let mut venue = Venue::new(&maze_file::stem(path), maze_file::read(path)?)
             .map_err(|error| maze_file::in_file(path, error))?;
+        let rows = |name: &str| [name.to_owned(), format!("{name}{BETTER}")];
         venue.name = maze_file::told_apart(&venue.name, |name| {
-            venues.iter().any(|before| before.name == name)
+            let mut taken = venues.iter().flat_map(|before| rows(&before.name));
+            taken.any(|row| rows(name).contains(&row))
         });
         venues.push(venue);
     }

@@ -8,7 +8,8 @@ use tolman_planners::{Found, Graph, a_star, best_first, path_to};
 use super::paper::PaperTable;
 use super::{Fields, Kind, Metric, Row, Run, Table};
 use crate::experiment::{BoxError, Field};
-use crate::micromouse::{MAX_STEPS, QLearner, QLearningConfig};
+use crate::micromouse::{CellTask, MAX_STEPS};
+use crate::q_learning::{QLearner, QLearningConfig};
 
 /// The table of planners.
 pub(super) const PLANNERS: &str = "planners";
@@ -166,14 +167,14 @@ fn learn(maze: &Maze, seed: u64) -> Result<Fields, BoxError> {
     let (start, _) = maze.start().ok_or("the maze has no start")?;
     let shortest = maze.steps_to_goal()[maze.grid().index(start)];
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut learner = QLearner::new(QLearningConfig::usual(), maze, start);
+    let mut learner = QLearner::new(QLearningConfig::usual(), CellTask::new(maze, start));
     let mut steps = 0;
     while steps < MOST_STEPS {
         for _ in 0..LOOK {
             learner.step(&mut rng);
         }
         steps += LOOK;
-        if learner.path_cells() == shortest {
+        if learner.greedy_cost() == shortest {
             return Ok(Fields::new()
                 .flag("learned", true)
                 .flag("learned_in_time", steps <= MAX_STEPS)

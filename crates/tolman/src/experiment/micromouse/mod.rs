@@ -20,7 +20,8 @@ use super::{
 };
 use crate::data;
 use crate::draw::Figure;
-use crate::micromouse::{MAX_STEPS, QLearningConfig, Searcher};
+use crate::micromouse::{MAX_STEPS, Searcher};
+use crate::q_learning::QLearningConfig;
 
 use competition::COMPETITION;
 use paper::PaperTable;

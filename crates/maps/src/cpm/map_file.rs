@@ -1,0 +1,422 @@
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use thiserror::Error;
+
+use super::index::FragmentIndex;
+use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
+use super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::traversal::{Landmark, Motion};
+
+/// What `format` says in a file of ours.
+const FORMAT: &str = "tolman-cpm";
+/// The version that is written; all versions up to it are read.
+const VERSION: u32 = 1;
+
+/// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
+///
+/// ```
+/// use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, MapFile, PatternId, Sighting, Traversal, Turn};
+///
+/// let mut dictionary = Dictionary::new(1);
+/// let wall = dictionary.learn(&[1.0], &[1.0], 0.1)?;
+/// let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
+/// let walk = Traversal { patterns: vec![wall; 4], motion: None, sighting: Sighting::plain(3) };
+/// explorer.arrive(Turn::BACK, &walk, &dictionary)?;
+///
+/// let text = serde_json::to_string(&MapFile::of(explorer.map(), &dictionary)?)?;
+/// let read: MapFile = serde_json::from_str(&text)?;
+/// assert_eq!(read.dictionary()?, dictionary);
+/// assert_eq!(&read.map(&dictionary)?, explorer.map());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct MapFile {
+    #[serde(flatten)]
+    header: MapFileHeader,
+    /// How many there are of each: a file that was cut off has fewer.
+    counts: Counts,
+    dictionary: SavedDictionary,
+    map: SavedMap,
+}
+
+/// How a [`MapFile`] begins, whatever its version: for readers that want to know before they read the rest.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct MapFileHeader {
+    format: String,
+    version: u32,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+struct Counts {
+    patterns: usize,
+    fragments: usize,
+    junctions: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct SavedDictionary {
+    dimension: usize,
+    /// Hexadecimal, since readers of JSON may know no integers of 64 bits.
+    fingerprint: String,
+    patterns: Vec<SavedPattern>,
+}
+
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct SavedPattern {
+    prototype: Vec<f64>,
+    half_turned: u32,
+}
+
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct SavedMap {
+    /// How many patterns the dictionary had when it was last written to; none of an empty map.
+    patterns: Option<u32>,
+    next_fragment: u32,
+    next_junction: u32,
+    fragments: Vec<SavedFragment>,
+    junctions: Vec<SavedJunction>,
+}
+
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct SavedFragment {
+    id: u32,
+    patterns: Vec<u32>,
+    motion: Option<Motion>,
+    traversals: u32,
+    /// Junction and number of the port.
+    minus: (u32, u32),
+    plus: (u32, u32),
+}
+
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct SavedJunction {
+    id: u32,
+    landmark: Option<Landmark>,
+    ports: Vec<SavedPort>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SavedPort {
+    /// Looked into for so many observations.
+    Open(u32),
+    /// 𝔸⁻ of this fragment.
+    Minus(u32),
+    /// 𝔸⁺ of this fragment.
+    Plus(u32),
+}
+
+/// Why a file holds no map.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MapFileError {
+    /// It is another kind of file.
+    #[error("its format is {found:?}, expected {FORMAT:?}")]
+    Format {
+        /// What it says.
+        found: String,
+    },
+    /// It is of a later time.
+    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
+    Version {
+        /// What it says.
+        found: u32,
+    },
+    /// Something is missing.
+    #[error("it was cut off: {found} of {expected} {what} are there")]
+    Truncated {
+        /// What is missing.
+        what: &'static str,
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// The patterns are not those that were written.
+    #[error("its patterns have the fingerprint {found}, not {expected}: they were changed")]
+    Fingerprint {
+        /// What the file says.
+        expected: String,
+        /// What they have.
+        found: String,
+    },
+    /// The patterns are none, or the map is that of another robot.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+    /// Two things of one number, or one beyond those that are given out.
+    #[error("{what} {id} is there twice, or was never given out")]
+    BadId {
+        /// A fragment or a junction.
+        what: &'static str,
+        /// Its number.
+        id: u32,
+    },
+    /// A fragment and a port do not say the same of each other.
+    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other", sign_word(.end.sign), .end.fragment.0)]
+    Unjoined {
+        /// The end.
+        end: End,
+        /// The junction.
+        junction: u32,
+        /// The port.
+        port: u32,
+    },
+}
+
+const fn sign_word(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Minus => "−",
+        Sign::Plus => "+",
+    }
+}
+
+fn hexadecimal(fingerprint: u64) -> String {
+    format!("{fingerprint:016x}")
+}
+
+impl MapFileHeader {
+    /// Whether it is a file of ours, of whatever version.
+    #[must_use]
+    pub fn is_ours(&self) -> bool {
+        self.format == FORMAT
+    }
+
+    /// Whether it is a file of ours that can be read here.
+    ///
+    /// # Errors
+    /// [`MapFileError::Format`], [`MapFileError::Version`].
+    pub fn check(&self) -> Result<(), MapFileError> {
+        if !self.is_ours() {
+            return Err(MapFileError::Format {
+                found: self.format.clone(),
+            });
+        }
+        if self.version == 0 || self.version > VERSION {
+            return Err(MapFileError::Version {
+                found: self.version,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl MapFile {
+    /// What is to be written of a map.
+    ///
+    /// # Errors
+    /// [`MapFileError::Dictionary`] if the map was written with another dictionary.
+    pub fn of(map: &CpMap, dictionary: &Dictionary) -> Result<Self, MapFileError> {
+        if let Some(version) = map.version() {
+            dictionary.check_version(version)?;
+        }
+        let patterns = (0..dictionary.len() as u32).map(PatternId).map(|id| {
+            let prototype = dictionary.prototype(id).unwrap_or_default().to_vec();
+            let half_turned = dictionary.half_turned(id).0;
+            SavedPattern {
+                prototype,
+                half_turned,
+            }
+        });
+        let saved = SavedMap {
+            patterns: map.version().map(|version| version.patterns),
+            next_fragment: map.next_fragment,
+            next_junction: map.next_junction,
+            fragments: map.fragments().map(saved_fragment).collect(),
+            junctions: map.junctions().map(saved_junction).collect(),
+        };
+        Ok(Self {
+            header: MapFileHeader {
+                format: FORMAT.into(),
+                version: VERSION,
+            },
+            counts: Counts {
+                patterns: dictionary.len(),
+                fragments: saved.fragments.len(),
+                junctions: saved.junctions.len(),
+            },
+            dictionary: SavedDictionary {
+                dimension: dictionary.dimension(),
+                fingerprint: hexadecimal(dictionary.version().fingerprint),
+                patterns: patterns.collect(),
+            },
+            map: saved,
+        })
+    }
+
+    /// The dictionary as it was.
+    ///
+    /// # Errors
+    /// [`MapFileError`] if it is another kind of file, of a later version, cut off or changed.
+    pub fn dictionary(&self) -> Result<Dictionary, MapFileError> {
+        self.check()?;
+        let patterns = self.dictionary.patterns.iter();
+        let prototypes: Vec<(Vec<f64>, PatternId)> = patterns
+            .map(|pattern| (pattern.prototype.clone(), PatternId(pattern.half_turned)))
+            .collect();
+        let dictionary = Dictionary::from_prototypes(self.dictionary.dimension, &prototypes)?;
+        let found = hexadecimal(dictionary.version().fingerprint);
+        if found == self.dictionary.fingerprint {
+            Ok(dictionary)
+        } else {
+            Err(MapFileError::Fingerprint {
+                expected: self.dictionary.fingerprint.clone(),
+                found,
+            })
+        }
+    }
+
+    /// The map as it was, for a robot with this dictionary: that of the file, or one that has grown out of it.
+    ///
+    /// # Errors
+    /// [`MapFileError`] as of [`dictionary`](Self::dictionary), if the robot's is another one, or if fragments and junctions do not fit
+    /// together.
+    pub fn map(&self, dictionary: &Dictionary) -> Result<CpMap, MapFileError> {
+        let version = self.dictionary()?.version();
+        dictionary.check_version(version)?;
+        let mut map = CpMap {
+            next_fragment: self.map.next_fragment,
+            next_junction: self.map.next_junction,
+            version: self
+                .map
+                .patterns
+                .and_then(|patterns| dictionary.earlier(patterns)),
+            ..CpMap::default()
+        };
+        for saved in &self.map.junctions {
+            let id = saved.id;
+            let is_new = map
+                .junctions
+                .insert(JunctionId(id), junction(saved))
+                .is_none();
+            if !is_new || id >= self.map.next_junction {
+                let what = "junction";
+                return Err(MapFileError::BadId { what, id });
+            }
+        }
+        let mut index = FragmentIndex::default();
+        for saved in &self.map.fragments {
+            let id = saved.id;
+            let fragment = fragment(saved);
+            dictionary.check(&fragment.patterns)?;
+            index.insert(FragmentId(id), &fragment.patterns);
+            let is_new = map.fragments.insert(FragmentId(id), fragment).is_none();
+            if !is_new || id >= self.map.next_fragment {
+                let what = "fragment";
+                return Err(MapFileError::BadId { what, id });
+            }
+        }
+        map.index = index;
+        check_joints(&map)?;
+        Ok(map)
+    }
+
+    fn check(&self) -> Result<(), MapFileError> {
+        self.header.check()?;
+        let counts = &self.counts;
+        let parts = [
+            ("patterns", counts.patterns, self.dictionary.patterns.len()),
+            ("fragments", counts.fragments, self.map.fragments.len()),
+            ("junctions", counts.junctions, self.map.junctions.len()),
+        ];
+        match parts
+            .into_iter()
+            .find(|(_, expected, found)| expected != found)
+        {
+            Some((what, expected, found)) => Err(MapFileError::Truncated {
+                what,
+                expected,
+                found,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Every end of a fragment is at a port that says so, and every filled port has such an end.
+fn check_joints(map: &CpMap) -> Result<(), MapFileError> {
+    let unjoined = |end: End, port: Port| MapFileError::Unjoined {
+        end,
+        junction: port.junction.0,
+        port: port.number,
+    };
+    for (fragment, node) in map.fragments() {
+        for sign in Sign::BOTH {
+            let (end, port) = (End { fragment, sign }, node.port(sign));
+            if map.end_at(port) != Some(end) {
+                return Err(unjoined(end, port));
+            }
+        }
+    }
+    for (junction, node) in map.junctions() {
+        for (number, state) in (0..).zip(&node.ports) {
+            let port = Port { junction, number };
+            if let PortState::Filled(end) = *state
+                && map.fragment(end.fragment).map(|node| node.port(end.sign)) != Some(port)
+            {
+                return Err(unjoined(end, port));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn saved_fragment((id, fragment): (FragmentId, &Fragment)) -> SavedFragment {
+    let port = |port: Port| (port.junction.0, port.number);
+    SavedFragment {
+        id: id.0,
+        patterns: fragment.patterns.iter().map(|pattern| pattern.0).collect(),
+        motion: fragment.motion,
+        traversals: fragment.traversals,
+        minus: port(fragment.minus),
+        plus: port(fragment.plus),
+    }
+}
+
+fn fragment(saved: &SavedFragment) -> Fragment {
+    let port = |(junction, number)| Port {
+        junction: JunctionId(junction),
+        number,
+    };
+    Fragment {
+        patterns: saved.patterns.iter().copied().map(PatternId).collect(),
+        motion: saved.motion,
+        traversals: saved.traversals,
+        minus: port(saved.minus),
+        plus: port(saved.plus),
+    }
+}
+
+fn saved_junction((id, junction): (JunctionId, &Junction)) -> SavedJunction {
+    let port = |state: &PortState| match *state {
+        PortState::Open { at_least } => SavedPort::Open(at_least),
+        PortState::Filled(End { fragment, sign }) => match sign {
+            Sign::Minus => SavedPort::Minus(fragment.0),
+            Sign::Plus => SavedPort::Plus(fragment.0),
+        },
+    };
+    SavedJunction {
+        id: id.0,
+        landmark: junction.landmark,
+        ports: junction.ports.iter().map(port).collect(),
+    }
+}
+
+fn junction(saved: &SavedJunction) -> Junction {
+    let filled = |fragment, sign| {
+        PortState::Filled(End {
+            fragment: FragmentId(fragment),
+            sign,
+        })
+    };
+    let port = |port: &SavedPort| match *port {
+        SavedPort::Open(at_least) => PortState::Open { at_least },
+        SavedPort::Minus(fragment) => filled(fragment, Sign::Minus),
+        SavedPort::Plus(fragment) => filled(fragment, Sign::Plus),
+    };
+    Junction {
+        ports: saved.ports.iter().map(port).collect(),
+        landmark: saved.landmark,
+    }
+}

@@ -1,0 +1,107 @@
+//! Maps in files, whole and spoiled.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde_json::{Value, json};
+use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+use tolman_maps::cpm::{
+    Aim, CpMap, CpmConfig, Decision, Dictionary, Explorer, MapFile, MapFileError,
+};
+
+/// The map of an explored world, with dead reckoning.
+fn explored() -> (CpMap, Dictionary) {
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let world = World::random(&MazeConfig::small(), &mut rng).unwrap();
+    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+    let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
+    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+        if let Outcome::Arrived(walk) = rover.go(leg.turn, leg.give_up_after, &mut rng).unwrap() {
+            explorer
+                .arrive(leg.turn, &walk, world.dictionary())
+                .unwrap();
+        }
+    }
+    (explorer.map().clone(), world.dictionary().clone())
+}
+
+#[test]
+fn a_file_is_read_back_to_the_bit() {
+    let (map, dictionary) = explored();
+    assert!(map.fragments().len() > 3);
+    let text = serde_json::to_string(&MapFile::of(&map, &dictionary).unwrap()).unwrap();
+    let read: MapFile = serde_json::from_str(&text).unwrap();
+    let again = read.dictionary().unwrap();
+    assert_eq!(again, dictionary);
+    assert_eq!(read.map(&again).unwrap(), map);
+}
+
+#[test]
+fn a_dictionary_that_has_grown_reads_its_earlier_maps() {
+    let (map, mut dictionary) = explored();
+    let file = MapFile::of(&map, &dictionary).unwrap();
+    let far = vec![1e6; dictionary.dimension()];
+    dictionary.learn(&far, &far, 0.0).unwrap();
+    assert_eq!(file.map(&dictionary).unwrap(), map);
+    assert_ne!(MapFile::of(&map, &dictionary).unwrap(), file);
+}
+
+#[test]
+fn the_dictionary_of_another_robot_is_refused() {
+    let (map, dictionary) = explored();
+    let file = MapFile::of(&map, &dictionary).unwrap();
+    let other = Dictionary::new(dictionary.dimension());
+    assert!(matches!(file.map(&other), Err(MapFileError::Dictionary(_))));
+    assert!(matches!(
+        MapFile::of(&map, &other),
+        Err(MapFileError::Dictionary(_))
+    ));
+}
+
+/// What is done to a sound file.
+type Spoil = fn(&mut Value);
+
+fn cut(file: &mut Value, list: &str) {
+    file["map"][list].as_array_mut().unwrap().pop();
+}
+
+#[test]
+fn spoiled_files_say_what_is_wrong() {
+    let (map, dictionary) = explored();
+    let file = serde_json::to_value(MapFile::of(&map, &dictionary).unwrap()).unwrap();
+    let spoiled = |spoil: Spoil| -> String {
+        let mut value = file.clone();
+        spoil(&mut value);
+        let read: MapFile = serde_json::from_value(value).unwrap();
+        read.map(&dictionary).unwrap_err().to_string()
+    };
+    let cases: [(Spoil, &str); 9] = [
+        (
+            |file| file["format"] = json!("other"),
+            "its format is \"other\"",
+        ),
+        (|file| file["version"] = json!(2), "update tolman"),
+        (|file| file["version"] = json!(0), "its version is 0"),
+        (|file| cut(file, "fragments"), "fragments are there"),
+        (|file| cut(file, "junctions"), "junctions are there"),
+        (
+            |file| file["dictionary"]["patterns"][0]["prototype"][0] = json!(0.125),
+            "they were changed",
+        ),
+        (
+            |file| file["dictionary"]["patterns"][0]["half_turned"] = json!(77),
+            "half turned",
+        ),
+        (
+            |file| file["map"]["fragments"][0]["minus"][1] = json!(9),
+            "do not belong to each other",
+        ),
+        (
+            |file| file["map"]["fragments"][1]["id"] = file["map"]["fragments"][0]["id"].clone(),
+            "there twice",
+        ),
+    ];
+    for (spoil, why) in cases {
+        let found = spoiled(spoil);
+        assert!(found.contains(why), "{found}");
+    }
+}

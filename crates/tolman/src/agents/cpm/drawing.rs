@@ -1,0 +1,275 @@
+//! Pictures of a map, as the paper's figures 5 (b) and 8.
+
+use core::fmt::Write;
+
+use tolman_geom::{Point, Pose, Vector};
+use tolman_maps::cpm::{
+    CpMap, End, Fragment, FragmentId, Junction, JunctionId, Landmark, PortState, Sign,
+};
+use tolman_maze::{Cell, Maze};
+use tolman_sim::World;
+
+use super::layout::{Fit, Layout};
+use crate::draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series};
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 420.0;
+
+/// The radius of a node, user units.
+const RADIUS: f64 = 4.5;
+
+/// The colour of junctions, and the first of fragments.
+const JUNCTION: Series = Series(0);
+
+/// The name of a fragment on all pictures.
+#[must_use]
+pub fn fragment_name(id: FragmentId) -> String {
+    format!("A{}", id.0)
+}
+
+/// What stands at a junction, or its number.
+#[must_use]
+pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
+    match map.junction(id).and_then(|junction| junction.landmark) {
+        Some(Landmark::Start) => "start".to_owned(),
+        Some(Landmark::Goal) => "goal".to_owned(),
+        _ => format!("J{}", id.0),
+    }
+}
+
+const fn sign_text(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Minus => "−",
+        Sign::Plus => "+",
+    }
+}
+
+/// The colour of a fragment: that of its number.
+const fn series(id: FragmentId) -> Series {
+    Series(1 + id.0 % (Series::COLOURS - 1))
+}
+
+/// A map over the maze it was learned in: each fragment along the corridor it stands for, in a colour of its own, with its name and its signs;
+/// junctions as squares. Dashed stubs are ports nobody has been through.
+#[must_use]
+pub fn over_maze(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
+    let plan = plan_with(map, maze, world);
+    plan.drawing(format!(
+        "A common-pattern map of {} fragments over its maze.",
+        map.fragments().len()
+    ))
+}
+
+/// A drive over the map that it was made by, over the maze.
+#[must_use]
+pub fn drive(map: &CpMap, maze: &Maze, world: &World, path: &[Pose]) -> Drawing {
+    let mut plan = plan_with(map, maze, world);
+    let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
+    plan.trajectory(&positions, JUNCTION);
+    plan.drawing("A drive by a common-pattern map.")
+}
+
+fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
+    let layout = Layout::of(map, maze);
+    let walls: Vec<[Point; 2]> = world
+        .walls()
+        .iter()
+        .map(|wall| [wall.start, wall.end])
+        .collect();
+    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let mut graph = Graph::new().radius(RADIUS);
+    let mut signs = Vec::new();
+    for (id, fragment) in map.fragments() {
+        let Some(course) = layout.course(id) else {
+            continue;
+        };
+        let centres = centres(&course.cells, world);
+        plan.way(&centres, series(id));
+        graph.node(
+            GraphNode::at(middle(&centres))
+                .mark(NodeMark::Disc)
+                .series(series(id))
+                .label(fragment_name(id))
+                .note(fragment_note(map, id, fragment)),
+        );
+        if let ([at, towards, ..], [.., before, last]) = (&centres[..], &centres[..]) {
+            signs.push((beside(*at, *towards), sign_text(Sign::Minus)));
+            signs.push((beside(*last, *before), sign_text(Sign::Plus)));
+        }
+    }
+    stubs(&mut graph, &layout, world);
+    for (id, junction) in map.junctions() {
+        if let Some(cell) = layout.place(id) {
+            graph.node(junction_node(map, id, junction, world.cell_centre(cell)));
+        }
+    }
+    plan.graph(&graph);
+    for (at, sign) in signs {
+        plan.label(at, sign);
+    }
+    plan
+}
+
+/// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares, each edge with the sign of the
+/// fragment's end and the port of the junction. Nodes lie as they do in the maze.
+#[must_use]
+pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
+    let layout = Layout::of(map, maze);
+    let mut graph = Graph::new().radius(RADIUS + 1.0);
+    let mut junctions = Vec::new();
+    for (id, junction) in map.junctions() {
+        if let Some(cell) = layout.place(id) {
+            let node = junction_node(map, id, junction, world.cell_centre(cell));
+            junctions.push((id, graph.node(node)));
+        }
+    }
+    for (id, fragment) in map.fragments() {
+        let Some(course) = layout.course(id) else {
+            continue;
+        };
+        let centres = centres(&course.cells, world);
+        let node = graph.node(
+            GraphNode::at(middle(&centres))
+                .mark(NodeMark::Disc)
+                .series(series(id))
+                .label(format!("{} · {}", fragment_name(id), fragment.length()))
+                .note(fragment_note(map, id, fragment)),
+        );
+        for sign in [Sign::Minus, Sign::Plus] {
+            let port = fragment.port(sign);
+            let place = junctions.iter().find(|(other, _)| *other == port.junction);
+            if let Some((_, place)) = place {
+                let line = match course.fit {
+                    Fit::Agrees => EdgeLine::Plain,
+                    Fit::Astray => EdgeLine::Dashed,
+                };
+                graph.edge(
+                    GraphEdge::between(node, *place)
+                        .series(series(id))
+                        .line(line)
+                        .label(format!("{}{}", sign_text(sign), port.number)),
+                );
+            }
+        }
+    }
+    stubs(&mut graph, &layout, world);
+    let mut plan = Plan::of_bounds(&world.bounds(), WIDTH);
+    plan.graph(&graph);
+    plan.drawing(format!(
+        "A common-pattern map: {} fragment nodes and {} junction nodes.",
+        map.fragments().len(),
+        map.junctions().len()
+    ))
+}
+
+fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) -> GraphNode {
+    let mut note = format!("{}: ", junction_name(map, id));
+    for (number, port) in (0_u32..).zip(&junction.ports) {
+        let what = match port {
+            PortState::Open { .. } => "nobody has been there".to_owned(),
+            PortState::Filled(end) => end_name(*end),
+        };
+        // Writing to a string cannot fail.
+        let _ = write!(note, "port {number} {what}; ");
+    }
+    GraphNode::at(at)
+        .mark(NodeMark::Square)
+        .series(JUNCTION)
+        .label(junction_name(map, id))
+        .note(note.trim_end_matches("; "))
+}
+
+/// An end as the paper writes it: A3⁺.
+fn end_name(end: End) -> String {
+    let sign = match end.sign {
+        Sign::Minus => "⁻",
+        Sign::Plus => "⁺",
+    };
+    format!("{}{sign}", fragment_name(end.fragment))
+}
+
+/// The three properties of a fragment node: its sequence, its length, its transitions.
+fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
+    let sequence: Vec<String> = fragment
+        .patterns
+        .iter()
+        .map(|pattern| pattern.0.to_string())
+        .collect();
+    let mut note = format!(
+        "{}: {} patterns, {}; ",
+        fragment_name(id),
+        fragment.patterns.len(),
+        sequence.join("-")
+    );
+    for sign in [Sign::Minus, Sign::Plus] {
+        let from = End { fragment: id, sign };
+        let place = map.junction(fragment.port(sign).junction);
+        let ends = place.into_iter().flat_map(|place| &place.ports);
+        for port in ends {
+            if let PortState::Filled(to) = port
+                && *to != from
+                && let Some(turn) = map.transition(from, *to)
+            {
+                // Writing to a string cannot fail.
+                let _ = write!(
+                    note,
+                    "Δ({} → {}) = {}; ",
+                    end_name(from),
+                    end_name(*to),
+                    turn.0
+                );
+            }
+        }
+    }
+    note.trim_end_matches("; ").to_owned()
+}
+
+/// Dashed stubs where nobody has been.
+fn stubs(graph: &mut Graph, layout: &Layout, world: &World) {
+    for open in layout.open_ports() {
+        let at = world.cell_centre(open.cell);
+        let on = world.cell_centre(open.next) - at;
+        // Hidden below its junction.
+        let from = graph.node(GraphNode::at(at).mark(NodeMark::Square).series(JUNCTION));
+        let to = graph.node(
+            GraphNode::at(at + 0.5 * on)
+                .series(JUNCTION)
+                .note("nobody has been there"),
+        );
+        graph.edge(
+            GraphEdge::between(from, to)
+                .series(JUNCTION)
+                .line(EdgeLine::Dashed),
+        );
+    }
+}
+
+/// The middles of cells.
+fn centres(cells: &[Cell], world: &World) -> Vec<Point> {
+    cells.iter().map(|cell| world.cell_centre(*cell)).collect()
+}
+
+/// The point half way along cells, where a fragment's name stands.
+#[must_use]
+pub fn middle_of(cells: &[Cell], world: &World) -> Point {
+    middle(&centres(cells, world))
+}
+
+/// The point half way along.
+fn middle(points: &[Point]) -> Point {
+    let length = |pair: &[Point]| (pair[1] - pair[0]).norm();
+    let mut left = points.windows(2).map(length).sum::<f64>() / 2.0;
+    for pair in points.windows(2) {
+        if left <= length(pair) {
+            return pair[0] + (left / length(pair).max(f64::MIN_POSITIVE)) * (pair[1] - pair[0]);
+        }
+        left -= length(pair);
+    }
+    points.first().copied().unwrap_or_else(Point::origin)
+}
+
+/// Where a sign stands: a little way along, to the left.
+fn beside(at: Point, towards: Point) -> Point {
+    let along = towards - at;
+    at + 0.42 * along + 0.22 * Vector::new(-along.y, along.x)
+}

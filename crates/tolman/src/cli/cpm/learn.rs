@@ -1,0 +1,112 @@
+//! `tolman cpm learn`: a dictionary of common patterns, and a map written in it.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::{Context, anyhow};
+use clap::ValueEnum;
+use tolman::agents::cpm::{MapFile, System, Trial, epuck, learn};
+use tolman_maps::cpm::{Aim, Done, Landmark};
+
+use super::course;
+use crate::cli::failure::OrBadInput;
+use crate::cli::{Failure, file};
+
+/// Lets an e-puck learn common patterns in the learning maze, then a map of a maze, and writes both down
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  tolman cpm learn --maze mazes/cpm-3.maze --out map.json
+  tolman map show map.json --maze mazes/cpm-3.maze --svg map.svg
+  tolman cpm solve --map map.json --maze mazes/cpm-3.maze --svg drive.svg")]
+pub(in crate::cli) struct Arguments {
+    /// The maze file, of any format, with a start; - reads standard input
+    #[arg(long, value_name = "FILE")]
+    maze: PathBuf,
+    /// What all chance follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// How it maps
+    #[arg(long, value_enum, default_value_t = Choice::Faithful)]
+    system: Choice,
+    /// When it has learned enough
+    #[arg(long, value_enum, default_value_t = Until::Goal)]
+    until: Until,
+    /// The file to write the map to
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Choice {
+    /// As the paper's robot, online: by common patterns alone
+    Faithful,
+    /// By dead reckoning too, for fragments that look alike
+    Better,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Until {
+    /// The goal is found
+    Goal,
+    /// Every fragment was walked
+    Explored,
+}
+
+/// Where the common patterns are learned.
+const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let course = course(&arguments.maze)?;
+    let learning = tolman_maze::read(LEARNING_MAZE)?;
+    let width = learning.corridor_width.unwrap_or(super::CORRIDOR_WIDTH);
+    let patterns = learn(&learning.maze, width, arguments.seed)?;
+    let system = match arguments.system {
+        Choice::Faithful => System::Faithful,
+        Choice::Better => System::Better,
+    };
+    let trial = Trial {
+        maze: &course.maze,
+        corridor_width: course.corridor_width,
+        patterns: &patterns,
+        robot: epuck(),
+        mode: system.mode(),
+        seed: arguments.seed,
+    };
+    let aim = match arguments.until {
+        Until::Goal => Aim::Find(Landmark::Goal),
+        Until::Explored => Aim::Explore,
+    };
+    let errand = trial
+        .learn(aim)
+        .with_context(|| format!("no map of {} was learned", course.name))?;
+    match errand.episode.done {
+        Done::Reached => {}
+        Done::NotThere => {
+            let error = anyhow!(
+                "the robot found no goal in {}: is it walled off?",
+                course.name
+            );
+            return Err(error).or_bad_input();
+        }
+        Done::OutOfPatience => {
+            return Err(anyhow!("the robot gave up in {}: try another --seed", course.name).into());
+        }
+    }
+    let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
+    let (fragments, junctions) = (errand.map.fragments().len(), errand.map.junctions().len());
+    let file = MapFile {
+        maze: course.name,
+        seed: arguments.seed,
+        system,
+        patterns,
+        map: errand.map,
+    };
+    file::write(&arguments.out, &file.to_json()?)?;
+    writeln!(
+        out,
+        "a dictionary of {units} units in {clusters} clusters; a map of {fragments} fragments and {junctions} junctions, learned in {:.0} s",
+        errand.episode.seconds
+    )?;
+    Ok(())
+}

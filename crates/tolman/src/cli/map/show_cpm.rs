@@ -1,0 +1,76 @@
+//! `tolman map show` of a common-pattern map.
+
+use std::io::Write;
+
+use serde_json::json;
+use tolman::agents::cpm::{MapFile, drawing};
+use tolman::draw::Figure;
+use tolman_maps::cpm::{Landmark, Port};
+
+use super::show::Arguments;
+use crate::cli::failure::OrBadInput;
+use crate::cli::{Failure, cpm, file};
+
+pub(super) fn carry_out(
+    arguments: &Arguments,
+    text: &str,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let read = cpm::parse(&arguments.file, text)?;
+    let MapFile {
+        maze,
+        seed,
+        system,
+        patterns,
+        map,
+    } = &read;
+    if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
+        let course = cpm::course(maze)?;
+        let world = course.world().or_bad_input()?;
+        let drawing = drawing::over_maze(map, &course.maze, &world);
+        file::write(
+            path,
+            &Figure::new("map", &course.name, drawing).standalone(),
+        )?;
+    }
+    let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
+    let (fragments, junctions) = (map.fragments().len(), map.junctions().len());
+    let unexplored = map.open_ports().count();
+    let is_goal = |junction| {
+        let junction = map.junction(junction);
+        junction.is_some_and(|junction| junction.landmark == Some(Landmark::Goal))
+    };
+    let start = map.landmarks(Landmark::Start).next();
+    let from = start.map(|junction| Port {
+        junction,
+        number: 0,
+    });
+    let plan = from.and_then(|from| map.plan(from, is_goal));
+    let length = plan.map(|plan| plan.length);
+    if arguments.json {
+        let json = json!({
+            "maze": maze,
+            "seed": seed,
+            "system": system,
+            "units": units,
+            "clusters": clusters,
+            "fragments": fragments,
+            "junctions": junctions,
+            "unexplored_ports": unexplored,
+            "observations_to_goal": length,
+        });
+        writeln!(out, "{json:#}")?;
+        return Ok(());
+    }
+    writeln!(out, "{maze}, seed {seed}")?;
+    writeln!(out, "{units} units in {clusters} clusters")?;
+    writeln!(
+        out,
+        "{fragments} fragments, {junctions} junctions, {unexplored} ports nobody has been through"
+    )?;
+    match length {
+        Some(length) => writeln!(out, "the goal is {length} observations from the start")?,
+        None => writeln!(out, "no way to the goal is known: learn until it is found")?,
+    }
+    Ok(())
+}

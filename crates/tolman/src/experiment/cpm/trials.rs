@@ -1,0 +1,404 @@
+//! The tables whose runs are trials: both episodes in one maze.
+
+use tolman_maps::cpm::CpmConfig;
+
+use super::venue::{self, Venue};
+use crate::agents::cpm::{CommonPatterns, Mode, Record, Trial, epuck};
+use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+
+/// The table of figure 9.
+pub(super) const FIGURE_9: &str = "9";
+
+/// The table of when the map is looked at.
+const OFFLINE: &str = "offline";
+
+/// The table of mazes with fragments that look alike.
+const ALIASED: &str = "aliased";
+
+/// Runs of the table of aliased mazes: one maze each.
+const ALIASED_MAZES: u32 = 200;
+
+/// As many for a first look.
+const ALIASED_QUICK: u32 = 20;
+
+/// What follows the name of a maze in a row of our own reading.
+pub(super) const BETTER: &str = " better";
+
+/// An episode is long that leads over so many times the shortest path.
+const LONG: f64 = 10.0;
+
+/// A table of trials, and what is tried in each of its rows.
+#[derive(Debug)]
+pub(super) struct Trials {
+    pub(super) table: Table,
+    settings: Vec<Setting>,
+}
+
+/// What a row tries.
+#[derive(Debug)]
+struct Setting {
+    row: String,
+    place: Place,
+    mode: Mode,
+}
+
+/// Where a row's robot runs.
+#[derive(Debug)]
+enum Place {
+    /// In one maze.
+    Maze(Venue),
+    /// In another maze each run.
+    Aliased,
+}
+
+/// Online, as in section 6 of the paper.
+pub(super) fn faithful() -> Mode {
+    Mode::Paper(CpmConfig::online())
+}
+
+/// Our own reading: dead reckoning beside the patterns.
+pub(super) fn better() -> Mode {
+    Mode::Reckoned(CpmConfig::robust())
+}
+
+/// Figure 9; `papers`: the mazes are the paper's.
+pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
+    let mut settings = Vec::new();
+    let table = fields(Table::new(
+        FIGURE_9,
+        "Time from the first to the second episode",
+    ))
+    .metric(Metric::percent("solved_percent", "solved"))
+    .metric(
+        Metric::least("reduction_min_percent", "reduction")
+            .titled("least reduction")
+            .unit("%"),
+    )
+    .metric(named("reduction_percent", "reduction").titled("reduction").unit("%"))
+    .metric(
+        named("reduction_long_percent", "reduction_long")
+            .titled("reduction of long ones")
+            .unit("%"),
+    )
+    .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
+    .metric(Metric::mean("closure_recall").titled("recall"))
+    .metric(Metric::mean("seconds_1").titled("episode 1").unit("s"))
+    .metric(Metric::mean("seconds_2").titled("episode 2").unit("s"))
+    .paper_runs(10)
+    .note(format!(
+        "Solved: the goal was found, the shortest way of all that was walked was planned, and driven to the goal. Reductions are of solved \
+         runs; long ones drove {LONG} times the shortest path or more in the first episode. A run without a loop has precision and \
+         recall 1. The paper's robot needs no more than two episodes either."
+    ));
+    for venue in venues {
+        for (suffix, mode) in [("", faithful()), (BETTER, better())] {
+            settings.push(Setting {
+                row: format!("{}{suffix}", venue.name),
+                place: Place::Maze(venue.clone()),
+                mode,
+            });
+        }
+    }
+    let row = |setting: &Setting| {
+        let row = Row::new(&setting.row);
+        // The paper has no better system than its own.
+        if papers && setting.mode == faithful() {
+            row.paper("solved_percent", 100.0)
+        } else {
+            row
+        }
+    };
+    Trials {
+        table: with_rows(table, &settings, row),
+        settings,
+    }
+}
+
+/// The paper's two systems side by side.
+pub(super) fn offline(venues: &[Venue]) -> Trials {
+    let mut settings = Vec::new();
+    for venue in venues {
+        let modes = [
+            ("offline", Mode::Paper(CpmConfig::offline())),
+            ("online", faithful()),
+        ];
+        for (word, mode) in modes {
+            settings.push(Setting {
+                row: format!("{} {word}", venue.name),
+                place: Place::Maze(venue.clone()),
+                mode,
+            });
+        }
+    }
+    let table = fields(Table::new(OFFLINE, "Offline against online CPM"))
+        .metric(Metric::percent("solved_percent", "solved"))
+        .metric(Metric::mean("traversals").titled("fragments walked"))
+        .metric(Metric::mean("true_fragments").titled("different ones"))
+        .metric(Metric::mean("seconds_1").titled("episode 1").unit("s"))
+        .metric(Metric::mean("seconds_2").titled("episode 2").unit("s"))
+        .note(
+            "Offline the robot takes ports at random and looks at its map when the goal is found (section 4); online before each decision \
+             (section 6). Rows of one maze meet the same chance.",
+        );
+    Trials {
+        table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
+        settings,
+    }
+}
+
+/// What the paper excludes. `quick`: for a first look.
+pub(super) fn aliased(quick: bool) -> Trials {
+    let settings = vec![Setting {
+        row: "Better".into(),
+        place: Place::Aliased,
+        mode: better(),
+    }];
+    let table = fields(Table::new(ALIASED, "Mazes with fragments that look alike"))
+        .metric(Metric::percent("solved_percent", "solved"))
+        .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
+        .metric(Metric::mean("closure_recall").titled("recall"))
+        .note("One random maze a run, which the paper's robot cannot tell its way in.");
+    let mazes = if quick { ALIASED_QUICK } else { ALIASED_MAZES };
+    Trials {
+        table: with_rows(table, &settings, |setting| {
+            Row::new(&setting.row).runs(mazes)
+        }),
+        settings,
+    }
+}
+
+fn with_rows(mut table: Table, settings: &[Setting], row: impl Fn(&Setting) -> Row) -> Table {
+    for setting in settings {
+        table = table.row(row(setting));
+    }
+    table
+}
+
+/// The mean of a field under another name.
+fn named(name: &str, field: &str) -> Metric {
+    Metric {
+        name: name.into(),
+        ..Metric::mean(field)
+    }
+}
+
+/// What every trial measures.
+fn fields(table: Table) -> Table {
+    table
+        .field("solved", Kind::Flag)
+        .optional_field("reduction", Kind::Number)
+        .optional_field("reduction_long", Kind::Number)
+        .field("closure_precision", Kind::Number)
+        .field("closure_recall", Kind::Number)
+        .optional_field("seconds_1", Kind::Number)
+        .optional_field("seconds_2", Kind::Number)
+        .optional_field("observations_1", Kind::Count)
+        .optional_field("observations_2", Kind::Count)
+        .field("traversals", Kind::Count)
+        .field("fragments", Kind::Count)
+        .field("true_fragments", Kind::Count)
+        .field("contradictions", Kind::Count)
+        .field("bumps", Kind::Count)
+        .optional_field("trouble", Kind::Text)
+}
+
+impl Trials {
+    /// Every row with the way it maps, for the configuration.
+    pub(super) fn modes(&self) -> impl Iterator<Item = (&str, Mode)> {
+        let settings = self.settings.iter();
+        settings.map(|setting| (setting.row.as_str(), setting.mode))
+    }
+
+    /// The maze and the way of mapping of a run.
+    pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Venue, Mode), BoxError> {
+        let mut settings = self.settings.iter();
+        let setting = settings.find(|setting| setting.row == job.row);
+        let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+        let venue = match &setting.place {
+            Place::Maze(venue) => venue.clone(),
+            Place::Aliased => venue::aliased(job.seed)?,
+        };
+        Ok((venue, setting.mode))
+    }
+
+    /// Plays a run.
+    pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let (venue, mode) = self.cast(job)?;
+        let record = trial(&venue, patterns, mode, job.seed).play()?;
+        measured(&venue, &record)
+    }
+}
+
+/// A trial of the paper's robot.
+pub(super) fn trial<'a>(
+    venue: &'a Venue,
+    patterns: &'a CommonPatterns,
+    mode: Mode,
+    seed: u64,
+) -> Trial<'a> {
+    Trial {
+        maze: &venue.maze,
+        corridor_width: venue.corridor_width,
+        patterns,
+        robot: epuck(),
+        mode,
+        seed,
+    }
+}
+
+fn measured(venue: &Venue, record: &Record) -> Result<Fields, BoxError> {
+    let closures = record.closures;
+    let mut fields = Fields::new()
+        .flag("solved", record.is_solved())
+        .number("closure_precision", share(closures.right, closures.wrong))
+        .number("closure_recall", share(closures.right, closures.missed))
+        .count("traversals", record.traversals.into())
+        .count("fragments", record.fragments.into())
+        .count("true_fragments", record.true_fragments.into())
+        .count("contradictions", record.contradictions.into())
+        .count("bumps", record.bumps.into());
+    if let Some(reduction) = record.reduction_percent() {
+        fields = fields.number("reduction", reduction);
+        let shortest = venue.shortest_metres();
+        if shortest.is_some_and(|shortest| metres(record) >= LONG * shortest) {
+            fields = fields.number("reduction_long", reduction);
+        }
+    }
+    if let Some(first) = record.first {
+        fields = fields
+            .number("seconds_1", first.seconds)
+            .count("observations_1", first.observations.into());
+    }
+    if let Some(second) = record.second {
+        fields = fields
+            .number("seconds_2", second.seconds)
+            .count("observations_2", second.observations.into());
+    }
+    if let Some(trouble) = &record.trouble {
+        fields = fields.text("trouble", trouble);
+    }
+    Ok(fields)
+}
+
+/// How far the robot drove in the first episode, m.
+pub(super) fn metres(record: &Record) -> f64 {
+    let first = record
+        .path
+        .get(..record.second_from)
+        .unwrap_or(&record.path);
+    let steps = first.windows(2);
+    steps
+        .map(|pair| (pair[1].position - pair[0].position).norm())
+        .sum()
+}
+
+/// Part of a whole; all of nothing.
+fn share(part: u32, rest: u32) -> f64 {
+    if part + rest == 0 {
+        1.0
+    } else {
+        f64::from(part) / f64::from(part + rest)
+    }
+}
+
+/// What no trial can have measured.
+pub(super) fn check(run: &Run) -> Result<(), BoxError> {
+    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
+    let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
+    for name in ["closure_precision", "closure_recall"] {
+        let share = number(name);
+        if share.is_none_or(|share| !(0.0..=1.0).contains(&share)) {
+            return Err(format!("{name} is {share:?}, which is no share of 1").into());
+        }
+    }
+    for (seconds, observations) in [
+        ("seconds_1", "observations_1"),
+        ("seconds_2", "observations_2"),
+    ] {
+        if number(seconds).is_some() != number(observations).is_some() {
+            return Err(format!("{seconds} and {observations} come together").into());
+        }
+        if number(seconds).is_some_and(|seconds| seconds < 0.0) {
+            return Err(format!("{seconds} is less than 0").into());
+        }
+    }
+    let (first, second) = (number("seconds_1"), number("seconds_2"));
+    if second.is_some() && first.is_none() {
+        return Err("there is no second episode without a first".into());
+    }
+    let reduction = match (first, second) {
+        (Some(first), Some(second)) if solved => Some(100.0 * (1.0 - second / first)),
+        _ if solved => return Err("a run that is solved has two episodes".into()),
+        _ => None,
+    };
+    let is_that = |found: f64| reduction.is_some_and(|reduction| (found - reduction).abs() < 1e-9);
+    match number("reduction") {
+        Some(found) if !is_that(found) => {
+            return Err(format!("reduction is {found}, expected {reduction:?}").into());
+        }
+        None if solved => return Err("a run that is solved has a reduction".into()),
+        _ => {}
+    }
+    if number("reduction_long").is_some_and(|found| !is_that(found)) {
+        return Err("the reduction of a long run is its reduction".into());
+    }
+    if solved && run.fields.get("trouble").is_some() {
+        return Err("a run in trouble is not solved".into());
+    }
+    for name in ["fragments", "true_fragments", "contradictions"] {
+        if number(name) > number("traversals") {
+            return Err(format!("more {name} than traversals").into());
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(fields: Fields) -> Run {
+        Run {
+            table: FIGURE_9.into(),
+            row: "Maze-1".into(),
+            run: 0,
+            seed: 1,
+            fields,
+        }
+    }
+
+    fn solved() -> Fields {
+        Fields::new()
+            .flag("solved", true)
+            .number("closure_precision", 1.0)
+            .number("closure_recall", 0.5)
+            .number("seconds_1", 200.0)
+            .number("seconds_2", 50.0)
+            .count("observations_1", 100)
+            .count("observations_2", 5)
+            .number("reduction", 75.0)
+            .count("traversals", 9)
+            .count("fragments", 4)
+            .count("true_fragments", 5)
+            .count("contradictions", 0)
+            .count("bumps", 0)
+    }
+
+    #[test]
+    fn what_no_trial_measures_is_refused() {
+        let refused = |fields: Fields| check(&run(fields)).unwrap_err().to_string();
+        assert!(check(&run(solved())).is_ok());
+        assert!(check(&run(solved().number("reduction_long", 75.0))).is_ok());
+        for (fields, why) in [
+            (solved().number("closure_recall", 1.5), "no share"),
+            (solved().number("reduction", 70.0), "expected Some(75"),
+            (solved().number("reduction_long", 70.0), "is its reduction"),
+            (solved().flag("solved", false), "expected None"),
+            (solved().text("trouble", "lost"), "trouble"),
+            (solved().count("fragments", 10), "more fragments"),
+        ] {
+            let found = refused(fields);
+            assert!(found.contains(why), "{found}");
+        }
+    }
+}
