@@ -78,7 +78,7 @@ pub struct GraphEdge {
     pub series: Series,
     /// Its class by line.
     pub line: EdgeLine,
-    /// What is written at its middle; empty for nothing.
+    /// What is written beside its middle; empty for nothing.
     pub label: String,
 }
 
@@ -137,10 +137,9 @@ impl Graph {
                     (self.node_markup(node, at(node.position)))
                 }
                 @for (edge, [from, to]) in self.sound_edges().filter(|(edge, _)| !edge.label.is_empty()) {
-                    @let (from, to) = (at(from), at(to));
-                    text class="label quiet" text-anchor="middle"
-                        x=(tenths(f64::midpoint(from.0, to.0)))
-                        y=(tenths(f64::midpoint(from.1, to.1) - 3.0)) { (edge.label) }
+                    @let (x, y) = beside(at(from), at(to));
+                    text class="label quiet" text-anchor="middle" dominant-baseline="central"
+                        x=(tenths(x)) y=(tenths(y)) { (edge.label) }
                 }
             }
         }
@@ -310,12 +309,26 @@ impl GraphEdge {
         self
     }
 
-    /// Writes something at its middle.
+    /// Writes something beside its middle.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
+}
+
+/// Beside the middle of an edge, above it: text on a line is hard to read.
+fn beside(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
+    let middle = (f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1));
+    let along = (to.0 - from.0, to.1 - from.1);
+    let length = libm::hypot(along.0, along.1);
+    let (x, y) = if length > 0.0 {
+        (along.1 / length, -along.0 / length)
+    } else {
+        (0.0, -1.0)
+    };
+    let up = if y > 0.0 { -1.0 } else { 1.0 };
+    (middle.0 + 9.0 * up * x, middle.1 + 8.0 * up * y)
 }
 
 fn is_finite(node: &GraphNode) -> bool {
@@ -343,6 +356,23 @@ mod tests {
         assert!(svg.contains("d=\"M10 20L30 0\""), "{svg}");
         assert!(svg.contains("a &amp; b"));
         assert!(roxmltree::Document::parse(&svg).is_ok());
+    }
+
+    #[test]
+    fn labels_stand_beside_their_edges() {
+        let label = |to: Point| {
+            let mut graph = Graph::new();
+            let from = graph.node(GraphNode::at(Point::new(0.0, 0.0)));
+            let to = graph.node(GraphNode::at(to));
+            graph.edge(GraphEdge::between(from, to).label("here"));
+            drawn(&graph)
+        };
+        for to in [Point::new(4.0, 0.0), Point::new(-4.0, 0.0)] {
+            let svg = label(to);
+            assert!(svg.contains("y=\"-8\">here"), "above: {svg}");
+        }
+        let svg = label(Point::new(0.0, 4.0));
+        assert!(svg.contains("x=\"-9\" y=\"-20\">here"), "{svg}");
     }
 
     #[test]

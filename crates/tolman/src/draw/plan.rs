@@ -169,6 +169,14 @@ impl Plan {
         });
     }
 
+    /// Adds a dashed line, for a way that is doubtful.
+    pub fn doubtful_way(&mut self, positions: &[Point], series: Series) {
+        let path = self.path(positions);
+        self.layers.push(html! {
+            path class={ "trajectory " (series.class()) } stroke-dasharray="4 3" d=(path) {}
+        });
+    }
+
     /// Adds a graph, each node at its coordinates.
     pub fn graph(&mut self, graph: &Graph) {
         let markup = graph.markup(&|position| self.at(position));

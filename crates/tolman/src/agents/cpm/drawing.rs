@@ -10,7 +10,7 @@ use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 
 use super::layout::{Fit, Layout};
-use crate::draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series};
+use crate::draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series, Zone};
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
@@ -71,36 +71,36 @@ pub fn drive(map: &CpMap, maze: &Maze, world: &World, path: &[Pose]) -> Drawing 
 
 fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
     let layout = Layout::of(map, maze);
-    let walls: Vec<[Point; 2]> = world
-        .walls()
-        .iter()
-        .map(|wall| [wall.start, wall.end])
-        .collect();
-    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let mut plan = plan_of(maze, world);
     let mut graph = Graph::new().radius(RADIUS);
     let mut signs = Vec::new();
+    stubs(&mut graph, &layout, world);
     for (id, fragment) in map.fragments() {
         let Some(course) = layout.course(id) else {
             continue;
         };
         let centres = centres(&course.cells, world);
-        plan.way(&centres, series(id));
-        graph.node(
-            GraphNode::at(middle(&centres))
-                .mark(NodeMark::Disc)
-                .series(series(id))
-                .label(fragment_name(id))
-                .note(fragment_note(map, id, fragment)),
-        );
+        match course.fit {
+            Fit::Agrees => plan.way(&centres, series(id)),
+            Fit::Astray => plan.doubtful_way(&centres, series(id)),
+        }
+        let node = GraphNode::at(middle(&centres))
+            .mark(NodeMark::Disc)
+            .series(series(id))
+            .label(fragment_name(id))
+            .note(fragment_note(map, id, fragment));
+        add(&mut graph, node);
         if let ([at, towards, ..], [.., before, last]) = (&centres[..], &centres[..]) {
             signs.push((beside(*at, *towards), sign_text(Sign::Minus)));
             signs.push((beside(*last, *before), sign_text(Sign::Plus)));
         }
     }
-    stubs(&mut graph, &layout, world);
     for (id, junction) in map.junctions() {
         if let Some(cell) = layout.place(id) {
-            graph.node(junction_node(map, id, junction, world.cell_centre(cell)));
+            add(
+                &mut graph,
+                junction_node(map, id, junction, world.cell_centre(cell)),
+            );
         }
     }
     plan.graph(&graph);
@@ -110,12 +110,51 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
     plan
 }
 
+/// The plan of a maze; what the robot cannot come to is solid.
+#[must_use]
+pub fn plan_of(maze: &Maze, world: &World) -> Plan {
+    let walls: Vec<[Point; 2]> = world
+        .walls()
+        .iter()
+        .map(|wall| [wall.start, wall.end])
+        .collect();
+    let mut plan = Plan::of_walls(&walls, WIDTH);
+    // Cell (0, 0) begins at the origin.
+    let half = world.cell_centre(Cell::new(0, 0)).x;
+    for cell in maze.sealed() {
+        let centre = world.cell_centre(cell);
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
+        plan.zone(&corners, Zone::Solid);
+    }
+    plan
+}
+
+/// Adds a node; where one stands already, as where the map has one place twice, it is named there.
+fn add(graph: &mut Graph, node: GraphNode) {
+    let same = |other: &&mut GraphNode| {
+        other.mark == node.mark
+            && !other.label.is_empty()
+            && (other.position - node.position).norm() < 1e-6
+    };
+    match graph.nodes.iter_mut().find(same) {
+        Some(other) => {
+            other.label = format!("{}, {}", other.label, node.label);
+            other.note = format!("{}; {}", other.note, node.note);
+        }
+        None => {
+            graph.node(node);
+        }
+    }
+}
+
 /// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares, each edge with the sign of the
 /// fragment's end and the port of the junction. Nodes lie as they do in the maze.
 #[must_use]
 pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
     let layout = Layout::of(map, maze);
     let mut graph = Graph::new().radius(RADIUS + 1.0);
+    stubs(&mut graph, &layout, world);
     let mut junctions = Vec::new();
     for (id, junction) in map.junctions() {
         if let Some(cell) = layout.place(id) {
@@ -152,8 +191,10 @@ pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
             }
         }
     }
-    stubs(&mut graph, &layout, world);
-    let mut plan = Plan::of_bounds(&world.bounds(), WIDTH);
+    // Names stand to the right of their nodes.
+    let mut bounds = world.bounds();
+    bounds.max.x += 0.1 * (bounds.max.x - bounds.min.x);
+    let mut plan = Plan::of_bounds(&bounds, WIDTH);
     plan.graph(&graph);
     plan.drawing(format!(
         "A common-pattern map: {} fragment nodes and {} junction nodes.",

@@ -25,7 +25,8 @@ use super::fragments::{DIRECTIONS, along};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    places: BTreeMap<JunctionId, Cell>,
+    /// With the direction of port 0.
+    places: BTreeMap<JunctionId, (Cell, Direction)>,
     fragments: BTreeMap<FragmentId, Course>,
     open: Vec<OpenPort>,
 }
@@ -55,7 +56,7 @@ pub struct Course {
 pub enum Fit {
     /// They do.
     Agrees,
-    /// The map says that it leads to another place.
+    /// The map says that it leads to another place, or another port of it.
     Astray,
 }
 
@@ -75,8 +76,10 @@ impl Layout {
         let nearest = [behind, behind.left(), behind.right(), ahead];
         let first = nearest.into_iter().find(|way| maze.is_open(cell, *way));
         let mut queue = VecDeque::new();
-        layout.places.insert(start, cell);
-        queue.extend(first.map(|first| (start, cell, first)));
+        if let Some(first) = first {
+            layout.places.insert(start, (cell, first));
+            queue.push_back((start, cell, first));
+        }
         while let Some((id, cell, first)) = queue.pop_front() {
             let Some(junction) = map.junction(id) else {
                 continue;
@@ -122,12 +125,13 @@ impl Layout {
         let arrive = map.fragment(end.fragment)?.port(end.sign.opposite());
         let (mut cells, came) = along(maze, from, way)?;
         let to = *cells.last()?;
+        let back = came.opposite();
         let known = self.places.get(&arrive.junction).copied();
-        let fit = if known.is_none_or(|known| known == to) {
-            Fit::Agrees
-        } else {
-            Fit::Astray
-        };
+        let is_there = known.is_none_or(|(cell, first)| {
+            let ways = branches(maze, cell, first);
+            cell == to && ways.get(arrive.number as usize) == Some(&back)
+        });
+        let fit = if is_there { Fit::Agrees } else { Fit::Astray };
         if end.sign == Sign::Plus {
             cells.reverse();
         }
@@ -135,18 +139,18 @@ impl Layout {
         if known.is_some() {
             return None;
         }
-        self.places.insert(arrive.junction, to);
         // The way back is port `arrive.number`; port 0 lies as many branches clockwise.
-        let ways = branches(maze, to, came.opposite());
-        let back = arrive.number as usize % ways.len();
-        let first = ways[(ways.len() - back) % ways.len()];
+        let ways = branches(maze, to, back);
+        let turn = arrive.number as usize % ways.len();
+        let first = ways[(ways.len() - turn) % ways.len()];
+        self.places.insert(arrive.junction, (to, first));
         Some((arrive.junction, to, first))
     }
 
     /// The cell of a junction; none where map and maze do not agree.
     #[must_use]
     pub fn place(&self, junction: JunctionId) -> Option<Cell> {
-        self.places.get(&junction).copied()
+        self.places.get(&junction).map(|(cell, _)| *cell)
     }
 
     /// Where a fragment lies.

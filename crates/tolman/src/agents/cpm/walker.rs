@@ -179,6 +179,24 @@ impl<B: Body> Walker<B> {
         path.get(usize::try_from(step).ok()?).copied()
     }
 
+    /// The branches of the place it stands at, rad, relative to its heading: counter-clockwise from the way it came by.
+    pub fn branches(&self) -> &[f64] {
+        &self.branches
+    }
+
+    /// How far it drove so far, m.
+    pub const fn driven(&self) -> f64 {
+        self.pilot.robot().driven()
+    }
+
+    /// Sweeps where it stands.
+    ///
+    /// # Errors
+    /// [`WalkError`].
+    pub fn look_around(&mut self) -> Result<Profile, WalkError<B::Error>> {
+        Ok(self.look()?.profile)
+    }
+
     /// How it observes.
     pub const fn config(&self) -> &WalkerConfig {
         &self.config

@@ -18,6 +18,7 @@ use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Ta
 pub(super) const DETECTOR: &str = "detector";
 
 /// How a row looks.
+#[derive(Debug)]
 struct Setting {
     name: &'static str,
     alignment: Alignment,
@@ -108,6 +109,11 @@ pub(super) fn table() -> Table {
          stops at counts.",
         100.0 * OFF
     ))
+}
+
+/// What the runs depend on.
+pub(super) fn config() -> String {
+    format!("{SETTINGS:?}, {WIDE}, {OFF}, {ASKEW}, {FRAGMENTS}")
 }
 
 /// The fields of a kind: told and true, told, true.

@@ -33,7 +33,17 @@ const LEARNERS: [(&str, &str); 3] = [
 pub(super) fn table(venues: &[Venue]) -> Table {
     let mut table = Table::new(EPISODES, "Episodes until the way is known")
         .optional_field("cells", Kind::Count)
-        .field("shortest_cells", Kind::Count);
+        .field("shortest_cells", Kind::Count)
+        .metric(
+            Metric::mean("cells")
+                .titled("CPM's second way")
+                .unit("cells"),
+        )
+        .metric(
+            Metric::mean("shortest_cells")
+                .titled("the shortest")
+                .unit("cells"),
+        );
     for (name, title) in LEARNERS {
         let [episodes, metres] = [format!("{name}_episodes"), format!("{name}_metres")];
         table = table

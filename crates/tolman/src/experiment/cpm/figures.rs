@@ -7,11 +7,8 @@ use super::Cpm;
 use super::trials::{BETTER, FIGURE_9};
 use super::venue::Venue;
 use crate::agents::cpm::{Record, drawing};
-use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Plan, Series};
+use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use crate::experiment::{BoxError, Field, Run};
-
-/// Width of a plan, user units.
-const WIDTH: f64 = 420.0;
 
 pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
@@ -20,10 +17,7 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
             let row = format!("{}{suffix}", venue.name);
             let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
             let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
-            let Some(longest) = runs.iter().max_by(|a, b| {
-                let seconds = |run: &Run| number_of(run, "seconds_1").unwrap_or(0.0);
-                seconds(a).total_cmp(&seconds(b))
-            }) else {
+            let Some(longest) = longest(&runs) else {
                 continue;
             };
             figures.push(times(&row, &format!("times-{number}-{kind}"), &runs));
@@ -40,6 +34,19 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
         }
     }
     Ok(figures)
+}
+
+/// The run with the longest first episode, of those that were solved if any was.
+fn longest<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
+    let key = |run: &Run| {
+        let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
+        (solved, number_of(run, "seconds_1").unwrap_or(0.0))
+    };
+    let order = |a: &&Run, b: &&Run| {
+        let (a, b) = (key(a), key(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    };
+    runs.iter().copied().max_by(order)
 }
 
 fn number_of(run: &Run, field: &str) -> Option<f64> {
@@ -73,12 +80,7 @@ fn times(row: &str, name: &str, runs: &[&Run]) -> Figure {
 /// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took longest.
 fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<Figure, BoxError> {
     let world = venue.world()?;
-    let walls: Vec<[Point; 2]> = world
-        .walls()
-        .iter()
-        .map(|wall| [wall.start, wall.end])
-        .collect();
-    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let mut plan = drawing::plan_of(&venue.maze, &world);
     let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
     let (first, second) = positions.split_at(record.second_from.min(positions.len()));
     plan.faint_trajectory(first, Series(0));
@@ -109,7 +111,7 @@ fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<Figure,
         plan.drawing(format!("Plan of {row} with the ways of both episodes.")),
     )
     .caption(format!(
-        "The trial with the longest first episode (first colour): {} fragments walked, {} of them different, {} on the map. The second \
+        "The solved trial with the longest first episode (first colour): {} fragments walked, {} of them different, {} on the map. The second \
          colour is the second episode. As the paper's figure 8, (b) and (c).",
         record.traversals, record.true_fragments, record.fragments
     ))
@@ -125,7 +127,7 @@ fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<[Figure
         Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
             .caption(
                 "The map at the end of that trial's first episode, laid over the maze port by port: each fragment A with its ends − and +, \
-                 junctions as squares, dashed where nobody has been. What fits nowhere in the maze is left out.",
+                 junctions as squares, rings where nobody has been. A dashed fragment leads elsewhere on the map than in the maze.",
             )
             .table(FIGURE_9),
         Figure::new(format!("graph-{name}"), format!("{row}: the map"), graph)

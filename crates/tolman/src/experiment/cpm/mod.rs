@@ -6,6 +6,7 @@ mod detector;
 mod dictionary;
 mod episodes;
 mod figures;
+mod places;
 mod real;
 mod replay;
 mod trials;
@@ -21,6 +22,7 @@ use crate::replay::Replay;
 use detector::DETECTOR;
 use dictionary::DICTIONARY;
 use episodes::EPISODES;
+use places::PLACES;
 use real::FIGURE_11;
 use trials::Trials;
 use venue::Venue;
@@ -53,6 +55,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     let mut trials = vec![trials::figure_9(&venues, papers), trials::offline(&venues)];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
     tables.push(episodes::table(&venues));
+    tables.push(places::table(&venues));
     if papers {
         let aliased = trials::aliased(options.quick);
         tables.push(aliased.table.clone());
@@ -141,6 +144,8 @@ impl Experiment for Cpm {
         }
         let learner = format!("{:?}", QLearningConfig::usual());
         config.insert("q_learning".into(), learner.into());
+        config.insert("places".into(), places::config().into());
+        config.insert("detector".into(), detector::config().into());
         let mut dictionary = toml::Table::new();
         dictionary.insert("units".into(), self.patterns.unit_count().into());
         dictionary.insert("clusters".into(), self.patterns.cluster_count().into());
@@ -157,6 +162,7 @@ impl Experiment for Cpm {
         match job.table {
             FIGURE_11 => real::run(&self.real, &self.patterns, job),
             EPISODES => episodes::run(self.venue(job.row)?, &self.patterns, job),
+            PLACES => places::run(self.venue(job.row)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
             DETECTOR => detector::run(&self.venues, job),
             table => match self.trials_of(table) {
@@ -170,6 +176,7 @@ impl Experiment for Cpm {
         match run.table.as_str() {
             FIGURE_11 => real::check(run),
             EPISODES => episodes::check(run),
+            PLACES => places::check(run),
             DICTIONARY => dictionary::check(run),
             DETECTOR => detector::check(run),
             _ => trials::check(run),

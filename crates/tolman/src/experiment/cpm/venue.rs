@@ -161,3 +161,30 @@ fn has_room(maze: &Maze) -> bool {
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn no_two_mazes_have_a_row_of_one_name() {
+        let folder = std::env::temp_dir().join(format!("tolman-cpm-venues-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let maze = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
+        let names = ["Loop", "Loop", "Loop better"];
+        let files: Vec<PathBuf> = (0..)
+            .zip(names)
+            .map(|(number, name)| {
+                let path = folder.join(format!("{number}.maze"));
+                fs::write(&path, format!("name = {name}\n{maze}")).unwrap();
+                path
+            })
+            .collect();
+        let venues = from_files(&files).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let found: Vec<&str> = venues.iter().map(|venue| venue.name.as_str()).collect();
+        assert_eq!(found, ["Loop", "Loop (2)", "Loop better (2)"]);
+    }
+}
