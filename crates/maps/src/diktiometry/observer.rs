@@ -158,7 +158,11 @@ impl Observer {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
         let way = path_to(&self.map.paths, from.0, |place| place == to.0)?;
-        let actions = actions_along(&self.map, &way)?;
+        let links = |place| {
+            let ways = self.map.paths.ways(place);
+            ways.map(|(_, link)| (link.action, link.to))
+        };
+        let actions = actions_along(&way, links)?;
         let ends = way.iter().skip(1).map(|&place| PlaceId(place));
         let steps = actions
             .into_iter()

@@ -5,11 +5,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
-use tolman_planners::{path_to, steps_from};
+use tolman_planners::{Graph, path_to, steps_from};
 
 use super::config::{Config, Use};
 use super::ids::{Action, PlaceId};
 use super::map::Diktiometry;
+use super::path_graph::Link;
 use super::track::Track;
 
 /// An opportunity script: a "short, stereotyped sequence of actions designed to help mapping in particular situations".
@@ -89,12 +90,10 @@ fn is_resolved(map: &Diktiometry, place: PlaceId) -> bool {
 }
 
 fn go_to_unknown(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Opportunity> {
-    let way = path_to(&map.paths, from.0, |place| {
-        let place = PlaceId(place);
+    let walkable = Walkable { map, config };
+    let (mut script, place) = walkable.script_to(from, |place| {
         is_resolved(map, place) && !untried(map, place, config).is_empty()
     })?;
-    let place = PlaceId(*way.last()?);
-    let mut script = actions_along(map, &way)?;
     script.push(*untried(map, place, config).first()?);
     offered(OpportunityKind::GoToUnknown, place, script, 1.0, config)
 }
@@ -122,7 +121,8 @@ fn shuttle(map: &Diktiometry, track: &Track, config: &Config) -> Option<Opportun
     let [from, to] = [link.from, link.to].map(|end| map.paths.places[end.index()].frame);
     let estimates = map.reference.relation(from, to)?.estimates;
     let back = config.actions.get(link.action.0 as usize)?.reverse?;
-    if estimates >= config.opportunities.traversals {
+    let enough = estimates >= config.opportunities.traversals;
+    if enough || !is_proved_by_return(map, link, config) {
         return None;
     }
     let gain = width(map, link.from, link.to)? / config.least_distance();
@@ -140,15 +140,15 @@ fn close_loop(map: &Diktiometry, from: PlaceId, config: &Config) -> Option<Oppor
     if notes.is_empty() {
         return None;
     }
-    let steps = steps_from(&map.paths, [from.0]);
+    let walkable = Walkable { map, config };
+    let steps = steps_from(&walkable, [from.0]);
     let others = notes.iter().filter_map(|note| {
         let other = map.paths.resolve(note.other)?;
         let steps = steps[other.index()].filter(|steps| *steps > 0)?;
         Some((steps, other))
     });
     let (_, other) = others.min()?;
-    let way = path_to(&map.paths, from.0, |place| place == other.0)?;
-    let script = actions_along(map, &way)?;
+    let (script, _) = walkable.script_to(from, |place| place == other)?;
     // A place that is one with another saves a place and its links.
     offered(OpportunityKind::CloseLoop, other, script, 1.0, config)
 }
@@ -171,15 +171,73 @@ fn offered(
     })
 }
 
-/// The actions that lead from each place of a way to the next.
-pub(super) fn actions_along(map: &Diktiometry, way: &[u32]) -> Option<Vec<Action>> {
+/// The ways that scripts take: those a plan may follow and, where the robot came along a link, the action back, if it was never
+/// tried and its end will be recognized. The world may have no such way; a script may fail.
+struct Walkable<'a> {
+    map: &'a Diktiometry,
+    config: &'a Config,
+}
+
+impl Walkable<'_> {
+    fn ways(&self, place: PlaceId) -> impl Iterator<Item = (Action, PlaceId)> {
+        let Self { map, config } = *self;
+        let known = map.paths.ways(place);
+        let known = known.map(|(_, link)| (link.action, link.to));
+        let back = map.paths.incoming(place).filter_map(move |(_, link)| {
+            let back = config.actions.get(link.action.0 as usize)?.reverse?;
+            let open = map.paths.places[place.index()].is_open(back);
+            let untried = map.paths.along(place, back).next().is_none();
+            let proved = is_proved_by_return(map, link, config);
+            (open && untried && proved).then_some((back, link.from))
+        });
+        known.chain(back)
+    }
+
+    /// The actions from one place to the nearest that is a goal, and that place.
+    fn script_to(
+        &self,
+        from: PlaceId,
+        is_goal: impl Fn(PlaceId) -> bool,
+    ) -> Option<(Vec<Action>, PlaceId)> {
+        let way = path_to(self, from.0, |place| is_goal(PlaceId(place)))?;
+        let end = PlaceId(*way.last()?);
+        Some((actions_along(&way, |place| self.ways(place))?, end))
+    }
+}
+
+impl Graph for Walkable<'_> {
+    fn node_count(&self) -> usize {
+        self.map.paths.node_count()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        for (_, to) in self.ways(PlaceId(node)) {
+            visit(to.0, 1);
+        }
+    }
+}
+
+/// The actions that lead from each place of a way to the next, by the ways there are from each.
+pub(super) fn actions_along<I: Iterator<Item = (Action, PlaceId)>>(
+    way: &[u32],
+    ways: impl Fn(PlaceId) -> I,
+) -> Option<Vec<Action>> {
     let hops = way.iter().zip(way.iter().skip(1));
     hops.map(|(&tail, &head)| {
-        let mut ways = map.paths.ways(PlaceId(tail));
-        ways.find(|(_, link)| link.to.0 == head)
-            .map(|(_, link)| link.action)
+        let mut ways = ways(PlaceId(tail));
+        ways.find(|(_, to)| to.0 == head).map(|(action, _)| action)
     })
     .collect()
+}
+
+/// Whether a robot that goes along a link and back is recognized where it began, by geometry alone: after a longer way it might be
+/// at a place of its own, and going back would make one more place that nobody can tell.
+fn is_proved_by_return(map: &Diktiometry, link: &Link, config: &Config) -> bool {
+    let way = map.related(link.from, link.to);
+    way.is_some_and(|there| {
+        let back = there; // As wrong as the way there, but not alike.
+        (there - back).norm().high() < config.least_alike_distance()
+    })
 }
 
 /// How well the displacement between two linked places is known: the box's longer side, m.
