@@ -1,7 +1,9 @@
 //! `tolman map`: looks at learned maps.
 
+mod plan;
 mod show;
 mod show_cpm;
+mod show_survey;
 
 use std::fs;
 use std::io::Write;
@@ -9,6 +11,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use clap::Subcommand;
+use tolman::agents::diktiometry::SurveyFile;
 use tolman::agents::mslst::MapFile;
 
 use super::Failure;
@@ -18,12 +21,14 @@ use super::failure::OrBadInput;
 #[derive(Subcommand)]
 pub(super) enum Verb {
     Show(show::Arguments),
+    Plan(plan::Arguments),
 }
 
 impl Verb {
     pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
             Self::Show(arguments) => show::carry_out(&arguments, out),
+            Self::Plan(arguments) => plan::carry_out(&arguments, out),
         }
     }
 }
@@ -42,6 +47,20 @@ fn parse(path: &Path, text: &str) -> Result<MapFile, Failure> {
         .or_bad_input()
 }
 
+/// Reads a survey that `tolman survey` wrote.
+///
+/// # Errors
+/// Bad input with the file's name.
+pub(super) fn read_survey(path: &Path) -> Result<SurveyFile, Failure> {
+    parse_survey(path, &text(path)?)
+}
+
+fn parse_survey(path: &Path, text: &str) -> Result<SurveyFile, Failure> {
+    SurveyFile::from_json(text)
+        .with_context(|| path.display().to_string())
+        .or_bad_input()
+}
+
 /// The text of a file with a learned map of whichever kind.
 ///
 /// # Errors
@@ -51,7 +70,7 @@ pub(super) fn text(path: &Path) -> Result<String, Failure> {
         .with_context(|| {
             let path = path.display();
             format!(
-                "cannot read {path}; give a file that `tolman learn` or `tolman cpm learn` wrote"
+                "cannot read {path}; give a file that `tolman learn`, `tolman cpm learn` or `tolman survey` wrote"
             )
         })
         .or_bad_input()

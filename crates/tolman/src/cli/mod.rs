@@ -22,6 +22,7 @@ mod replay_file;
 mod run;
 mod solve;
 mod stdout;
+mod survey;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -46,6 +47,7 @@ Examples:
   tolman learn --maze mazes/j.maze --out j-map.json
   tolman solve --map j-map.json --maze mazes/j.maze --seed 7
   tolman cpm learn --maze mazes/cpm-3.maze --out map.json
+  tolman survey --maze mazes/j.maze --out j-survey.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/classic --worst 3
   tolman experiment baselines --quick
@@ -58,6 +60,7 @@ enum Verb {
     Run(run::Arguments),
     Learn(learn::Arguments),
     Solve(solve::Arguments),
+    Survey(survey::Arguments),
     #[command(subcommand)]
     Map(map::Verb),
     Replay(replay::Arguments),
@@ -98,6 +101,7 @@ impl Verb {
             Self::Run(arguments) => run::carry_out(&arguments, out),
             Self::Learn(arguments) => learn::carry_out(&arguments, out),
             Self::Solve(arguments) => solve::carry_out(&arguments, out),
+            Self::Survey(arguments) => survey::carry_out(&arguments, out),
             Self::Map(verb) => verb.carry_out(out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),

@@ -29,6 +29,9 @@ fn every_verb_explains_itself() {
         &["maze", "check"],
         &["maze", "convert"],
         &["maze", "generate"],
+        &["survey"],
+        &["map", "show"],
+        &["map", "plan"],
     ] {
         let help = tolman(&[verb, &["--help"]].concat()).done();
         assert!(

@@ -15,6 +15,7 @@ mod mms_host;
 mod mouse;
 mod replay;
 mod run;
+mod survey;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

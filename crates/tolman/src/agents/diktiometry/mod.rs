@@ -7,6 +7,7 @@
 //!
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall Symposium 1992, *Results*.
 
+mod drawing;
 mod epuck;
 mod errors;
 mod office;
@@ -14,13 +15,16 @@ mod planner;
 mod rover;
 mod score;
 mod survey;
+mod survey_file;
 mod surveyor;
 
+pub use drawing::map_over_world;
 pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, EpuckSurveyError, survey_maze};
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
 pub use office::{Office, OfficeConfig, OfficeError, PlaceKind, TruePlace, blocks};
 pub use planner::{Decision, Planner, Reason};
 pub use rover::{Arrival, MapError, Mapped, Odometer, RoutineOutcome, Rover};
 pub use score::{Isomorphism, MapScore, Visit, score};
-pub use survey::{Drawn, RunError, Survey, SurveyConfig, Surveyed, mapper};
+pub use survey::{Drawn, Past, RunError, Survey, SurveyConfig, Surveyed, mapper};
+pub use survey_file::{SurveyFile, SurveyFileError};
 pub use surveyor::{Sight, SurveyError, Surveyor, SurveyorConfig};

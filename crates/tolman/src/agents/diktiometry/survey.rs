@@ -85,6 +85,19 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     config
 }
 
+/// What truly was in a run so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Past {
+    /// Where the robot began, m.
+    pub start: Point,
+    /// Where it is, m.
+    pub at: Point,
+    /// The true places it was at and what the map took them for, from the start on.
+    pub visits: Vec<Visit>,
+    /// The true ways it went: from which site in which direction.
+    pub gone: Vec<(u32, Direction)>,
+}
+
 /// A run under way, or ended.
 #[derive(Debug)]
 pub struct Survey<'a> {
@@ -189,6 +202,38 @@ impl<'a> Survey<'a> {
         })
     }
 
+    /// A run that goes on where another ended. `seed` is that of all chance from now on; doorways are open.
+    ///
+    /// # Errors
+    /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
+    pub fn resumed(
+        office: &'a Office,
+        config: SurveyConfig,
+        past: Past,
+        observer: Observer,
+        seed: u64,
+    ) -> Result<Self, RunError> {
+        let robot = Surveyor::new(office, config.robot.clone(), past.at, seed)?;
+        let mut survey = Self {
+            office,
+            planner: Planner::new(config.heed),
+            mapped: Mapped::resumed(robot, observer)?,
+            walk: stream(seed, 1),
+            doors: stream(seed, 2),
+            plans: stream(seed, 3),
+            shut: Vec::new(),
+            truth: office.places(&[]),
+            start: past.start,
+            site: 0,
+            visits: past.visits,
+            gone: past.gone,
+            errors: Vec::new(),
+            config,
+        };
+        survey.site = survey.true_site(past.at)?;
+        Ok(survey)
+    }
+
     /// Makes all moves.
     ///
     /// # Errors
@@ -277,6 +322,23 @@ impl<'a> Survey<'a> {
         match near {
             Some((distance, site)) if distance < 0.5 * self.office.separation() => Ok(site),
             _ => Err(RunError::OffPlace { at: here }),
+        }
+    }
+
+    /// What it depends on but the office and the seed.
+    #[must_use]
+    pub const fn config(&self) -> &SurveyConfig {
+        &self.config
+    }
+
+    /// What truly was so far.
+    #[must_use]
+    pub fn past(&self) -> Past {
+        Past {
+            start: self.start,
+            at: self.robot().position(),
+            visits: self.visits.clone(),
+            gone: self.gone.clone(),
         }
     }
 

@@ -3,27 +3,30 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::anyhow;
 use serde_json::json;
 use tolman::agents::cpm;
+use tolman::agents::diktiometry::SurveyFile;
 use tolman::agents::mslst::{MapFile, drawing};
 use tolman::draw::Figure;
 
-use super::{Failure, show_cpm};
+use super::{Failure, show_cpm, show_survey};
 use crate::cli::{file, run};
 
-/// Tells what a learned map holds, and draws its graph over the maze
+/// Tells what a learned map holds, and draws it over the maze
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example:
-  tolman map show j-map.json --maze mazes/j.maze --svg j-map.svg")]
+Examples:
+  tolman map show j-map.json --maze mazes/j.maze --svg j-map.svg
+  tolman map show j-survey.json --svg j-survey.svg")]
 pub(crate) struct Arguments {
-    /// The map, made by `tolman learn` or `tolman cpm learn`
+    /// The map, made by `tolman learn`, `tolman cpm learn` or `tolman survey`
     pub(super) file: PathBuf,
-    /// The maze it was learned in
+    /// The maze it was learned in; a survey knows its own
     #[arg(long, value_name = "FILE", requires = "svg")]
     pub(super) maze: Option<PathBuf>,
-    /// Draw the graph over the maze
-    #[arg(long, value_name = "FILE", requires = "maze")]
+    /// Draw the map over the maze
+    #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
     /// Write the figures as JSON
     #[arg(long)]
@@ -32,6 +35,13 @@ pub(crate) struct Arguments {
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let text = super::text(&arguments.file)?;
+    if SurveyFile::is_one(&text) {
+        return show_survey::carry_out(arguments, &text, out);
+    }
+    if arguments.svg.is_some() && arguments.maze.is_none() {
+        let error = anyhow!("this map is drawn over its maze; name that with --maze");
+        return Err(Failure::BadInput(error));
+    }
     if cpm::MapFile::is_one(&text) {
         return show_cpm::carry_out(arguments, &text, out);
     }

@@ -1,18 +1,12 @@
 //! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds, as figures 3(a) and 4.
 
-use tolman_geom::{Point, Vector};
-use tolman_sim::Bounds;
-
 use super::settings::{Setting, Subject, Trial};
-use crate::agents::diktiometry::{Drawn, Survey, WINDOW};
-use crate::draw::{
-    Axis, Chart, EdgeLine, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, Plan, Region,
-    Series,
-};
+use crate::agents::diktiometry::{Survey, WINDOW, map_over_world};
+use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use crate::experiment::{BoxError, Run};
 use crate::stats::{self, Interval};
 
-/// Width of a plan, user units.
+/// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
 /// Tables of more rows get no curves: nobody could tell them apart.
 const MOST_CURVES: usize = 4;
@@ -83,52 +77,8 @@ fn slug(trial: &Trial) -> String {
 /// The map of a run, moved so that its places lie best on the true ones.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
     let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
-    let walls: Vec<[Point; 2]> = setting
-        .office
-        .world()
-        .walls()
-        .iter()
-        .map(|wall| [wall.start, wall.end])
-        .collect();
-    let mut plan = Plan::of_walls(&walls, WIDTH);
-    let drawn = survey.drawn();
-    for place in &drawn {
-        let Drawn { low, high, .. } = *place;
-        plan.region(
-            &Region::within(&Bounds {
-                min: low,
-                max: high,
-            }),
-            Series(1),
-        );
-    }
-    let mut graph = Graph::new();
-    let nodes: Vec<(u32, usize)> = drawn
-        .iter()
-        .map(|place| {
-            (
-                place.id,
-                graph.node(GraphNode::at(middle(place)).note(&place.label)),
-            )
-        })
-        .collect();
-    let node = |id: u32| {
-        nodes
-            .iter()
-            .find(|(other, _)| *other == id)
-            .map(|(_, node)| *node)
-    };
-    for (from, to) in survey.links() {
-        if let (Some(from), Some(to)) = (node(from), node(to)) {
-            graph.edge(GraphEdge::between(from, to).line(EdgeLine::Arrow));
-        }
-    }
-    plan.graph(&graph);
     let score = survey.score();
-    let drawing = plan.drawing(format!(
-        "A learned map over its world: {} places.",
-        score.places
-    ));
+    let drawing = map_over_world(&setting.office, &survey);
     Ok(Figure::new(
         format!("map-{}-{number}", slug(trial)),
         format!("{}: the map of run 0", setting.row),
@@ -141,8 +91,4 @@ fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Fig
         score.places, score.visited
     ))
     .table(trial.name))
-}
-
-fn middle(place: &Drawn) -> Point {
-    place.low + 0.5 * (place.high - place.low) + Vector::zeros()
 }

@@ -143,7 +143,7 @@ impl Experiment for Diktiometry {
                 let mut row = toml::Table::new();
                 let run = &setting.config;
                 row.insert("robot".into(), toml::Value::try_from(&run.robot)?);
-                row.insert("mapper".into(), format!("{:?}", run.mapper).into());
+                row.insert("mapper".into(), toml::Value::try_from(&run.mapper)?);
                 row.insert("heed".into(), run.heed.into());
                 row.insert("moves".into(), run.moves.into());
                 row.insert("door_period".into(), run.door_period.into());

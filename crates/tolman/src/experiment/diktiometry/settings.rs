@@ -72,9 +72,9 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
         },
         Trial {
             name: "3c",
-            title: "A larger world, random walk and exploration scripts (figure 3c), 2000 moves",
+            title: "A larger world, random walk and exploration scripts (figure 3c), 5000 moves",
             note: "7 × 7 cells, all places alike.",
-            settings: compared(&large, 2000),
+            settings: compared(&large, 5000),
         },
         Trial {
             name: "4",

@@ -1,0 +1,54 @@
+//! A learned map over the world it was learned in, as the paper's figures 3(a) and 4.
+
+use tolman_geom::{Point, Vector};
+use tolman_sim::Bounds;
+
+use super::office::Office;
+use super::survey::{Drawn, Survey};
+use crate::draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, Plan, Region, Series};
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 560.0;
+
+/// The places with the boxes that hold them, as seen from where the robot began, and the links, over the walls.
+#[must_use]
+pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
+    let walls = office.world().walls().iter();
+    let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
+    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let drawn = survey.drawn();
+    for Drawn { low, high, .. } in &drawn {
+        let bounds = Bounds {
+            min: *low,
+            max: *high,
+        };
+        plan.region(&Region::within(&bounds), Series(1));
+    }
+    let mut graph = Graph::new();
+    let nodes: Vec<(u32, usize)> = drawn
+        .iter()
+        .map(|place| {
+            let node = GraphNode::at(middle(place)).note(&place.label);
+            (place.id, graph.node(node))
+        })
+        .collect();
+    // By id, as the layout is.
+    let node = |id: u32| {
+        let at = nodes.binary_search_by_key(&id, |(id, _)| *id).ok()?;
+        Some(nodes[at].1)
+    };
+    for (from, to) in survey.links() {
+        if let (Some(from), Some(to)) = (node(from), node(to)) {
+            graph.edge(GraphEdge::between(from, to).line(EdgeLine::Arrow));
+        }
+    }
+    plan.graph(&graph);
+    plan.drawing(format!(
+        "A learned map over its world: {} places.",
+        drawn.len()
+    ))
+}
+
+fn middle(place: &Drawn) -> Point {
+    place.low + 0.5 * (place.high - place.low) + Vector::zeros()
+}

@@ -1,0 +1,265 @@
+use alloc::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use tolman_geom::Point;
+use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
+use tolman_maze::{Direction, MazeError, MazeFile};
+
+use super::office::{Office, OfficeConfig, OfficeError};
+use super::score::Visit;
+use super::survey::{Past, RunError, Survey, SurveyConfig};
+use super::surveyor::SurveyorConfig;
+
+/// What `format` says in a file of ours.
+const FORMAT: &str = "tolman-survey";
+/// The version that is written; all versions up to it are read.
+const VERSION: u32 = 1;
+
+/// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
+/// survey can go on; the map is the journal of all moves.
+#[derive(Clone, Debug)]
+pub struct SurveyFile {
+    /// The name of the maze.
+    pub name: String,
+    /// The world.
+    pub office: Arc<Office>,
+    /// The robot and how it walks. Its mapper is that of the map.
+    pub config: SurveyConfig,
+    /// What truly was, for going on and for scoring.
+    pub past: Past,
+    /// The map.
+    pub observer: Observer,
+}
+
+/// Why a file holds no survey.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SurveyFileError {
+    /// It is no JSON of the right form. The message has line and column.
+    #[error("this is no survey: make one with `tolman survey`")]
+    Json(#[from] serde_json::Error),
+    /// It is another kind of file.
+    #[error("its format is {found:?}, expected {FORMAT:?}: make a survey with `tolman survey`")]
+    Format {
+        /// What it says.
+        found: String,
+    },
+    /// It is of a later time.
+    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
+    Version {
+        /// What it says.
+        found: u32,
+    },
+    /// The maze is none.
+    #[error("its maze is none")]
+    Maze(#[from] MazeError),
+    /// The maze makes no world.
+    #[error("its maze makes no world")]
+    Office(#[from] OfficeError),
+    /// The map is none, or no journal of it was kept.
+    #[error("its map is none")]
+    Map(#[from] MapFileError),
+}
+
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+    version: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Body {
+    format: String,
+    version: u32,
+    name: String,
+    /// As it is drawn in maze files.
+    maze: String,
+    office: OfficeConfig,
+    robot: SurveyorConfig,
+    heed: f64,
+    /// Where the robot truly began and is, m.
+    start: [f64; 2],
+    at: [f64; 2],
+    /// The true site of every visit and the place on the map it was taken for, from the start on.
+    visits: Vec<(u32, u32)>,
+    /// The true ways gone: from which site in which direction.
+    gone: Vec<(u32, Direction)>,
+    map: MapFile,
+}
+
+impl SurveyFile {
+    /// What is to be written of a survey.
+    #[must_use]
+    pub fn of(name: &str, office: &Arc<Office>, survey: &Survey<'_>) -> Self {
+        Self {
+            name: name.to_owned(),
+            office: Arc::clone(office),
+            config: survey.config().clone(),
+            past: survey.past(),
+            observer: survey.observer().clone(),
+        }
+    }
+
+    /// Whether a text says that it is a survey, sound or not.
+    #[must_use]
+    pub fn is_one(text: &str) -> bool {
+        let header: Result<Header, _> = serde_json::from_str(text);
+        header.is_ok_and(|header| header.format == FORMAT)
+    }
+
+    /// The text of the file, with a line end.
+    ///
+    /// # Errors
+    /// [`SurveyFileError::Map`] if the mapper kept no journal.
+    pub fn to_json(&self) -> Result<String, SurveyFileError> {
+        let Past {
+            start,
+            at,
+            visits,
+            gone,
+        } = &self.past;
+        let body = Body {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            name: self.name.clone(),
+            maze: self.office.maze().to_string(),
+            office: *self.office.config(),
+            robot: self.config.robot.clone(),
+            heed: self.config.heed,
+            start: [start.x, start.y],
+            at: [at.x, at.y],
+            visits: visits
+                .iter()
+                .map(|visit| (visit.site, visit.place.0))
+                .collect(),
+            gone: gone.clone(),
+            map: MapFile::of(&self.observer)?,
+        };
+        let mut text = serde_json::to_string(&body)?;
+        text.push('\n');
+        Ok(text)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// [`SurveyFileError`] with the place and what to do about it.
+    pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
+        let header: Header = serde_json::from_str(text)?;
+        if header.format != FORMAT {
+            return Err(SurveyFileError::Format {
+                found: header.format,
+            });
+        }
+        if header.version == 0 || header.version > VERSION {
+            return Err(SurveyFileError::Version {
+                found: header.version,
+            });
+        }
+        let body: Body = serde_json::from_str(text)?;
+        // Nobody need have a goal in it.
+        let MazeFile { maze, .. } = tolman_maze::parse(&body.maze)?;
+        let observer = body.map.observer()?;
+        let visits = body.visits.into_iter().map(|(site, place)| Visit {
+            site,
+            place: PlaceId(place),
+        });
+        Ok(Self {
+            name: body.name,
+            office: Arc::new(Office::new(&maze, &body.office)?),
+            config: SurveyConfig {
+                robot: body.robot,
+                mapper: observer.config().clone(),
+                heed: body.heed,
+                moves: 0,
+                door_period: 0,
+            },
+            past: Past {
+                start: Point::from(body.start),
+                at: Point::from(body.at),
+                visits: visits.collect(),
+                gone: body.gone,
+            },
+            observer,
+        })
+    }
+
+    /// The survey, to go on with. `seed` is that of all chance from now on.
+    ///
+    /// # Errors
+    /// [`RunError`] if the robot cannot stand where the file has it.
+    pub fn survey(&self, seed: u64) -> Result<Survey<'_>, RunError> {
+        let past = self.past.clone();
+        let observer = self.observer.clone();
+        Survey::resumed(&self.office, self.config.clone(), past, observer, seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use tolman_maps::diktiometry::JournalLength;
+
+    use super::super::blocks;
+    use super::*;
+
+    fn survey(moves: u32) -> SurveyFile {
+        let maze = blocks(4, 0.3, &mut ChaCha8Rng::seed_from_u64(1));
+        let furniture = OfficeConfig {
+            doorway_share: 0.3,
+            colours: 4,
+            ..OfficeConfig::bare()
+        };
+        let office = Arc::new(Office::new(&maze, &furniture).unwrap());
+        let mut config = SurveyConfig::paper(&office, moves);
+        config.mapper.journal = JournalLength::All;
+        let survey = Survey::new(&office, config, 3).unwrap().finish().unwrap();
+        SurveyFile::of("blocks", &office, &survey)
+    }
+
+    #[test]
+    fn a_survey_comes_back_and_goes_on() {
+        let written = survey(30);
+        let text = written.to_json().unwrap();
+        let read = SurveyFile::from_json(&text).unwrap();
+        assert_eq!(read.observer, written.observer);
+        assert_eq!(read.past, written.past);
+        assert_eq!(read.to_json().unwrap(), text);
+        let mut on = read.survey(5).unwrap();
+        for _ in 0..20 {
+            on.step().unwrap();
+        }
+        assert_eq!(on.observer().moves(), 50);
+        assert_eq!(on.visits().len(), 51);
+        let score = on.score();
+        assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
+    }
+
+    #[test]
+    fn what_is_no_survey_is_refused_with_a_reason() {
+        let text = survey(5).to_json().unwrap();
+        let check = |changed: String, expect: &str| {
+            let error = SurveyFile::from_json(&changed).unwrap_err();
+            let told = format!("{error:?}");
+            assert!(told.starts_with(expect), "{told} for {expect}");
+        };
+        check(String::new(), "Json");
+        check(text[..text.len() / 2].to_owned(), "Json");
+        check(
+            text.replacen("tolman-survey", "tolman-mslst-map", 1),
+            "Format",
+        );
+        check(
+            text.replacen("\"version\":1", "\"version\":2", 1),
+            "Version",
+        );
+        check(
+            text.replacen("\"moves\":5,", "\"moves\":6,", 1),
+            "Map(Truncated",
+        );
+        check(text.replacen("o---o", "o~~~o", 1), "Maze");
+        check(text.replacen("\"colours\":4", "\"colours\":0", 1), "Office");
+    }
+}

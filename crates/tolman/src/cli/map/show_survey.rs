@@ -1,0 +1,90 @@
+//! `tolman map show` of a survey.
+
+use std::io::Write;
+
+use anyhow::anyhow;
+use serde_json::json;
+use tolman::agents::diktiometry::map_over_world;
+use tolman::draw::Figure;
+use tolman_maps::diktiometry::{Link, PlaceId};
+use tolman_maze::Direction;
+
+use super::show::Arguments;
+use crate::cli::failure::OrBadInput;
+use crate::cli::{Failure, file};
+
+/// A survey's map: its places with where they lie as seen from the start, and its links.
+pub(super) fn carry_out(
+    arguments: &Arguments,
+    text: &str,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let read = super::parse_survey(&arguments.file, text)?;
+    if let Some(maze) = &arguments.maze {
+        let maze = maze.display();
+        let error = anyhow!("a survey knows its own maze; leave --maze {maze} out");
+        return Err(Failure::BadInput(error));
+    }
+    // Chance has no part in looking.
+    let survey = read.survey(0).or_bad_input()?;
+    if let Some(path) = &arguments.svg {
+        let drawing = map_over_world(&read.office, &survey);
+        let figure = Figure::new("map", &read.name, drawing);
+        file::write(path, &figure.standalone())?;
+    }
+    let score = survey.score();
+    let paths = &read.observer.map().paths;
+    let here = read.observer.place();
+    let drawn = survey.drawn();
+    let direction = |link: &Link| {
+        let direction = Direction::ALL.get(link.action.0 as usize);
+        direction.map_or_else(String::new, |direction| {
+            format!("{direction:?}").to_lowercase()
+        })
+    };
+    let links_of = |id: u32| paths.outgoing(PlaceId(id)).map(|(_, link)| link);
+    if arguments.json {
+        let places: Vec<serde_json::Value> = drawn
+            .iter()
+            .map(|place| {
+                let links: Vec<serde_json::Value> = links_of(place.id)
+                    .map(|link| json!({ "action": direction(link), "to": link.to.0, "traversed": link.traversed }))
+                    .collect();
+                json!({
+                    "id": place.id,
+                    "box": { "west": place.low.x, "south": place.low.y, "east": place.high.x, "north": place.high.y },
+                    "visits": paths.place(PlaceId(place.id)).map(|place| place.visits),
+                    "links": links,
+                })
+            })
+            .collect();
+        let json = json!({
+            "maze": read.name,
+            "moves": read.observer.moves(),
+            "here": here.0,
+            "true_places": score.visited,
+            "purity": score.purity,
+            "link_precision": score.link_precision,
+            "places": places,
+        });
+        writeln!(out, "{json:#}")?;
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "{}, {} moves: {} places for {} true ones, purity {:.3}; the robot is at place {}",
+        read.name,
+        read.observer.moves(),
+        score.places,
+        score.visited,
+        score.purity,
+        here.0
+    )?;
+    for place in &drawn {
+        let ways: Vec<String> = links_of(place.id)
+            .map(|link| format!("{} to {}", direction(link), link.to.0))
+            .collect();
+        writeln!(out, "{}: {}", place.label, ways.join(", "))?;
+    }
+    Ok(())
+}

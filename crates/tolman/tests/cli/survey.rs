@@ -1,0 +1,112 @@
+use std::fs;
+
+use crate::{folder, tolman_in};
+
+/// A loop with two dead ends; the goal is one of them.
+const RING: &str = "\
+o---o---o---o---o
+|   |         G |
+o   o   o---o---o
+|       |       |
+o   o---o   o   o
+|       |   |   |
+o---o   o   o   o
+|               |
+o---o---o---o---o
+";
+
+#[test]
+fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
+    let folder = folder("survey");
+    fs::write(folder.join("ring.maze"), RING).unwrap();
+    let survey = [
+        "survey",
+        "--maze",
+        "ring.maze",
+        "--colours",
+        "6",
+        "--moves",
+        "80",
+        "--out",
+        "ring.json",
+    ];
+    let told = tolman_in(&folder, &survey).done();
+    assert!(told.contains("after 80 moves, purity 1.000"), "{told}");
+    let first = fs::read(folder.join("ring.json")).unwrap();
+    tolman_in(&folder, &survey).done();
+    assert_eq!(fs::read(folder.join("ring.json")).unwrap(), first);
+
+    let on = [
+        "survey",
+        "--from",
+        "ring.json",
+        "--moves",
+        "60",
+        "--seed",
+        "2",
+        "--out",
+        "on.json",
+    ];
+    let told = tolman_in(&folder, &on).done();
+    assert!(told.contains("after 140 moves, purity 1.000"), "{told}");
+
+    let show = ["map", "show", "on.json", "--svg", "on.svg", "--json"];
+    let shown = tolman_in(&folder, &show).done();
+    let shown: serde_json::Value = serde_json::from_str(&shown).unwrap();
+    let places = shown["places"].as_array().unwrap();
+    let svg = fs::read_to_string(folder.join("on.svg")).unwrap();
+    assert!(svg.starts_with("<svg"));
+    let told = tolman_in(&folder, &["map", "show", "on.json"]).done();
+    assert!(told.contains("140 moves"), "{told}");
+
+    // To every place there is a way, and it ends there.
+    for place in places {
+        let id = place["id"].to_string();
+        let plan = tolman_in(
+            &folder,
+            &["map", "plan", "on.json", "--from", "0", "--to", &id],
+        );
+        let plan = plan.done();
+        let end = plan.lines().last().map(str::to_owned).unwrap_or_default();
+        assert!(
+            id == "0" || end.contains(&format!("to place {id} (")),
+            "{plan}"
+        );
+    }
+    let refused = ["map", "plan", "on.json", "--to", "999"];
+    tolman_in(&folder, &refused).refused(2, &["no place 999", "choose one of"]);
+}
+
+#[test]
+fn a_file_that_is_no_sound_survey_is_refused() {
+    let folder = folder("no survey");
+    fs::write(folder.join("ring.maze"), RING).unwrap();
+    let survey = [
+        "survey",
+        "--maze",
+        "ring.maze",
+        "--moves",
+        "5",
+        "--out",
+        "ring.json",
+    ];
+    tolman_in(&folder, &survey).done();
+    let text = fs::read_to_string(folder.join("ring.json")).unwrap();
+    let check = |changed: &str, expect: &str| {
+        fs::write(folder.join("changed.json"), changed).unwrap();
+        let on = ["survey", "--from", "changed.json", "--out", "never.json"];
+        tolman_in(&folder, &on).refused(2, &["changed.json", expect]);
+        assert!(!folder.join("never.json").exists());
+    };
+    check("{}", "no survey");
+    check(&text[..text.len() - 40], "no survey");
+    check(
+        &text.replacen("\"version\":1", "\"version\":7", 1),
+        "version is 7",
+    );
+    check(
+        &text.replacen("\"moves\":5,", "\"moves\":9,", 1),
+        "cut off: 5 of 9",
+    );
+    tolman_in(&folder, &["survey", "--out", "never.json"]).refused(2, &["--maze"]);
+}
