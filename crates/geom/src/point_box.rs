@@ -70,6 +70,7 @@ impl PointBox {
 
     /// The longer side, m.
     #[must_use]
+    #[inline]
     pub fn width(self) -> f64 {
         self.x.width().max(self.y.width())
     }
@@ -82,6 +83,7 @@ impl PointBox {
 
     /// Whether a position lies inside; never one with NaN.
     #[must_use]
+    #[inline]
     pub fn contains(self, point: Point) -> bool {
         self.x.contains(point.x) && self.y.contains(point.y)
     }
@@ -94,12 +96,14 @@ impl PointBox {
 
     /// Whether the two have a position in common.
     #[must_use]
+    #[inline]
     pub fn meets(self, other: Self) -> bool {
         self.x.meets(other.x) && self.y.meets(other.y)
     }
 
     /// What both allow; none if they contradict each other.
     #[must_use]
+    #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Some(Self {
             x: self.x.intersection(other.x)?,
@@ -109,6 +113,7 @@ impl PointBox {
 
     /// The least box that holds both.
     #[must_use]
+    #[inline]
     pub fn hull(self, other: Self) -> Self {
         Self {
             x: self.x.hull(other.x),
@@ -196,6 +201,7 @@ fn trace(a: f64, b: f64, ends: &Ends) -> Interval {
 impl core::ops::Neg for PointBox {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self {
             x: -self.x,
@@ -207,6 +213,7 @@ impl core::ops::Neg for PointBox {
 impl core::ops::Add for PointBox {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self {
             x: self.x + other.x,
@@ -218,6 +225,7 @@ impl core::ops::Add for PointBox {
 impl core::ops::Sub for PointBox {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }

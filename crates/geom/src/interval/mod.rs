@@ -122,6 +122,7 @@ impl Interval {
 
     /// Upper bound of `high − low`; infinite if a bound is missing.
     #[must_use]
+    #[inline]
     pub fn width(self) -> f64 {
         sum_up(self.high, -self.low)
     }
@@ -146,6 +147,7 @@ impl Interval {
 
     /// Whether `value` lies inside; never NaN.
     #[must_use]
+    #[inline]
     pub fn contains(self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
@@ -158,6 +160,7 @@ impl Interval {
 
     /// Whether the two have a number in common.
     #[must_use]
+    #[inline]
     pub fn meets(self, other: Self) -> bool {
         self.low <= other.high && other.low <= self.high
     }
@@ -172,6 +175,7 @@ impl Interval {
 
     /// What both allow; none if they contradict each other.
     #[must_use]
+    #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {
         self.meets(other).then(|| Self {
             low: self.low.max(other.low),
@@ -181,6 +185,7 @@ impl Interval {
 
     /// The least interval that holds both.
     #[must_use]
+    #[inline]
     pub fn hull(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),

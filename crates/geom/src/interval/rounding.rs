@@ -6,15 +6,24 @@
 //! An infinite operand stands for a bound that is not there, for ever larger finite numbers, so 0 times it is 0.
 
 /// At most a + b.
+#[inline]
 pub(super) fn sum_down(a: f64, b: f64) -> f64 {
     let sum = a + b;
     // What rounding lost (Knuth's TwoSum); NaN where something overflowed or is infinite.
     let b_part = sum - a;
     let lost = (a - (sum - b_part)) + (b - b_part);
-    if lost >= 0.0 { sum } else { sum.next_down() }
+    if lost.is_nan() {
+        return sum.next_down();
+    }
+    // Half of all sums are rounded up, by chance, so that a branch costs more than the sum. A sum that was rounded is not 0.
+    let step = i64::from(lost < 0.0);
+    let bits = sum.to_bits().cast_signed();
+    let sign = (bits >> 63) | 1;
+    f64::from_bits((bits - sign * step).cast_unsigned())
 }
 
 /// At least a + b.
+#[inline]
 pub(super) fn sum_up(a: f64, b: f64) -> f64 {
     -sum_down(-a, -b)
 }

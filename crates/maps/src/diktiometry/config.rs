@@ -147,6 +147,10 @@ pub struct Matching {
     pub identity: Identity,
     /// How matchers take precedence.
     pub order: Order,
+    /// CONTINUE. Without it, an expected place has to show what an unexpected one has to.
+    pub continuation: Use,
+    /// LINK. Without it, unexpected places are noted at best.
+    pub link: Use,
     /// α-MATCH.
     pub alpha: Use,
     /// β-MATCH.
@@ -302,6 +306,8 @@ impl Config {
             matching: Matching {
                 identity: Identity::Certain,
                 order: Order::Dynamic,
+                continuation: Use::On,
+                link: Use::On,
                 alpha: Use::On,
                 beta: Use::On,
                 alpha_visits: 5,

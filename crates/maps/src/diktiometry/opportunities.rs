@@ -185,10 +185,10 @@ impl Walkable<'_> {
         let known = known.map(|(_, link)| (link.action, link.to));
         let back = map.paths.incoming(place).filter_map(move |(_, link)| {
             let back = config.actions.get(link.action.0 as usize)?.reverse?;
-            let open = map.paths.places[place.index()].is_open(back);
-            let untried = map.paths.along(place, back).next().is_none();
-            let proved = is_proved_by_return(map, link, config);
-            (open && untried && proved).then_some((back, link.from))
+            let walkable = map.paths.places[place.index()].is_open(back)
+                && map.paths.along(place, back).next().is_none()
+                && is_proved_by_return(map, link, config);
+            walkable.then_some((back, link.from))
         });
         known.chain(back)
     }

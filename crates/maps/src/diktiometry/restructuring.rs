@@ -95,12 +95,13 @@ pub(super) fn restructure(
         let Some(place) = map.paths.resolve(hint) else {
             continue;
         };
-        let mut pairs = geometric::noted(map, place, config);
+        let noted = geometric::noted(map, place, config);
+        let mut near = Vec::new();
         if changed {
             done.extend(transients::elide(map, place, occupied, config));
-            pairs.extend(geometric::neighbours(map, place));
+            near = geometric::around(map, place);
         }
-        for pair in pairs {
+        for pair in noted.into_iter().chain(geometric::meeting(&near)) {
             let stand = [pair.a, pair.b].map(|place| map.paths.places[place.index()].fate);
             if stand != [Fate::Standing; 2] || !accepted(merge_verdicts(map, &pair, config)) {
                 continue;

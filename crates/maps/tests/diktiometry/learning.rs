@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Config, GeometricMerge, Identity, Percepts, Rotation, SignatureKind,
+    Config, GeometricMerge, Identity, Matcher, Percepts, Rotation, SignatureKind, Use,
 };
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
@@ -73,6 +73,43 @@ fn boxes_that_merely_meet_confuse_places() {
     });
     let worst = purities.fold(1.0, f64::min);
     assert!(worst < 0.8, "{worst}");
+}
+
+#[test]
+fn a_matcher_that_is_off_matches_nothing() {
+    let errors = MoveError {
+        outliers: 0.05,
+        outlier_factor: 3.0,
+        ..ODOMETRY
+    };
+    type Change = fn(&mut Config);
+    let used = |change: Change, wanted: Matcher| {
+        let mut config = alike();
+        change(&mut config);
+        let mut uses = 0;
+        for seed in 0..3 {
+            let mut walk = Walk::new(open(5), errors, config.clone(), seed);
+            let mut planner = Scripted::new(0.3, seed);
+            for _ in 0..300 {
+                let (_, report) = planner.go(&mut walk);
+                let matchers = report.tracks.iter().filter_map(|track| track.matcher);
+                uses += matchers.filter(|matcher| *matcher == wanted).count();
+            }
+        }
+        uses
+    };
+    let off: [(Change, Matcher); 3] = [
+        (
+            |config| config.matching.continuation = Use::Off,
+            Matcher::Continue,
+        ),
+        (|config| config.matching.link = Use::Off, Matcher::Link),
+        (|config| config.matching.alpha = Use::Off, Matcher::Alpha),
+    ];
+    for (change, matcher) in off {
+        assert!(used(|_| (), matcher) > 0, "{matcher:?} is used");
+        assert_eq!(used(change, matcher), 0, "{matcher:?} is off");
+    }
 }
 
 #[test]

@@ -46,6 +46,12 @@ fn config(seed: u32) -> Config {
     if bit(8) {
         config.indexing.expectational = Use::Off;
     }
+    if bit(9) {
+        config.matching.continuation = Use::Off;
+    }
+    if bit(10) {
+        config.matching.link = Use::Off;
+    }
     // Restructurers that act on little evidence act more often.
     config.restructuring.visits = 1;
     config.restructuring.weight = 1.0;

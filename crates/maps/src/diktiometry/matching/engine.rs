@@ -4,7 +4,7 @@ use super::matcher::{Applicable, Certainty, Finding, Look, find};
 use super::order::{Age, Standing, Traversal, precedes};
 use super::{Matcher, Situation};
 use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::indexing::{Candidate, Expectation};
+use crate::diktiometry::indexing::Candidate;
 
 /// What the matching engine decided.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,7 +68,8 @@ pub(in crate::diktiometry) fn choose(
     let rank = |a: Matcher, b: Matcher, age: Age| precedes(a, b, &standing(age), tracking, order);
 
     let first = matched(situation, expected, &mut choice.doubts);
-    if !first.iter().any(|one| one.matcher == Matcher::Continue) {
+    let is_normal = |one: &&Chosen| matches!(one.matcher, Matcher::Continue | Matcher::Link);
+    if !first.iter().any(|one| is_normal(&one)) && choice.doubts.is_empty() {
         choice.excluded = expected.first().copied();
     }
     let mut continues = first.iter().filter(|one| one.matcher == Matcher::Continue);
@@ -85,7 +86,6 @@ pub(in crate::diktiometry) fn choose(
             sets.push(matched(situation, &ply, &mut choice.doubts));
         }
     }
-    let is_normal = |one: &&Chosen| matches!(one.matcher, Matcher::Continue | Matcher::Link);
     // All that is certain beside the first is the same place once more.
     let certain: Vec<PlaceId> = sets
         .iter()
@@ -178,7 +178,6 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
                     certainty,
                 }),
                 Applicable::Doubtful => {
-                    debug_assert_eq!(candidate.expectation, Expectation::Unexpected);
                     doubts.push(candidate.place);
                     None
                 }

@@ -104,17 +104,19 @@ fn applicable(
 ) -> Applicable {
     let Situation { map, config, .. } = *situation;
     let place = &map.paths.places[candidate.place.index()];
-    let expected = candidate.expectation == Expectation::Expected;
+    let continues =
+        candidate.expectation == Expectation::Expected && config.matching.continuation == Use::On;
     let certain = certainty == Certainty::Certain;
     // What stands where nothing else can looks new, but is the same.
     let settled = config.matching.identity == Identity::Certain
-        && ((expected && candidate.is_possible()) || certain);
+        && ((continues && candidate.is_possible()) || certain);
     if look == Look::Strange && !settled {
         return Applicable::None;
     }
     if candidate.is_possible() {
         return match config.matching.identity {
-            _ if expected => Applicable::Matcher(Matcher::Continue),
+            _ if continues => Applicable::Matcher(Matcher::Continue),
+            _ if config.matching.link == Use::Off => Applicable::Doubtful,
             Identity::Meets => Applicable::Matcher(Matcher::Link),
             Identity::Certain if certain => Applicable::Matcher(Matcher::Link),
             Identity::Certain => Applicable::Doubtful,
@@ -122,6 +124,7 @@ fn applicable(
     }
     let grown = place.envelope.hull(place.position);
     if config.matching.alpha == Use::On && grown.meets(candidate.robot) {
+        let expected = candidate.expectation == Expectation::Expected;
         let near = (grown - candidate.robot).norm().high() < config.least_distance();
         if config.matching.identity == Identity::Meets || expected || near {
             return Applicable::Matcher(Matcher::Alpha);

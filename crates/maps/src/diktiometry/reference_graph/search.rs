@@ -32,8 +32,7 @@ pub(in crate::diktiometry) fn search(
     limits: &SearchLimits,
 ) -> Vec<Reached> {
     let mut reached: Vec<Reached> = Vec::new();
-    // Where a frame stands in `reached`, by id of the frame.
-    let mut settled: Vec<Option<u32>> = vec![None; graph.frames.len()];
+    let mut ways = vec![Way::Unknown; graph.frames.len()];
     let mut frontier = BinaryHeap::new();
     frontier.push(Reverse(Entry {
         width: 0.0,
@@ -41,18 +40,20 @@ pub(in crate::diktiometry) fn search(
         hops: 0,
     }));
     while let Some(Reverse(entry)) = frontier.pop() {
-        if settled[entry.frame.index()].is_some() {
+        if matches!(ways[entry.frame.index()], Way::Reached(_)) {
             continue; // It was reached by a narrower way.
         }
         let relations = &graph.frames[entry.frame.index()].relations;
-        let ways = relations.iter().filter_map(|relation| {
-            let there = settled[relation.to.index()]?;
-            Some(reached[there as usize].position - relation.position)
-        });
+        let positions = relations
+            .iter()
+            .filter_map(|relation| match ways[relation.to.index()] {
+                Way::Reached(there) => Some(reached[there as usize].position - relation.position),
+                Way::Unknown | Way::Seen(_) => None,
+            });
         // Ways that exclude each other are told apart elsewhere; here the first counts.
         let both = |a: PointBox, b: PointBox| a.intersection(b).unwrap_or(a);
-        let position = ways.reduce(both).unwrap_or(PointBox::ORIGIN);
-        settled[entry.frame.index()] = Some(reached.len() as u32);
+        let position = positions.reduce(both).unwrap_or(PointBox::ORIGIN);
+        ways[entry.frame.index()] = Way::Reached(reached.len() as u32);
         reached.push(Reached {
             frame: entry.frame,
             position,
@@ -64,12 +65,19 @@ pub(in crate::diktiometry) fn search(
         if entry.hops >= limits.depth {
             continue;
         }
+        let (wide, high) = (position.x.width(), position.y.width());
         for relation in relations {
-            if settled[relation.to.index()].is_some() {
-                continue;
-            }
-            let width = (position + relation.position).width();
-            if width <= limits.width {
+            // The order of the search needs no sound rounding.
+            let there = relation.position;
+            let width = (wide + there.x.width()).max(high + there.y.width());
+            let way = &mut ways[relation.to.index()];
+            let narrower = match *way {
+                Way::Unknown => true,
+                Way::Seen(least) => width < least,
+                Way::Reached(_) => false,
+            };
+            if narrower && width <= limits.width {
+                *way = Way::Seen(width);
                 frontier.push(Reverse(Entry {
                     width,
                     frame: relation.to,
@@ -79,6 +87,16 @@ pub(in crate::diktiometry) fn search(
         }
     }
     reached
+}
+
+/// What a search knows of a frame.
+#[derive(Clone, Copy)]
+enum Way {
+    Unknown,
+    /// The width of the narrowest way so far, m.
+    Seen(f64),
+    /// Its number among those reached.
+    Reached(u32),
 }
 
 /// A frame to be reached, ordered by the width of its box, then by id.

@@ -22,36 +22,33 @@ pub(super) struct Pair {
     pub(super) offset: PointBox,
 }
 
-/// Places of the frames around that of `place` which may be one: once two places are merged, what lies around them follows.
-pub(super) fn neighbours(map: &Diktiometry, place: PlaceId) -> Vec<Pair> {
+/// Places of the frames around that of `place`, with where they are as seen from its frame, m.
+pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBox)> {
     let frame = map.paths.places[place.index()].frame;
     let frames = &map.reference.frames;
-    let near: Vec<(PlaceId, PointBox)> = frames[frame.index()]
-        .relations
-        .iter()
-        .flat_map(|relation| {
-            let places = &frames[relation.to.index()].places;
-            places.iter().map(move |&place| {
-                let there = map.paths.places[place.index()].position;
-                (place, relation.position + there)
-            })
+    let relations = frames[frame.index()].relations.iter();
+    let places = relations.flat_map(|relation| {
+        let places = &frames[relation.to.index()].places;
+        places.iter().map(move |&place| {
+            let there = map.paths.places[place.index()].position;
+            (place, relation.position + there)
         })
-        .collect();
-    let mut pairs = Vec::new();
-    for (number, &(a, at)) in near.iter().enumerate() {
-        for &(b, there) in near
-            .iter()
-            .skip(number + 1)
-            .filter(|(_, there)| at.meets(*there))
-        {
-            pairs.push(Pair {
-                a,
-                b,
-                offset: there - at,
-            });
-        }
-    }
-    pairs
+    });
+    places.collect()
+}
+
+/// Those of some places that may be one: once two places are merged, what lies around them follows. There may be as many pairs as the
+/// square of the places, so that nobody keeps them.
+pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair> {
+    near.iter().enumerate().flat_map(|(number, &(a, at))| {
+        let others = near.iter().skip(number + 1);
+        let meet = others.filter(move |(_, there)| at.meets(*there));
+        meet.map(move |&(b, there)| Pair {
+            a,
+            b,
+            offset: there - at,
+        })
+    })
 }
 
 /// The pairs noted at `place`, with what is known of them now. Notes that are settled are taken away.
