@@ -74,6 +74,8 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
     let mut plan = plan_of(maze, world);
     let mut graph = Graph::new().radius(RADIUS);
     let mut signs = Vec::new();
+    let bounds = world.bounds();
+    let unit = (bounds.max.x - bounds.min.x) / WIDTH;
     stubs(&mut graph, &layout, world);
     for (id, fragment) in map.fragments() {
         let Some(course) = layout.course(id) else {
@@ -91,8 +93,8 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
             .note(fragment_note(map, id, fragment));
         add(&mut graph, node);
         if let ([at, towards, ..], [.., before, last]) = (&centres[..], &centres[..]) {
-            signs.push((beside(*at, *towards), sign_text(Sign::Minus)));
-            signs.push((beside(*last, *before), sign_text(Sign::Plus)));
+            signs.push((beside(*at, *towards, unit), sign_text(Sign::Minus)));
+            signs.push((beside(*last, *before, unit), sign_text(Sign::Plus)));
         }
     }
     for (id, junction) in map.junctions() {
@@ -168,7 +170,7 @@ pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
         };
         let centres = centres(&course.cells, world);
         let node = graph.node(
-            GraphNode::at(middle(&centres))
+            GraphNode::at(free(&centres, &graph))
                 .mark(NodeMark::Disc)
                 .series(series(id))
                 .label(format!("{} · {}", fragment_name(id), fragment.length()))
@@ -296,10 +298,48 @@ pub fn middle_of(cells: &[Cell], world: &World) -> Point {
     middle(&centres(cells, world))
 }
 
+/// A point along a way from which straight lines to both its ends pass no node: the middle, or as near to it as may be.
+fn free(points: &[Point], graph: &Graph) -> Point {
+    let (Some(start), Some(end)) = (points.first(), points.last()) else {
+        return Point::origin();
+    };
+    let room = |at: &Point| {
+        let others = graph.nodes.iter().map(|node| node.position);
+        let others = others.filter(|node| node != start && node != end);
+        let distances = others.map(|node| {
+            let to = |end: &Point| distance_to(node, *at, *end);
+            to(start).min(to(end))
+        });
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    // Less than half a cell is too near.
+    let cell = points.get(1).map_or(0.0, |next| (next - start).norm());
+    let mut candidates =
+        [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8].map(|share| point_along(points, share));
+    let free = candidates.iter().find(|at| room(at) > 0.5 * cell);
+    if let Some(free) = free {
+        return *free;
+    }
+    candidates.sort_by(|a, b| room(b).total_cmp(&room(a)));
+    candidates[0]
+}
+
+/// How far a point lies from the line between two others.
+fn distance_to(point: Point, from: Point, to: Point) -> f64 {
+    let along = to - from;
+    let share = (point - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+    (point - (from + share.clamp(0.0, 1.0) * along)).norm()
+}
+
 /// The point half way along.
 fn middle(points: &[Point]) -> Point {
+    point_along(points, 0.5)
+}
+
+/// The point at this share of the length, 0 … 1.
+fn point_along(points: &[Point], share: f64) -> Point {
     let length = |pair: &[Point]| (pair[1] - pair[0]).norm();
-    let mut left = points.windows(2).map(length).sum::<f64>() / 2.0;
+    let mut left = points.windows(2).map(length).sum::<f64>() * share;
     for pair in points.windows(2) {
         if left <= length(pair) {
             return pair[0] + (left / length(pair).max(f64::MIN_POSITIVE)) * (pair[1] - pair[0]);
@@ -309,8 +349,8 @@ fn middle(points: &[Point]) -> Point {
     points.first().copied().unwrap_or_else(Point::origin)
 }
 
-/// Where a sign stands: a little way along, to the left.
-fn beside(at: Point, towards: Point) -> Point {
-    let along = towards - at;
-    at + 0.42 * along + 0.22 * Vector::new(-along.y, along.x)
+/// Where a sign stands: a little way along, to the left. `unit` is the length of a user unit, m.
+fn beside(at: Point, towards: Point, unit: f64) -> Point {
+    let along = (towards - at).normalize();
+    at + unit * (17.0 * along + 9.0 * Vector::new(-along.y, along.x))
 }

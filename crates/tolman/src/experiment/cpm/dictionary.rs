@@ -7,12 +7,15 @@ use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Ta
 /// The name of the table.
 pub(super) const DICTIONARY: &str = "dictionary";
 
+/// From walk to walk our clusters vary by a quarter; the paper's are those of one.
+const TOLERANCE: Tolerance = Tolerance::Factor(1.5);
+
 pub(super) fn table(learning: &Venue) -> Table {
     Table::new(DICTIONARY, "The dictionary of common patterns")
         .field("units", Kind::Count)
         .field("clusters", Kind::Count)
-        .metric(Metric::mean("units").tolerance(Tolerance::Relative(0.25)))
-        .metric(Metric::mean("clusters").tolerance(Tolerance::Relative(0.25)))
+        .metric(Metric::mean("units").tolerance(TOLERANCE))
+        .metric(Metric::mean("clusters").tolerance(TOLERANCE))
         .row(
             Row::new(&learning.name)
                 .paper("units", 102.0)
