@@ -161,10 +161,15 @@ impl<const N: usize> SpeedRunMap<N> {
         ) else {
             return;
         };
-        for (state, time) in states.into_iter().enumerate() {
-            if times.bucket(time) != bucket || time == NEVER {
-                continue;
-            }
+        // Without a branch for each, because nothing tells beforehand which they are.
+        let mut due = (0..).zip(states).fold(0_u16, |due, (state, time)| {
+            let is_due = times.bucket(time) == bucket && time != NEVER;
+            due | u16::from(is_due) << state
+        });
+        while due != 0 {
+            let state = due.trailing_zeros() as usize;
+            due &= due - 1;
+            let time = states.get(state).copied().unwrap_or(NEVER);
             let node = Node { cell, state };
             if by_straight >> state & 1 == 0 {
                 let straights = match node.facing() {
