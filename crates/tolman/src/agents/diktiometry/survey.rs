@@ -73,8 +73,8 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     };
     match robot.sight {
         Sight::Camera { columns, .. } if office.config().colours > 1 => {
-            // A doorway does not look like the corners beside it, and those are a pitch apart.
-            config.alike_separation = office.config().pitch();
+            // A doorway does not look like the corners beside it, and those are a pitch apart or more.
+            config.alike_separation = separation.max(office.config().pitch());
             config.search.width = 4.0 * config.alike_separation;
             config.percepts = signatures(3, columns, 0.15);
         }
@@ -477,6 +477,20 @@ mod tests {
             assert!((score.gone_recall - 1.0).abs() < 1e-12, "{score:?}");
             assert!(2 * score.places < run.visits().len(), "{score:?}");
         }
+    }
+
+    #[test]
+    fn places_may_be_far_apart_and_walls_painted() {
+        let file = tolman_maze::read(include_str!("../../../../../mazes/j.maze")).unwrap();
+        let furniture = OfficeConfig {
+            colours: 6,
+            ..OfficeConfig::bare()
+        };
+        let office = Office::new(&file.maze, &furniture).unwrap();
+        let config = SurveyConfig::paper(&office, 30);
+        let run = Survey::new(&office, config, 1).unwrap().finish().unwrap();
+        let score = run.score();
+        assert_eq!((score.places, score.visited), (5, 5), "{score:?}");
     }
 
     #[test]
