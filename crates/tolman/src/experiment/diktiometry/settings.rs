@@ -131,8 +131,12 @@ type Change = fn(&mut Config);
 /// The table of parts left out.
 pub(super) const ABLATION: &str = "ablation";
 
-const ABLATIONS: [(&str, Change); 16] = [
+const ABLATIONS: [(&str, Change); 18] = [
     ("all", |_| {}),
+    ("no CONTINUE", |config| {
+        config.matching.continuation = Use::Off;
+    }),
+    ("no LINK", |config| config.matching.link = Use::Off),
     ("no α-MATCH", |config| config.matching.alpha = Use::Off),
     ("no β-MATCH", |config| config.matching.beta = Use::Off),
     ("no expectational indexing", |config| {
