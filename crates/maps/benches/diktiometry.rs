@@ -27,7 +27,7 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     println!("| places | moves | map | median µs | 90 % µs | mean µs |");
     println!("| ---: | ---: | --- | ---: | ---: | ---: |");
-    for (side, moves) in [(10, 1000), (20, 2500), (32, 6000)] {
+    for (side, moves) in [(10, 1000), (32, 6000), (63, 24_000)] {
         let config = Config::new(Config::compass_actions(), 1.0);
         let mut walk = Walk::new(open(side), ODOMETRY, config, 1);
         let mut learning = Vec::new();

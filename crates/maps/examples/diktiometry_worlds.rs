@@ -15,7 +15,10 @@ mod walk;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::Config;
+use tolman_maps::diktiometry::{
+    Config, GeometricIndexing, GeometricMerge, Identity, Order, Percepts, Rotation, SignatureKind,
+    Use,
+};
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 use walk::{ODOMETRY, Scripted, Walk, blocks, open};
@@ -28,7 +31,12 @@ struct Table {
     print: fn(u64),
 }
 
-const TABLES: [Table; 2] = [
+const TABLES: [Table; 3] = [
+    Table {
+        name: "parts",
+        runs: 6,
+        print: parts,
+    },
     Table {
         name: "growth",
         runs: 20,
@@ -130,6 +138,135 @@ fn growth(runs: u64) {
                 "| {name}, {moves} moves | {heed} | {quartiles} | {never} | {share:.2} | {purity:.3} |"
             );
         }
+    }
+}
+
+/// What a row does to the mapper.
+type Change = fn(&mut Config);
+
+/// What becomes of the map without each part of the mapper, where everything is as the mapper is told and where it is not.
+fn parts(runs: u64) {
+    let rows: [(&str, Change); 16] = [
+        ("all", |_| {}),
+        ("no CONTINUE", |config| {
+            config.matching.continuation = Use::Off;
+        }),
+        ("no LINK", |config| {
+            config.matching.link = Use::Off;
+        }),
+        ("no α-MATCH", |config| {
+            config.matching.alpha = Use::Off;
+        }),
+        ("no β-MATCH", |config| {
+            config.matching.beta = Use::Off;
+        }),
+        ("static priorities", |config| {
+            config.matching.order = Order::Static;
+        }),
+        ("one track", |config| config.tracks.cap = 1),
+        ("no expectational indexing", |config| {
+            config.indexing.expectational = Use::Off;
+        }),
+        ("no geometric indexing", |config| {
+            config.indexing.geometric = GeometricIndexing::Off;
+        }),
+        ("active frames", |config| {
+            config.indexing.geometric = GeometricIndexing::ActiveFrames;
+        }),
+        ("no perceptual indexing", |config| {
+            config.indexing.perceptual = Use::Off;
+        }),
+        ("no geometric merge", |config| {
+            config.restructuring.geometric_merge = GeometricMerge::Off;
+        }),
+        ("no geometric split", |config| {
+            config.restructuring.geometric_split = Use::Off;
+        }),
+        ("no local merge", |config| {
+            config.restructuring.local_merge = Use::Off;
+        }),
+        ("no local split", |config| {
+            config.restructuring.local_split = Use::Off;
+        }),
+        ("no non-local merge", |config| {
+            config.restructuring.non_local_merge = Use::Off;
+        }),
+    ];
+    let outliers = |share: f64, factor: f64| MoveError {
+        outliers: share,
+        outlier_factor: factor,
+        ..ODOMETRY
+    };
+    let seen = |look: f64| MoveError { look, ..ODOMETRY };
+    let meets: Change = |config| {
+        config.matching.identity = Identity::Meets;
+        config.restructuring.geometric_merge = GeometricMerge::Estims;
+    };
+    let painted: Change = |config| {
+        config.percepts = Percepts::Signatures(SignatureKind {
+            rows: 1,
+            columns: 4,
+            tolerance: 0.4,
+            share: 1.0,
+            rotation: Rotation::Aligned,
+            views: 2,
+        });
+    };
+    let told: Change = |_| {};
+    let worlds: [(&str, u16, f64, u32, MoveError, Change); 5] = [
+        ("as told", 10, 0.3, 1500, ODOMETRY, told),
+        (
+            "1 % of moves wrong by 4 times the bounds",
+            5,
+            0.3,
+            2000,
+            outliers(0.01, 4.0),
+            told,
+        ),
+        ("10 % by 3 times", 5, 0.3, 1000, outliers(0.1, 3.0), told),
+        (
+            "painted, seen with 3 times the error told",
+            6,
+            0.3,
+            1000,
+            seen(0.6),
+            painted,
+        ),
+        (
+            "boxes that meet are the same, random walk",
+            10,
+            0.0,
+            700,
+            ODOMETRY,
+            meets,
+        ),
+    ];
+    print!("| |");
+    for (name, ..) in &worlds {
+        print!(" {name} |");
+    }
+    println!("\n| --- | --- | --- | --- | --- | --- |");
+    for (row, change) in rows {
+        print!("| {row} |");
+        for &(_, side, heed, moves, errors, adapt) in &worlds {
+            let (mut purity, mut places) = (0.0, 0.0);
+            for seed in 0..runs {
+                let mut config = alike();
+                adapt(&mut config);
+                change(&mut config);
+                let world = open(side).painted(5, seed);
+                let mut walk = Walk::new(world, errors, config, seed);
+                let mut planner = Scripted::new(heed, seed);
+                for _ in 0..moves {
+                    planner.go(&mut walk);
+                }
+                let score = walk.score();
+                purity += score.purity / runs as f64;
+                places += score.places as f64 / score.visited as f64 / runs as f64;
+            }
+            print!(" {purity:.3}, {places:.2} |");
+        }
+        println!();
     }
 }
 

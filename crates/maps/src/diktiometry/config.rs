@@ -64,6 +64,13 @@ pub enum Use {
     Off,
 }
 
+#[cfg(feature = "serde")]
+impl Use {
+    const fn on() -> Self {
+        Self::On
+    }
+}
+
 /// What the robot sees of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -147,9 +154,11 @@ pub struct Matching {
     pub identity: Identity,
     /// How matchers take precedence.
     pub order: Order,
-    /// CONTINUE. Without it, an expected place has to show what an unexpected one has to.
+    /// CONTINUE, on in files that do not say. Without it, an expected place has to show what an unexpected one has to.
+    #[cfg_attr(feature = "serde", serde(default = "Use::on"))]
     pub continuation: Use,
-    /// LINK. Without it, unexpected places are noted at best.
+    /// LINK, on in files that do not say. Without it, unexpected places are noted at best.
+    #[cfg_attr(feature = "serde", serde(default = "Use::on"))]
     pub link: Use,
     /// α-MATCH.
     pub alpha: Use,
