@@ -3,8 +3,9 @@ use alloc::vec::Vec;
 use thiserror::Error;
 use tolman_quantizers::{AssociativeMemory, ConfigError, InputError, SoinnConfig};
 
-use super::map::{CpMap, End, Sign};
+use super::map::{CpMap, End};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::similarity::Sense;
 
 /// The paths of several environments in one associative memory: the paper's fourth layer, "introduced for the case in which the robot
 /// must experience more than one environment. A single environment is represented by the associated path-fragments."
@@ -123,10 +124,9 @@ impl Environments {
             let fragment = map
                 .fragment(enter.fragment)
                 .ok_or(RecallError::NoSuchFragment(*enter))?;
-            codes.push(match enter.sign {
-                Sign::Minus => self.code(&fragment.patterns, dictionary)?,
-                Sign::Plus => self.code(&dictionary.inverse(&fragment.patterns)?, dictionary)?,
-            });
+            let walked = Sense::entered_at(enter.sign);
+            let sequence = walked.of_sequence(dictionary, &fragment.patterns)?;
+            codes.push(self.code(&sequence, dictionary)?);
         }
         if codes.len() < 2 {
             return Err(RecallError::TooShort);

@@ -159,10 +159,12 @@ impl Hypothesis {
                     gain.set(gain.get() + evidence);
                     evidence > -MOST_EVIDENCE / 2.0
                 };
-                let mut next = self.clone();
-                if let Ok(merges) = next.mapper.map.unify(id, new, sense, &agree) {
-                    next.mapper.at = merges.port(next.mapper.at);
-                    next.cost -= gain.get();
+                if let Ok((map, merges)) = map.unified(id, new, sense, &agree) {
+                    let at = merges.port(self.mapper.at);
+                    let next = Self {
+                        mapper: Mapper { map, at },
+                        cost: self.cost - gain.get(),
+                    };
                     all.push((next, Belief::Duplicate));
                 }
             }
@@ -242,15 +244,9 @@ impl Hypothesis {
 impl Comparison<'_> {
     /// What the observations say for two walks being along one fragment, a logarithm of odds.
     fn evidence(&self, known: &Fragment, patterns: &[PatternId], sense: Sense) -> f64 {
-        let score = match sense {
-            Sense::Same => self
-                .matching
-                .score(self.dictionary, patterns, &known.patterns),
-            Sense::Inverted => match self.dictionary.inverse(&known.patterns) {
-                Ok(inverse) => self.matching.score(self.dictionary, patterns, &inverse),
-                Err(_) => return -MOST_EVIDENCE,
-            },
-        };
+        let score = self
+            .matching
+            .score_as(self.dictionary, patterns, &known.patterns, sense);
         let length = known.patterns.len().min(patterns.len()).max(1) as f64;
         let evidence = EVIDENCE * length * (score - self.matching.threshold());
         evidence.clamp(-MOST_EVIDENCE, MOST_EVIDENCE)

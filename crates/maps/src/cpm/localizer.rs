@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::similarity::Sense;
 use super::traversal::Sighting;
 use super::turn::{NoSuchTurn, Turn};
 
@@ -177,16 +178,14 @@ impl<'a> Localizer<'a> {
             }
             for (id, fragment) in map.fragments() {
                 for sign in Sign::BOTH {
-                    let patterns = match sign {
-                        Sign::Minus => fragment.patterns.clone(),
-                        Sign::Plus => dictionary.inverse(&fragment.patterns)?,
-                    };
+                    let walked = Sense::entered_at(sign);
+                    let patterns = walked.of_sequence(dictionary, &fragment.patterns)?;
                     tracks.push(Track {
                         map: index,
                         enter: End { fragment: id, sign },
                         ahead: fragment.port(sign.opposite()),
                         passed: vec![0.0; patterns.len() + 1],
-                        patterns,
+                        patterns: patterns.into_owned(),
                     });
                 }
             }
@@ -409,7 +408,7 @@ impl<'a> Localizer<'a> {
 
 /// How far the prototype of what is observed lies from that of what is there, as a part of the greatest distance in the
 /// dictionary: one standard deviation.
-const NEAR: f64 = 0.05;
+const NEAR: f64 = 0.08;
 
 /// How likely a junction is seen as one it is not.
 const UNSEEN: f64 = 1e-3;

@@ -27,7 +27,8 @@ pub enum Sign {
 }
 
 impl Sign {
-    pub(super) const BOTH: [Self; 2] = [Self::Minus, Self::Plus];
+    /// Both, − first.
+    pub const BOTH: [Self; 2] = [Self::Minus, Self::Plus];
 
     /// The sign of the other end.
     #[must_use]

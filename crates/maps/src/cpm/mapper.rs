@@ -139,7 +139,8 @@ impl Mapper {
             matching.agrees(dictionary, &a.patterns, &b.patterns, sense)
         };
         similar.into_iter().find_map(|(_, other, sense)| {
-            let merges = self.map.unify(new, other, sense, &agree).ok()?;
+            let (map, merges) = self.map.unified(new, other, sense, &agree).ok()?;
+            self.map = map;
             self.at = merges.port(self.at);
             Some(merges)
         })

@@ -25,8 +25,8 @@ pub struct PlanLeg {
     pub enter: End,
     /// Where it leads.
     pub arrive: Port,
-    /// How many observations to skip: the fragment's length, but none on the last one, to "make observation again".
-    pub skip: u32,
+    /// ℓ of the fragment, "used to estimate how many observation the robot can skip".
+    pub length: u32,
 }
 
 impl CpMap {
@@ -44,9 +44,7 @@ impl CpMap {
         let found = a_star(&view, source, is_goal, |_| 0)?;
         let mut legs = Vec::new();
         let mut at = from;
-        let hops = found.path.iter().skip(1);
-        let last = hops.len();
-        for (hop, node) in hops.enumerate() {
+        for node in found.path.iter().skip(1) {
             let target = view.junctions.get(*node as usize)?;
             let enter = self.shortest_to(at.junction, *target)?;
             let fragment = self.fragment(enter.fragment)?;
@@ -59,11 +57,7 @@ impl CpMap {
                 turn: Turn::between(at.number, leave.number, degree).ok()?,
                 enter,
                 arrive,
-                skip: if hop + 1 == last {
-                    0
-                } else {
-                    fragment.length()
-                },
+                length: fragment.length(),
             });
             at = arrive;
         }

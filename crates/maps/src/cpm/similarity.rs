@@ -1,6 +1,8 @@
+use alloc::borrow::Cow;
+
 use super::alignment::Alignment;
 use super::map::Sign;
-use super::pattern::{Dictionary, PatternId};
+use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::traversal::Motion;
 
 /// How two fragments are compared.
@@ -37,6 +39,21 @@ impl Sense {
         match self {
             Self::Same => sign,
             Self::Inverted => sign.opposite(),
+        }
+    }
+
+    /// What is observed along a fragment that is walked so: 𝔸 or 𝔸⁻¹.
+    ///
+    /// # Errors
+    /// If a pattern of an inverted sequence is not the dictionary's.
+    pub(super) fn of_sequence<'s>(
+        self,
+        dictionary: &Dictionary,
+        sequence: &'s [PatternId],
+    ) -> Result<Cow<'s, [PatternId]>, DictionaryError> {
+        match self {
+            Self::Same => Ok(Cow::Borrowed(sequence)),
+            Self::Inverted => dictionary.inverse(sequence).map(Cow::Owned),
         }
     }
 
@@ -78,6 +95,21 @@ impl Matching {
         }
     }
 
+    /// How similar two sequences are, the second walked as the sense says.
+    #[must_use]
+    pub fn score_as(
+        &self,
+        dictionary: &Dictionary,
+        a: &[PatternId],
+        b: &[PatternId],
+        sense: Sense,
+    ) -> f64 {
+        // What cannot be walked the other way is similar to nothing.
+        sense
+            .of_sequence(dictionary, b)
+            .map_or(f64::NEG_INFINITY, |b| self.score(dictionary, a, &b))
+    }
+
     /// Whether 𝔸₁ ≅ 𝔸₂, the second walked as the sense says.
     #[must_use]
     pub fn agrees(
@@ -87,14 +119,7 @@ impl Matching {
         b: &[PatternId],
         sense: Sense,
     ) -> bool {
-        let score = match sense {
-            Sense::Same => self.score(dictionary, a, b),
-            Sense::Inverted => match dictionary.inverse(b) {
-                Ok(inverse) => self.score(dictionary, a, &inverse),
-                Err(_) => return false,
-            },
-        };
-        score > self.threshold()
+        self.score_as(dictionary, a, b, sense) > self.threshold()
     }
 
     /// Whether 𝔸₁ ≅ 𝔸₂ or 𝔸₁ ≅ 𝔸₂⁻¹: "The inverse of 𝔸₂ must also be compared with 𝔸₁."
@@ -105,15 +130,10 @@ impl Matching {
         a: &[PatternId],
         b: &[PatternId],
     ) -> Option<Match> {
-        let inverse = dictionary.inverse(b).ok()?;
-        let same = Match {
-            sense: Sense::Same,
-            score: self.score(dictionary, a, b),
-        };
-        let inverted = Match {
-            sense: Sense::Inverted,
-            score: self.score(dictionary, a, &inverse),
-        };
+        let [same, inverted] = [Sense::Same, Sense::Inverted].map(|sense| Match {
+            sense,
+            score: self.score_as(dictionary, a, b, sense),
+        });
         let better = if inverted.score > same.score {
             inverted
         } else {

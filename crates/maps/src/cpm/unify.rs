@@ -1,5 +1,4 @@
 use alloc::collections::BTreeMap;
-use alloc::vec;
 use alloc::vec::Vec;
 
 use thiserror::Error;
@@ -69,7 +68,7 @@ impl Merges {
 pub(super) type Agree<'a> = &'a dyn Fn(&Fragment, &Fragment, Sense) -> bool;
 
 impl CpMap {
-    /// Makes two fragments one, and what follows from it: "given that 𝔸₁ is approximately identical to 𝔸₂, then
+    /// The map in which two fragments are one, and what follows from it: "given that 𝔸₁ is approximately identical to 𝔸₂, then
     /// junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", or + to − if they are similar inverted. "Those similar
     /// junctions must be *unified*": laid over each other, turned so that the fragment's ports meet. Where both have a fragment
     /// at a port then, these are one as well, and so on; where one has, it is added to the other, which is both sub-cases of
@@ -78,22 +77,20 @@ impl CpMap {
     /// `agree` is asked of all pairs but the first. O(fragments + junctions) and the questions.
     ///
     /// # Errors
-    /// [`Conflict`] if something that follows is not so. The map is as before then.
-    pub(super) fn unify(
-        &mut self,
+    /// [`Conflict`] if something that follows is not so.
+    pub(super) fn unified(
+        &self,
         one: FragmentId,
         other: FragmentId,
         sense: Sense,
         agree: Agree<'_>,
-    ) -> Result<Merges, Conflict> {
+    ) -> Result<(Self, Merges), Conflict> {
         let unification = Unification {
             map: self.clone(),
             merges: Merges::default(),
             queue: Vec::new(),
         };
-        let (map, merges) = unification.run(vec![(one, other, sense)], agree)?;
-        *self = map;
-        Ok(merges)
+        unification.run(one, other, sense, agree)
     }
 }
 
@@ -107,12 +104,12 @@ struct Unification {
 impl Unification {
     fn run(
         mut self,
-        pairs: Vec<(FragmentId, FragmentId, Sense)>,
+        one: FragmentId,
+        other: FragmentId,
+        sense: Sense,
         agree: Agree<'_>,
     ) -> Result<(CpMap, Merges), Conflict> {
-        for (one, other, sense) in pairs {
-            self.merge(one, other, sense)?;
-        }
+        self.merge(one, other, sense)?;
         while let Some((a, b)) = self.queue.pop() {
             let (a, b) = (self.merges.end(a), self.merges.end(b));
             let sense = if a.sign == b.sign {

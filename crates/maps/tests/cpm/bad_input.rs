@@ -16,6 +16,25 @@ use super::walks::dictionary;
 
 const CONFIGS: [fn() -> CpmConfig; 2] = [CpmConfig::online, CpmConfig::robust];
 
+/// A search that has ended.
+struct Explored<'a> {
+    explorer: Explorer,
+    rover: Rover<'a>,
+    done: Done,
+}
+
+fn explored(config: CpmConfig, world: &World, reckoning: Reckoning, aim: Aim) -> Explored<'_> {
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    let mut rover = Rover::new(world, Noise::NONE, reckoning);
+    let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+    let done = pursue(&mut explorer, &mut rover, world, aim, &mut rng);
+    Explored {
+        explorer,
+        rover,
+        done,
+    }
+}
+
 fn at(angle: f64) -> Point {
     Point::new(angle.cos(), angle.sin())
 }
@@ -30,15 +49,11 @@ fn a_corridor_without_junctions() {
         .unwrap();
     let world = drawing.finish(start).unwrap();
     for config in CONFIGS {
-        let mut rng = ChaCha8Rng::seed_from_u64(0);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
-        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
-        let done = pursue(
-            &mut explorer,
-            &mut rover,
+        let Explored { explorer, done, .. } = explored(
+            config(),
             &world,
+            Reckoning::Bounded,
             Aim::Find(Landmark::Goal),
-            &mut rng,
         );
         assert_eq!((done, explorer.traversals()), (Done::NotThere, 1));
         assert!(explorer.plan(Landmark::Goal).is_none());
@@ -60,15 +75,11 @@ fn a_ring_with_nothing_but_the_start() {
         .unwrap();
     let world = drawing.finish(start).unwrap();
     for config in CONFIGS {
-        let mut rng = ChaCha8Rng::seed_from_u64(0);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
-        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
-        let done = pursue(
-            &mut explorer,
-            &mut rover,
+        let Explored { explorer, done, .. } = explored(
+            config(),
             &world,
+            Reckoning::Bounded,
             Aim::Find(Landmark::Goal),
-            &mut rng,
         );
         assert_eq!(done, Done::NotThere);
         assert!(explorer.traversals() <= 3);
@@ -97,10 +108,11 @@ fn a_junction_of_ten_branches() {
     }
     let world = drawing.finish(first.unwrap()).unwrap();
     for config in CONFIGS {
-        let mut rng = ChaCha8Rng::seed_from_u64(0);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
-        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
-        let done = pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng);
+        let Explored {
+            explorer,
+            rover,
+            done,
+        } = explored(config(), &world, Reckoning::Bounded, Aim::Explore);
         assert_eq!(done, Done::Reached);
         assert_eq!(
             world.check(explorer.map(), explorer.at(), rover.at()),
@@ -133,16 +145,8 @@ fn a_goal_walled_off() {
     }
     let world = drawing.finish(places[0]).unwrap();
     for config in CONFIGS {
-        let mut rng = ChaCha8Rng::seed_from_u64(0);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
-        let mut explorer = Explorer::new(config(), rover.sighting()).unwrap();
-        let done = pursue(
-            &mut explorer,
-            &mut rover,
-            &world,
-            Aim::Find(Landmark::Goal),
-            &mut rng,
-        );
+        let Explored { explorer, done, .. } =
+            explored(config(), &world, Reckoning::None, Aim::Find(Landmark::Goal));
         assert_eq!(done, Done::NotThere);
         assert!(explorer.map().is_explored() && !explorer.map().is_complete());
     }

@@ -35,6 +35,29 @@ pub struct Episode {
     pub observations: u32,
 }
 
+/// When an episode began.
+struct Begun {
+    time_us: u64,
+    observations: u32,
+}
+
+impl Begun {
+    fn now<B: Body>(walker: &Walker<B>) -> Self {
+        Self {
+            time_us: walker.time_us(),
+            observations: walker.observations(),
+        }
+    }
+
+    fn ended<B: Body>(&self, done: Done, walker: &Walker<B>) -> Episode {
+        Episode {
+            done,
+            seconds: (walker.time_us() - self.time_us) as f64 * 1e-6,
+            observations: walker.observations() - self.observations,
+        }
+    }
+}
+
 /// What happened at the end of a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
@@ -119,7 +142,7 @@ impl<'a, B: Body> Cpm<'a, B> {
         rng: &mut impl Rng,
         mut see: impl FnMut(&Self, &Step),
     ) -> Result<Episode, AgentError<B::Error>> {
-        let (begun_us, observed) = (self.walker.time_us(), self.walker.observations());
+        let begun = Begun::now(&self.walker);
         let done = loop {
             // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
             let leg = match self.explorer.decide(aim, rng) {
@@ -159,11 +182,7 @@ impl<'a, B: Body> Cpm<'a, B> {
             };
             see(self, &step);
         };
-        Ok(Episode {
-            done,
-            seconds: (self.walker.time_us() - begun_us) as f64 * 1e-6,
-            observations: self.walker.observations() - observed,
-        })
+        Ok(begun.ended(done, &self.walker))
     }
 
     /// What dead reckoning says of the walk from one place to where the robot is now; none if it is not trusted, as in the paper.
@@ -187,13 +206,11 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// # Errors
     /// [`AgentError`].
     pub fn drive_plan(&mut self, plan: &Plan) -> Result<Episode, AgentError<B::Error>> {
-        let (begun_us, observed) = (self.walker.time_us(), self.walker.observations());
+        let begun = Begun::now(&self.walker);
         let mut sighting = None;
         for leg in &plan.legs {
-            let fragment = self.explorer.map().fragment(leg.enter.fragment);
-            let length = fragment.map_or(0, |fragment| fragment.patterns.len() as u32);
             // "The length of the fragments is used to estimate how many observation the robot can skip."
-            let skip = self.walker.strides(length);
+            let skip = self.walker.strides(leg.length);
             match self.walker.walk(leg.turn.0 as usize, skip, None)? {
                 Walk::Arrived { sighting: at, .. } => sighting = Some(at),
                 Walk::TurnedBack { .. } => return Err(AgentError::Walk(WalkError::Lost)),
@@ -208,15 +225,12 @@ impl<'a, B: Body> Cpm<'a, B> {
             }
         }
         let arrived = sighting.is_some_and(|at| at.landmark == Some(Landmark::Goal));
-        Ok(Episode {
-            done: if arrived {
-                Done::Reached
-            } else {
-                Done::NotThere
-            },
-            seconds: (self.walker.time_us() - begun_us) as f64 * 1e-6,
-            observations: self.walker.observations() - observed,
-        })
+        let done = if arrived {
+            Done::Reached
+        } else {
+            Done::NotThere
+        };
+        Ok(begun.ended(done, &self.walker))
     }
 
     /// The offline CPM's last step: merges all that is similar. Online nothing is left to merge.

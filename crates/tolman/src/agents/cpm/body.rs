@@ -19,7 +19,7 @@ pub struct SimulatedEpuck {
     solo: Solo<Epuck>,
     landmarks: Vec<(Landmark, Zone)>,
     path: Vec<Pose>,
-    bumps: Vec<u32>,
+    bumps: u32,
 }
 
 impl SimulatedEpuck {
@@ -42,7 +42,7 @@ impl SimulatedEpuck {
             solo: Solo::new(world, robot, start, seed)?,
             landmarks,
             path: vec![start],
-            bumps: Vec::new(),
+            bumps: 0,
         })
     }
 
@@ -58,10 +58,10 @@ impl SimulatedEpuck {
         &self.path
     }
 
-    /// The steps in which it touched something.
+    /// In how many steps it touched something.
     #[must_use]
-    pub fn bumps(&self) -> &[u32] {
-        &self.bumps
+    pub const fn bumps(&self) -> u32 {
+        self.bumps
     }
 
     /// Lifts it and sets it down elsewhere.
@@ -91,9 +91,7 @@ impl Robot for SimulatedEpuck {
     fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
         self.solo.step(command)?;
         let truth = self.solo.truth();
-        if truth.bump {
-            self.bumps.push(self.path.len() as u32);
-        }
+        self.bumps += u32::from(truth.bump);
         self.path.push(truth.pose);
         Ok(())
     }

@@ -5,9 +5,7 @@ use tolman_maps::cpm::{Aim, CpMap, Landmark};
 
 use super::agent::{Cpm, Episode};
 use super::body::SimulatedEpuck;
-use super::robot::walker_config;
-use super::trial::{Mode, Trial, TrialError, placed};
-use super::walker::{HeadingBy, Walker};
+use super::trial::{Trial, TrialError};
 
 /// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.
 #[derive(Clone, Debug)]
@@ -28,7 +26,7 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`].
     pub fn learn(&self, aim: Aim) -> Result<Errand, TrialError> {
-        let mut agent = Cpm::begin(self.walker()?, self.patterns, self.mode.config())?;
+        let mut agent = Cpm::begin(self.set_up()?, self.patterns, self.mode.config())?;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let episode = agent.pursue(aim, &mut rng, |_, _| {})?;
         agent.optimize()?;
@@ -40,26 +38,11 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`], also if the map has no way to a goal, or does not begin where the robot stands.
     pub fn drive(&self, map: CpMap) -> Result<Errand, TrialError> {
-        let mut agent = Cpm::resume(self.walker()?, self.patterns, self.mode.config(), map)?;
+        let mut agent = Cpm::resume(self.set_up()?, self.patterns, self.mode.config(), map)?;
         let plan = agent.explorer().plan(Landmark::Goal);
         let plan = plan.ok_or(TrialError::NoPlan)?;
         let episode = agent.drive_plan(&plan)?;
         Ok(Errand::of(&agent, episode))
-    }
-
-    /// The robot at the start.
-    fn walker(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
-        let mut config = walker_config(self.corridor_width)?;
-        if let Mode::Reckoned(_) = self.mode {
-            config.heading = HeadingBy::Walls;
-        }
-        let body = placed(
-            self.maze,
-            self.corridor_width,
-            self.robot.clone(),
-            self.seed,
-        )?;
-        Ok(Walker::new(body, config))
     }
 }
 
@@ -70,7 +53,7 @@ impl Errand {
             episode,
             map: agent.explorer().map().clone(),
             path: body.path().to_vec(),
-            bumps: body.bumps().len() as u32,
+            bumps: body.bumps(),
         }
     }
 }

@@ -5,6 +5,8 @@
 //! observations (sections 3.2 and 4.1); [`CommonPatterns`] the dictionary it learns in the learning maze (section 4.1); [`Cpm`] layer 3, which maps,
 //! reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6). A [`Trial`] plays both episodes in a maze and scores them by its
 //! [`TrueFragments`]. An [`Errand`] is one episode, of which a [`MapFile`] can be kept; a [`Layout`] says where the parts of a map lie.
+//! [`find_out`] is how a robot that was put down somewhere learns where it is, [`PutDown`] a trial of it; a
+//! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again.
 
 mod agent;
 mod body;
@@ -14,10 +16,13 @@ mod errand;
 mod fragments;
 mod layout;
 mod map_file;
+mod put_down;
 mod robot;
+mod round_trip;
 mod survey;
 mod trial;
 mod walker;
+mod whereabouts;
 
 pub use agent::{AgentError, Cpm, Episode, Step};
 pub use body::{Body, Reckoned, SimulatedEpuck};
@@ -26,7 +31,10 @@ pub use errand::Errand;
 pub use fragments::{TrueFragments, Way};
 pub use layout::{Course, Fit, Layout, OpenPort};
 pub use map_file::{MapFile, MapFileError, System};
+pub use put_down::{KnownMaze, PutDown, PutDownRecord};
 pub use robot::{epuck, soinn, walker_config};
+pub use round_trip::RoundTrip;
 pub use survey::{Surveyed, survey};
 pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};
 pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};
+pub use whereabouts::{Whereabouts, WhereaboutsError, find_out};

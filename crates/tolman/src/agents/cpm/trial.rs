@@ -7,7 +7,9 @@ use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_control::heading_of;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, JunctionId, Landmark};
+use tolman_maps::cpm::{
+    Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, JunctionId, Landmark, RecallError,
+};
 use tolman_maze::{Cell, Maze};
 use tolman_planners::{Arcs, costs_from};
 use tolman_sim::noise::{Fault, Slip};
@@ -20,6 +22,7 @@ use super::common_patterns::{CommonPatterns, LearnError, wander};
 use super::fragments::{TrueFragments, Way};
 use super::robot::{epuck, soinn, walker_config};
 use super::walker::{HeadingBy, Walk, WalkError, Walker};
+use super::whereabouts::WhereaboutsError;
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.
@@ -171,6 +174,17 @@ impl Trial<'_> {
         }
     }
 
+    /// The robot at the start.
+    pub(super) fn set_up(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
+        let mut config = walker_config(self.corridor_width)?;
+        if let Mode::Reckoned(_) = self.mode {
+            config.heading = HeadingBy::Walls;
+        }
+        let robot = self.robot.clone();
+        let body = placed(self.maze, self.corridor_width, robot, self.seed)?;
+        Ok(Walker::new(body, config))
+    }
+
     /// Plays both episodes. What goes wrong on the way is a result.
     ///
     /// # Errors
@@ -187,20 +201,10 @@ impl Trial<'_> {
         &self,
         see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
     ) -> Result<Record, TrialError> {
-        let mut config = walker_config(self.corridor_width)?;
-        if let Mode::Reckoned(_) = self.mode {
-            config.heading = HeadingBy::Walls;
-        }
-        let body = placed(
-            self.maze,
-            self.corridor_width,
-            self.robot.clone(),
-            self.seed,
-        )?;
-        let start = *body.path().first().ok_or(TrialError::NoStart)?;
+        let walker = self.set_up()?;
+        let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
         let mut record = Record::default();
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let walker = Walker::new(body, config);
         let mut agent = match Cpm::begin(walker, self.patterns, self.mode.config()) {
             Ok(agent) => agent,
             Err(error) => {
@@ -212,7 +216,7 @@ impl Trial<'_> {
             record.trouble = Some(error.to_string());
         }
         let body = agent.walker().body();
-        record.bumps = body.bumps().len() as u32;
+        record.bumps = body.bumps();
         record.path = body.path().to_vec();
         Ok(record)
     }
@@ -397,6 +401,12 @@ pub enum TrialError {
     /// It learned nothing.
     #[error(transparent)]
     Learn(#[from] LearnError),
+    /// It could not find out where it is.
+    #[error(transparent)]
+    Whereabouts(#[from] WhereaboutsError<StepError>),
+    /// The memory of several mazes.
+    #[error(transparent)]
+    Recall(#[from] RecallError),
     /// An episode broke off.
     #[error(transparent)]
     Agent(#[from] AgentError<StepError>),
@@ -404,10 +414,13 @@ pub enum TrialError {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
     use tolman_maze::{Direction, Grid};
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
+    use crate::agents::cpm::{KnownMaze, PutDown};
 
     const WIDTH: f64 = 0.25;
 
@@ -415,32 +428,34 @@ mod tests {
         tolman_maze::read(text).unwrap().maze
     }
 
-    fn patterns() -> CommonPatterns {
+    static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
         let maze = read(include_str!("../../../../../mazes/cpm-learning.maze"));
         learn(&maze, WIDTH, 1).unwrap()
-    }
+    });
 
-    fn play(maze: &Maze, patterns: &CommonPatterns, robot: EpuckConfig) -> Record {
-        let trial = Trial {
+    fn trial(maze: &Maze, robot: EpuckConfig) -> Trial<'_> {
+        Trial {
             maze,
             corridor_width: WIDTH,
-            patterns,
+            patterns: &PATTERNS,
             robot,
             mode: Mode::Paper(CpmConfig::online()),
             seed: 3,
-        };
-        trial.play().unwrap()
+        }
+    }
+
+    fn play(maze: &Maze, robot: EpuckConfig) -> Record {
+        trial(maze, robot).play().unwrap()
     }
 
     #[test]
     fn the_second_episode_is_the_shorter_one_bit_for_bit() {
         let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
-        let patterns = patterns();
-        let record = play(&maze, &patterns, epuck());
+        let record = play(&maze, epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
         assert!(record.reduction_percent().unwrap() > 50.0);
         assert_eq!(record.bumps, 0);
-        assert_eq!(record.path, play(&maze, &patterns, epuck()).path);
+        assert_eq!(record.path, play(&maze, epuck()).path);
     }
 
     #[test]
@@ -450,7 +465,7 @@ mod tests {
         for direction in Direction::ALL {
             maze.set_wall(goal, direction, true);
         }
-        let record = play(&maze, &patterns(), epuck());
+        let record = play(&maze, epuck());
         assert!(!record.is_solved() && record.trouble.is_none());
         assert_eq!(record.first.unwrap().done, Done::NotThere);
         assert!(record.second.is_none());
@@ -464,33 +479,86 @@ mod tests {
         }
         maze.set_start(Some((Cell::new(0, 0), Direction::East)));
         maze.set_goals(vec![Cell::new(3, 0)]);
-        let record = play(&maze, &patterns(), epuck());
+        let record = play(&maze, epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
     }
 
     #[test]
     fn sensors_that_fail_are_told() {
         let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
-        let patterns = patterns();
         let faulty = |fault| EpuckConfig {
             proximity: vec![fault],
             ..epuck()
         };
         let silent = faulty(Fault::DropOut(DropOut { probability: 1.0 }));
-        let trouble = play(&maze, &patterns, silent).trouble.unwrap();
+        let trouble = play(&maze, silent).trouble.unwrap();
         assert!(trouble.contains("check the proximity sensors"), "{trouble}");
         // A sensor that always says the same shows no way on, or one everywhere: an end without the goal, whichever.
         let stuck = faulty(Fault::Stuck(Stuck {
             probability: 1.0,
             steps: u32::MAX,
         }));
-        assert!(!play(&maze, &patterns, stuck).is_solved());
+        assert!(!play(&maze, stuck).is_solved());
     }
 
     #[test]
-    fn wheels_that_slip_by_half_end_one_way_or_the_other() {
+    fn wheels_that_slip_by_half_end_where_the_record_says() {
         let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
-        let record = play(&maze, &patterns(), Trial::slipping(0.5));
-        assert!(record.is_solved() || record.trouble.is_some() || record.first.is_some());
+        let world = world_of(&maze, WIDTH).unwrap();
+        for seed in 0..3 {
+            let slipping = Trial {
+                seed,
+                ..trial(&maze, Trial::slipping(0.5))
+            };
+            let record = slipping.play().unwrap();
+            let end = record
+                .path
+                .last()
+                .and_then(|pose| world.cell_at(pose.position));
+            let is_there = end.is_some_and(|cell| maze.goals().contains(&cell));
+            let second = record.second.map(|episode| episode.done);
+            assert_eq!(second == Some(Done::Reached), second.is_some() && is_there);
+            assert!(record.first.is_some() || record.trouble.is_some());
+        }
+    }
+
+    #[test]
+    fn a_robot_put_down_amid_a_fragment_finds_out_where_it_is() {
+        let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
+        let record = play(&maze, epuck());
+        let known = [KnownMaze {
+            maze: &maze,
+            map: &record.map,
+            truth: &record.truth,
+        }];
+        for seed in 0..4 {
+            let put_down = PutDown {
+                known: &known,
+                here: 0,
+                corridor_width: WIDTH,
+                patterns: &PATTERNS,
+                robot: epuck(),
+                most_places: 6,
+                seed,
+            };
+            let found = put_down.play().unwrap().unwrap();
+            assert!(found.is_right_at_last, "{:?}", found.whereabouts);
+        }
+    }
+
+    #[test]
+    fn on_the_way_back_a_shorter_way_is_found() {
+        let maze = read(include_str!("../../../../../mazes/cpm-real.maze"));
+        // With this seed the first way is the longer one of two.
+        let trip = Trial {
+            seed: 900,
+            ..trial(&maze, epuck())
+        };
+        let trip = trip.round_trip().unwrap();
+        assert_eq!(trip.back.unwrap().done, Done::Reached);
+        assert!(trip.tried > 0 && trip.length_after < trip.length_before);
+        let again = trip.again.unwrap();
+        assert_eq!(again.done, Done::Reached);
+        assert!(again.observations < trip.there.observations / 10);
     }
 }

@@ -101,6 +101,15 @@ fn filled(track: &Track) -> Vec<Observation> {
         .collect()
 }
 
+/// Where a robot is when it sets off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    /// In the middle of a junction, dead end or landmark.
+    Place,
+    /// Amid a fragment.
+    Path,
+}
+
 /// Rounds of looking for a junction's middle.
 const ROUNDS: u32 = 4;
 
@@ -208,23 +217,33 @@ impl<B: Body> Walker<B> {
     /// # Errors
     /// [`WalkError`].
     pub fn begin(&mut self) -> Result<Sighting, WalkError<B::Error>> {
+        match self.set_off()? {
+            Walk::Arrived { sighting, .. } => Ok(sighting),
+            Walk::TurnedBack { .. } => Err(WalkError::Lost),
+        }
+    }
+
+    /// As [`begin`](Self::begin), and tells what it saw on the way; nothing where it stands at a place.
+    ///
+    /// # Errors
+    /// [`WalkError`].
+    pub fn set_off(&mut self) -> Result<Walk, WalkError<B::Error>> {
         let view = self.look()?;
-        if let Some(landmark) = self.pilot.robot().landmark() {
-            return self.settle(view, Some(landmark));
+        let landmark = self.pilot.robot().landmark();
+        let is_place = match view.segments.place() {
+            Place::Junction => true,
+            Place::DeadEnd => self.is_before_a_wall(&view.segments, 0.75),
+            Place::Path | Place::Closed => false,
+        };
+        if is_place || landmark.is_some() {
+            let sighting = self.settle(view, landmark)?;
+            return Ok(Walk::Arrived {
+                observations: Vec::new(),
+                sighting,
+            });
         }
-        match view.segments.place() {
-            Place::Junction => self.settle(view, None),
-            Place::DeadEnd if self.is_before_a_wall(&view.segments, 0.75) => {
-                self.settle(view, None)
-            }
-            Place::DeadEnd | Place::Path | Place::Closed => {
-                self.branches = vec![0.0];
-                match self.walk(0, 0, None)? {
-                    Walk::Arrived { sighting, .. } => Ok(sighting),
-                    Walk::TurnedBack { .. } => Err(WalkError::Lost),
-                }
-            }
-        }
+        (self.departed_us, self.departed) = (self.time_us(), self.pose());
+        self.follow(Origin::Path, 0, None)
     }
 
     /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the path to its end. The first `skip`
@@ -245,16 +264,22 @@ impl<B: Body> Walker<B> {
         self.pilot.turn(branch)?;
         self.departed_us = self.time_us();
         self.departed = self.pose();
-        self.follow(skip, give_up_after)
+        self.follow(Origin::Place, skip, give_up_after)
     }
 
     fn follow(
         &mut self,
+        from: Origin,
         skip: u32,
         give_up_after: Option<u32>,
     ) -> Result<Walk, WalkError<B::Error>> {
         let (begun, origin) = (self.pilot.robot().driven(), self.pose().position);
         let width = self.config.corridor_width;
+        // From amid a fragment the last place is long left.
+        let ahead = match from {
+            Origin::Place => 0.0,
+            Origin::Path => ROUND * width,
+        };
         let mut left = self.pilot.robot().landmark();
         let mut track = Vec::new();
         for stride in 0..self.config.longest_fragment {
@@ -262,7 +287,7 @@ impl<B: Body> Walker<B> {
             if stride < skip {
                 continue;
             }
-            let driven = self.pilot.robot().driven() - begun;
+            let driven = ahead + self.pilot.robot().driven() - begun;
             let view = self.look()?;
             let landmark = self.pilot.robot().landmark();
             // The landmark it comes from is left when it is seen no longer.
@@ -303,7 +328,7 @@ impl<B: Body> Walker<B> {
                     }
                     if give_up_after.is_some_and(|most| track.len() >= most as usize) {
                         self.pilot.turn(PI)?;
-                        self.follow(0, None)?;
+                        self.follow(Origin::Path, 0, None)?;
                         return Ok(Walk::TurnedBack {
                             observations: filled(&track),
                         });

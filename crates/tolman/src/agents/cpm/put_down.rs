@@ -1,0 +1,202 @@
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_control::heading_of;
+use tolman_geom::Pose;
+use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_sim::World;
+use tolman_sim::robots::{Epuck, EpuckConfig};
+
+use super::body::SimulatedEpuck;
+use super::common_patterns::CommonPatterns;
+use super::fragments::{TrueFragments, Way, along};
+use super::robot::walker_config;
+use super::trial::{TrialError, world_of};
+use super::walker::Walker;
+use super::whereabouts::{Whereabouts, find_out};
+
+/// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
+///
+/// [`Record`](super::Record)s of a [`Trial`](super::Trial) each have a `map` and its `truth`, of which [`KnownMaze`]s are made.
+/// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell in the first half of a fragment that the map has, looking along it.
+#[derive(Clone, Debug)]
+pub struct PutDown<'a> {
+    /// The mazes that the robot knows, all with one width of corridors and learned with the same patterns.
+    pub known: &'a [KnownMaze<'a>],
+    /// Which of them it is put into.
+    pub here: usize,
+    /// From wall to wall, m.
+    pub corridor_width: f64,
+    /// What the robot learned before.
+    pub patterns: &'a CommonPatterns,
+    /// The robot.
+    pub robot: EpuckConfig,
+    /// After so many places it has to know; at least 1.
+    pub most_places: u32,
+    /// The seed of all chance.
+    pub seed: u64,
+}
+
+/// A maze that a robot knows.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownMaze<'a> {
+    /// The maze.
+    pub maze: &'a Maze,
+    /// The robot's map of it.
+    pub map: &'a CpMap,
+    /// The true fragment of each fragment of the map, walked from − to +.
+    pub truth: &'a BTreeMap<FragmentId, Way>,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct PutDownRecord {
+    /// What the robot believed.
+    pub whereabouts: Whereabouts,
+    /// Whether it knew maze, fragment and direction before it came to the first place; none if it saw nothing before.
+    pub is_right_under_way: Option<bool>,
+    /// The same at the first place.
+    pub is_right_at_first_place: bool,
+    /// The same at the last place, where it was sure or gave up.
+    pub is_right_at_last: bool,
+    /// Whether SOINN-AM recalled the right maze of the first fragment walked whole; none if the robot knew before where it was.
+    pub is_recalled: Option<bool>,
+    /// How long it took, s.
+    pub seconds: f64,
+    /// Where the robot was after every step.
+    pub path: Vec<Pose>,
+}
+
+impl PutDown<'_> {
+    /// Plays it; none if the map has no fragment that is long enough to stand amid.
+    ///
+    /// # Errors
+    /// [`TrialError`].
+    pub fn play(&self) -> Result<Option<PutDownRecord>, TrialError> {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let Some(known) = self.known.get(self.here) else {
+            return Ok(None);
+        };
+        let world: Arc<World> = Arc::new(world_of(known.maze, self.corridor_width)?);
+        let fragments = TrueFragments::of(known.maze);
+        let spots = self.spots(known, &fragments, &world);
+        if spots.is_empty() {
+            return Ok(None);
+        }
+        let (start, way) = spots[rng.random_range(0..spots.len() as u32) as usize];
+        let robot = Epuck::new(self.robot.clone())?;
+        let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, self.seed)?;
+        let mut walker = Walker::new(body, walker_config(self.corridor_width)?);
+        let maps: Vec<CpMap> = self.known.iter().map(|known| known.map.clone()).collect();
+        // The ways that it came by to each place.
+        let mut ways = Vec::new();
+        let whereabouts = find_out(
+            &mut walker,
+            &maps,
+            self.patterns,
+            self.most_places,
+            &mut rng,
+            |walker| {
+                let from = walker.departed_at(walker.body().path());
+                let walked = from.and_then(|from| {
+                    let cell = world.cell_at(from.position)?;
+                    fragments.way(cell, from.heading)
+                });
+                ways.push(if ways.is_empty() { Some(way) } else { walked });
+            },
+        )?;
+        let is_right = |location: &Location, way: Option<&Option<Way>>| {
+            let way = way.copied().flatten();
+            let truth = known.truth.get(&location.enter.fragment);
+            location.map == self.here
+                && truth.zip(way).is_some_and(|(truth, way)| {
+                    let is_along = truth.is_forward == way.is_forward;
+                    truth.fragment == way.fragment
+                        && is_along == (location.enter.sign == Sign::Minus)
+                })
+        };
+        let at_places = &whereabouts.at_places;
+        Ok(Some(PutDownRecord {
+            is_right_under_way: whereabouts
+                .under_way
+                .as_ref()
+                .map(|location| is_right(location, ways.first())),
+            is_right_at_first_place: at_places
+                .first()
+                .is_some_and(|location| is_right(location, ways.first())),
+            is_right_at_last: at_places
+                .last()
+                .is_some_and(|location| is_right(location, ways.last())),
+            is_recalled: self.recalled(&whereabouts)?,
+            seconds: walker.time_us() as f64 * 1e-6,
+            path: walker.body().path().to_vec(),
+            whereabouts,
+        }))
+    }
+}
+
+impl PutDown<'_> {
+    /// Where the robot may be put, and the way it then is on.
+    fn spots(
+        &self,
+        known: &KnownMaze<'_>,
+        fragments: &TrueFragments,
+        world: &World,
+    ) -> Vec<(Pose, Way)> {
+        let is_known = |way: &Way| {
+            known
+                .truth
+                .values()
+                .any(|truth| truth.fragment == way.fragment)
+        };
+        let mut spots = Vec::new();
+        for (from, way) in fragments.ways().filter(|(_, way)| is_known(way)) {
+            let outs = Direction::ALL.into_iter();
+            let out = outs
+                .filter(|out| fragments.way(from, heading_of(*out)) == Some(way))
+                .find_map(|out| along(known.maze, from, out));
+            let Some((cells, _)) = out else { continue };
+            // The places at both ends are no part of the fragment.
+            let amid = cells.get(1..cells.len() - 1).unwrap_or_default();
+            for (index, cell) in amid.iter().enumerate().take(amid.len() / 2) {
+                let next: Option<&Cell> = cells.get(index + 2);
+                let ahead = known
+                    .maze
+                    .neighbours(*cell)
+                    .find(|(_, neighbour)| Some(neighbour) == next);
+                if let Some((ahead, _)) = ahead {
+                    let pose = Pose::new(world.cell_centre(*cell), heading_of(ahead));
+                    spots.push((pose, way));
+                }
+            }
+        }
+        spots
+    }
+
+    /// Whether the fourth layer recalls the maze.
+    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, TrialError> {
+        let Some(walked) = whereabouts.walks.first() else {
+            return Ok(None);
+        };
+        let dictionary = self.patterns.dictionary();
+        let mut memory = Environments::new(dictionary)?;
+        for (environment, known) in (0_u32..).zip(self.known) {
+            let fragments = known.map.fragments();
+            let seen = fragments.filter(|(_, fragment)| !fragment.patterns.is_empty());
+            let ids: Vec<FragmentId> = seen.map(|(id, _)| id).collect();
+            for sign in Sign::BOTH {
+                let path: Vec<End> = ids.iter().map(|&fragment| End { fragment, sign }).collect();
+                memory.learn(environment, known.map, &path, dictionary)?;
+            }
+        }
+        let sequence = self.patterns.patterns(walked);
+        if sequence.is_empty() {
+            return Ok(None);
+        }
+        let recalled = memory.recall(&sequence, dictionary)?;
+        Ok(Some(recalled.environment as usize == self.here))
+    }
+}

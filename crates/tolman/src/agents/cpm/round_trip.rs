@@ -1,0 +1,74 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::Pose;
+use tolman_maps::cpm::{Aim, CpMap, Landmark};
+
+use super::agent::{Cpm, Episode};
+use super::trial::{Trial, TrialError};
+use super::walker::Walk;
+
+/// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
+/// path-fragment" as long as it may be shorter than the known way.
+///
+/// The paper's robot made 20 observations to the goal, 13 on the way back and 4 on its second way; those are the `observations` of the
+/// three episodes.
+#[derive(Clone, Debug)]
+pub struct RoundTrip {
+    /// From the start until the goal was found.
+    pub there: Episode,
+    /// Back to the start; none if there was no goal.
+    pub back: Option<Episode>,
+    /// Along the shortest way that is known then; none if the robot did not come back.
+    pub again: Option<Episode>,
+    /// How many unknown fragments it entered on the way back.
+    pub tried: u32,
+    /// In how many of them it turned round, as they "will never be shorter".
+    pub given_up: u32,
+    /// Common patterns from start to goal on the shortest way of the map before the way back.
+    pub length_before: u32,
+    /// The same after it, which is no longer.
+    pub length_after: u32,
+    /// The map at the end.
+    pub map: CpMap,
+    /// Where the robot was after every step.
+    pub path: Vec<Pose>,
+}
+
+impl Trial<'_> {
+    /// Plays the way to the goal, back and there again, by a robot that nobody lifts.
+    ///
+    /// # Errors
+    /// [`TrialError`].
+    pub fn round_trip(&self) -> Result<RoundTrip, TrialError> {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut agent = Cpm::begin(self.set_up()?, self.patterns, self.mode.config())?;
+        let there = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
+        let mut trip = RoundTrip {
+            there,
+            back: None,
+            again: None,
+            tried: 0,
+            given_up: 0,
+            length_before: 0,
+            length_after: 0,
+            map: CpMap::default(),
+            path: Vec::new(),
+        };
+        if agent.explorer().map().has_goal() {
+            agent.optimize()?;
+            let home = agent.explorer().plan(Landmark::Start);
+            trip.length_before = home.map_or(0, |plan| plan.length);
+            trip.back = Some(agent.pursue(Aim::WayBack, &mut rng, |_, step| {
+                trip.tried += u32::from(step.leg.known.is_none());
+                trip.given_up += u32::from(matches!(step.walk, Walk::TurnedBack { .. }));
+            })?);
+            if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
+                trip.length_after = plan.length;
+                trip.again = Some(agent.drive_plan(&plan)?);
+            }
+        }
+        trip.map = agent.explorer().map().clone();
+        trip.path = agent.walker().body().path().to_vec();
+        Ok(trip)
+    }
+}
