@@ -25,8 +25,9 @@ pub struct PlanLeg {
     pub enter: End,
     /// Where it leads.
     pub arrive: Port,
-    /// ℓ of the fragment, "used to estimate how many observation the robot can skip".
-    pub length: u32,
+    /// How many observations were made along the fragment, "used to estimate how many observation the robot can skip"; 0 where
+    /// it was too short for any.
+    pub observations: u32,
 }
 
 impl CpMap {
@@ -57,7 +58,7 @@ impl CpMap {
                 turn: Turn::between(at.number, leave.number, degree).ok()?,
                 enter,
                 arrive,
-                length: fragment.length(),
+                observations: fragment.patterns.len() as u32,
             });
             at = arrive;
         }

@@ -102,8 +102,8 @@ fn figure_1() {
         .unwrap();
     let enters: Vec<End> = plan.legs.iter().map(|leg| leg.enter).collect();
     assert_eq!(enters, [end(d, Minus), end(a, Plus)]);
-    let lengths: Vec<u32> = plan.legs.iter().map(|leg| leg.length).collect();
-    assert_eq!((lengths, plan.length), (vec![3, 5], 8));
+    let observations: Vec<u32> = plan.legs.iter().map(|leg| leg.observations).collect();
+    assert_eq!((observations, plan.length), (vec![3, 5], 8));
     assert!(!explorer.map().is_complete());
 }
 

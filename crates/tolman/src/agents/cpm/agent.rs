@@ -210,7 +210,7 @@ impl<'a, B: Body> Cpm<'a, B> {
         let mut sighting = None;
         for leg in &plan.legs {
             // "The length of the fragments is used to estimate how many observation the robot can skip."
-            let skip = self.walker.strides(leg.length);
+            let skip = self.walker.strides(leg.observations);
             match self.walker.walk(leg.turn.0 as usize, skip, None)? {
                 Walk::Arrived { sighting: at, .. } => sighting = Some(at),
                 Walk::TurnedBack { .. } => return Err(AgentError::Walk(WalkError::Lost)),

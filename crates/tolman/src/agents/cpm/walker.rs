@@ -307,10 +307,15 @@ impl<B: Body> Walker<B> {
             let is_under_way = driven > PLACE * width;
             match view.segments.place() {
                 Place::Junction if is_under_way && !is_origin(self.middle_of(&view)) => {
+                    let (here, observation) = (self.pose().position, self.observation(&view)?);
                     let sighting = self.settle(view, None)?;
-                    // Seen from its middle it may be none.
                     if sighting.degree > 2 && !is_origin(self.pose().position) {
                         return Ok(self.arrived(track, sighting));
+                    }
+                    // Seen from its middle it is none: the robot goes on from where it was, so that nothing of the path is left out.
+                    self.pilot.go_to(self.pose().inverse().transform(here))?;
+                    if driven > TRIMMED * width {
+                        track.push((here, observation));
                     }
                 }
                 Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
