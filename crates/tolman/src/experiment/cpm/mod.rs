@@ -6,6 +6,7 @@ mod detector;
 mod dictionary;
 mod episodes;
 mod figures;
+mod localization;
 mod places;
 mod real;
 mod replay;
@@ -22,6 +23,7 @@ use crate::replay::Replay;
 use detector::DETECTOR;
 use dictionary::DICTIONARY;
 use episodes::EPISODES;
+use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::FIGURE_11;
 use trials::Trials;
@@ -36,6 +38,9 @@ struct Cpm {
     /// What the robot learned in the learning maze.
     patterns: CommonPatterns,
     trials: Vec<Trials>,
+    /// What the robot learned of the venues.
+    known: Known,
+    master_seed: u64,
     tables: Vec<Table>,
 }
 
@@ -61,6 +66,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         tables.push(aliased.table.clone());
         trials.push(aliased);
         tables.push(real::table(&real));
+        tables.push(localization::table(&venues));
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
     }
@@ -70,6 +76,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         learning,
         patterns,
         trials,
+        known: Known::default(),
+        master_seed: options.seed,
         tables,
     }))
 }
@@ -78,7 +86,6 @@ impl Cpm {
     /// The maze and the way of mapping of a run that is a trial.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Venue, Mode)>, BoxError> {
         match job.table {
-            FIGURE_11 => Ok(Some((self.real.clone(), trials::faithful()))),
             EPISODES => Ok(Some((self.venue(job.row)?.clone(), trials::faithful()))),
             _ => match self.trials_of(job.table) {
                 Some(trials) => trials.cast(job).map(Some),
@@ -161,6 +168,10 @@ impl Experiment for Cpm {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match job.table {
             FIGURE_11 => real::run(&self.real, &self.patterns, job),
+            LOCALIZATION => {
+                let known = &self.known;
+                known.run(&self.venues, &self.patterns, self.master_seed, job)
+            }
             EPISODES => episodes::run(self.venue(job.row)?, &self.patterns, job),
             PLACES => places::run(self.venue(job.row)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
@@ -176,6 +187,7 @@ impl Experiment for Cpm {
         match run.table.as_str() {
             FIGURE_11 => real::check(run),
             EPISODES => episodes::check(run),
+            LOCALIZATION => localization::check(run),
             PLACES => places::check(run),
             DICTIONARY => dictionary::check(run),
             DETECTOR => detector::check(run),
@@ -188,8 +200,8 @@ impl Experiment for Cpm {
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
-        // As those of figure 9.
-        if job.table == EPISODES {
+        // Those of the first are as those of figure 9; the other's are no trials.
+        if [EPISODES, FIGURE_11].contains(&job.table) {
             return Ok(None);
         }
         let Some((venue, mode)) = self.cast(job)? else {

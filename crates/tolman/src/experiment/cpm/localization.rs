@@ -1,0 +1,179 @@
+//! A robot that knows several mazes is put down in mid-fragment of one of them: section 8, "the start point is changed", and layer 4.
+
+use std::sync::OnceLock;
+
+use super::trials;
+use super::venue::Venue;
+use crate::agents::cpm::{CommonPatterns, KnownMaze, PutDown, Record, epuck};
+use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, run_seed};
+
+/// The name of the table.
+pub(super) const LOCALIZATION: &str = "localization";
+
+/// After so many places the robot has to know where it is.
+const MOST_PLACES: u32 = 6;
+
+/// Trials that are made at most to have a map of a maze.
+const ATTEMPTS: u32 = 20;
+
+/// The yes or no of a run: the beginning of its metric's name, and that on a page.
+const FLAGS: [(&str, &str); 4] = [
+    ("under_way", "right before the first place"),
+    ("first_place", "at it"),
+    ("last_place", "at the last"),
+    ("recalled", "maze recalled by SOINN-AM"),
+];
+
+/// What the robot learned of each maze, by whoever asks first.
+#[derive(Debug, Default)]
+pub(super) struct Known(OnceLock<Vec<Record>>);
+
+pub(super) fn table(venues: &[Venue]) -> Table {
+    let mut table = Table::new(LOCALIZATION, "Put down in mid-fragment of one of the mazes")
+        .field("places", Kind::Count)
+        .field("seconds", Kind::Number)
+        .optional_field("under_way", Kind::Flag)
+        .field("first_place", Kind::Flag)
+        .field("last_place", Kind::Flag)
+        .optional_field("recalled", Kind::Flag);
+    for (name, title) in FLAGS {
+        table = table.metric(Metric::percent(format!("{name}_percent"), name).titled(title));
+    }
+    table = table
+        .metric(Metric::mean("places").titled("places come to"))
+        .metric(Metric::mean("seconds").titled("time").unit("s"));
+    for venue in venues {
+        table = table.row(Row::new(&venue.name));
+    }
+    table.note(format!(
+        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, and is put down in the first half of a \
+         fragment of the row's. Right: maze, fragment and direction. It goes on until it is sure, up to {MOST_PLACES} places. SOINN-AM is asked \
+         with the first fragment walked whole."
+    ))
+}
+
+impl Known {
+    /// A solved trial of each maze.
+    fn records(
+        &self,
+        venues: &[Venue],
+        patterns: &CommonPatterns,
+        master_seed: u64,
+    ) -> Result<&[Record], BoxError> {
+        if let Some(records) = self.0.get() {
+            return Ok(records);
+        }
+        let mut records = Vec::new();
+        for venue in venues {
+            let mut found = None;
+            for attempt in 0..ATTEMPTS {
+                let seed = run_seed(master_seed, LOCALIZATION, attempt);
+                let record = trials::trial(venue, patterns, trials::faithful(), seed).play()?;
+                if record.is_solved() {
+                    found = Some(record);
+                    break;
+                }
+            }
+            let name = &venue.name;
+            records.push(found.ok_or_else(|| format!("no trial of {name} was solved"))?);
+        }
+        // Two threads may learn them at once; they learn the same.
+        Ok(self.0.get_or_init(|| records))
+    }
+
+    /// One robot put down.
+    pub(super) fn run(
+        &self,
+        venues: &[Venue],
+        patterns: &CommonPatterns,
+        master_seed: u64,
+        job: &Job<'_>,
+    ) -> Result<Fields, BoxError> {
+        let records = self.records(venues, patterns, master_seed)?;
+        let known: Vec<KnownMaze<'_>> = venues
+            .iter()
+            .zip(records)
+            .map(|(venue, record)| KnownMaze {
+                maze: &venue.maze,
+                map: &record.map,
+                truth: &record.truth,
+            })
+            .collect();
+        let here = venues.iter().position(|venue| venue.name == job.row);
+        let here = here.ok_or("there is no such row")?;
+        let put_down = PutDown {
+            known: &known,
+            here,
+            corridor_width: venues[here].corridor_width,
+            patterns,
+            robot: epuck(),
+            most_places: MOST_PLACES,
+            seed: job.seed,
+        };
+        let record = put_down
+            .play()?
+            .ok_or("no fragment is long enough to stand amid")?;
+        let mut fields = Fields::new()
+            .count("places", record.whereabouts.at_places.len() as u64)
+            .number("seconds", record.seconds)
+            .flag("first_place", record.is_right_at_first_place)
+            .flag("last_place", record.is_right_at_last);
+        for (name, flag) in [
+            ("under_way", record.is_right_under_way),
+            ("recalled", record.is_recalled),
+        ] {
+            if let Some(flag) = flag {
+                fields = fields.flag(name, flag);
+            }
+        }
+        Ok(fields)
+    }
+}
+
+/// What no run of this table can be.
+pub(super) fn check(run: &Run) -> Result<(), BoxError> {
+    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
+    let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag);
+    let places = number("places").unwrap_or_default();
+    if !(1.0..=f64::from(MOST_PLACES)).contains(&places) {
+        return Err(format!("{places} places, expected 1 to {MOST_PLACES}").into());
+    }
+    if places < 1.5 && flag("first_place") != flag("last_place") {
+        return Err("the first place is the last one".into());
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::venue;
+    use super::*;
+    use crate::agents::cpm::learn;
+
+    #[test]
+    fn a_robot_put_down_finds_out_where_it_is() {
+        let (venues, learning) = (venue::papers().unwrap(), venue::learning().unwrap());
+        let patterns = learn(&learning.maze, learning.corridor_width, 1).unwrap();
+        let known = Known::default();
+        let mut right = 0;
+        for (run, venue) in (0..).zip(&venues) {
+            let job = Job {
+                table: LOCALIZATION,
+                row: &venue.name,
+                run,
+                seed: 7,
+            };
+            let fields = known.run(&venues, &patterns, 1, &job).unwrap();
+            right += u32::from(fields.get("last_place") == Some(&Field::Flag(true)));
+            let run = Run {
+                table: job.table.into(),
+                row: job.row.into(),
+                run,
+                seed: 7,
+                fields,
+            };
+            check(&run).unwrap();
+        }
+        assert!(right >= 2, "{right} of 3");
+    }
+}
