@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     /// Stop a mouse after so much time in a maze
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// Stop a mouse after so many moves and turns in a maze
+    /// Stop a mouse after so many moves, turns and crashes in a maze
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     move_limit: u64,
     /// Press the reset button after so many moves and turns

@@ -18,7 +18,7 @@ use super::{Score, Simulator};
 pub struct Limits {
     /// After so much time.
     pub time: Duration,
-    /// After so many moves and turns.
+    /// After so many moves, turns and crashes.
     pub movements: u64,
     /// The reset button is pressed after so many; never if there is no number.
     pub reset_after: Option<u64>,
@@ -175,7 +175,7 @@ fn converse(
             Err(RecvTimeoutError::Disconnected) => return None,
         };
         let reply = simulator.answer(&line);
-        if simulator.movements() >= limits.movements {
+        if simulator.movements() + simulator.crashes() >= limits.movements {
             return Some(Ended::OutOfMovements);
         }
         if let Some(reply) = reply

@@ -78,6 +78,11 @@ fn a_mouse_that_does_nothing_is_stopped() {
             "out_of_movements",
         ),
         (
+            "ram",
+            "while :; do echo moveForward; read -r _; done",
+            "out_of_movements",
+        ),
+        (
             "babbler",
             "head -c 100000 /dev/zero; sleep 60",
             "line_too_long",
