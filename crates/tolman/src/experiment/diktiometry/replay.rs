@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, PointBox};
-use tolman_maps::diktiometry::{LinkId, PlaceId};
+use tolman_maps::diktiometry::{LinkId, PlaceId, Standing};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
@@ -69,7 +69,8 @@ struct Watch {
     start: Point,
     home: PlaceId,
     nodes: BTreeMap<PlaceId, Node>,
-    edges: BTreeMap<LinkId, Edge>,
+    /// By link and its ends: a merge of places gives a link other ends, which makes it another edge.
+    edges: BTreeMap<(LinkId, PlaceId, PlaceId), Edge>,
     belief: Belief,
     places: Series,
     error: Series,
@@ -93,8 +94,8 @@ impl Watch {
                 name: "where the robot may be".to_owned(),
                 entries: Vec::new(),
             },
-            places: series("places on the map", ""),
-            error: series("squared error of the move", "m²"),
+            places: series("places", ""),
+            error: series("squared error", "m²"),
             matcher: Notes::new("match"),
             reason: Notes::new("why"),
         };
@@ -193,14 +194,14 @@ impl Watch {
             let ends = [link.from, link.to];
             if ends.iter().all(|end| self.nodes.contains_key(end)) {
                 let edge = || Edge::new(link.from.0, link.to.0, step);
-                self.edges.entry(id).or_insert_with(edge);
+                let key = (id, link.from, link.to);
+                self.edges.entry(key).or_insert_with(edge);
             }
         }
-        for (id, edge) in &mut self.edges {
-            let stands = map
-                .paths
-                .link(*id)
-                .is_some_and(|link| link.standing == tolman_maps::diktiometry::Standing::Standing);
+        for ((id, from, to), edge) in &mut self.edges {
+            let stands = map.paths.link(*id).is_some_and(|link| {
+                link.standing == Standing::Standing && link.from == *from && link.to == *to
+            });
             if edge.died.is_none() && !stands {
                 edge.died = Some(step);
             }

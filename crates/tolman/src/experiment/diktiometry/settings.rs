@@ -216,11 +216,11 @@ fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
 }
 
 fn changing(office: &Arc<Office>) -> Vec<Setting> {
-    let setting = |row, door_period: u32, fading: f64| {
+    let setting = |row, door_period: u32, change: Change| {
         let mut config = SurveyConfig::paper(office, 3000);
         config.heed = HEED;
         config.door_period = door_period;
-        config.mapper.transients.fading = fading;
+        change(&mut config.mapper);
         Setting {
             row,
             office: Arc::clone(office),
@@ -229,8 +229,8 @@ fn changing(office: &Arc<Office>) -> Vec<Setting> {
         }
     };
     vec![
-        setting("doors stand open", 0, 1.0),
-        setting("doors move", 25, 1.0),
-        setting("doors move, counts fade", 25, 0.92),
+        setting("doors stand open", 0, |_| {}),
+        setting("doors move", 25, |config| config.transients.fading = 1.0),
+        setting("doors move, counts fade", 25, |_| {}),
     ]
 }
