@@ -133,6 +133,9 @@ const TRIMMED: f64 = 0.8;
 /// A junction is seen from there on, in corridors' widths before its middle.
 const IN_SIGHT: f64 = 0.5;
 
+/// Of so many strides one is kept back for looking: two walks along one fragment differ by less.
+const SPREAD: u32 = 20;
+
 /// A wall that reads more than this on average is nearer than any beside the middle of a corridor: the robot was off its path.
 const TOO_NEAR: f64 = 220.0;
 
@@ -456,7 +459,8 @@ impl<B: Body> Walker<B> {
         }
         let stride = self.config.pilot.forward.speed * self.config.stride_s;
         let unwritten = (2.0 * TRIMMED - IN_SIGHT) * self.config.corridor_width;
-        observations + libm::floor(unwritten / stride) as u32
+        // The longer the way, the less exactly it ends where it did.
+        observations - observations / SPREAD + libm::floor(unwritten / stride) as u32
     }
 
     /// What becomes a common pattern; none where not two ways are seen.
