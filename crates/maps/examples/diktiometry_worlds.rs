@@ -9,6 +9,8 @@
 
 extern crate alloc;
 
+use core::num::NonZeroU64;
+
 #[expect(dead_code, reason = "the tests need more of it")]
 #[path = "../tests/diktiometry/walk.rs"]
 mod walk;
@@ -52,10 +54,17 @@ const TABLES: [Table; 3] = [
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let asked = arguments.next();
-    let runs = arguments.next().and_then(|runs| runs.parse().ok());
+    let runs = arguments
+        .next()
+        .map(|runs| runs.parse::<NonZeroU64>().unwrap());
+    let known = |asked: &str| TABLES.iter().any(|table| table.name == asked);
+    assert!(
+        asked.as_deref().is_none_or(known),
+        "no such table: {asked:?}"
+    );
     for table in TABLES {
         if asked.as_deref().is_none_or(|asked| asked == table.name) {
-            let runs = runs.unwrap_or(table.runs);
+            let runs = runs.map_or(table.runs, NonZeroU64::get);
             println!("\n{}, {runs} runs\n", table.name);
             (table.print)(runs);
         }
@@ -96,9 +105,6 @@ fn growth(runs: u64) {
         ("10 × 10 open", 3000, ODOMETRY, &|_| open(10)),
     ];
     for (name, moves, errors, world) in worlds {
-        if std::env::var("ONLY").is_ok_and(|only| !name.contains(&only)) {
-            continue;
-        }
         for heed in [0.0, 0.3, 1.0] {
             let mut found = Vec::new();
             let (mut share, mut purity) = (0.0, 1.0_f64);
@@ -288,7 +294,7 @@ fn doors(runs: u64) {
                 let mut rng = ChaCha8Rng::seed_from_u64(seed);
                 let cells = u32::from(SIDE) * u32::from(SIDE);
                 let inner = |place: &u32| open(SIDE).neighbour(*place, Direction::East).is_some();
-                // Every fifth way to the east has a door.
+                // Every third place has a door to its east, if a way leads there.
                 let doors: Vec<u32> = (0..cells).step_by(3).filter(inner).collect();
                 for number in 1..=moves {
                     if number % period == 0 {

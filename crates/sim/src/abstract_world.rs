@@ -61,8 +61,12 @@ impl AbstractWorld {
     #[must_use]
     pub fn from_corridors(maze: &Maze, spacing: f64) -> Self {
         let ways = |cell| Direction::ALL.map(|direction| maze.is_open(cell, direction));
-        let straight = [[true, false, true, false], [false, true, false, true]];
-        let is_place = |cell| !straight.contains(&ways(cell));
+        let no_place = [
+            [true, false, true, false],
+            [false, true, false, true],
+            [false; 4], // enclosed
+        ];
+        let is_place = |cell| !no_place.contains(&ways(cell));
         let cells: Vec<_> = maze.grid().cells().filter(|cell| is_place(*cell)).collect();
         let number = |cell| cells.iter().position(|other| *other == cell);
         let next = |cell, direction| {
@@ -105,11 +109,11 @@ impl AbstractWorld {
         self
     }
 
-    /// Paints the walls around one place anew, each in a colour it did not have.
+    /// Paints the walls around one place anew, each in a colour it did not have, if there are two or more.
     #[must_use]
     pub fn repainted(mut self, place: u32, colours: u32) -> Self {
         if let Some(look) = self.looks.get_mut(place as usize) {
-            *look = look.map(|colour| (colour + 1.0) % f64::from(colours));
+            *look = look.map(|colour| (colour + 1.0) % f64::from(colours.max(1)));
         }
         self
     }
@@ -119,16 +123,28 @@ impl AbstractWorld {
     #[must_use]
     pub fn with_way(mut self, place: u32, direction: Direction, to: Option<u32>) -> Self {
         let back = direction.opposite() as usize;
-        let before = self.neighbour(place, direction);
         let count = self.places.len();
-        if (place as usize) < count && to.is_none_or(|to| (to as usize) < count) {
-            self.neighbours[place as usize][direction as usize] = to;
-            if let Some(before) = before {
-                self.neighbours[before as usize][back] = None;
+        if (place as usize) >= count || to.is_some_and(|to| (to as usize) >= count) {
+            return self;
+        }
+        // What led here from where the way led before, and what led to `to` from elsewhere, leads nowhere now.
+        let before = self.neighbour(place, direction);
+        let origin = to.and_then(|to| self.neighbour(to, direction.opposite()));
+        let ends = [
+            (before, back, Some(place)),
+            (origin, direction as usize, to),
+        ];
+        for (end, side, led_to) in ends {
+            if let Some(end) = end {
+                let way = &mut self.neighbours[end as usize][side];
+                if *way == led_to {
+                    *way = None;
+                }
             }
-            if let Some(to) = to {
-                self.neighbours[to as usize][back] = Some(place);
-            }
+        }
+        self.neighbours[place as usize][direction as usize] = to;
+        if let Some(to) = to {
+            self.neighbours[to as usize][back] = Some(place);
         }
         self
     }

@@ -120,7 +120,7 @@ pub enum CpmError {
 const HOPELESS: f64 = 25.0;
 
 /// Of one junction.
-const MOST_PORTS: u32 = 1000;
+pub(super) const MOST_PORTS: u32 = 1000;
 
 impl Explorer {
     /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead end; else the first opening

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
+use super::explorer::MOST_PORTS;
 use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
@@ -134,6 +135,9 @@ pub enum MapFileError {
         /// How many there are.
         found: usize,
     },
+    /// Without it nobody can tell whose patterns the fragments are made of.
+    #[error("it has fragments but does not say how many patterns there were")]
+    Unversioned,
     /// The patterns are not those that were written.
     #[error("its patterns have the fingerprint {found}, not {expected}: they were changed")]
     Fingerprint {
@@ -145,6 +149,14 @@ pub enum MapFileError {
     /// The patterns are none, or the map is that of another robot.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
+    /// More branches than any junction has.
+    #[error("junction {junction} has {ports} ports, at most {MOST_PORTS} are allowed")]
+    TooManyPorts {
+        /// Its number.
+        junction: u32,
+        /// How many ports it has.
+        ports: usize,
+    },
     /// Two things of one number, or one beyond those that are given out.
     #[error("{what} {id} is there twice, or was never given out")]
     BadId {
@@ -273,19 +285,41 @@ impl MapFile {
     /// [`MapFileError`] as of [`dictionary`](Self::dictionary), if the robot's is another one, or if fragments and junctions do not fit
     /// together.
     pub fn map(&self, dictionary: &Dictionary) -> Result<CpMap, MapFileError> {
-        let version = self.dictionary()?.version();
-        dictionary.check_version(version)?;
+        let own = self.dictionary()?;
+        dictionary.check_version(own.version())?;
+        let version = match self.map.patterns {
+            Some(patterns) => {
+                let earlier = own.earlier(patterns).ok_or(MapFileError::Truncated {
+                    what: "patterns",
+                    expected: patterns as usize,
+                    found: self.dictionary.patterns.len(),
+                })?;
+                Some(earlier)
+            }
+            None if self.map.fragments.is_empty() => None,
+            None => return Err(MapFileError::Unversioned),
+        };
+        let used = [
+            ("fragment", self.map.next_fragment),
+            ("junction", self.map.next_junction),
+        ];
+        if let Some((what, id)) = used.into_iter().find(|(_, next)| *next == u32::MAX) {
+            return Err(MapFileError::BadId { what, id });
+        }
         let mut map = CpMap {
             next_fragment: self.map.next_fragment,
             next_junction: self.map.next_junction,
-            version: self
-                .map
-                .patterns
-                .and_then(|patterns| dictionary.earlier(patterns)),
+            version,
             ..CpMap::default()
         };
         for saved in &self.map.junctions {
             let id = saved.id;
+            if saved.ports.len() > MOST_PORTS as usize {
+                return Err(MapFileError::TooManyPorts {
+                    junction: id,
+                    ports: saved.ports.len(),
+                });
+            }
             let is_new = map
                 .junctions
                 .insert(JunctionId(id), junction(saved))
@@ -299,7 +333,7 @@ impl MapFile {
         for saved in &self.map.fragments {
             let id = saved.id;
             let fragment = fragment(saved);
-            dictionary.check(&fragment.patterns)?;
+            own.check(&fragment.patterns)?;
             index.insert(FragmentId(id), &fragment.patterns);
             let is_new = map.fragments.insert(FragmentId(id), fragment).is_none();
             if !is_new || id >= self.map.next_fragment {

@@ -90,7 +90,7 @@ impl Mapper {
         let Some(fragment) = self.map.fragments.get_mut(&end.fragment) else {
             return;
         };
-        fragment.traversals += 1;
+        fragment.traversals = fragment.traversals.saturating_add(1);
         let sense = Sense::entered_at(end.sign);
         let motion = walk.motion.map(|motion| sense.of_motion(motion));
         // Bounds that contradict each other were no bounds; the older ones stay.

@@ -159,7 +159,7 @@ impl Unification {
         self.merges.fragments.insert(gone, (kept, sense));
         if let Some(fragment) = self.map.fragments.get_mut(&kept) {
             fragment.motion = motion;
-            fragment.traversals += absorbed.traversals;
+            fragment.traversals = fragment.traversals.saturating_add(absorbed.traversals);
         }
         for sign in Sign::BOTH {
             self.meet(survivor.port(sense.of(sign)), absorbed.port(sign))?;

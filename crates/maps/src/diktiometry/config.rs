@@ -154,7 +154,7 @@ pub struct Matching {
     pub identity: Identity,
     /// How matchers take precedence.
     pub order: Order,
-    /// CONTINUE, on in files that do not say. Without it, an expected place has to show what an unexpected one has to.
+    /// CONTINUE, on in files that do not say. Without it, an expected place has to show what an unexpected one has to, but to α-MATCH.
     #[cfg_attr(feature = "serde", serde(default = "Use::on"))]
     pub continuation: Use,
     /// LINK, on in files that do not say. Without it, unexpected places are noted at best.

@@ -57,6 +57,9 @@ impl Diktiometry {
     ) -> Option<PointBox> {
         let start = self.paths.place(self.paths.resolve(from)?)?;
         let end = self.paths.place(self.paths.resolve(to)?)?;
+        if start.frame == end.frame {
+            return Some(end.position - start.position);
+        }
         let reached = search(&self.reference, start.frame, limits);
         let there = reached.iter().find(|reached| reached.frame == end.frame)?;
         Some(there.position + end.position - start.position)

@@ -233,9 +233,9 @@ pub(super) fn actions_along<I: Iterator<Item = (Action, PlaceId)>>(
 /// Whether a robot that goes along a link and back is recognized where it began, by geometry alone: after a longer way it might be
 /// at a place of its own, and going back would make one more place that nobody can tell.
 fn is_proved_by_return(map: &Diktiometry, link: &Link, config: &Config) -> bool {
-    let way = map.related(link.from, link.to);
-    way.is_some_and(|there| {
-        let back = there; // As wrong as the way there, but not alike.
+    map.related(link.from, link.to).is_some_and(|there| {
+        // Another measurement within the same bounds: there and back are off by the box's width at most.
+        let back = there;
         (there - back).norm().high() < config.least_alike_distance()
     })
 }

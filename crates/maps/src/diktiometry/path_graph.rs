@@ -70,7 +70,7 @@ impl Place {
         self.exits.allow(action) && !self.blocked.contains(&action)
     }
 
-    /// Takes the place out of the map. What it knew is handed on, so that the dead weigh nothing.
+    /// Takes the place out of the map and returns what it knew: the grave keeps its frame and position alone.
     pub(super) fn bury(&mut self, fate: Fate) -> Self {
         let grave = Self {
             fate,

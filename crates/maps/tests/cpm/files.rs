@@ -74,7 +74,7 @@ fn spoiled_files_say_what_is_wrong() {
         let read: MapFile = serde_json::from_value(value).unwrap();
         read.map(&dictionary).unwrap_err().to_string()
     };
-    let cases: [(Spoil, &str); 9] = [
+    let cases: [(Spoil, &str); 14] = [
         (
             |file| file["format"] = json!("other"),
             "its format is \"other\"",
@@ -98,6 +98,29 @@ fn spoiled_files_say_what_is_wrong() {
         (
             |file| file["map"]["fragments"][1]["id"] = file["map"]["fragments"][0]["id"].clone(),
             "there twice",
+        ),
+        (
+            |file| file["map"]["next_fragment"] = json!(0),
+            "never given out",
+        ),
+        (
+            |file| file["map"]["next_junction"] = json!(u32::MAX),
+            "never given out",
+        ),
+        (
+            |file| file["map"]["patterns"] = json!(1_000_000),
+            "patterns are there",
+        ),
+        (
+            |file| file["map"]["patterns"] = json!(null),
+            "does not say how many patterns",
+        ),
+        (
+            |file| {
+                let open = vec![json!({ "open": 0 }); 1001];
+                file["map"]["junctions"][0]["ports"] = json!(open);
+            },
+            "1001 ports",
         ),
     ];
     for (spoil, why) in cases {

@@ -36,7 +36,8 @@ pub(super) fn merge(
     }
     place.visits = place.visits.saturating_add(gone.visits);
     place.counts.join(gone.counts);
-    if place.exits == Exits::Unknown {
+    // The younger place was made later: mostly it was seen later, too.
+    if gone.exits != Exits::Unknown {
         place.exits = gone.exits;
     }
     for action in gone.blocked {

@@ -68,7 +68,7 @@ pub(in crate::diktiometry) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
     }
 }
 
-/// Whether something is met, for certain, in less than the configured share of the times it is expected.
+/// Whether something is met, with 99 % certainty, in less than the configured share of the times it is expected.
 fn is_transient(counts: &Counts, config: &Transients) -> bool {
     counts.rate_at_most(config.fading) < config.rate
 }
