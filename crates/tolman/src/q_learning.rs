@@ -127,8 +127,13 @@ impl<T: Task> QLearner<T> {
     }
 
     fn action(&self, rng: &mut impl Rng) -> u32 {
-        if rng.random_bool(self.config.exploration) {
-            return rng.random_range(0..self.task.actions(self.at));
+        #[expect(
+            clippy::manual_clamp,
+            reason = "`max` first makes 0 of what is no number"
+        )]
+        let exploration = self.config.exploration.max(0.0).min(1.0);
+        if rng.random_bool(exploration) {
+            return rng.random_range(0..self.task.actions(self.at).max(1));
         }
         self.best(self.at)
     }

@@ -13,6 +13,8 @@ use anyhow::Context;
 use clap::Subcommand;
 use tolman::agents::diktiometry::SurveyFile;
 use tolman::agents::mslst::MapFile;
+use tolman_maps::diktiometry::Action;
+use tolman_maze::Direction;
 
 use super::Failure;
 use super::failure::OrBadInput;
@@ -45,6 +47,12 @@ fn parse(path: &Path, text: &str) -> Result<MapFile, Failure> {
     MapFile::from_json(text)
         .with_context(|| path.display().to_string())
         .or_bad_input()
+}
+
+/// The name of the way an action of a survey goes.
+fn way(action: Action) -> String {
+    let direction = Direction::ALL.get(action.0 as usize);
+    direction.map_or_else(String::new, ToString::to_string)
 }
 
 /// Reads a survey that `tolman survey` wrote.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Analysis;
+use super::{Analysis, Reached};
 
 /// The table of all p-values of rows compared each with each.
 pub(super) const P_TABLE: &str = "p";
@@ -31,6 +31,9 @@ pub struct SummaryRow {
     pub metric: String,
     /// The value: the mean unless the metric says otherwise. `null` if it is not a number.
     pub value: f64,
+    /// There and false where the metric waits for something that did not come about: `value` is what was not enough.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached: Option<bool>,
     /// The standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
     /// How many runs were measured.
@@ -55,6 +58,7 @@ impl Summary {
                                 row: row.name.clone(),
                                 metric: metric.metric.name.clone(),
                                 value: measured.value,
+                                reached: (measured.reached == Reached::No).then_some(false),
                                 sd: measured.sd,
                                 n: measured.n,
                                 paper: measured.paper.as_ref().map(|paper| paper.value),
@@ -69,6 +73,7 @@ impl Summary {
                 row: format!("{}: {}", table.table.name, pair.name()),
                 metric: "p".to_owned(),
                 value: pair.p.value(),
+                reached: None,
                 sd: None,
                 n: pair.n,
                 paper: pair.paper,

@@ -30,6 +30,8 @@ fn every_verb_explains_itself() {
         &["maze", "convert"],
         &["maze", "generate"],
         &["survey"],
+        &["cpm", "learn"],
+        &["cpm", "solve"],
         &["map", "show"],
         &["map", "plan"],
     ] {

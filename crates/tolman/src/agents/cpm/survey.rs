@@ -10,7 +10,7 @@ use tolman_sim::robots::{Epuck, EpuckConfig};
 use super::body::SimulatedEpuck;
 use super::fragments::{TrueFragments, Way};
 use super::trial::{TrialError, world_of};
-use super::walker::{Observation, Walk, Walker, WalkerConfig};
+use super::walker::{Observation, Walk, WalkError, Walker, WalkerConfig};
 
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
@@ -54,20 +54,21 @@ pub fn survey(
             SimulatedEpuck::new(Arc::clone(&world), Epuck::new(robot.clone())?, start, seed)?;
         let mut walker = Walker::new(body, config.clone());
         walker.begin()?;
-        if let Walk::Arrived {
+        let Walk::Arrived {
             observations,
             sighting,
         } = walker.walk(0, 0, None)?
-        {
-            let end = walker.body().truth().pose.position;
-            walks.push(Surveyed {
-                from: cell,
-                way,
-                to: world.cell_at(end),
-                observations,
-                sighting,
-            });
-        }
+        else {
+            return Err(WalkError::Lost.into());
+        };
+        let end = walker.body().truth().pose.position;
+        walks.push(Surveyed {
+            from: cell,
+            way,
+            to: world.cell_at(end),
+            observations,
+            sighting,
+        });
     }
     Ok(walks)
 }

@@ -1,6 +1,6 @@
 //! A learned map over the world it was learned in, as the paper's figures 3(a) and 4.
 
-use tolman_geom::{Point, Vector};
+use tolman_geom::Point;
 use tolman_sim::Bounds;
 
 use super::office::Office;
@@ -50,5 +50,5 @@ pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
 }
 
 fn middle(place: &Drawn) -> Point {
-    place.low + 0.5 * (place.high - place.low) + Vector::zeros()
+    place.low + 0.5 * (place.high - place.low)
 }

@@ -51,6 +51,12 @@ pub enum SurveyFileError {
         /// What it says.
         found: u32,
     },
+    /// How likely a script is begun is no probability.
+    #[error("its heed is {found}: give a number from 0 to 1")]
+    Heed {
+        /// What it says.
+        found: f64,
+    },
     /// The maze is none.
     #[error("its maze is none")]
     Maze(#[from] MazeError),
@@ -158,6 +164,9 @@ impl SurveyFile {
             });
         }
         let body: Body = serde_json::from_str(text)?;
+        if !(0.0..=1.0).contains(&body.heed) {
+            return Err(SurveyFileError::Heed { found: body.heed });
+        }
         // Nobody need have a goal in it.
         let MazeFile { maze, .. } = tolman_maze::parse(&body.maze)?;
         let observer = body.map.observer()?;

@@ -79,7 +79,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let errand = trial
         .learn(aim)
-        .with_context(|| format!("no map of {} was learned", course.name))?;
+        .with_context(|| format!("no map of {} was learned", course.name))
+        .or_bad_input()?;
     match errand.episode.done {
         Done::Reached => {}
         Done::NotThere => {
@@ -90,7 +91,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             return Err(error).or_bad_input();
         }
         Done::OutOfPatience => {
-            return Err(anyhow!("the robot gave up in {}: try another --seed", course.name).into());
+            let error = anyhow!("the robot gave up in {}: try another --seed", course.name);
+            return Err(error).or_bad_input();
         }
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());

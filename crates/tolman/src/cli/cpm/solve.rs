@@ -55,7 +55,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let Errand { episode, bumps, .. } = &errand;
     let reached = episode.done == Done::Reached;
     if let Some(path) = &arguments.svg {
-        let world = course.world()?;
+        let world = course.world().or_bad_input()?;
         let drawing = drawing::drive(&errand.map, &course.maze, &world, &errand.path);
         file::write(
             path,

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use tolman_maps::diktiometry::PlaceId;
-use tolman_maze::Direction;
 
 use super::Failure;
 
@@ -49,6 +48,9 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         )?;
         return Ok(());
     };
+    if from == to {
+        writeln!(out, "that is place {}, where the plan begins", from.0)?;
+    }
     let mut at = from;
     for step in &plan.steps {
         let predicted = observer.predict(at, step.action);
@@ -56,13 +58,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             .iter()
             .find(|predicted| predicted.place == step.to);
         let likely = likely.map_or(0.0, |predicted| predicted.probability);
-        let direction = Direction::ALL.get(step.action.0 as usize);
-        let direction = direction.map_or_else(String::new, |direction| {
-            format!("{direction:?}").to_lowercase()
-        });
         writeln!(
             out,
-            "{direction} to place {} ({:.0} %)",
+            "{} to place {} ({:.0} %)",
+            super::way(step.action),
             step.to.0,
             100.0 * likely
         )?;

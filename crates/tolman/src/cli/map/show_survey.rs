@@ -7,7 +7,6 @@ use serde_json::json;
 use tolman::agents::diktiometry::map_over_world;
 use tolman::draw::Figure;
 use tolman_maps::diktiometry::{Link, PlaceId};
-use tolman_maze::Direction;
 
 use super::show::Arguments;
 use crate::cli::failure::OrBadInput;
@@ -36,12 +35,7 @@ pub(super) fn carry_out(
     let paths = &read.observer.map().paths;
     let here = read.observer.place();
     let drawn = survey.drawn();
-    let direction = |link: &Link| {
-        let direction = Direction::ALL.get(link.action.0 as usize);
-        direction.map_or_else(String::new, |direction| {
-            format!("{direction:?}").to_lowercase()
-        })
-    };
+    let direction = |link: &Link| super::way(link.action);
     let links_of = |id: u32| paths.outgoing(PlaceId(id)).map(|(_, link)| link);
     if arguments.json {
         let places: Vec<serde_json::Value> = drawn

@@ -87,7 +87,7 @@ pub(super) fn run(
     let cells = second
         .iter()
         .filter_map(|pose| world.cell_at(pose.position));
-    let wanted = graph.length_of(cells);
+    let wanted = length_of(cells);
     fields = fields.count("cells", wanted.into());
     let results = [
         Some(Learned {
@@ -179,16 +179,16 @@ impl JunctionTask {
         let costs = tolman_planners::costs_from(&graph, [self.start as u32]);
         self.goals.iter().filter_map(|goal| costs[*goal]).min()
     }
+}
 
-    /// How many steps from cell to cell a drive had.
-    fn length_of(&self, cells: impl Iterator<Item = Cell>) -> u32 {
-        let mut cells = cells.peekable();
-        let mut length = 0;
-        while let Some(cell) = cells.next() {
-            length += u32::from(cells.peek().is_some_and(|next| *next != cell));
-        }
-        length
+/// How many steps from cell to cell a drive had.
+fn length_of(cells: impl Iterator<Item = Cell>) -> u32 {
+    let mut cells = cells.peekable();
+    let mut length = 0;
+    while let Some(cell) = cells.next() {
+        length += u32::from(cells.peek().is_some_and(|next| *next != cell));
     }
+    length
 }
 
 impl Task for &JunctionTask {

@@ -67,7 +67,7 @@ pub(super) fn table(venue: &Venue) -> Table {
         .note(
             "Figure 11's maze drawn anew: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
              goal again by the map. The paper's robot made one trial and looked every 6 s; ours looks every 2 cm of a larger maze, so only the \
-             reductions can be compared.",
+             reductions can be compared. Solved: goal, start and goal again were reached; whether the last way is the shortest is not asked.",
         )
 }
 
@@ -103,6 +103,7 @@ pub(super) fn run(
     }
     Ok(fields)
 }
+
 /// By how many percent of the first the second is less.
 fn less([first, second]: [f64; 2]) -> f64 {
     100.0 * (1.0 - second / first)

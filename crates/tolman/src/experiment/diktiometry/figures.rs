@@ -74,7 +74,7 @@ fn slug(trial: &Trial) -> String {
     trial.name.replace(' ', "-")
 }
 
-/// The map of a run, moved so that its places lie best on the true ones.
+/// The map of a run, laid from where the robot truly began.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
     let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
     let score = survey.score();

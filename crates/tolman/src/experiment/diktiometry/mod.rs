@@ -12,7 +12,7 @@ use crate::agents::diktiometry::{ErrorSummary, Isomorphism, NEAR, Survey, TAIL, 
 use crate::draw::Figure;
 use crate::replay::Replay;
 
-use settings::{Setting, Subject, Trial};
+use settings::{Rows, Setting, Subject, Trial};
 
 /// The experiment, ready to run.
 #[derive(Debug)]
@@ -55,21 +55,20 @@ fn table(trial: &Trial) -> Table {
                 .titled("squared error a move, at last")
                 .unit("m²")
                 .decimals(4),
-        )
-        .metric(
-            Metric::settling(
-                "moves_to_asymptote",
-                Settling {
-                    curve: "curve".to_owned(),
-                    step: WINDOW as f64,
-                    level: "ssd_asymptote".to_owned(),
-                    margin: NEAR,
-                    scale: "odometry".to_owned(),
-                    of: reference.to_owned(),
-                },
-            )
-            .titled("moves to asymptote"),
         );
+    if trial.rows == Rows::OneWorld {
+        let settling = Settling {
+            curve: "curve".to_owned(),
+            step: WINDOW as f64,
+            level: "ssd_asymptote".to_owned(),
+            margin: NEAR,
+            scale: "odometry".to_owned(),
+            of: reference.to_owned(),
+        };
+        table = table
+            .metric(Metric::settling("moves_to_asymptote", settling).titled("moves to asymptote"))
+            .compared_with(reference, Correction::Holm);
+    }
     for (name, title) in SHARES {
         table = table
             .optional_field(name, Kind::Number)
@@ -90,15 +89,20 @@ fn table(trial: &Trial) -> Table {
     for setting in &trial.settings {
         table = table.row(Row::new(setting.row));
     }
-    table
-        .compared_with(reference, Correction::Holm)
-        .note(format!(
-            "{} A row's error at last is the mean over the last {:.0} % of the moves. The asymptote is the lowest of the table; a row is \
-             there when the mean over all its runs and {WINDOW} moves stays less than {:.0} % of odometry's error above it.",
+    let tail = format!(
+        "A row's error at last is the mean over the last {:.0} % of the moves.",
+        100.0 * TAIL
+    );
+    let note = match trial.rows {
+        Rows::OneWorld => format!(
+            "{} {tail} The asymptote is the lowest of the table; a row is there when the mean over all its runs and {WINDOW} moves stays less than \
+             {:.0} % of odometry's error above it.",
             trial.note,
-            100.0 * TAIL,
             100.0 * NEAR,
-        ))
+        ),
+        Rows::OwnWorlds => format!("{} {tail}", trial.note),
+    };
+    table.note(note)
 }
 
 impl Diktiometry {
@@ -216,7 +220,7 @@ impl Experiment for Diktiometry {
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
         let setting = self.setting(job)?;
         match setting.subject {
-            // Sixteen rows of the ablation would fill the report and take as long as all else.
+            // The many rows of the ablation would fill the report and take as long as all else.
             Subject::Map if job.table == settings::ABLATION => Ok(None),
             Subject::Map => replay::of(setting, job).map(Some),
             Subject::Odometry => Ok(None),

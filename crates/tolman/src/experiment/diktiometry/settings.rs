@@ -19,7 +19,17 @@ pub(super) struct Trial {
     pub(super) name: &'static str,
     pub(super) title: &'static str,
     pub(super) note: &'static str,
+    pub(super) rows: Rows,
     pub(super) settings: Vec<Setting>,
+}
+
+/// What the rows of a table have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rows {
+    /// One world: they are compared with the first.
+    OneWorld,
+    /// Each has a world of its own.
+    OwnWorlds,
 }
 
 /// One row.
@@ -68,36 +78,42 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
             name: "3b",
             title: "A small world in which every place looks the same (figure 3b), 700 moves",
             note: "5 × 5 cells.",
+            rows: Rows::OneWorld,
             settings: compared(&small, 700),
         },
         Trial {
             name: "3c",
             title: "A larger world, random walk and exploration scripts (figure 3c), 5000 moves",
             note: "7 × 7 cells, all places alike.",
+            rows: Rows::OneWorld,
             settings: compared(&large, 5000),
         },
         Trial {
             name: "4",
             title: "A complicated world (figure 4), 3000 moves",
             note: "7 × 7 cells with doorways and walls of eight colours.",
+            rows: Rows::OneWorld,
             settings: compared(&complicated, 3000),
         },
         Trial {
             name: ABLATION,
             title: "The complicated world with a part of the mapper left out, 1000 moves with scripts",
             note: "7 × 7 cells with doorways and walls of eight colours.",
+            rows: Rows::OneWorld,
             settings: ablations(&complicated),
         },
         Trial {
             name: "changing",
             title: "The complicated world while doors shut and open, 3000 moves with scripts",
             note: "After every 25 moves a doorway by chance is shut or opened. A plan works if its actions lead where it says.",
+            rows: Rows::OneWorld,
             settings: changing(&complicated),
         },
         Trial {
             name: "mslst worlds",
             title: "The mazes and the robot of MSLST, 300 moves with scripts",
             note: "The robot of MSLST tells places apart by its laser.",
+            rows: Rows::OwnWorlds,
             settings: vec![
                 mslst("J", include_str!("../../../../../mazes/j.maze"))?,
                 mslst("Large", include_str!("../../../../../mazes/large.maze"))?,
