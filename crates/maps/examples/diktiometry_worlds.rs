@@ -17,13 +17,10 @@ mod walk;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{
-    Config, GeometricIndexing, GeometricMerge, Identity, Order, Percepts, Rotation, SignatureKind,
-    Use,
-};
+use tolman_maps::diktiometry::{Ablation, Config, GeometricMerge, Identity};
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
-use walk::{ODOMETRY, Scripted, Walk, blocks, open};
+use walk::{ODOMETRY, Scripted, Walk, alike, blocks, open, painted};
 
 /// What can be asked for.
 struct Table {
@@ -69,10 +66,6 @@ fn main() {
             (table.print)(runs);
         }
     }
-}
-
-fn alike() -> Config {
-    Config::new(Config::compass_actions(), 1.0)
 }
 
 /// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives a good metre more.
@@ -147,57 +140,11 @@ fn growth(runs: u64) {
     }
 }
 
-/// What a row does to the mapper.
+/// What a world does to the mapper.
 type Change = fn(&mut Config);
 
 /// What becomes of the map without each part of the mapper, where everything is as the mapper is told and where it is not.
 fn parts(runs: u64) {
-    let rows: [(&str, Change); 16] = [
-        ("all", |_| {}),
-        ("no CONTINUE", |config| {
-            config.matching.continuation = Use::Off;
-        }),
-        ("no LINK", |config| {
-            config.matching.link = Use::Off;
-        }),
-        ("no α-MATCH", |config| {
-            config.matching.alpha = Use::Off;
-        }),
-        ("no β-MATCH", |config| {
-            config.matching.beta = Use::Off;
-        }),
-        ("static priorities", |config| {
-            config.matching.order = Order::Static;
-        }),
-        ("one track", |config| config.tracks.cap = 1),
-        ("no expectational indexing", |config| {
-            config.indexing.expectational = Use::Off;
-        }),
-        ("no geometric indexing", |config| {
-            config.indexing.geometric = GeometricIndexing::Off;
-        }),
-        ("active frames", |config| {
-            config.indexing.geometric = GeometricIndexing::ActiveFrames;
-        }),
-        ("no perceptual indexing", |config| {
-            config.indexing.perceptual = Use::Off;
-        }),
-        ("no geometric merge", |config| {
-            config.restructuring.geometric_merge = GeometricMerge::Off;
-        }),
-        ("no geometric split", |config| {
-            config.restructuring.geometric_split = Use::Off;
-        }),
-        ("no local merge", |config| {
-            config.restructuring.local_merge = Use::Off;
-        }),
-        ("no local split", |config| {
-            config.restructuring.local_split = Use::Off;
-        }),
-        ("no non-local merge", |config| {
-            config.restructuring.non_local_merge = Use::Off;
-        }),
-    ];
     let outliers = |share: f64, factor: f64| MoveError {
         outliers: share,
         outlier_factor: factor,
@@ -208,16 +155,7 @@ fn parts(runs: u64) {
         config.matching.identity = Identity::Meets;
         config.restructuring.geometric_merge = GeometricMerge::Estims;
     };
-    let painted: Change = |config| {
-        config.percepts = Percepts::Signatures(SignatureKind {
-            rows: 1,
-            columns: 4,
-            tolerance: 0.4,
-            share: 1.0,
-            rotation: Rotation::Aligned,
-            views: 2,
-        });
-    };
+    let signatures: Change = |config| config.percepts = painted().percepts;
     let told: Change = |_| {};
     let worlds: [(&str, u16, f64, u32, MoveError, Change); 5] = [
         ("as told", 10, 0.3, 1500, ODOMETRY, told),
@@ -236,7 +174,7 @@ fn parts(runs: u64) {
             0.3,
             1000,
             seen(0.6),
-            painted,
+            signatures,
         ),
         (
             "boxes that meet are the same, random walk",
@@ -252,14 +190,14 @@ fn parts(runs: u64) {
         print!(" {name} |");
     }
     println!("\n| --- | --- | --- | --- | --- | --- |");
-    for (row, change) in rows {
-        print!("| {row} |");
+    for ablation in Ablation::ALL {
+        print!("| {} |", ablation.name);
         for &(_, side, heed, moves, errors, adapt) in &worlds {
             let (mut purity, mut places) = (0.0, 0.0);
             for seed in 0..runs {
                 let mut config = alike();
                 adapt(&mut config);
-                change(&mut config);
+                (ablation.change)(&mut config);
                 let world = open(side).painted(5, seed);
                 let mut walk = Walk::new(world, errors, config, seed);
                 let mut planner = Scripted::new(heed, seed);

@@ -41,6 +41,7 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+mod ablation;
 mod adapter;
 mod config;
 mod counts;
@@ -66,6 +67,7 @@ mod signature;
 mod track;
 mod updater;
 
+pub use ablation::Ablation;
 pub use config::{
     ActionKind, Config, ConfigError, GeometricIndexing, GeometricMerge, Identity, Indexing,
     JournalLength, Matching, Opportunities, Order, Percepts, Restructuring, Rotation, SearchLimits,

@@ -128,6 +128,18 @@ impl Maze {
         self.neighbours(cell).count()
     }
 
+    /// Whether a cell, those to its north and east and the one between them are open to each other: no wall ends at the post in their
+    /// middle.
+    #[must_use]
+    pub fn is_room(&self, cell: Cell) -> bool {
+        let [north, east] =
+            [Direction::North, Direction::East].map(|direction| self.beside(cell, direction));
+        let (Some(north), Some(east)) = (north, east) else {
+            return false;
+        };
+        self.is_open(north, Direction::East) && self.is_open(east, Direction::North)
+    }
+
     /// The cells open to one side only, also where no way leads to a goal, in the order of
     /// [`Grid::index`].
     pub fn dead_ends(&self) -> impl Iterator<Item = Cell> + '_ {

@@ -2,32 +2,11 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{
-    Config, GeometricMerge, Identity, Matcher, Percepts, Rotation, SignatureKind, Use,
-};
+use tolman_maps::diktiometry::{Config, GeometricMerge, Identity, Matcher, Use};
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 
-use super::walk::{ODOMETRY, Score, Scripted, Walk, blocks, open};
-
-fn alike() -> Config {
-    Config::new(Config::compass_actions(), 1.0)
-}
-
-/// Places with a colour to each side, seen with an error of 0.2.
-fn painted() -> Config {
-    Config {
-        percepts: Percepts::Signatures(SignatureKind {
-            rows: 1,
-            columns: 4,
-            tolerance: 0.4,
-            share: 1.0,
-            rotation: Rotation::Aligned,
-            views: 2,
-        }),
-        ..alike()
-    }
-}
+use super::walk::{ODOMETRY, Score, Scripted, Walk, alike, blocks, open, painted};
 
 fn perfect(places: usize) -> Score {
     Score {

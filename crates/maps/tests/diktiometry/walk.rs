@@ -5,7 +5,8 @@ use alloc::collections::{BTreeMap, VecDeque};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Outcome, PlaceId, Signature, Start, StepReport,
+    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, Signature,
+    SignatureKind, Start, StepReport,
 };
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveError};
@@ -18,6 +19,26 @@ pub(crate) const ODOMETRY: MoveError = MoveError {
     compass: COMPASS,
     ..MoveError::NONE
 };
+
+/// A mapper of places a metre apart that all look alike.
+pub(crate) fn alike() -> Config {
+    Config::new(Config::compass_actions(), 1.0)
+}
+
+/// Places with a colour to each side, seen with an error of 0.2.
+pub(crate) fn painted() -> Config {
+    Config {
+        percepts: Percepts::Signatures(SignatureKind {
+            rows: 1,
+            columns: 4,
+            tolerance: 0.4,
+            share: 1.0,
+            rotation: Rotation::Aligned,
+            views: 2,
+        }),
+        ..alike()
+    }
+}
 
 pub(crate) fn open(side: u16) -> AbstractWorld {
     AbstractWorld::from_maze(&Maze::open(Grid::new(side, side)), 1.0)

@@ -3,7 +3,7 @@
 //!
 //! In the order of the paper: a [`Body`] is the robot, with [`Landmark`](tolman_maps::cpm::Landmark)s; a [`Walker`] its layers 0 and 1 and its
 //! observations (sections 3.2 and 4.1); [`CommonPatterns`] the dictionary it learns in the learning maze (section 4.1); [`Cpm`] layer 3, which maps,
-//! reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6). A [`Trial`] plays both episodes in a maze and scores them by its
+//! reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6). A [`Trial`] plays both episodes in the maze of a [`Venue`] and scores them by its
 //! [`TrueFragments`]. An [`Errand`] is one episode, of which a [`MapFile`] can be kept; a [`Layout`] says where the parts of a map lie.
 //! [`find_out`] is how a robot that was put down somewhere learns where it is, [`PutDown`] a trial of it; a
 //! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again.
@@ -21,6 +21,7 @@ mod robot;
 mod round_trip;
 mod survey;
 mod trial;
+mod venue;
 mod walker;
 mod whereabouts;
 
@@ -35,6 +36,8 @@ pub use put_down::{KnownMaze, PutDown, PutDownRecord};
 pub use robot::{epuck, soinn, walker_config};
 pub use round_trip::RoundTrip;
 pub use survey::{Surveyed, survey};
+pub(crate) use trial::placed;
 pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};
+pub use venue::Venue;
 pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};
 pub use whereabouts::{Whereabouts, WhereaboutsError, find_out};

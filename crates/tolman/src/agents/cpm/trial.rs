@@ -138,7 +138,7 @@ pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatter
 }
 
 /// The robot at the start of a maze.
-pub(super) fn placed(
+pub(crate) fn placed(
     maze: &Maze,
     corridor_width: f64,
     robot: EpuckConfig,

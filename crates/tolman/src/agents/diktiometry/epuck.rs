@@ -2,7 +2,6 @@
 //! encoders with headings trued up by the walls are its odometry, a sweep is what a place looks like.
 
 use alloc::collections::BTreeMap;
-use alloc::sync::Arc;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use thiserror::Error;
@@ -13,15 +12,15 @@ use tolman_maps::diktiometry::{
     ActionKind, Config, Percepts, Rotation, Signature, SignatureError, SignatureKind,
 };
 use tolman_maze::{Cell, Direction, Maze};
-use tolman_sim::robots::{Epuck, EpuckError};
-use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
+use tolman_sim::{StepError, World};
 
 use super::office::{PlaceKind, TruePlace};
 use super::planner::Planner;
 use super::rover::{Arrival, MapError, Mapped, RoutineOutcome, Rover};
 use super::score::{MapScore, Visit, score};
 use crate::agents::cpm::{
-    HeadingBy, SimulatedEpuck, TrueFragments, Walk, WalkError, Walker, epuck, walker_config,
+    HeadingBy, SimulatedEpuck, TrialError, TrueFragments, Walk, WalkError, Walker, epuck, placed,
+    walker_config,
 };
 use crate::episode::stream;
 
@@ -93,18 +92,9 @@ pub struct EpuckSurvey {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpuckSurveyError {
-    /// The maze marks no start.
-    #[error("the maze marks no start: mark a cell with S")]
-    NoStart,
-    /// The maze makes no world.
+    /// It cannot stand at a start in this maze.
     #[error(transparent)]
-    World(#[from] WorldError),
-    /// The robot cannot be built.
-    #[error(transparent)]
-    Epuck(#[from] EpuckError),
-    /// It cannot stand at the start.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
+    Trial(#[from] TrialError),
     /// Its sensors cannot be read.
     #[error(transparent)]
     Curve(#[from] RangeCurveError),
@@ -142,7 +132,7 @@ pub fn survey_maze(
     seed: u64,
 ) -> Result<EpuckSurvey, EpuckSurveyError> {
     let rover = EpuckRover::new(maze, corridor_width, config, seed)?;
-    let truth = true_places(maze, &rover.world);
+    let truth = true_places(maze, rover.world());
     let mut mapped = Mapped::new(rover, config.mapper(separation(&truth, corridor_width)))?;
     let mut planner = Planner::new(config.heed);
     let mut rng = stream(seed, 1);
@@ -184,7 +174,6 @@ pub fn survey_maze(
 
 /// The robot, with its compass: headings are those of the start, trued up by the walls.
 struct EpuckRover {
-    world: Arc<World>,
     walker: Walker<SimulatedEpuck>,
     config: EpuckSurveyConfig,
     /// Which way it looked at the start.
@@ -200,19 +189,11 @@ impl EpuckRover {
         config: &EpuckSurveyConfig,
         seed: u64,
     ) -> Result<Self, EpuckSurveyError> {
-        let size = CorridorSize {
-            corridor_width,
-            wall_thickness: 0.0,
-        };
-        let world = Arc::new(World::from_maze(maze, &size)?);
-        let (cell, ahead) = maze.start().ok_or(EpuckSurveyError::NoStart)?;
-        let ahead = heading_of(ahead);
-        let start = Pose::new(world.cell_centre(cell), ahead);
-        let body = SimulatedEpuck::new(Arc::clone(&world), Epuck::new(epuck())?, start, seed)?;
+        let body = placed(maze, corridor_width, epuck(), seed)?;
+        let ahead = body.truth().pose.heading;
         let mut walker_config = walker_config(corridor_width)?;
         walker_config.heading = HeadingBy::Walls;
         let mut rover = Self {
-            world,
             walker: Walker::new(body, walker_config),
             config: *config,
             ahead,
@@ -223,13 +204,17 @@ impl EpuckRover {
         Ok(rover)
     }
 
+    fn world(&self) -> &World {
+        self.walker.body().world()
+    }
+
     fn truth(&self) -> Pose {
         self.walker.body().truth().pose
     }
 
     /// The number of the cell it truly stands in.
     fn site(&self, maze: &Maze) -> u32 {
-        let cell = self.world.cell_at(self.truth().position);
+        let cell = self.world().cell_at(self.truth().position);
         cell.map_or(0, |cell| maze.grid().index(cell) as u32)
     }
 

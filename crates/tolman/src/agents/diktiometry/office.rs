@@ -140,7 +140,7 @@ impl Office {
             scale.pieces(wall, &mut paint, &mut walls);
         }
         for cell in cells.iter().copied() {
-            if config.wall_thickness > 0.0 && stands_free(maze, cell) {
+            if config.wall_thickness > 0.0 && maze.is_room(cell) {
                 scale.pillar(cell, &mut paint, &mut walls);
             }
         }
@@ -362,18 +362,6 @@ impl Chart<'_> {
 fn unit(direction: Direction) -> Vector {
     let (east, north) = direction.step();
     Vector::new(f64::from(east), f64::from(north))
-}
-
-/// Whether no wall ends at the north-east corner of a cell.
-fn stands_free(maze: &Maze, cell: Cell) -> bool {
-    let beyond = |direction: Direction| maze.grid().neighbour(cell, direction);
-    let (Some(north), Some(east)) = (beyond(Direction::North), beyond(Direction::East)) else {
-        return false;
-    };
-    maze.is_open(cell, Direction::North)
-        && maze.is_open(cell, Direction::East)
-        && maze.is_open(north, Direction::East)
-        && maze.is_open(east, Direction::North)
 }
 
 /// Where an office's parts are and how they look.

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
 use clap::ValueEnum;
-use tolman::agents::cpm::{MapFile, System, Trial, epuck, learn};
+use tolman::agents::cpm::{MapFile, System, Trial, Venue, epuck, learn};
 use tolman_maps::cpm::{Aim, Done, Landmark};
 
-use super::course;
+use super::venue;
 use crate::cli::failure::OrBadInput;
 use crate::cli::{Failure, file};
 
@@ -57,17 +57,16 @@ enum Until {
 const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let course = course(&arguments.maze)?;
-    let learning = tolman_maze::read(LEARNING_MAZE)?;
-    let width = learning.corridor_width.unwrap_or(super::CORRIDOR_WIDTH);
-    let patterns = learn(&learning.maze, width, arguments.seed)?;
+    let venue = venue(&arguments.maze)?;
+    let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
+    let patterns = learn(&learning.maze, learning.corridor_width, arguments.seed)?;
     let system = match arguments.system {
         Choice::Faithful => System::Faithful,
         Choice::Better => System::Better,
     };
     let trial = Trial {
-        maze: &course.maze,
-        corridor_width: course.corridor_width,
+        maze: &venue.maze,
+        corridor_width: venue.corridor_width,
         patterns: &patterns,
         robot: epuck(),
         mode: system.mode(),
@@ -79,26 +78,26 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let errand = trial
         .learn(aim)
-        .with_context(|| format!("no map of {} was learned", course.name))
+        .with_context(|| format!("no map of {} was learned", venue.name))
         .or_bad_input()?;
     match errand.episode.done {
         Done::Reached => {}
         Done::NotThere => {
             let error = anyhow!(
                 "the robot found no goal in {}: is it walled off?",
-                course.name
+                venue.name
             );
             return Err(error).or_bad_input();
         }
         Done::OutOfPatience => {
-            let error = anyhow!("the robot gave up in {}: try another --seed", course.name);
+            let error = anyhow!("the robot gave up in {}: try another --seed", venue.name);
             return Err(error).or_bad_input();
         }
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
     let (fragments, junctions) = (errand.map.fragments().len(), errand.map.junctions().len());
     let file = MapFile {
-        maze: course.name,
+        maze: venue.name,
         seed: arguments.seed,
         system,
         patterns,

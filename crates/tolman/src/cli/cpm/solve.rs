@@ -9,7 +9,7 @@ use tolman::agents::cpm::{Errand, Trial, drawing, epuck};
 use tolman::draw::Figure;
 use tolman_maps::cpm::Done;
 
-use super::{course, parse};
+use super::{parse, venue};
 use crate::cli::failure::OrBadInput;
 use crate::cli::{Failure, file, map};
 
@@ -39,10 +39,10 @@ pub(in crate::cli) struct Arguments {
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let file = parse(&arguments.map, &map::text(&arguments.map)?)?;
-    let course = course(&arguments.maze)?;
+    let venue = venue(&arguments.maze)?;
     let trial = Trial {
-        maze: &course.maze,
-        corridor_width: course.corridor_width,
+        maze: &venue.maze,
+        corridor_width: venue.corridor_width,
         patterns: &file.patterns,
         robot: epuck(),
         mode: file.system.mode(),
@@ -50,21 +50,21 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let errand = trial
         .drive(file.map)
-        .with_context(|| format!("no drive through {}", course.name))
+        .with_context(|| format!("no drive through {}", venue.name))
         .or_bad_input()?;
     let Errand { episode, bumps, .. } = &errand;
     let reached = episode.done == Done::Reached;
     if let Some(path) = &arguments.svg {
-        let world = course.world().or_bad_input()?;
-        let drawing = drawing::drive(&errand.map, &course.maze, &world, &errand.path);
+        let world = venue.world().or_bad_input()?;
+        let drawing = drawing::drive(&errand.map, &venue.maze, &world, &errand.path);
         file::write(
             path,
-            &Figure::new("drive", &course.name, drawing).standalone(),
+            &Figure::new("drive", &venue.name, drawing).standalone(),
         )?;
     }
     if arguments.json {
         let json = json!({
-            "maze": course.name,
+            "maze": venue.name,
             "seed": arguments.seed,
             "reached": reached,
             "seconds": episode.seconds,

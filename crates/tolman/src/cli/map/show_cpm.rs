@@ -25,13 +25,10 @@ pub(super) fn carry_out(
         map,
     } = &read;
     if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
-        let course = cpm::course(maze)?;
-        let world = course.world().or_bad_input()?;
-        let drawing = drawing::over_maze(map, &course.maze, &world);
-        file::write(
-            path,
-            &Figure::new("map", &course.name, drawing).standalone(),
-        )?;
+        let venue = cpm::venue(maze)?;
+        let world = venue.world().or_bad_input()?;
+        let drawing = drawing::over_maze(map, &venue.maze, &world);
+        file::write(path, &Figure::new("map", &venue.name, drawing).standalone())?;
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
     let (fragments, junctions) = (map.fragments().len(), map.junctions().len());

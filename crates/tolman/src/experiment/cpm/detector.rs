@@ -9,8 +9,7 @@ use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
 use tolman_sim::robots::Epuck;
 
-use super::venue::Venue;
-use crate::agents::cpm::{SimulatedEpuck, epuck, survey, walker_config};
+use crate::agents::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.

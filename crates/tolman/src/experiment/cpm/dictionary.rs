@@ -1,7 +1,6 @@
 //! How many common patterns the robot learns: section 5, "31 clusters are obtained with 102 nodes".
 
-use super::venue::Venue;
-use crate::agents::cpm::learn;
+use crate::agents::cpm::{Venue, learn};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, Tolerance};
 
 /// The name of the table.

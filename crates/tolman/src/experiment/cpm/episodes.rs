@@ -8,8 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Maze};
 
 use super::trials;
-use super::venue::Venue;
-use crate::agents::cpm::{CommonPatterns, TrueFragments, Way};
+use crate::agents::cpm::{CommonPatterns, TrueFragments, Venue, Way};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 use crate::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 

@@ -5,8 +5,7 @@ use tolman_maps::cpm::Landmark;
 
 use super::Cpm;
 use super::trials::{BETTER, FIGURE_9};
-use super::venue::Venue;
-use crate::agents::cpm::{Record, drawing};
+use crate::agents::cpm::{Record, Venue, drawing};
 use crate::draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use crate::experiment::{BoxError, Field, Run};
 

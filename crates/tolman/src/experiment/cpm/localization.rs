@@ -3,8 +3,7 @@
 use std::sync::OnceLock;
 
 use super::trials;
-use super::venue::Venue;
-use crate::agents::cpm::{CommonPatterns, KnownMaze, PutDown, Record, epuck};
+use crate::agents::cpm::{CommonPatterns, KnownMaze, PutDown, Record, Venue, epuck};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, run_seed};
 
 /// The name of the table.

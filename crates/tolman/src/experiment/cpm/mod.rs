@@ -14,7 +14,7 @@ mod trials;
 mod venue;
 
 use super::{BoxError, Experiment, Fields, Job, Options, Table};
-use crate::agents::cpm::{CommonPatterns, Mode, Record, epuck, learn};
+use crate::agents::cpm::{CommonPatterns, Mode, Record, Venue, epuck, learn};
 use crate::draw::Figure;
 use crate::experiment::Run;
 use crate::q_learning::QLearningConfig;
@@ -27,7 +27,6 @@ use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::FIGURE_11;
 use trials::Trials;
-use venue::Venue;
 
 /// The experiment, ready to run.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! The diktiometry on the same robot in the same mazes: junctions and dead ends as places.
 
-use super::venue::Venue;
+use crate::agents::cpm::Venue;
 use crate::agents::diktiometry::{EpuckSurveyConfig, survey_maze};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 

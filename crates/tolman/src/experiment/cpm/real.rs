@@ -3,8 +3,7 @@
 use tolman_maps::cpm::Done;
 
 use super::trials;
-use super::venue::Venue;
-use crate::agents::cpm::{CommonPatterns, Episode};
+use crate::agents::cpm::{CommonPatterns, Episode, Venue};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.

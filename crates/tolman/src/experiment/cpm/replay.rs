@@ -9,9 +9,8 @@ use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
 use tolman_sim::World;
 
-use super::venue::Venue;
 use crate::agents::cpm::drawing::{fragment_name, junction_name, middle_of};
-use crate::agents::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, epuck};
+use crate::agents::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, epuck};
 use crate::experiment::{BoxError, Job};
 use crate::replay::{
     Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,

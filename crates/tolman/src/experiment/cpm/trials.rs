@@ -2,8 +2,8 @@
 
 use tolman_maps::cpm::CpmConfig;
 
-use super::venue::{self, Venue};
-use crate::agents::cpm::{CommonPatterns, Mode, Record, Trial, epuck};
+use super::venue;
+use crate::agents::cpm::{CommonPatterns, Mode, Record, Trial, Venue, epuck};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The table of figure 9.

@@ -1,58 +1,17 @@
-//! Where the e-puck runs.
+//! The mazes of the experiment.
 
 use std::path::PathBuf;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maze::{Cell, Direction, Maze, MazeFile, Perfect};
-use tolman_sim::{CorridorSize, World};
+use tolman_maze::{Cell, Direction, Perfect};
 
 use super::trials::BETTER;
+use crate::agents::cpm::Venue;
 use crate::experiment::{BoxError, maze_file};
-
-/// One maze.
-#[derive(Clone, Debug)]
-pub(super) struct Venue {
-    /// Its name, and that of its row.
-    pub(super) name: String,
-    pub(super) maze: Maze,
-    /// From wall to wall, m.
-    pub(super) corridor_width: f64,
-}
-
-/// Where nothing else is said, m.
-const CORRIDOR_WIDTH: f64 = 0.25;
 
 /// Cells along each side of an aliased maze.
 const ALIASED_SIDE: u16 = 5;
-
-impl Venue {
-    fn new(name: &str, file: MazeFile) -> Result<Self, BoxError> {
-        if file.maze.start().is_none() {
-            return Err(format!("the maze {name} marks no start: mark a cell with S").into());
-        }
-        Ok(Self {
-            name: file.name.unwrap_or_else(|| name.to_owned()),
-            maze: file.maze,
-            corridor_width: file.corridor_width.unwrap_or(CORRIDOR_WIDTH),
-        })
-    }
-
-    pub(super) fn world(&self) -> Result<World, BoxError> {
-        let size = CorridorSize {
-            corridor_width: self.corridor_width,
-            wall_thickness: 0.0,
-        };
-        Ok(World::from_maze(&self.maze, &size)?)
-    }
-
-    /// The length of the shortest way from start to goal, m.
-    pub(super) fn shortest_metres(&self) -> Option<f64> {
-        let (start, _) = self.maze.start()?;
-        let steps = self.maze.steps_to_goal()[self.maze.grid().index(start)]?;
-        Some(f64::from(steps) * self.corridor_width)
-    }
-}
 
 /// The paper's three mazes, drawn anew.
 pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
@@ -62,20 +21,20 @@ pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
         include_str!("../../../../../mazes/cpm-3.maze"),
     ]
     .into_iter()
-    .map(|text| Venue::new("", tolman_maze::read(text)?))
+    .map(|text| Ok(Venue::new("", tolman_maze::read(text)?)?))
     .collect()
 }
 
 /// That of figure 11, drawn anew.
 pub(super) fn real() -> Result<Venue, BoxError> {
     let text = include_str!("../../../../../mazes/cpm-real.maze");
-    Venue::new("", tolman_maze::read(text)?)
+    Ok(Venue::new("", tolman_maze::read(text)?)?)
 }
 
 /// Where the common patterns are learned.
 pub(super) fn learning() -> Result<Venue, BoxError> {
     let text = include_str!("../../../../../mazes/cpm-learning.maze");
-    Venue::new("", tolman_maze::read(text)?)
+    Ok(Venue::new("", tolman_maze::read(text)?)?)
 }
 
 /// The mazes that the caller names; the later of two of one name gets a number, and so does one whose name is that of another's row.
@@ -115,7 +74,7 @@ pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
                 inside && !maze.is_open(cell, *direction) && {
                     let mut opened = maze.clone();
                     opened.set_wall(cell, *direction, false);
-                    !has_room(&opened)
+                    !opened.grid().cells().any(|cell| opened.is_room(cell))
                 }
             });
         if let Some(direction) = shut {
@@ -140,25 +99,7 @@ pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
     Ok(Venue {
         name: "Aliased".into(),
         maze,
-        corridor_width: CORRIDOR_WIDTH,
-    })
-}
-
-/// Whether four cells are open to each other: no corridor.
-fn has_room(maze: &Maze) -> bool {
-    let grid = maze.grid();
-    grid.cells().any(|cell| {
-        let east = grid.neighbour(cell, Direction::East);
-        let north = grid.neighbour(cell, Direction::North);
-        match (east, north) {
-            (Some(east), Some(north)) => {
-                maze.is_open(cell, Direction::East)
-                    && maze.is_open(cell, Direction::North)
-                    && maze.is_open(east, Direction::North)
-                    && maze.is_open(north, Direction::East)
-            }
-            _ => false,
-        }
+        corridor_width: Venue::CORRIDOR_WIDTH,
     })
 }
 

@@ -4,7 +4,7 @@ use alloc::sync::Arc;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{Config, GeometricIndexing, GeometricMerge, Identity, Order, Use};
+use tolman_maps::diktiometry::{Ablation, Config};
 
 use crate::agents::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use crate::experiment::BoxError;
@@ -141,73 +141,22 @@ fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
     ]
 }
 
-/// What a row does to the mapper.
-type Change = fn(&mut Config);
-
 /// The table of parts left out.
 pub(super) const ABLATION: &str = "ablation";
 
-const ABLATIONS: [(&str, Change); 18] = [
-    ("all", |_| {}),
-    ("no CONTINUE", |config| {
-        config.matching.continuation = Use::Off;
-    }),
-    ("no LINK", |config| config.matching.link = Use::Off),
-    ("no α-MATCH", |config| config.matching.alpha = Use::Off),
-    ("no β-MATCH", |config| config.matching.beta = Use::Off),
-    ("no expectational indexing", |config| {
-        config.indexing.expectational = Use::Off;
-    }),
-    ("no geometric indexing", |config| {
-        config.indexing.geometric = GeometricIndexing::Off;
-    }),
-    ("active frames", |config| {
-        config.indexing.geometric = GeometricIndexing::ActiveFrames;
-    }),
-    ("no perceptual indexing", |config| {
-        config.indexing.perceptual = Use::Off;
-    }),
-    ("no geometric merge", |config| {
-        config.restructuring.geometric_merge = GeometricMerge::Off;
-    }),
-    ("no geometric split", |config| {
-        config.restructuring.geometric_split = Use::Off;
-    }),
-    ("no local merge", |config| {
-        config.restructuring.local_merge = Use::Off;
-    }),
-    ("no local split", |config| {
-        config.restructuring.local_split = Use::Off;
-    }),
-    ("no non-local merge", |config| {
-        config.restructuring.non_local_merge = Use::Off;
-    }),
-    ("no transients", |config| {
-        config.transients.elision = Use::Off;
-    }),
-    ("one track", |config| config.tracks.cap = 1),
-    ("static priorities", |config| {
-        config.matching.order = Order::Static;
-    }),
-    ("boxes that meet are the same", |config| {
-        config.matching.identity = Identity::Meets;
-        config.restructuring.geometric_merge = GeometricMerge::Estims;
-    }),
-];
-
 fn ablations(office: &Arc<Office>) -> Vec<Setting> {
-    let setting = |(row, change): (&'static str, Change)| {
+    let setting = |ablation: Ablation| {
         let mut config = SurveyConfig::paper(office, 1000);
         config.heed = HEED;
-        change(&mut config.mapper);
+        (ablation.change)(&mut config.mapper);
         Setting {
-            row,
+            row: ablation.name,
             office: Arc::clone(office),
             config,
             subject: Subject::Map,
         }
     };
-    ABLATIONS.into_iter().map(setting).collect()
+    Ablation::ALL.into_iter().map(setting).collect()
 }
 
 /// A maze of MSLST as that paper has it, with that paper's robot.
@@ -232,7 +181,7 @@ fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
 }
 
 fn changing(office: &Arc<Office>) -> Vec<Setting> {
-    let setting = |row, door_period: u32, change: Change| {
+    let setting = |row, door_period: u32, change: fn(&mut Config)| {
         let mut config = SurveyConfig::paper(office, 3000);
         config.heed = HEED;
         config.door_period = door_period;
