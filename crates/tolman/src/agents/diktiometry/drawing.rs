@@ -10,14 +10,23 @@ use crate::draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, Plan, Region, 
 /// Width of a plan, user units.
 const WIDTH: f64 = 560.0;
 
-/// The places with the boxes that hold them, as seen from where the robot began, and the links, over the walls.
+/// More boxes than these lie over each other and hide the world.
+const MOST_BOXES: usize = 100;
+
+/// The places with the boxes that hold them, as seen from where the robot began, and the links, over the walls. Maps of more
+/// than a hundred places are drawn without boxes.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
     let walls = office.world().walls().iter();
     let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
     let mut plan = Plan::of_walls(&walls, WIDTH);
     let drawn = survey.drawn();
-    for Drawn { low, high, .. } in &drawn {
+    let boxes = if drawn.len() > MOST_BOXES {
+        &[]
+    } else {
+        drawn.as_slice()
+    };
+    for Drawn { low, high, .. } in boxes {
         let bounds = Bounds {
             min: *low,
             max: *high,
