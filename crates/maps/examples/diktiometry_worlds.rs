@@ -11,13 +11,14 @@ extern crate alloc;
 
 use core::num::NonZeroU64;
 
-#[expect(dead_code, reason = "the tests need more of it")]
 #[path = "../tests/diktiometry/walk.rs"]
 mod walk;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{Ablation, Config, GeometricMerge, Identity};
+use tolman_maps::diktiometry::{
+    Ablation, Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation,
+};
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 use walk::{ODOMETRY, Scripted, Walk, alike, blocks, open, painted};
@@ -30,7 +31,7 @@ struct Table {
     print: fn(u64),
 }
 
-const TABLES: [Table; 3] = [
+const TABLES: [Table; 4] = [
     Table {
         name: "parts",
         runs: 6,
@@ -45,6 +46,11 @@ const TABLES: [Table; 3] = [
         name: "doors",
         runs: 4,
         print: doors,
+    },
+    Table {
+        name: "kidnapped",
+        runs: 4,
+        print: kidnapped,
     },
 ];
 
@@ -262,6 +268,65 @@ fn doors(runs: u64) {
                 open_precision / checks,
                 f64::from(works) / f64::from(plans)
             );
+        }
+    }
+}
+
+/// How soon a robot that was carried off is found again, by each form of perceptual indexing. Carried off after every hundred
+/// moves on a map that is known.
+fn kidnapped(runs: u64) {
+    const SIDE: u16 = 8;
+    const AFTER: [usize; 3] = [2, 4, 8];
+    println!("| walls, robot | indexing | at its true place after 2 moves | 4 | 8 |");
+    println!("| --- | --- | ---: | ---: | ---: |");
+    let turned: Change = |config| {
+        if let Percepts::Signatures(kind) = &mut config.percepts {
+            kind.rotation = Rotation::Free;
+        }
+    };
+    let worlds: [(&str, u32, Change); 3] = [
+        ("five colours", 5, |_| {}),
+        ("three colours", 3, |_| {}),
+        ("five colours, no heading in what is seen", 5, turned),
+    ];
+    let forms = [
+        PerceptualIndexing::Columns,
+        PerceptualIndexing::Triangles,
+        PerceptualIndexing::Off,
+    ];
+    for (name, colours, change) in worlds {
+        for form in forms {
+            let (mut found, mut times) = ([0.0; AFTER.len()], 0.0);
+            for seed in 0..runs {
+                let mut config = painted();
+                config.indexing.perceptual = form;
+                change(&mut config);
+                let errors = MoveError {
+                    look: 0.2,
+                    ..ODOMETRY
+                };
+                let world = open(SIDE).painted(colours, seed);
+                let mut walk = Walk::new(world, errors, config, seed);
+                walk.heed(1.0, 2000);
+                let truths = walk.truths();
+                let mut rng = ChaCha8Rng::seed_from_u64(seed);
+                for _ in 0..20 {
+                    walk.wander(100);
+                    let cells = u32::from(SIDE) * u32::from(SIDE);
+                    walk.robot.kidnap(rng.random_range(0..cells));
+                    times += 1.0;
+                    for moves in 1..=AFTER[AFTER.len() - 1] {
+                        walk.wander(1);
+                        let at = AFTER.iter().position(|after| *after == moves);
+                        let right = truths.get(&walk.observer.place()) == Some(&walk.robot.at());
+                        if let (Some(at), true) = (at, right) {
+                            found[at] += 1.0;
+                        }
+                    }
+                }
+            }
+            let shares = found.map(|count| format!("{:.0} %", 100.0 * count / times));
+            println!("| {name} | {form:?} | {} |", shares.join(" | "));
         }
     }
 }

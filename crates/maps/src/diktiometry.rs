@@ -70,8 +70,8 @@ mod updater;
 pub use ablation::Ablation;
 pub use config::{
     ActionKind, Config, ConfigError, GeometricIndexing, GeometricMerge, Identity, Indexing,
-    JournalLength, Matching, Opportunities, Order, Percepts, Restructuring, Rotation, SearchLimits,
-    SignatureKind, Tracking, Transients, Use,
+    JournalLength, Matching, Opportunities, Order, Percepts, PerceptualIndexing, Restructuring,
+    Rotation, SearchLimits, SignatureKind, Tracking, Transients, Use,
 };
 pub use counts::Counts;
 pub use error::{StartError, StepError};

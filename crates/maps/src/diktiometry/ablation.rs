@@ -1,6 +1,8 @@
 //! The mapper without each of its parts.
 
-use super::config::{Config, GeometricIndexing, GeometricMerge, Identity, Order, Use};
+use super::config::{
+    Config, GeometricIndexing, GeometricMerge, Identity, Order, PerceptualIndexing, Use,
+};
 
 /// A change to the mapper that leaves a part out, or puts another in its place: what a part is worth shows in what becomes of the map
 /// without it.
@@ -14,7 +16,7 @@ pub struct Ablation {
 
 impl Ablation {
     /// The mapper as it is, then without each part. The last is the paper's rule of identity with the merge that goes with it.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self {
             name: "all",
             change: |_| {},
@@ -58,7 +60,13 @@ impl Ablation {
         Self {
             name: "no perceptual indexing",
             change: |config| {
-                config.indexing.perceptual = Use::Off;
+                config.indexing.perceptual = PerceptualIndexing::Off;
+            },
+        },
+        Self {
+            name: "triangles",
+            change: |config| {
+                config.indexing.perceptual = PerceptualIndexing::Triangles;
             },
         },
         Self {

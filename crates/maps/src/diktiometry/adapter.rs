@@ -69,8 +69,8 @@ impl Observer {
         // What looks like another place is no new view of this one: the robot may be there.
         let looks_elsewhere = match (choice.look, &step.percept) {
             (Look::Strange, Some(view)) => {
-                let percepts = &self.config.percepts;
-                !self.views.alike(view, percepts, &self.map.paths).is_empty()
+                let alike = self.views.alike(view, &self.config, &self.map.paths);
+                !alike.is_empty()
             }
             _ => false,
         };
@@ -78,7 +78,7 @@ impl Observer {
         let new_view =
             !looks_elsewhere && remember(place, step.percept.as_ref(), &self.config.percepts);
         if let (true, Some(view)) = (new_view, &step.percept) {
-            self.views.insert(to, view);
+            self.views.insert(to, view, &self.config);
         }
         see_exits(&mut self.map, to, &step.exits, &self.config);
         let pairs = choice.doubts.iter().chain(&choice.twins);

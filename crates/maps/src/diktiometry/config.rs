@@ -131,7 +131,21 @@ pub struct Indexing {
     /// Places near the projected position.
     pub geometric: GeometricIndexing,
     /// Places that look like the percept.
-    pub perceptual: Use,
+    pub perceptual: PerceptualIndexing,
+}
+
+/// What views are told apart by in *Perceptual Indexing*.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum PerceptualIndexing {
+    /// None: places are never looked for by their look.
+    Off,
+    /// By their columns. In files of version 1: `On`.
+    #[cfg_attr(feature = "serde", serde(alias = "On"))]
+    Columns,
+    /// By triples of the edges between columns, as triangles. Asks for three columns or more; views with fewer than three edges are
+    /// not found.
+    Triangles,
 }
 
 /// The two methods of *Geometric Indexing*.
@@ -310,7 +324,7 @@ impl Config {
             indexing: Indexing {
                 expectational: Use::On,
                 geometric: GeometricIndexing::Search,
-                perceptual: Use::On,
+                perceptual: PerceptualIndexing::Columns,
             },
             matching: Matching {
                 identity: Identity::Certain,
@@ -481,6 +495,14 @@ impl Config {
         if let Some(&(field, value, _)) = finite {
             return Err(ConfigError::OutOfRange { field, value });
         }
+        if let Percepts::Signatures(kind) = self.percepts
+            && self.indexing.perceptual == PerceptualIndexing::Triangles
+            && kind.columns < 3
+        {
+            return Err(ConfigError::NoTriangles {
+                columns: kind.columns,
+            });
+        }
         let counts = [
             ("search.frames", self.search.frames),
             ("tracks.cap", self.tracks.cap),
@@ -523,6 +545,12 @@ pub enum ConfigError {
         field: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// Views have too few columns for triangles of edges.
+    #[error("views of {columns} columns have no triangles; give 3 or more, or index `Columns`")]
+    NoTriangles {
+        /// How many they have.
+        columns: usize,
     },
     /// A count is 0.
     #[error("`{field}` is 0; give at least 1")]

@@ -143,12 +143,12 @@ impl Observer {
     /// The robot is not where it was expected to be: it may be wherever it looks like here, however far away. "Good candidate
     /// places can be found based on perceptual cues, even if they are geometrically distant."
     fn suppose(&mut self, track: &Track, step: &Move, next: &mut Vec<(Track, TrackReport)>) {
-        let (Use::On, Some(percept)) = (self.config.indexing.perceptual, &step.percept) else {
+        let Some(percept) = &step.percept else {
             return;
         };
         let alike = self
             .views
-            .most_alike(percept, &self.config.percepts, &self.map.paths);
+            .most_alike(percept, &self.config, &self.map.paths);
         for place in alike {
             let taken = next.iter().any(|(other, _)| other.place == place);
             if taken || next.len() >= self.config.tracks.cap {

@@ -1,7 +1,6 @@
 //! "Indexing, to find likely candidate states to feed to the matcher": streams of sets of candidates, the best set first.
 
 mod active_frames;
-mod column_tree;
 mod expectational;
 mod geometric;
 mod perceptual;

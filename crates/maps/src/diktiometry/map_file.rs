@@ -8,8 +8,8 @@ use super::observer::Observer;
 
 /// What `format` says in a file of ours.
 const FORMAT: &str = "tolman-diktiometry";
-/// The version that is written; all versions up to it are read.
-const VERSION: u32 = 1;
+/// The version that is written; all versions up to it are read. Since version 2 perceptual indexing has two forms.
+const VERSION: u32 = 2;
 
 /// An observer as it lies in a file: the journal, from which everything follows to the bit. Any format of serde's will do.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

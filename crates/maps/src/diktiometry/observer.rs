@@ -58,7 +58,7 @@ impl Observer {
         let mut views = ViewIndex::default();
         remember(first, start.percept.as_ref(), &config.percepts);
         if let Some(view) = &start.percept {
-            views.insert(place, view);
+            views.insert(place, view, &config);
         }
         first.exits = start.exits;
         first.visits = 1;

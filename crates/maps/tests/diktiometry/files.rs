@@ -27,6 +27,20 @@ fn a_file_is_read_back_to_the_bit() {
     assert_eq!(again, walk.observer);
 }
 
+/// Files of version 1 say `On` where those of today say by what views are indexed.
+#[test]
+fn files_of_the_first_version_are_read() {
+    let walk = walked();
+    let mut value = serde_json::to_value(MapFile::of(&walk.observer).unwrap()).unwrap();
+    assert_eq!(value["version"], json!(2));
+    value["version"] = json!(1);
+    let perceptual = &mut value["config"]["indexing"]["perceptual"];
+    assert_eq!(*perceptual, json!("Columns"));
+    *perceptual = json!("On");
+    let file: MapFile = serde_json::from_value(value).unwrap();
+    assert_eq!(file.observer().unwrap(), walk.observer);
+}
+
 #[test]
 fn spoiled_files_say_what_is_wrong() {
     let spoiled = |spoil: fn(&mut Value)| -> MapFileError {
@@ -35,8 +49,8 @@ fn spoiled_files_say_what_is_wrong() {
         let file: MapFile = serde_json::from_value(value).unwrap();
         file.observer().unwrap_err()
     };
-    let version = spoiled(|file| file["version"] = json!(2));
-    assert_eq!(version, MapFileError::Version { found: 2 });
+    let version = spoiled(|file| file["version"] = json!(3));
+    assert_eq!(version, MapFileError::Version { found: 3 });
     let format = spoiled(|file| file["format"] = json!("other"));
     assert_eq!(
         format,

@@ -2,7 +2,9 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{Config, GeometricMerge, Identity, Matcher, Use};
+use tolman_maps::diktiometry::{
+    Config, ConfigError, GeometricMerge, Identity, Matcher, Percepts, PerceptualIndexing, Use,
+};
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 
@@ -248,16 +250,32 @@ fn a_kidnapped_robot_is_found_again_by_what_it_sees() {
         look: 0.2,
         ..ODOMETRY
     };
-    let mut found = 0;
-    for seed in 0..10 {
-        let world = open(7).painted(5, seed);
-        let mut walk = Walk::new(world, errors, painted(), seed);
-        walk.heed(1.0, 800);
-        assert_eq!(walk.score(), perfect(49), "seed {seed}");
-        let truths = walk.truths();
-        walk.robot.kidnap(seed as u32 * 4);
-        walk.wander(20);
-        found += usize::from(truths.get(&walk.observer.place()) == Some(&walk.robot.at()));
+    for indexing in [PerceptualIndexing::Columns, PerceptualIndexing::Triangles] {
+        let mut config = painted();
+        config.indexing.perceptual = indexing;
+        let mut found = 0;
+        for seed in 0..10 {
+            let world = open(7).painted(5, seed);
+            let mut walk = Walk::new(world, errors, config.clone(), seed);
+            walk.heed(1.0, 800);
+            assert_eq!(walk.score(), perfect(49), "seed {seed}");
+            let truths = walk.truths();
+            walk.robot.kidnap(seed as u32 * 4);
+            walk.wander(20);
+            found += usize::from(truths.get(&walk.observer.place()) == Some(&walk.robot.at()));
+        }
+        assert!(found >= 8, "{indexing:?}: {found} of 10");
     }
-    assert!(found >= 8, "{found} of 10");
+}
+
+#[test]
+fn views_of_two_columns_have_no_triangles() {
+    let mut config = painted();
+    if let Percepts::Signatures(kind) = &mut config.percepts {
+        kind.columns = 2;
+    }
+    assert_eq!(config.check(), Ok(()));
+    config.indexing.perceptual = PerceptualIndexing::Triangles;
+    let refused = ConfigError::NoTriangles { columns: 2 };
+    assert_eq!(config.check(), Err(refused));
 }

@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use tolman_geom::{Interval, Point, PointBox, PoseBox};
 use tolman_maps::diktiometry::{
     Action, Config, Exits, GeometricIndexing, GeometricMerge, Identity, JournalLength, Move,
-    Observer, Order, Outcome, Percepts, Rotation, Signature, SignatureKind, Start, StepError, Use,
+    Observer, Order, Outcome, Percepts, PerceptualIndexing, Rotation, Signature, SignatureKind,
+    Start, StepError, Use,
 };
 
 use super::walk::{ODOMETRY, Walk, open};
@@ -51,6 +52,9 @@ fn config(seed: u32) -> Config {
     }
     if bit(10) {
         config.matching.link = Use::Off;
+    }
+    if bit(11) {
+        config.indexing.perceptual = PerceptualIndexing::Triangles;
     }
     // Restructurers that act on little evidence act more often.
     config.restructuring.visits = 1;

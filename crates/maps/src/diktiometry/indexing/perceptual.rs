@@ -1,7 +1,16 @@
+//! Places that look like what the robot sees, wherever they are.
+
+mod columns;
+mod feature_tree;
+mod triangles;
+
 use alloc::vec::Vec;
 
-use super::column_tree::{Column, ColumnTree};
-use crate::diktiometry::config::{Percepts, Rotation};
+use columns::ColumnIndex;
+use feature_tree::Feature;
+use triangles::TriangleIndex;
+
+use crate::diktiometry::config::{Config, Percepts, PerceptualIndexing, Rotation};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::path_graph::PathGraph;
 use crate::diktiometry::signature::Signature;
@@ -9,40 +18,45 @@ use crate::diktiometry::signature::Signature;
 /// How often the hypercube's size is doubled at most: from the tolerance to eight times it.
 const DOUBLINGS: u32 = 3;
 
-/// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
-/// marking each signature found at the offset implied by the column match. When enough of a database signature's
-/// columns have been marked, the signature's place is suggested as a match candidate."
+/// All views of all places, by their columns and, if that is asked for, by triangles of their edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::diktiometry) struct ViewIndex {
-    tree: ColumnTree,
-    /// Whose view it is, by number of the view.
-    views: Vec<PlaceId>,
+    columns: ColumnIndex,
+    triangles: TriangleIndex,
 }
 
 impl ViewIndex {
-    /// Takes in a view of a place. O(columns · log columns), and now and then all of them anew.
-    pub(in crate::diktiometry) fn insert(&mut self, place: PlaceId, view: &Signature) {
-        let number = self.views.len() as u32;
-        self.views.push(place);
-        for column in 0..view.columns() {
-            self.tree.insert(Column {
-                values: view.column(column).to_vec(),
-                view: number,
-                column: column as u32,
-            });
+    /// Takes in a view of a place. O(features · log features), and now and then all of them anew.
+    pub(in crate::diktiometry) fn insert(
+        &mut self,
+        place: PlaceId,
+        view: &Signature,
+        config: &Config,
+    ) {
+        self.columns.insert(place, view);
+        if let (PerceptualIndexing::Triangles, Percepts::Signatures(kind)) =
+            (config.indexing.perceptual, &config.percepts)
+        {
+            self.triangles.insert(place, view, kind);
         }
     }
 
-    /// The places that look most like a percept: the first of the sets that an "iteratively growing hypercube" finds which is not
-    /// empty. Nobody asks for the sets after it. The places are those that stand now, by id.
+    /// The places that look most like a percept: of the sets that are found within more and more, the first that is not empty.
+    /// Nobody asks for the sets after it. The places are those that stand now, by id.
     pub(in crate::diktiometry) fn most_alike(
         &self,
         percept: &Signature,
-        percepts: &Percepts,
+        config: &Config,
         paths: &PathGraph,
     ) -> Vec<PlaceId> {
-        let sizes = (0..=DOUBLINGS).map(|doubling| f64::from(1_u32 << doubling));
-        let mut sets = sizes.map(|size| self.within(percept, percepts, paths, size));
+        let Percepts::Signatures(kind) = &config.percepts else {
+            return Vec::new();
+        };
+        let mut sets = sizes().map(|size| match config.indexing.perceptual {
+            PerceptualIndexing::Off => Vec::new(),
+            PerceptualIndexing::Columns => self.columns.within(percept, kind, paths, size),
+            PerceptualIndexing::Triangles => self.triangles.within(percept, kind, paths, size),
+        });
         sets.find(|set| !set.is_empty()).unwrap_or_default()
     }
 
@@ -50,46 +64,56 @@ impl ViewIndex {
     pub(in crate::diktiometry) fn alike(
         &self,
         percept: &Signature,
-        percepts: &Percepts,
+        config: &Config,
         paths: &PathGraph,
     ) -> Vec<PlaceId> {
-        self.within(percept, percepts, paths, 1.0)
-    }
-
-    /// The places with a view whose columns are near enough to those of a percept in a hypercube of `size` tolerances.
-    fn within(
-        &self,
-        percept: &Signature,
-        percepts: &Percepts,
-        paths: &PathGraph,
-        size: f64,
-    ) -> Vec<PlaceId> {
-        let Percepts::Signatures(kind) = percepts else {
-            return Vec::new();
-        };
-        let columns = percept.columns();
-        let enough = libm::ceil(kind.share * columns as f64 - 1e-9) as usize;
-        // (view, offset) of every column that is near one of the percept's.
-        let mut votes: Vec<(u32, usize)> = Vec::new();
-        for column in 0..columns {
-            let half_size = kind.tolerance * size;
-            self.tree
-                .within(percept.column(column), half_size, |found| {
-                    let offset = (found.column as usize + columns - column) % columns;
-                    if offset == 0 || kind.rotation == Rotation::Free {
-                        votes.push((found.view, offset));
-                    }
-                });
+        match &config.percepts {
+            Percepts::None => Vec::new(),
+            Percepts::Signatures(kind) => self.columns.within(percept, kind, paths, 1.0),
         }
-        votes.sort_unstable();
-        let mut set: Vec<PlaceId> = votes
-            .chunk_by(|a, b| a == b)
-            .filter(|alike| alike.len() >= enough)
-            .filter_map(|alike| self.views.get(alike[0].0 as usize))
-            .filter_map(|place| paths.resolve(*place))
-            .collect();
-        set.sort_unstable();
-        set.dedup();
-        set
     }
+}
+
+/// The half sizes of the growing hypercube, in those of the first.
+fn sizes() -> impl Iterator<Item = f64> {
+    (0..=DOUBLINGS).map(|doubling| f64::from(1_u32 << doubling))
+}
+
+/// A feature of a view is near one of the percept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Vote {
+    view: u32,
+    /// By how many columns the view is turned against the percept, if it is the same feature.
+    offset: u32,
+}
+
+impl Vote {
+    /// For a feature that the percept has at `column` of `columns`.
+    fn of(known: &Feature, column: u32, columns: usize) -> Self {
+        let columns = columns as u32;
+        Self {
+            view: known.view,
+            offset: (known.column + columns - column) % columns,
+        }
+    }
+}
+
+/// The places of the views that have enough votes at one offset. By id.
+fn elected(
+    mut votes: Vec<Vote>,
+    rotation: Rotation,
+    enough: impl Fn(u32) -> usize,
+    place: impl Fn(u32) -> PlaceId,
+    paths: &PathGraph,
+) -> Vec<PlaceId> {
+    votes.retain(|vote| vote.offset == 0 || rotation == Rotation::Free);
+    votes.sort_unstable();
+    let mut set: Vec<PlaceId> = votes
+        .chunk_by(|a, b| a == b)
+        .filter(|alike| alike.len() >= enough(alike[0].view))
+        .filter_map(|alike| paths.resolve(place(alike[0].view)))
+        .collect();
+    set.sort_unstable();
+    set.dedup();
+    set
 }

@@ -1,0 +1,301 @@
+//! The second form of perceptual indexing: triples of features as triangles.
+//!
+//! Source: S. Atiya, G. Hager, "Real-time vision-based robot localization", which the paper names beside columns: vertical edges
+//! of the image, each three of them a triangle whose sides are compared as intervals, the triangles sorted by the longest side.
+//! Theirs have sides in metres, from two cameras; here an edge is known by its bearing, so that the sides are angles.
+
+use alloc::vec::Vec;
+
+use super::feature_tree::{Feature, FeatureTree};
+use super::{Vote, elected};
+use crate::diktiometry::config::SignatureKind;
+use crate::diktiometry::ids::PlaceId;
+use crate::diktiometry::path_graph::PathGraph;
+use crate::diktiometry::signature::Signature;
+
+/// How many edges of a view are kept, the clearest: 56 triangles.
+const EDGES: usize = 8;
+
+/// All views of all places, by triangles of their edges.
+///
+/// An *edge* is the border between two columns that differ, with its *contrast*, by how much in each row. Three edges are a
+/// triangle: its sides are the angles between them, its corners the contrasts. Both are the same however the robot is turned, and
+/// contrasts are the same however bright it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct TriangleIndex {
+    tree: FeatureTree,
+    /// By number of the view.
+    views: Vec<View>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct View {
+    place: PlaceId,
+    /// How many of its triangles have to be found.
+    enough: usize,
+}
+
+/// The border before a column.
+#[derive(Clone, Debug, PartialEq)]
+struct Edge {
+    column: usize,
+    /// By how much the column's values are above those of the column before, by row.
+    contrast: Vec<f64>,
+}
+
+impl Edge {
+    fn clearness(&self) -> f64 {
+        let all = self.contrast.iter().map(|row| row.abs());
+        all.fold(0.0, f64::max)
+    }
+}
+
+impl TriangleIndex {
+    /// Takes in a view of a place. Views with fewer than three edges have no triangle and are never found.
+    ///
+    /// An edge is kept if noise alone cannot make it, and all borders of a percept are asked for: so a view whose values are seen
+    /// again within the tolerance is found by all its triangles.
+    pub(super) fn insert(&mut self, place: PlaceId, view: &Signature, kind: &SignatureKind) {
+        let mut edges = borders(view);
+        edges.retain(|edge| edge.clearness() > kind.tolerance);
+        edges.sort_by(|a, b| {
+            let clearer = b.clearness().total_cmp(&a.clearness());
+            clearer.then(a.column.cmp(&b.column))
+        });
+        edges.truncate(EDGES);
+        edges.sort_by_key(|edge| edge.column);
+        // As many as the share of the edges makes that has to agree.
+        let agreeing = libm::ceil(kind.share * edges.len() as f64 - 1e-9) as usize;
+        let number = self.views.len() as u32;
+        self.views.push(View {
+            place,
+            enough: triples(agreeing).max(1),
+        });
+        for triangle in triangles(&edges) {
+            // Whoever asks tells a triangle of several longest sides from each of them.
+            if let Some(kept) = turns(triangle, view.columns()).next() {
+                self.tree.insert(Feature {
+                    view: number,
+                    ..kept
+                });
+            }
+        }
+    }
+
+    /// The places with a view of which enough triangles are those of a percept, their contrasts within `size` times what noise may
+    /// do. By id. O(borders³ · √(triangles)).
+    pub(super) fn within(
+        &self,
+        percept: &Signature,
+        kind: &SignatureKind,
+        paths: &PathGraph,
+        size: f64,
+    ) -> Vec<PlaceId> {
+        let columns = percept.columns();
+        let edges = borders(percept);
+        // Each of the two columns at an edge may differ by the tolerance. Sides are whole columns.
+        let mut half_sizes = Vec::from([0.0; SIDES]);
+        half_sizes.resize(SIDES + 3 * kind.rows, 2.0 * kind.tolerance * size);
+        let mut votes = Vec::new();
+        for triangle in triangles(&edges) {
+            for seen in turns(triangle, columns) {
+                self.tree.within(&seen.values, &half_sizes, |known| {
+                    votes.push(Vote::of(known, seen.column, columns));
+                });
+            }
+        }
+        let enough = |view: u32| self.views[view as usize].enough;
+        let place = |view: u32| self.views[view as usize].place;
+        elected(votes, kind.rotation, enough, place, paths)
+    }
+}
+
+/// The border before every column.
+fn borders(view: &Signature) -> Vec<Edge> {
+    let columns = view.columns();
+    let border = |column: usize| {
+        let before = view.column((column + columns - 1) % columns);
+        let pairs = view.column(column).iter().zip(before);
+        Edge {
+            column,
+            contrast: pairs.map(|(here, before)| here - before).collect(),
+        }
+    };
+    (0..columns).map(border).collect()
+}
+
+/// How many triples there are of so many things.
+const fn triples(count: usize) -> usize {
+    count * count.saturating_sub(1) * count.saturating_sub(2) / 6
+}
+
+/// Three edges, counter-clockwise.
+type Triangle<'a> = [&'a Edge; 3];
+
+/// The sides of a triangle that tell it: the third is what is left of the circle.
+const SIDES: usize = 2;
+
+/// All triples of edges that are sorted by column.
+fn triangles(edges: &[Edge]) -> impl Iterator<Item = Triangle<'_>> {
+    edges.iter().enumerate().flat_map(move |(second, middle)| {
+        edges[..second].iter().flat_map(move |first| {
+            let last = edges[second + 1..].iter();
+            last.map(move |last| [first, middle, last])
+        })
+    })
+}
+
+/// The columns from one edge counter-clockwise to another.
+fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
+    (to.column + columns - from.column) % columns
+}
+
+/// The triangle told from the beginning of its longest side on; from each of them if several are the longest.
+fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
+    let [a, b, c] = triangle;
+    let turns = [[a, b, c], [b, c, a], [c, a, b]];
+    let longest = turns
+        .iter()
+        .map(|[from, to, _]| side(from, to, columns))
+        .max();
+    let is_longest = move |turn: &Triangle<'_>| Some(side(turn[0], turn[1], columns)) == longest;
+    let told = turns.into_iter().filter(is_longest);
+    told.map(move |turn| feature(turn, columns))
+}
+
+/// Its sides, the longest first, and the contrasts of its corners.
+fn feature(triangle: Triangle<'_>, columns: usize) -> Feature {
+    let [a, b, c] = triangle;
+    let sides = [side(a, b, columns), side(b, c, columns)].map(|side| side as f64);
+    let mut values = Vec::from(sides);
+    values.extend(triangle.iter().flat_map(|edge| &edge.contrast));
+    Feature {
+        values,
+        view: 0,
+        column: a.column as u32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::diktiometry::config::Rotation;
+    use crate::diktiometry::map::{Diktiometry, Site};
+
+    const ROWS: usize = 2;
+    const COLUMNS: usize = 12;
+
+    fn kind(rotation: Rotation) -> SignatureKind {
+        SignatureKind {
+            rows: ROWS,
+            columns: COLUMNS,
+            tolerance: 0.2,
+            share: 0.6,
+            rotation,
+            views: 1,
+        }
+    }
+
+    /// What is seen of a place by a robot that is turned by some columns, each value wrong and all of them brighter.
+    fn seen(view: &[f64], turned: usize, noise: &[f64], brighter: f64) -> Signature {
+        let values = (0..view.len()).map(|at| {
+            let there = (at + turned * ROWS) % view.len();
+            view[there] + noise[at] + brighter
+        });
+        Signature::new(ROWS, values.collect()).unwrap()
+    }
+
+    fn places(count: usize) -> Diktiometry {
+        let mut map = Diktiometry::default();
+        for _ in 0..count {
+            map.new_place(Site::OwnFrame);
+        }
+        map
+    }
+
+    fn index(views: &[Vec<f64>], kind: &SignatureKind) -> TriangleIndex {
+        let mut index = TriangleIndex::default();
+        for (place, view) in (0..).map(PlaceId).zip(views) {
+            let view = Signature::new(ROWS, view.clone()).unwrap();
+            index.insert(place, &view, kind);
+        }
+        index
+    }
+
+    fn view() -> impl Strategy<Value = Vec<f64>> {
+        // Walls of few colours, so that there are borders without contrast and sides of one length.
+        prop::collection::vec(prop_oneof![Just(0.0), Just(0.5), Just(1.0)], ROWS * COLUMNS)
+    }
+
+    fn edges(view: &[f64], kind: &SignatureKind) -> usize {
+        let all = borders(&Signature::new(ROWS, view.to_vec()).unwrap());
+        let clear = all.iter().filter(|edge| edge.clearness() > kind.tolerance);
+        clear.count()
+    }
+
+    proptest! {
+        #[test]
+        fn the_true_place_is_found_however_the_robot_is_turned(
+            views in prop::collection::vec(view(), 1..8),
+            truth in any::<prop::sample::Index>(),
+            turned in 0..COLUMNS,
+            noise in prop::collection::vec(-0.1..0.1, ROWS * COLUMNS),
+            wrong in prop::collection::vec(-0.1..0.1, ROWS * COLUMNS),
+            brighter in -2.0..2.0,
+        ) {
+            let kind = kind(Rotation::Free);
+            // What is stored was seen with an error, too.
+            let stored: Vec<Vec<f64>> = views
+                .iter()
+                .map(|view| view.iter().zip(&wrong).map(|(value, wrong)| value + wrong).collect())
+                .collect();
+            let truth = truth.index(views.len());
+            let percept = seen(&views[truth], turned, &noise, brighter);
+            let map = places(views.len());
+            let found = index(&stored, &kind).within(&percept, &kind, &map.paths, 1.0);
+            let place = PlaceId(truth as u32);
+            prop_assert_eq!(found.contains(&place), edges(&stored[truth], &kind) >= 3);
+        }
+
+        /// The same, whichever way the percept is turned.
+        #[test]
+        fn what_is_found_does_not_depend_on_how_the_robot_is_turned(
+            views in prop::collection::vec(view(), 1..8),
+            percept in view(),
+            turned in 0..COLUMNS,
+        ) {
+            let kind = kind(Rotation::Free);
+            let index = index(&views, &kind);
+            let map = places(views.len());
+            let still = vec![0.0; ROWS * COLUMNS];
+            let [north, other] = [0, turned].map(|turned| {
+                let percept = seen(&percept, turned, &still, 0.0);
+                index.within(&percept, &kind, &map.paths, 1.0)
+            });
+            prop_assert_eq!(north, other);
+        }
+    }
+
+    #[test]
+    fn with_a_compass_a_view_is_found_as_it_lies_alone() {
+        let kind = kind(Rotation::Aligned);
+        let mut view = vec![0.0; ROWS * COLUMNS];
+        // Walls from columns 1 to 3 and 5 to 9: four edges.
+        for column in [1, 2, 5, 6, 7, 8] {
+            view[column * ROWS] = 1.0;
+        }
+        let index = index(core::slice::from_ref(&view), &kind);
+        let map = places(1);
+        let still = vec![0.0; ROWS * COLUMNS];
+        let found = |turned: usize| {
+            let percept = seen(&view, turned, &still, 0.0);
+            index.within(&percept, &kind, &map.paths, 1.0)
+        };
+        assert_eq!(found(0), [PlaceId(0)]);
+        assert!((1..COLUMNS).all(|turned| found(turned).is_empty()));
+    }
+}
