@@ -95,4 +95,41 @@ mod tests {
             }
         }
     }
+
+    /// Branches are counted from the one that it came by, also where a bend lets it stand askew in a junction.
+    #[test]
+    fn the_first_branch_leads_back() {
+        let text = "start = 0 0 north\n\n\
+            o---o---o---o---o---o\n\
+            |       |           |\n\
+            o   o   o   o   o---o\n\
+            |   |       |       |\n\
+            o   o---o   o   o   o\n\
+            |       |   | G |   |\n\
+            o   o   o   o---o   o\n\
+            |   |   |           |\n\
+            o   o   o---o---o   o\n\
+            | S |               |\n\
+            o---o---o---o---o---o\n";
+        let maze = tolman_maze::read(text).unwrap().maze;
+        let config = walker_config(0.25).unwrap();
+        let world = Arc::new(world_of(&maze, 0.25).unwrap());
+        let fragments = TrueFragments::of(&maze);
+        for (from, way) in fragments.ways() {
+            let out = Direction::ALL
+                .into_iter()
+                .find(|out| fragments.way(from, heading_of(*out)) == Some(way))
+                .unwrap();
+            let start = Pose::new(world.cell_centre(from), heading_of(out.opposite()));
+            let robot = Epuck::new(epuck()).unwrap();
+            let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, 2).unwrap();
+            let mut walker = Walker::new(body, config.clone());
+            walker.begin().unwrap();
+            for to in [way.to, from] {
+                walker.walk(0, 0, None).unwrap();
+                let end = walker.body().truth().pose.position;
+                assert_eq!(world.cell_at(end), Some(to), "{from:?} by {way:?}");
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use tolman_control::epuck::{
     Alignment, FEATURES, MeetPointConfig, Pilot, PilotConfig, PilotError, Place, Profile,
     ProfileError, SegmentConfig, SegmentError, Segments,
 };
-use tolman_geom::{Point, Pose};
+use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Landmark, Sighting};
 
 use super::body::{Body, Reckoned};
@@ -18,6 +18,8 @@ pub struct Walker<B: Body> {
     config: WalkerConfig,
     /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
+    /// Where it was after each stride since it set off, in the frame in which it began.
+    trail: Vec<Point>,
     observations: u32,
     departed_us: u64,
     departed: Pose,
@@ -149,6 +151,7 @@ impl<B: Body> Walker<B> {
             pilot: Pilot::new(Reckoned::new(body), config.pilot.clone()),
             config,
             branches: Vec::new(),
+            trail: Vec::new(),
             observations: 0,
             departed_us: 0,
             departed: Pose::IDENTITY,
@@ -285,8 +288,11 @@ impl<B: Body> Walker<B> {
         };
         let mut left = self.pilot.robot().landmark();
         let mut track = Vec::new();
+        self.trail.clear();
+        self.trail.push(origin);
         for stride in 0..self.config.longest_fragment {
             self.pilot.follow(self.config.stride_s)?;
+            self.trail.push(self.pose().position);
             if stride < skip {
                 continue;
             }
@@ -407,6 +413,7 @@ impl<B: Body> Walker<B> {
             view = self.look()?;
         }
         self.branches = view.segments.spaces().collect();
+        self.count_from_entry();
         if self.branches.is_empty() {
             // Whoever came in can get out.
             self.branches.push(PI);
@@ -415,6 +422,25 @@ impl<B: Body> Walker<B> {
             degree: self.branches.len() as u32,
             landmark,
         })
+    }
+
+    /// Counts the branches from the one that it came by: that which leads to where it was before it came into the place. Behind a bend
+    /// the robot may stand askew in the middle of a junction, so that another branch is nearer to behind it.
+    fn count_from_entry(&mut self) {
+        let here = self.pose();
+        let width = self.config.corridor_width;
+        let before = self.trail.iter().rev();
+        let mut outside = before.filter(|point| (**point - here.position).norm() > PLACE * width);
+        let Some(entry) = outside.next().map(|point| here.inverse().transform(*point)) else {
+            return;
+        };
+        let bearing = libm::atan2(entry.y, entry.x);
+        let off = |branch: &f64| Heading::from_radians(*branch - bearing).radians().abs();
+        let numbered = self.branches.iter().enumerate();
+        let nearest = numbered.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b)));
+        if let Some((first, _)) = nearest {
+            self.branches.rotate_left(first);
+        }
     }
 
     /// Whether the only way out is the one it came by, and the wall across the path is near.
