@@ -17,11 +17,11 @@ mod walk;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Ablation, Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation,
+    Ablation, Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
 };
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
-use walk::{ODOMETRY, Scripted, Walk, alike, blocks, open, painted};
+use walk::{COMPASS, ODOMETRY, Scripted, Walk, alike, blocks, open, painted};
 
 /// What can be asked for.
 struct Table {
@@ -31,7 +31,7 @@ struct Table {
     print: fn(u64),
 }
 
-const TABLES: [Table; 4] = [
+const TABLES: [Table; 5] = [
     Table {
         name: "parts",
         runs: 6,
@@ -46,6 +46,11 @@ const TABLES: [Table; 4] = [
         name: "doors",
         runs: 4,
         print: doors,
+    },
+    Table {
+        name: "looks",
+        runs: 10,
+        print: looks,
     },
     Table {
         name: "kidnapped",
@@ -267,6 +272,63 @@ fn doors(runs: u64) {
                 precision / checks,
                 open_precision / checks,
                 f64::from(works) / f64::from(plans)
+            );
+        }
+    }
+}
+
+/// What merges by looks are worth, and whether they confuse places, where boxes are too wide for geometry: with more and more
+/// colours, and where rooms are furnished alike.
+fn looks(runs: u64) {
+    println!(
+        "| world, walls | places for each true one: without | with merges by looks | least purity: without | with |"
+    );
+    println!("| --- | ---: | ---: | ---: | ---: |");
+    const SIDE: u16 = 9;
+    let rough = MoveError {
+        distance: 0.2,
+        compass: 2.0 * COMPASS,
+        look: 0.2,
+        ..ODOMETRY
+    };
+    // Rooms of 3 × 3 places.
+    let room = |place: u32| {
+        let side = u32::from(SIDE);
+        (place / side % 3) * side + place % side % 3
+    };
+    type Build<'a> = &'a dyn Fn(u32, u64) -> AbstractWorld;
+    let corridors: Build<'_> = &|colours, seed| {
+        let maze = blocks(SIDE, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
+        AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed)
+    };
+    let open: Build<'_> = &|colours, seed| open(SIDE).painted(colours, seed);
+    let rooms: Build<'_> = &|colours, seed| open(colours, seed).looking_like(room);
+    let worlds = [
+        ("corridors", corridors, &[1, 2, 3, 5, 8][..]),
+        ("open", open, &[1, 2, 3, 5, 8]),
+        ("rooms alike", rooms, &[2, 3, 8]),
+    ];
+    for (name, world, walls) in worlds {
+        for &colours in walls {
+            let measured = [Use::Off, Use::On].map(|merge| {
+                let (mut share, mut purity) = (0.0, 1.0_f64);
+                for seed in 0..runs {
+                    let mut config = painted();
+                    config.restructuring.look_merge = merge;
+                    let mut walk = Walk::new(world(colours, seed), rough, config, seed);
+                    let mut planner = Scripted::new(0.3, seed);
+                    for _ in 0..1500 {
+                        planner.go(&mut walk);
+                    }
+                    let score = walk.score();
+                    share += score.places as f64 / score.visited as f64 / runs as f64;
+                    purity = purity.min(score.purity);
+                }
+                (share, purity)
+            });
+            let [(before, pure), (share, purity)] = measured;
+            println!(
+                "| {name}, {colours} colours | {before:.2} | {share:.2} | {pure:.4} | {purity:.4} |"
             );
         }
     }

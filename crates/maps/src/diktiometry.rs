@@ -51,6 +51,7 @@ mod grid;
 mod ids;
 mod indexing;
 mod journal;
+mod looks;
 mod map;
 #[cfg(feature = "serde")]
 mod map_file;
@@ -79,6 +80,7 @@ pub use grid::Grid;
 pub use ids::{Action, FrameId, LinkId, PlaceId, TrackId};
 pub use indexing::ActiveFrame;
 pub use journal::{Distinction, Journal, ReplayError, UndoError};
+pub use looks::Looks;
 pub use map::{Diktiometry, Drawn, Flaw};
 #[cfg(feature = "serde")]
 pub use map_file::{MapFile, MapFileError};

@@ -15,8 +15,8 @@ pub struct Ablation {
 }
 
 impl Ablation {
-    /// The mapper as it is, then without each part. The last is the paper's rule of identity with the merge that goes with it.
-    pub const ALL: [Self; 19] = [
+    /// The mapper as it is, then without each part or with another. The last is the paper's rule of identity with the merge that goes with it.
+    pub const ALL: [Self; 20] = [
         Self {
             name: "all",
             change: |_| {},
@@ -97,6 +97,12 @@ impl Ablation {
             name: "no non-local merge",
             change: |config| {
                 config.restructuring.non_local_merge = Use::Off;
+            },
+        },
+        Self {
+            name: "merges by looks",
+            change: |config| {
+                config.restructuring.look_merge = Use::On;
             },
         },
         Self {

@@ -69,6 +69,10 @@ impl Use {
     const fn on() -> Self {
         Self::On
     }
+
+    const fn off() -> Self {
+        Self::Off
+    }
 }
 
 /// What the robot sees of a place.
@@ -262,6 +266,12 @@ pub struct Restructuring {
     pub visits: u32,
     /// h: consistent histories that propose a merge.
     pub histories: usize,
+    /// Merging by looks, beyond the paper; off in files that do not say.
+    #[cfg_attr(feature = "serde", serde(default = "Use::off"))]
+    pub look_merge: Use,
+    /// Chance of a wrong merge by looks, at most, 0 < … < 1.
+    #[cfg_attr(feature = "serde", serde(default = "look_error"))]
+    pub look_error: f64,
 }
 
 /// What geometry asks for before two places are merged.
@@ -302,6 +312,14 @@ pub enum JournalLength {
     Off,
     /// All moves from the first on.
     All,
+}
+
+/// Some hundreds of merges are weighed in a run; the bounds behind it are wide.
+const LOOK_ERROR: f64 = 1e-4;
+
+#[cfg(feature = "serde")]
+const fn look_error() -> f64 {
+    LOOK_ERROR
 }
 
 impl Config {
@@ -362,6 +380,8 @@ impl Config {
                 links: [0.8, 0.4],
                 visits: 5,
                 histories: 2,
+                look_merge: Use::Off,
+                look_error: LOOK_ERROR,
             },
             opportunities: Opportunities {
                 unknown: Use::On,
@@ -473,6 +493,11 @@ impl Config {
                 "restructuring.minority",
                 self.restructuring.minority,
                 share.contains(&self.restructuring.minority),
+            ),
+            (
+                "restructuring.look_error",
+                self.restructuring.look_error,
+                self.restructuring.look_error > 0.0 && self.restructuring.look_error < 1.0,
             ),
             (
                 "restructuring.links[0]",

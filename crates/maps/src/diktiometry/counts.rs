@@ -65,7 +65,7 @@ impl Counts {
 }
 
 /// The upper end of Wilson's score interval at 99 % for a rate seen in so many trials.
-fn wilson_upper(rate: f64, trials: f64) -> f64 {
+pub(super) fn wilson_upper(rate: f64, trials: f64) -> f64 {
     /// The 99.5th percentile of the standard normal.
     const Z: f64 = 2.575_829_303_548_901;
     let square = Z * Z / trials;

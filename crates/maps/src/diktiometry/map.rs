@@ -4,6 +4,7 @@ use tolman_geom::PointBox;
 
 use super::config::SearchLimits;
 use super::ids::{FrameId, LinkId, PlaceId};
+use super::looks::Looks;
 use super::path_graph::{Fate, PathGraph, Standing};
 use super::reference_graph::{ReferenceGraph, search};
 
@@ -15,6 +16,8 @@ pub struct Diktiometry {
     pub paths: PathGraph,
     /// Frames and what is known of where they lie.
     pub reference: ReferenceGraph,
+    /// How well looks tell places apart.
+    pub looks: Looks,
 }
 
 /// Where a place is drawn.

@@ -9,4 +9,4 @@ pub(super) use engine::{Choice, choose};
 pub use matcher::Matcher;
 pub(super) use matcher::{Look, Situation};
 pub(super) use order::Traversal;
-pub(super) use view::{remember, share_a_view};
+pub(super) use view::{remember, share_a_view, similarity};

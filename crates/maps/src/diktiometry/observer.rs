@@ -59,6 +59,7 @@ impl Observer {
         remember(first, start.percept.as_ref(), &config.percepts);
         if let Some(view) = &start.percept {
             views.insert(place, view, &config);
+            map.looks.kinds = 1;
         }
         first.exits = start.exits;
         first.visits = 1;

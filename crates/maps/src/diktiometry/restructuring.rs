@@ -2,6 +2,7 @@
 
 mod geometric;
 mod local_path;
+mod looks;
 mod merge;
 mod non_local_path;
 mod split;
@@ -17,6 +18,7 @@ use super::map::Diktiometry;
 use super::matching::share_a_view;
 use super::path_graph::{Estim, Fate};
 use super::report::Restructured;
+pub(super) use looks::tell;
 pub(super) use non_local_path::deposit;
 pub(super) use transients::elide_place;
 
@@ -158,6 +160,7 @@ fn merge_verdicts(
         .chain(iter::once_with(views))
         .chain(iter::once_with(|| local_path::merge(map, pair, config)))
         .chain(iter::once_with(|| non_local_path::merge(map, pair, config)))
+        .chain(iter::once_with(|| looks::merge(map, pair, config)))
 }
 
 /// What is proposed for a place that is two. Neither restructurer has grounds to reject what the other sees: places at one

@@ -8,7 +8,7 @@ use anyhow::{Context, anyhow};
 use tolman::agents::diktiometry::{
     Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig,
 };
-use tolman_maps::diktiometry::JournalLength;
+use tolman_maps::diktiometry::{JournalLength, Use};
 
 use super::failure::OrBadInput;
 use super::{Failure, file, map, maze};
@@ -88,6 +88,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let mut config = SurveyConfig::of(&office, SurveyorConfig::paper(), arguments.moves);
     config.heed = arguments.heed.unwrap_or(HEED);
     config.mapper.journal = JournalLength::All;
+    config.mapper.restructuring.look_merge = Use::On;
     let survey = Survey::new(&office, config, arguments.seed)
         .with_context(|| name.clone())
         .or_bad_input()?;

@@ -1,4 +1,5 @@
 use crate::diktiometry::config::{Percepts, Rotation, SignatureKind};
+use crate::diktiometry::looks::Similarity;
 use crate::diktiometry::path_graph::Place;
 use crate::diktiometry::signature::Signature;
 
@@ -17,6 +18,15 @@ pub(in crate::diktiometry) fn agrees(
 /// Whether two places may look alike: a view of one does as one of the other, or one has none.
 pub(in crate::diktiometry) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
     a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
+}
+
+/// The same, as what the map learns from.
+pub(in crate::diktiometry) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarity {
+    if share_a_view(a, b, percepts) {
+        Similarity::Alike
+    } else {
+        Similarity::Unlike
+    }
 }
 
 /// Whether two signatures may be views of one place.

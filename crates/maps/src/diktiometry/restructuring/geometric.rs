@@ -8,7 +8,7 @@ use super::{Diagnosis, Verdict};
 use crate::diktiometry::config::{Config, GeometricMerge, Use};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::matching::share_a_view;
+use crate::diktiometry::matching::{share_a_view, similarity};
 use crate::diktiometry::path_graph::Estim;
 use crate::diktiometry::reference_graph::search;
 use crate::diktiometry::updater::merge_estims;
@@ -76,13 +76,24 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
         let there = &map.paths.places[other.index()];
         let way = reached.iter().find(|reached| reached.frame == there.frame);
         let offset = way.map(|way| way.position + there.position - position);
-        // What cannot be one is settled, too.
-        if offset.is_none_or(|offset| offset.contains(Point::origin())) {
+        // What cannot be one is settled, too. It was noted at both.
+        let apart = offset.is_some_and(|offset| !offset.contains(Point::origin()));
+        if apart && place < other {
+            let [a, b] = [place, other].map(|place| &map.paths.places[place.index()]);
+            let look = similarity(a, b, &config.percepts);
+            map.looks.tell_apart(look);
+        }
+        if !apart {
             left.push(other);
             note.other = other;
             map.paths.places[place.index()].notes.push(note);
         }
-        if let Some(offset) = offset {
+        // Of what is out of the search's reach looks alone may tell.
+        let out_of_reach = match config.restructuring.look_merge {
+            Use::On => Some(PointBox::UNBOUNDED),
+            Use::Off => None,
+        };
+        if let Some(offset) = offset.or(out_of_reach) {
             pairs.push(Pair {
                 a: place,
                 b: other,

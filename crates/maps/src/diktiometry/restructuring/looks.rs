@@ -1,0 +1,98 @@
+//! Looks as evidence of identity, where the map has learned that they are.
+//!
+//! Beyond the paper, which compares histories of places that were considered and rejected. After a long way the box of a
+//! position has room for several places; where looks are many, it is told by what the places along the same actions look like.
+
+use alloc::vec::Vec;
+
+use super::Verdict;
+use super::geometric::Pair;
+use crate::diktiometry::config::{Config, Use};
+use crate::diktiometry::ids::PlaceId;
+use crate::diktiometry::map::Diktiometry;
+use crate::diktiometry::matching::share_a_view;
+
+/// Pairs of places that are compared at most.
+const COMPARED: usize = 64;
+
+/// Whether two places may be merged by what they and the places along the same actions look like.
+///
+/// Where the same actions lead from one place, there is the same place. If the two are different, so are the places that the same
+/// actions lead to from them, and each pair of them looks alike by chance p at most ([`Looks`](crate::diktiometry::Looks)).
+/// With k kinds of looks in agreement and n places that the one may be taken for, one that it is not does all that with a chance
+/// below n · pᵏ.
+pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
+    if config.restructuring.look_merge == Use::Off {
+        return Verdict::Abstain;
+    }
+    let separation = config.least_distance();
+    let sides = [pair.offset.x, pair.offset.y].map(|side| side.width() / separation + 1.0);
+    match enough(map, sides[0] * sides[1], config) {
+        Some(wanted) if agree(map, pair, config, wanted) => Verdict::Propose,
+        _ => Verdict::Abstain,
+    }
+}
+
+/// Whether looks tell anything where geometry knows nothing.
+pub(in crate::diktiometry) fn tell(map: &Diktiometry, config: &Config) -> bool {
+    enough(map, f64::INFINITY, config).is_some()
+}
+
+/// How many kinds of looks have to agree if there is room for so many places; none if there are not as many kinds.
+fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
+    let others = room.min(map.paths.places().count() as f64);
+    // n · pᵏ < error for k > log(error / n) / log p.
+    let chance = map.looks.chance_of_alike();
+    let wanted = libm::log(config.restructuring.look_error / others) / libm::log(chance);
+    let kinds = f64::from(map.looks.kinds);
+    (chance < 1.0 && wanted < kinds).then_some(wanted as usize + 1)
+}
+
+/// Whether so many kinds of looks agree along the same actions from two places, and nothing speaks against it that
+/// the two are one.
+fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool {
+    let paths = &map.paths;
+    let mut pairs = Vec::from([(pair.a, pair.b)]);
+    let mut kinds: Vec<PlaceId> = Vec::new();
+    let mut next = 0;
+    while let Some(&(a, b)) = pairs.get(next) {
+        next += 1;
+        let [here, there] = [a, b].map(|place| &paths.places[place.index()]);
+        if here.views.is_empty()
+            || there.views.is_empty()
+            || !share_a_view(here, there, &config.percepts)
+        {
+            return false;
+        }
+        let is_new = kinds.iter().all(|&kind| {
+            let kind = &paths.places[kind.index()];
+            !share_a_view(kind, here, &config.percepts)
+        });
+        if is_new {
+            kinds.push(a);
+            if kinds.len() >= wanted {
+                return true;
+            }
+        }
+        for (_, link) in paths.ways(a) {
+            let way = paths.ways(b).find(|(_, other)| other.action == link.action);
+            let Some((_, other)) = way else {
+                continue;
+            };
+            let ends = (link.to, other.to);
+            if ends.0 == ends.1 || pairs.contains(&ends) || pairs.len() >= COMPARED {
+                continue;
+            }
+            // The two ways are one if the places are.
+            let ways = map.related(a, link.to).zip(map.related(b, other.to));
+            let apart = map
+                .related(ends.0, ends.1)
+                .is_some_and(|offset| !offset.contains(tolman_geom::Point::origin()));
+            if apart || ways.is_some_and(|(one, other)| !one.meets(other)) {
+                return false;
+            }
+            pairs.push(ends);
+        }
+    }
+    false
+}
