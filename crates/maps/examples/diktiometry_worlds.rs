@@ -291,22 +291,27 @@ fn looks(runs: u64) {
         look: 0.2,
         ..ODOMETRY
     };
-    // Rooms of 3 × 3 places.
-    let room = |place: u32| {
-        let side = u32::from(SIDE);
-        (place / side % 3) * side + place % side % 3
+    // Square rooms of so many places each way.
+    let room = |side: u16, room: u32| {
+        let side = u32::from(side);
+        move |place: u32| (place / side % room) * side + place % side % room
     };
     type Build<'a> = &'a dyn Fn(u32, u64) -> AbstractWorld;
     let corridors: Build<'_> = &|colours, seed| {
         let maze = blocks(SIDE, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
         AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed)
     };
-    let open: Build<'_> = &|colours, seed| open(SIDE).painted(colours, seed);
-    let rooms: Build<'_> = &|colours, seed| open(colours, seed).looking_like(room);
+    let plain: Build<'_> = &|colours, seed| open(SIDE).painted(colours, seed);
+    let rooms: Build<'_> = &|colours, seed| plain(colours, seed).looking_like(room(SIDE, 3));
+    let hotel: Build<'_> = &|colours, seed| {
+        let world = open(20).painted(colours, seed);
+        world.looking_like(room(20, 4))
+    };
     let worlds = [
         ("corridors", corridors, &[1, 2, 3, 5, 8][..]),
-        ("open", open, &[1, 2, 3, 5, 8]),
-        ("rooms alike", rooms, &[2, 3, 8]),
+        ("open", plain, &[1, 2, 3, 5, 8]),
+        ("rooms of 3 × 3 places alike", rooms, &[3, 8]),
+        ("20 × 20, rooms of 4 × 4 alike", hotel, &[3, 8]),
     ];
     for (name, world, walls) in worlds {
         for &colours in walls {

@@ -16,7 +16,7 @@ use super::path_graph::{Fate, Note, Successor};
 use super::projector::{Projection, between_places};
 use super::reference_graph::search;
 use super::report::{Contradiction, Culprit};
-use super::restructuring::{Hints, elide_place, tell};
+use super::restructuring::{Hints, elide_place, tell, tell_apart};
 use super::signature::Signature;
 use super::track::Track;
 use super::updater::{arrive, see_exits};
@@ -156,7 +156,7 @@ impl Observer {
                 Ok(_) => Similarity::Alike,
                 Err(_) => Similarity::Unlike,
             };
-            self.map.looks.tell_apart(look);
+            tell_apart(&mut self.map, [place, *other], look, &self.config);
         }
         if alike.is_empty() {
             self.map.looks.kinds = self.map.looks.kinds.saturating_add(1);

@@ -11,11 +11,17 @@ pub struct Looks {
     pub different: u32,
     /// Those of them that look alike.
     pub deceiving: u32,
+    /// Those of them of which neighbours by the same action are known.
+    pub followed: u32,
+    /// Those of them whose neighbours look alike, too.
+    pub repeating: u32,
 }
 
 impl Looks {
-    /// The chance that a place looks like another, at most: the upper end of Wilson's score interval at 99 %; 1 while nothing is
-    /// known.
+    /// The chance that a place looks like another, at most, if their neighbours do: 1 while nothing is known.
+    ///
+    /// For places whose looks have nothing to do with their neighbours' it is the upper end of Wilson's score interval at 99 %.
+    /// Where looks repeat, room for room, those that deceive have neighbours that deceive, and it is as often as that was met.
     ///
     /// A true place may be many places of a map that is not yet folded, whose pairs are no evidence of their own: all
     /// pairs count for as many as the kinds of looks make.
@@ -26,14 +32,24 @@ impl Looks {
             return 1.0;
         }
         let rate = f64::from(self.deceiving) / f64::from(self.different);
-        wilson_upper(rate, trials)
+        // Met once, it is no rule.
+        let repeats = f64::from(self.repeating) / (f64::from(self.followed) + 2.0);
+        wilson_upper(rate, trials).max(repeats)
     }
 
     /// Geometry has told that two places are two.
-    pub(super) fn tell_apart(&mut self, look: Similarity) {
+    ///
+    /// Of two that look alike, `neighbours` says how two look that the same action leads from or to, if any are known.
+    pub(super) fn tell_apart(&mut self, look: Similarity, neighbours: Option<Similarity>) {
         self.different = self.different.saturating_add(1);
-        if look == Similarity::Alike {
-            self.deceiving = self.deceiving.saturating_add(1);
+        if look == Similarity::Unlike {
+            return;
+        }
+        self.deceiving = self.deceiving.saturating_add(1);
+        if let Some(neighbours) = neighbours {
+            self.followed = self.followed.saturating_add(1);
+            let repeating = u32::from(neighbours == Similarity::Alike);
+            self.repeating = self.repeating.saturating_add(repeating);
         }
     }
 }
@@ -56,6 +72,7 @@ mod tests {
                 kinds,
                 different,
                 deceiving,
+                ..Looks::default()
             };
             looks.chance_of_alike()
         };
@@ -66,5 +83,23 @@ mod tests {
         // 0 of n: z² / (n + z²).
         assert!((chance(20, 400, 0) - 6.634_896_6 / 196.634_896_6).abs() < 1e-8);
         assert!(chance(20, 400, 40) > 0.1);
+    }
+
+    #[test]
+    fn nothing_is_believed_where_rooms_repeat() {
+        let mut looks = Looks {
+            kinds: 100,
+            different: 5000,
+            ..Looks::default()
+        };
+        assert!(looks.chance_of_alike() < 0.01);
+        for _ in 0..20 {
+            looks.tell_apart(Similarity::Alike, Some(Similarity::Unlike));
+        }
+        assert!(looks.chance_of_alike() < 0.01);
+        for _ in 0..20 {
+            looks.tell_apart(Similarity::Alike, Some(Similarity::Alike));
+        }
+        assert!(looks.chance_of_alike() > 0.4);
     }
 }

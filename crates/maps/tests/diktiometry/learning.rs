@@ -8,7 +8,7 @@ use tolman_maps::diktiometry::{
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 
-use super::walk::{ODOMETRY, Score, Scripted, Walk, alike, blocks, open, painted};
+use super::walk::{COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, open, painted};
 
 fn perfect(places: usize) -> Score {
     Score {
@@ -126,6 +126,54 @@ fn scripts_teach_corridors_in_which_a_robot_stops_only_roughly() {
     let mut walk = Walk::new(world, errors, config, 1);
     walk.heed(1.0, 1200);
     assert_eq!(walk.score(), perfect(places));
+}
+
+/// Boxes so wide that geometry cannot close the loops of the world.
+const ROUGH: MoveError = MoveError {
+    distance: 0.2,
+    compass: 2.0 * COMPASS,
+    look: 0.2,
+    ..ODOMETRY
+};
+
+fn looked_at(world: AbstractWorld, look_merge: Use, moves: usize) -> Walk {
+    let mut config = painted();
+    config.restructuring.look_merge = look_merge;
+    let mut walk = Walk::new(world, ROUGH, config, 1);
+    walk.heed(0.3, moves);
+    walk
+}
+
+#[test]
+fn looks_close_loops_that_are_too_wide_for_geometry() {
+    let walk = |look_merge| {
+        let maze = blocks(7, 0.25, &mut ChaCha8Rng::seed_from_u64(1));
+        let world = AbstractWorld::from_corridors(&maze, 1.0).painted(5, 1);
+        looked_at(world, look_merge, 1000)
+    };
+    let (without, with) = (walk(Use::Off), walk(Use::On));
+    let score = without.score();
+    assert!(score.places > 2 * score.visited, "{score:?}");
+    assert_eq!(with.score(), perfect(with.score().visited));
+    let looks = with.observer.map().looks;
+    assert!(looks.kinds > 20 && looks.different > 200, "{looks:?}");
+}
+
+/// Looks tell nothing where all look alike, and the map learns that they tell nothing where rooms are furnished alike.
+#[test]
+fn looks_that_deceive_confuse_no_places() {
+    let room = |place: u32| (place / 9 % 3) * 9 + place % 9 % 3;
+    let rooms = open(9).painted(8, 1).looking_like(room);
+    for world in [open(9).painted(1, 1), rooms] {
+        let with = looked_at(world.clone(), Use::On, 1000).score();
+        let without = looked_at(world, Use::Off, 1000).score();
+        assert_eq!(with, without);
+        assert!((with.purity - 1.0).abs() < 1e-12, "{with:?}");
+    }
+    let hotel = |place: u32| (place / 16 % 4) * 16 + place % 16 % 4;
+    let hotel = open(16).painted(8, 1).looking_like(hotel);
+    let score = looked_at(hotel, Use::On, 1200).score();
+    assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
 }
 
 /// A wall is painted anew: the place is still where it was, and is known by either look.

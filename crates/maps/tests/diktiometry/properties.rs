@@ -56,6 +56,10 @@ fn config(seed: u32) -> Config {
     if bit(11) {
         config.indexing.perceptual = PerceptualIndexing::Triangles;
     }
+    if bit(12) {
+        config.restructuring.look_merge = Use::On;
+        config.restructuring.look_error = 0.9;
+    }
     // Restructurers that act on little evidence act more often.
     config.restructuring.visits = 1;
     config.restructuring.weight = 1.0;

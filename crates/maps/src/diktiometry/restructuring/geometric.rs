@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use super::{Diagnosis, Verdict};
+use super::{Diagnosis, Verdict, looks};
 use crate::diktiometry::config::{Config, GeometricMerge, Use};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::map::Diktiometry;
@@ -75,25 +75,22 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
         }
         let there = &map.paths.places[other.index()];
         let way = reached.iter().find(|reached| reached.frame == there.frame);
-        let offset = way.map(|way| way.position + there.position - position);
+        let offset = way
+            .map(|way| way.position + there.position - position)
+            .or_else(|| looks::out_of_reach(map, place, other, config));
         // What cannot be one is settled, too. It was noted at both.
         let apart = offset.is_some_and(|offset| !offset.contains(Point::origin()));
         if apart && place < other {
             let [a, b] = [place, other].map(|place| &map.paths.places[place.index()]);
             let look = similarity(a, b, &config.percepts);
-            map.looks.tell_apart(look);
+            looks::tell_apart(map, [place, other], look, config);
         }
         if !apart {
             left.push(other);
             note.other = other;
             map.paths.places[place.index()].notes.push(note);
         }
-        // Of what is out of the search's reach looks alone may tell.
-        let out_of_reach = match config.restructuring.look_merge {
-            Use::On => Some(PointBox::UNBOUNDED),
-            Use::Off => None,
-        };
-        if let Some(offset) = offset.or(out_of_reach) {
+        if let Some(offset) = offset {
             pairs.push(Pair {
                 a: place,
                 b: other,

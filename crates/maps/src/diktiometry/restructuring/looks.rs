@@ -5,12 +5,15 @@
 
 use alloc::vec::Vec;
 
+use tolman_geom::{Point, PointBox};
+
 use super::Verdict;
 use super::geometric::Pair;
-use crate::diktiometry::config::{Config, Use};
+use crate::diktiometry::config::{Config, SearchLimits, Use};
 use crate::diktiometry::ids::PlaceId;
+use crate::diktiometry::looks::Similarity;
 use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::matching::share_a_view;
+use crate::diktiometry::matching::{share_a_view, similarity};
 
 /// Pairs of places that are compared at most.
 const COMPARED: usize = 64;
@@ -31,6 +34,60 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
         Some(wanted) if agree(map, pair, config, wanted) => Verdict::Propose,
         _ => Verdict::Abstain,
     }
+}
+
+/// Where b lies as seen from a by all that is known, m, if looks say that the two are one and the search of the neighbourhood does
+/// not reach so far: geometry has its say before a merge. O(frames · degree · log frames) if they do.
+pub(super) fn out_of_reach(
+    map: &Diktiometry,
+    a: PlaceId,
+    b: PlaceId,
+    config: &Config,
+) -> Option<PointBox> {
+    let offset = PointBox::UNBOUNDED;
+    let everywhere = SearchLimits {
+        width: f64::INFINITY,
+        frames: usize::MAX,
+        depth: u32::MAX,
+    };
+    match merge(map, &Pair { a, b, offset }, config) {
+        Verdict::Propose => Some(map.displacement(a, b, &everywhere).unwrap_or(offset)),
+        Verdict::Abstain | Verdict::Reject => None,
+    }
+}
+
+/// Geometry has told that two places are two: what that says of looks.
+pub(in crate::diktiometry) fn tell_apart(
+    map: &mut Diktiometry,
+    pair: [PlaceId; 2],
+    look: Similarity,
+    config: &Config,
+) {
+    let neighbours = match look {
+        Similarity::Alike => neighbours(map, pair, config),
+        Similarity::Unlike => None,
+    };
+    map.looks.tell_apart(look, neighbours);
+}
+
+/// How two places look from which the same action leads to those of a pair, or else to which it leads from them; none if there are
+/// none of either.
+fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
+    let paths = &map.paths;
+    let before = paths.incoming(a).find_map(|(_, link)| {
+        let mut others = paths.incoming(b).map(|(_, other)| other);
+        let other = others.find(|other| other.action == link.action && other.from != link.from);
+        Some((link.from, other?.from))
+    });
+    let after = || {
+        paths.outgoing(a).find_map(|(_, link)| {
+            let mut others = paths.along(b, link.action).map(|(_, other)| other.to);
+            Some((link.to, others.find(|to| *to != link.to)?))
+        })
+    };
+    let (one, other) = before.or_else(after)?;
+    let [one, other] = [one, other].map(|end| &paths.places[end.index()]);
+    Some(similarity(one, other, &config.percepts))
 }
 
 /// Whether looks tell anything where geometry knows nothing.
@@ -87,7 +144,7 @@ fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool
             let ways = map.related(a, link.to).zip(map.related(b, other.to));
             let apart = map
                 .related(ends.0, ends.1)
-                .is_some_and(|offset| !offset.contains(tolman_geom::Point::origin()));
+                .is_some_and(|offset| !offset.contains(Point::origin()));
             if apart || ways.is_some_and(|(one, other)| !one.meets(other)) {
                 return false;
             }
