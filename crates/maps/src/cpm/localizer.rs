@@ -253,15 +253,10 @@ impl<'a> Localizer<'a> {
         Ok(())
     }
 
-    /// The end of a fragment is reached, and a junction, dead end or landmark is seen.
-    pub fn arrive(&mut self, sighting: Sighting) {
+    /// The end of the fragment comes into sight, and it is not known yet at what. O(all sequences' lengths).
+    pub fn end_in_sight(&mut self) {
         let seen = self.config.slip.max(1e-3);
         for track in &mut self.tracks {
-            let place = self
-                .maps
-                .get(track.map)
-                .and_then(|map| map.junction(track.ahead.junction));
-            let looks = place.is_some_and(|place| place.sighting() == sighting);
             let count = track.patterns.len();
             let mut here = 0.0;
             for (passed, belief) in track.passed.iter().enumerate() {
@@ -270,7 +265,25 @@ impl<'a> Localizer<'a> {
             }
             track.passed.fill(0.0);
             if let Some(end) = track.passed.last_mut() {
-                *end = if looks { here } else { here * UNSEEN };
+                *end = here;
+            }
+        }
+        self.normalize();
+    }
+
+    /// The end of a fragment is reached, and a junction, dead end or landmark is seen. O(all sequences' lengths).
+    pub fn arrive(&mut self, sighting: Sighting) {
+        self.end_in_sight();
+        for track in &mut self.tracks {
+            let place = self
+                .maps
+                .get(track.map)
+                .and_then(|map| map.junction(track.ahead.junction));
+            let looks = place.is_some_and(|place| place.sighting() == sighting);
+            if let Some(end) = track.passed.last_mut()
+                && !looks
+            {
+                *end *= UNSEEN;
             }
         }
         self.stage = Stage::AtJunction;

@@ -195,6 +195,12 @@ impl MapFileHeader {
         self.format == FORMAT
     }
 
+    /// Whether a text that is no whole JSON, as one that was cut off, says that it was a file of ours.
+    #[must_use]
+    pub fn is_named_in(text: &str) -> bool {
+        text.contains(&format!("\"{FORMAT}\""))
+    }
+
     /// Whether it is a file of ours that can be read here.
     ///
     /// # Errors

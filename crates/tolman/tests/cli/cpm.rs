@@ -59,7 +59,8 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     // The file is cut off, of another time, of another maze.
     let text = String::from_utf8(first).unwrap();
     fs::write(folder.join("cut.json"), &text[..text.len() / 2]).unwrap();
-    tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &["cut.json", "line 1"]);
+    let cut_off = ["cut.json", "this map of CPM is cut off", "line 1"];
+    tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &cut_off);
     let later = text.replace("\"version\":1", "\"version\":2");
     fs::write(folder.join("later.json"), later).unwrap();
     let refused = ["version is 2", "update tolman"];
@@ -74,4 +75,75 @@ fn a_map_is_learned_looked_at_and_driven_by() {
         "fork.maze",
     ];
     tolman_in(&folder, &elsewhere).refused(2, &["corridor.maze", "tolman cpm learn"]);
+}
+
+/// What `tolman cpm learn` says of a maze, which it refuses.
+fn refused_maze(name: &str, maze: &str, told: &[&str]) {
+    let folder = folder(name);
+    fs::write(folder.join("maze.maze"), maze).unwrap();
+    let learn = ["cpm", "learn", "--maze", "maze.maze", "--out", "map.json"];
+    tolman_in(&folder, &learn).refused(2, told);
+    assert!(!folder.join("map.json").exists());
+}
+
+#[test]
+fn a_goal_that_is_walled_off_is_told() {
+    let walled = MAZE.replace("| S |       |", "| S |   |   |").replace(
+        "|   | G |   |\no   o   o   o",
+        "|   | G |   |\no   o---o   o",
+    );
+    refused_maze("cpm-walled", &walled, &["no way leads from the start"]);
+    let without = MAZE.replace('G', " ");
+    refused_maze("cpm-no-goal", &without, &["the maze has no goal"]);
+    let without = MAZE.replace('S', " ").replace("start = 0 0 north\n", "");
+    refused_maze("cpm-no-start", &without, &["no start"]);
+}
+
+#[test]
+fn a_maze_without_junctions_is_learned_and_driven() {
+    let folder = folder("cpm-corridor");
+    let corridor = "start = 0 1 east\n\no---o---o---o\n| S         |\no---o---o   o\n|     G     |\no---o---o---o\n";
+    fs::write(folder.join("corridor.maze"), corridor).unwrap();
+    let learn = [
+        "cpm",
+        "learn",
+        "--maze",
+        "corridor.maze",
+        "--out",
+        "map.json",
+    ];
+    tolman_in(&folder, &learn).done();
+    let solve = [
+        "cpm",
+        "solve",
+        "--map",
+        "map.json",
+        "--maze",
+        "corridor.maze",
+    ];
+    let told = tolman_in(&folder, &solve).done();
+    assert!(told.contains("reached the goal"), "{told}");
+}
+
+#[test]
+fn a_map_of_another_robot_or_maze_is_refused_or_fails_as_it_is_said() {
+    let folder = folder("cpm-other");
+    fs::write(folder.join("fork.maze"), MAZE).unwrap();
+    let learn = ["cpm", "learn", "--maze", "fork.maze", "--out", "map.json"];
+    tolman_in(&folder, &learn).done();
+    let text = fs::read_to_string(folder.join("map.json")).unwrap();
+    let solve =
+        |map: &str, maze: &str| tolman_in(&folder, &["cpm", "solve", "--map", map, "--maze", maze]);
+    // Another robot's dictionary under this map, a later version, and a map of another maze.
+    let key = "\"fingerprint\":\"";
+    let at = text.find(key).unwrap() + key.len();
+    let other = format!("{}{}{}", &text[..at], "0123456789abcdef", &text[at + 16..]);
+    fs::write(folder.join("other.json"), other).unwrap();
+    solve("other.json", "fork.maze").refused(2, &["other.json", "fingerprint", "changed"]);
+    let later = text.replace("\"version\":1", "\"version\":2");
+    fs::write(folder.join("later.json"), later).unwrap();
+    solve("later.json", "fork.maze").refused(2, &["version is 2", "update tolman"]);
+    let crossing = "start = 1 1 north\n\no---o---o---o\n|   | G |   |\no---o   o---o\n|     S     |\no---o   o---o\n|   |   |   |\no---o---o---o\n";
+    fs::write(folder.join("crossing.maze"), crossing).unwrap();
+    solve("map.json", "crossing.maze").refused(2, &["does not begin at a place of 4 ways"]);
 }

@@ -48,6 +48,9 @@ pub enum MapFileError {
     /// It is no JSON of the right form. The message has line and column.
     #[error("this is no map of CPM: make one with `tolman cpm learn`")]
     Json(#[from] serde_json::Error),
+    /// It ends amid the map. The message has line and column.
+    #[error("this map of CPM is cut off: copy it again, or make one with `tolman cpm learn`")]
+    CutOff(#[source] serde_json::Error),
     /// It holds another thing, or not all of it.
     #[error("its map cannot be read")]
     Map(#[from] cpm::MapFileError),
@@ -82,11 +85,14 @@ impl MapFile {
         Ok(serde_json::to_string(&body)? + "\n")
     }
 
-    /// Whether a text says that it is such a file, of whatever version.
+    /// Whether a text says that it is such a file, of whatever version, whole or cut off.
     #[must_use]
     pub fn is_one(text: &str) -> bool {
         let header: Result<cpm::MapFileHeader, _> = serde_json::from_str(text);
-        header.is_ok_and(|header| header.is_ours())
+        header.map_or_else(
+            |_| cpm::MapFileHeader::is_named_in(text),
+            |header| header.is_ours(),
+        )
     }
 
     /// Reads the text of a file.
@@ -94,8 +100,14 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let header: cpm::MapFileHeader = serde_json::from_str(text)?;
-        header.check()?;
+        let header: Result<cpm::MapFileHeader, _> = serde_json::from_str(text);
+        match header {
+            Ok(header) => header.check()?,
+            Err(error) if error.is_eof() && cpm::MapFileHeader::is_named_in(text) => {
+                return Err(MapFileError::CutOff(error));
+            }
+            Err(error) => return Err(error.into()),
+        }
         let body: Body = serde_json::from_str(text)?;
         let dictionary = body.map.dictionary()?;
         let map = body.map.map(&dictionary)?;

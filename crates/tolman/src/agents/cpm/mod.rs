@@ -8,6 +8,8 @@
 //! [`find_out`] is how a robot that was put down somewhere learns where it is, [`PutDown`] a trial of it; a
 //! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again.
 
+#[cfg(test)]
+mod adversity;
 mod agent;
 mod body;
 mod common_patterns;
@@ -40,4 +42,4 @@ pub(crate) use trial::placed;
 pub use trial::{Closures, Mode, Record, Trial, TrialError, learn};
 pub use venue::Venue;
 pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};
-pub use whereabouts::{Whereabouts, WhereaboutsError, find_out};
+pub use whereabouts::{Approach, Whereabouts, WhereaboutsError, find_out};

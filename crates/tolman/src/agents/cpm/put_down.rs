@@ -16,7 +16,7 @@ use super::fragments::{TrueFragments, Way, along};
 use super::robot::walker_config;
 use super::trial::{TrialError, world_of};
 use super::walker::Walker;
-use super::whereabouts::{Whereabouts, find_out};
+use super::whereabouts::{Approach, Whereabouts, find_out};
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
 ///
@@ -34,7 +34,9 @@ pub struct PutDown<'a> {
     pub patterns: &'a CommonPatterns,
     /// The robot.
     pub robot: EpuckConfig,
-    /// After so many places it has to know; at least 1.
+    /// Which way it goes first.
+    pub approach: Approach,
+    /// After so many places from the one ahead on it has to know; at least 1.
     pub most_places: u32,
     /// The seed of all chance.
     pub seed: u64,
@@ -56,9 +58,9 @@ pub struct KnownMaze<'a> {
 pub struct PutDownRecord {
     /// What the robot believed.
     pub whereabouts: Whereabouts,
-    /// Whether it knew maze, fragment and direction before it came to the first place; none if it saw nothing before.
+    /// Whether it knew maze, fragment and direction before it came to the place ahead; none if it saw nothing before.
     pub is_right_under_way: Option<bool>,
-    /// The same at the first place.
+    /// The same at that place.
     pub is_right_at_first_place: bool,
     /// The same at the last place, where it was sure or gave up.
     pub is_right_at_last: bool,
@@ -92,11 +94,19 @@ impl PutDown<'_> {
         let mut walker = Walker::new(body, walker_config(self.corridor_width)?);
         let maps: Vec<CpMap> = self.known.iter().map(|known| known.map.clone()).collect();
         // The ways that it came by to each place.
+        let begun = match self.approach {
+            Approach::StraightOn => way,
+            Approach::BackFirst => Way {
+                is_forward: !way.is_forward,
+                ..way
+            },
+        };
         let mut ways = Vec::new();
         let whereabouts = find_out(
             &mut walker,
             &maps,
             self.patterns,
+            self.approach,
             self.most_places,
             &mut rng,
             |walker| {
@@ -105,7 +115,7 @@ impl PutDown<'_> {
                     let cell = world.cell_at(from.position)?;
                     fragments.way(cell, from.heading)
                 });
-                ways.push(if ways.is_empty() { Some(way) } else { walked });
+                ways.push(if ways.is_empty() { Some(begun) } else { walked });
             },
         )?;
         let is_right = |location: &Location, way: Option<&Option<Way>>| {
@@ -119,14 +129,15 @@ impl PutDown<'_> {
                 })
         };
         let at_places = &whereabouts.at_places;
+        let ahead = self.approach.places_before();
         Ok(Some(PutDownRecord {
             is_right_under_way: whereabouts
                 .under_way
                 .as_ref()
-                .map(|location| is_right(location, ways.first())),
+                .map(|location| is_right(location, ways.get(ahead))),
             is_right_at_first_place: at_places
-                .first()
-                .is_some_and(|location| is_right(location, ways.first())),
+                .get(ahead)
+                .is_some_and(|location| is_right(location, ways.get(ahead))),
             is_right_at_last: at_places
                 .last()
                 .is_some_and(|location| is_right(location, ways.last())),
@@ -187,6 +198,10 @@ impl PutDown<'_> {
             let fragments = known.map.fragments();
             let seen = fragments.filter(|(_, fragment)| !fragment.patterns.is_empty());
             let ids: Vec<FragmentId> = seen.map(|(id, _)| id).collect();
+            // One fragment alone is associated with nothing.
+            if ids.len() < 2 {
+                return Ok(None);
+            }
             for sign in Sign::BOTH {
                 let path: Vec<End> = ids.iter().map(|&fragment| End { fragment, sign }).collect();
                 memory.learn(environment, known.map, &path, dictionary)?;

@@ -420,7 +420,7 @@ mod tests {
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
-    use crate::agents::cpm::{KnownMaze, PutDown};
+    use crate::agents::cpm::{Approach, KnownMaze, PutDown};
 
     const WIDTH: f64 = 0.25;
 
@@ -538,6 +538,7 @@ mod tests {
                 corridor_width: WIDTH,
                 patterns: &PATTERNS,
                 robot: epuck(),
+                approach: Approach::StraightOn,
                 most_places: 6,
                 seed,
             };

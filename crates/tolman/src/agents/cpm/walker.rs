@@ -242,14 +242,27 @@ impl<B: Body> Walker<B> {
             Place::Path | Place::Closed => false,
         };
         if is_place || landmark.is_some() {
+            let here = self.pose().position;
             let sighting = self.settle(view, landmark)?;
-            return Ok(Walk::Arrived {
-                observations: Vec::new(),
-                sighting,
-            });
+            if sighting.degree != 2 || landmark.is_some() {
+                return Ok(Walk::Arrived {
+                    observations: Vec::new(),
+                    sighting,
+                });
+            }
+            // A bend that looked like a junction.
+            self.pilot.go_to(self.pose().inverse().transform(here))?;
         }
         (self.departed_us, self.departed) = (self.time_us(), self.pose());
         self.follow(Origin::Path, 0, None)
+    }
+
+    /// Turns half round where it stands.
+    ///
+    /// # Errors
+    /// [`WalkError`].
+    pub fn turn_round(&mut self) -> Result<(), WalkError<B::Error>> {
+        Ok(self.pilot.turn(PI)?)
     }
 
     /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the path to its end. The first `skip`

@@ -6,11 +6,32 @@ use super::body::Body;
 use super::common_patterns::CommonPatterns;
 use super::walker::{Observation, Walk, WalkError, Walker};
 
+/// Which way a robot goes first that was put down amid a fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Approach {
+    /// To the place ahead: it "continues moving forward until the first junction is found" (section 8).
+    StraightOn,
+    /// Back to the place behind, and from there along the whole fragment to the place ahead. Ours: what it has seen of the fragment before
+    /// it leaves it is all of it.
+    BackFirst,
+}
+
+impl Approach {
+    /// How many places it comes to before the one that was ahead where it was put down.
+    #[must_use]
+    pub const fn places_before(self) -> usize {
+        match self {
+            Self::StraightOn => 0,
+            Self::BackFirst => 1,
+        }
+    }
+}
+
 /// What a robot that was put down somewhere found out about where it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Whereabouts {
-    /// What it believed after its last observation before the first place it came to; none if it made none, as where it was put down at a
-    /// place.
+    /// What it believed when it saw that the fragment ends, before it came to the place that was ahead of it and saw what that is; none if
+    /// it observed nothing before, as where it was put down at a place.
     pub under_way: Option<Location>,
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
@@ -21,9 +42,10 @@ pub struct Whereabouts {
 /// How sure a robot is that knows where it is: it looks no further.
 const SURE: f64 = 0.95;
 
-/// Lets a robot that was put down anywhere, also in mid-fragment, find out on which of some maps it is, and where: it drives on "until the
-/// first junction is found" and then, at random, along further fragments, until it is sure or has come to so many places (section 8,
-/// "the start point is changed"). The paper's robot begins to observe at that junction; ours does at once. `see` is told of every place it comes to.
+/// Lets a robot that was put down anywhere, also in mid-fragment, find out on which of some maps it is, and where: it comes to the place ahead
+/// by its approach and then, at random, along further fragments, until it is sure or has come to so many places after the first
+/// (section 8, "the start point is changed"). The paper's robot begins to observe at that junction; ours does at once. `see` is told of
+/// every place it comes to.
 ///
 /// Where it is then, `at_places.last()` says: [`Location::ahead`] is the port behind it.
 ///
@@ -33,14 +55,20 @@ pub fn find_out<B: Body>(
     walker: &mut Walker<B>,
     maps: &[CpMap],
     patterns: &CommonPatterns,
+    approach: Approach,
     most_places: u32,
     rng: &mut impl Rng,
     mut see: impl FnMut(&Walker<B>),
 ) -> Result<Whereabouts, WhereaboutsError<B::Error>> {
     let mut localizer = Localizer::new(maps, patterns.dictionary(), LocalizerConfig::usual())?;
     let mut found = Whereabouts::default();
+    if approach == Approach::BackFirst {
+        walker.turn_round()?;
+    }
+    let first_ahead = approach.places_before();
     let mut walk = walker.set_off()?;
-    for place in 0..most_places {
+    let last = first_ahead + most_places.saturating_sub(1) as usize;
+    for place in 0..=last {
         let Walk::Arrived {
             observations,
             sighting,
@@ -51,21 +79,23 @@ pub fn find_out<B: Body>(
         for pattern in patterns.patterns(&observations) {
             localizer.observe(pattern)?;
         }
-        if place == 0 {
-            found.under_way = (!observations.is_empty()).then(|| localizer.location());
-        } else {
+        if place == first_ahead && !observations.is_empty() {
+            localizer.end_in_sight();
+            found.under_way = Some(localizer.location());
+        }
+        if place > 0 {
             found.walks.push(observations);
         }
         localizer.arrive(sighting);
         let here = localizer.location();
         found.at_places.push(here);
         see(walker);
-        if here.probability > SURE || place + 1 == most_places {
+        if place == last || place >= first_ahead && here.probability > SURE {
             break;
         }
         let turn = match sighting.degree {
-            1 => Turn::BACK,
-            degree => Turn(rng.random_range(1..degree)),
+            degree if place >= first_ahead && degree > 1 => Turn(rng.random_range(1..degree)),
+            _ => Turn::BACK,
         };
         localizer.turn(turn)?;
         walk = walker.walk(turn.0 as usize, 0, None)?;

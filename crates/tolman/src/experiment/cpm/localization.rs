@@ -2,8 +2,10 @@
 
 use std::sync::OnceLock;
 
-use super::trials;
-use crate::agents::cpm::{CommonPatterns, KnownMaze, PutDown, Record, Venue, epuck};
+use super::{trials, venue};
+use crate::agents::cpm::{
+    Approach, CommonPatterns, KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck,
+};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, run_seed};
 
 /// The name of the table.
@@ -15,9 +17,21 @@ const MOST_PLACES: u32 = 6;
 /// Trials that are made at most to have a map of a maze.
 const ATTEMPTS: u32 = 20;
 
+/// Runs of a row: a share of 90 % is known to within 6 % then.
+const RUNS: u32 = 100;
+
+/// As many for a first look.
+const QUICK_RUNS: u32 = 5;
+
+/// The row of mazes with fragments that look alike, another one each run, of which the robot knows that one alone.
+const ALIASED: &str = "Aliased";
+
+/// What follows the name of a maze in a row of robots that go back first.
+const BACK_FIRST: &str = " back first";
+
 /// The yes or no of a run: the beginning of its metric's name, and that on a page.
 const FLAGS: [(&str, &str); 4] = [
-    ("under_way", "right before the first place"),
+    ("under_way", "right before the place ahead"),
     ("first_place", "at it"),
     ("last_place", "at the last"),
     ("recalled", "maze recalled by SOINN-AM"),
@@ -27,11 +41,20 @@ const FLAGS: [(&str, &str); 4] = [
 #[derive(Debug, Default)]
 pub(super) struct Known(OnceLock<Vec<Record>>);
 
-pub(super) fn table(venues: &[Venue]) -> Table {
+/// The maze of a row, and the robot's approach.
+fn cast(row: &str) -> (&str, Approach) {
+    match row.strip_suffix(BACK_FIRST) {
+        Some(maze) => (maze, Approach::BackFirst),
+        None => (row, Approach::StraightOn),
+    }
+}
+
+/// `quick`: for a first look.
+pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
     let mut table = Table::new(LOCALIZATION, "Put down in mid-fragment of one of the mazes")
         .field("places", Kind::Count)
         .field("seconds", Kind::Number)
-        .optional_field("under_way", Kind::Flag)
+        .field("under_way", Kind::Flag)
         .field("first_place", Kind::Flag)
         .field("last_place", Kind::Flag)
         .optional_field("recalled", Kind::Flag);
@@ -41,13 +64,19 @@ pub(super) fn table(venues: &[Venue]) -> Table {
     table = table
         .metric(Metric::mean("places").titled("places come to"))
         .metric(Metric::mean("seconds").titled("time").unit("s"));
-    for venue in venues {
-        table = table.row(Row::new(&venue.name));
+    let runs = if quick { QUICK_RUNS } else { RUNS };
+    let mazes = venues.iter().map(|venue| venue.name.as_str());
+    for maze in mazes.chain([ALIASED]) {
+        for suffix in ["", BACK_FIRST] {
+            table = table.row(Row::new(format!("{maze}{suffix}")).runs(runs));
+        }
     }
     table.note(format!(
         "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, and is put down in the first half of a \
-         fragment of the row's. Right: maze, fragment and direction. It goes on until it is sure, up to {MOST_PLACES} places. SOINN-AM is asked \
-         with the first fragment walked whole."
+         fragment of the row's; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on, or \
+         back to the place behind first and from there along the whole fragment. Right: maze, fragment and direction, when it sees that the fragment \
+         ends and not yet at what, and at that place. It goes on until it is sure, up to {MOST_PLACES} places. SOINN-AM is asked with the \
+         first fragment walked whole."
     ))
 }
 
@@ -89,17 +118,17 @@ impl Known {
         master_seed: u64,
         job: &Job<'_>,
     ) -> Result<Fields, BoxError> {
+        let (maze, approach) = cast(job.row);
+        if maze == ALIASED {
+            return aliased(patterns, approach, job.seed);
+        }
         let records = self.records(venues, patterns, master_seed)?;
         let known: Vec<KnownMaze<'_>> = venues
             .iter()
             .zip(records)
-            .map(|(venue, record)| KnownMaze {
-                maze: &venue.maze,
-                map: &record.map,
-                truth: &record.truth,
-            })
+            .map(|(venue, record)| known(venue, record))
             .collect();
-        let here = venues.iter().position(|venue| venue.name == job.row);
+        let here = venues.iter().position(|venue| venue.name == maze);
         let here = here.ok_or("there is no such row")?;
         let put_down = PutDown {
             known: &known,
@@ -107,27 +136,64 @@ impl Known {
             corridor_width: venues[here].corridor_width,
             patterns,
             robot: epuck(),
+            approach,
             most_places: MOST_PLACES,
             seed: job.seed,
         };
         let record = put_down
             .play()?
             .ok_or("no fragment is long enough to stand amid")?;
-        let mut fields = Fields::new()
-            .count("places", record.whereabouts.at_places.len() as u64)
-            .number("seconds", record.seconds)
-            .flag("first_place", record.is_right_at_first_place)
-            .flag("last_place", record.is_right_at_last);
-        for (name, flag) in [
-            ("under_way", record.is_right_under_way),
-            ("recalled", record.is_recalled),
-        ] {
-            if let Some(flag) = flag {
-                fields = fields.flag(name, flag);
-            }
-        }
-        Ok(fields)
+        Ok(measured(approach, &record))
     }
+}
+
+/// A robot put down in a maze with fragments that look alike.
+fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<Fields, BoxError> {
+    for attempt in 0..ATTEMPTS {
+        let seed = run_seed(seed, "localization mazes", attempt);
+        let venue = venue::aliased(seed)?;
+        let learned = trials::trial(&venue, patterns, trials::better(), seed).play()?;
+        if !learned.is_solved() {
+            continue;
+        }
+        let put_down = PutDown {
+            known: &[known(&venue, &learned)],
+            here: 0,
+            corridor_width: venue.corridor_width,
+            patterns,
+            robot: epuck(),
+            approach,
+            most_places: MOST_PLACES,
+            seed,
+        };
+        if let Some(record) = put_down.play()? {
+            return Ok(measured(approach, &record));
+        }
+    }
+    Err("no maze was solved that has a fragment to stand amid".into())
+}
+
+fn known<'a>(venue: &'a Venue, record: &'a Record) -> KnownMaze<'a> {
+    KnownMaze {
+        maze: &venue.maze,
+        map: &record.map,
+        truth: &record.truth,
+    }
+}
+
+fn measured(approach: Approach, record: &PutDownRecord) -> Fields {
+    let places = record.whereabouts.at_places.len() - approach.places_before();
+    let mut fields = Fields::new()
+        .count("places", places as u64)
+        .number("seconds", record.seconds)
+        // Who has seen nothing before does not know.
+        .flag("under_way", record.is_right_under_way == Some(true))
+        .flag("first_place", record.is_right_at_first_place)
+        .flag("last_place", record.is_right_at_last);
+    if let Some(recalled) = record.is_recalled {
+        fields = fields.flag("recalled", recalled);
+    }
+    fields
 }
 
 /// What no run of this table can be.

@@ -65,7 +65,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         tables.push(aliased.table.clone());
         trials.push(aliased);
         tables.push(real::table(&real));
-        tables.push(localization::table(&venues));
+        tables.push(localization::table(&venues, options.quick));
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
     }
