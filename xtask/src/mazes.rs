@@ -1,4 +1,4 @@
-//! `cargo xtask mazes`: every maze of the project can be read and solved.
+//! `cargo xtask mazes`: every maze of the project can be read and solved, and the fragments of those of CPM's paper are distinctive.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,19 +8,22 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace;
 
+/// "Every path-fragment in the environment is distinctive" (CPM, section 4.3).
+const DISTINCTIVE: [&str; 3] = ["cpm-1.maze", "cpm-2.maze", "cpm-3.maze"];
+
 /// Builds the command and lets it check all files in `mazes/`.
 ///
 /// # Errors
 /// If there is none, or one of them is refused.
 pub(crate) fn run() -> Result<()> {
-    check_with(&mut workspace::cargo("run --quiet --package tolman --"))
+    check_with(|| Ok(workspace::cargo("run --quiet --package tolman --")))
 }
 
-/// Lets `tolman` check all files in `mazes/`.
+/// Lets `tolman` check all files in `mazes/`, and an e-puck walk those that have to be distinctive.
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn check_with(tolman: &mut Command) -> Result<()> {
+pub(crate) fn check_with(tolman: impl Fn() -> Result<Command>) -> Result<()> {
     let folder = workspace::root().join("mazes");
     let mut files = Vec::<PathBuf>::new();
     for entry in
@@ -33,5 +36,7 @@ pub(crate) fn check_with(tolman: &mut Command) -> Result<()> {
     }
     files.sort();
     ensure!(!files.is_empty(), "no maze in {}", folder.display());
-    workspace::succeed(tolman.args(["maze", "check"]).args(files))
+    workspace::succeed(tolman()?.args(["maze", "check"]).args(files))?;
+    let distinctive = DISTINCTIVE.map(|name| folder.join(name));
+    workspace::succeed(tolman()?.args(["cpm", "distinct"]).args(distinctive))
 }

@@ -54,7 +54,7 @@ enum Until {
 }
 
 /// Where the common patterns are learned.
-const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
+pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let venue = venue(&arguments.maze)?;

@@ -1,5 +1,6 @@
 //! `tolman cpm`: the e-puck that learns common-pattern maps.
 
+mod distinct;
 mod learn;
 mod solve;
 
@@ -16,6 +17,7 @@ use super::{Failure, maze};
 /// An e-puck that learns a common-pattern map of a maze, and drives by it
 #[derive(Subcommand)]
 pub(super) enum Verb {
+    Distinct(distinct::Arguments),
     Learn(learn::Arguments),
     Solve(solve::Arguments),
 }
@@ -23,6 +25,7 @@ pub(super) enum Verb {
 impl Verb {
     pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
+            Self::Distinct(arguments) => distinct::carry_out(&arguments, out),
             Self::Learn(arguments) => learn::carry_out(&arguments, out),
             Self::Solve(arguments) => solve::carry_out(&arguments, out),
         }

@@ -1,0 +1,126 @@
+use tolman_maps::cpm::{CpmConfig, PatternId, Sense};
+use tolman_maze::{Cell, Maze};
+
+use super::common_patterns::CommonPatterns;
+use super::robot::{epuck, walker_config};
+use super::survey::survey;
+use super::trial::TrialError;
+
+/// Whether the fragments of a maze can be told apart by what the robot observes along them: the constraints of section 4.3, "every path-fragment
+/// in the environment is *distinctive*" and *asymmetrical*, measured by f_S.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distinctness {
+    /// The two walks that are most alike of those that must not be: along different fragments, in both directions, and along one
+    /// fragment from both its ends, as if it were symmetrical. None where there is but one walk.
+    pub most_alike: Option<Pair>,
+    /// The two walks along one fragment that are least alike.
+    pub least_alike: Option<Pair>,
+}
+
+/// Two walks and how similar they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// One of them, by the places it led from and to.
+    pub one: (Cell, Cell),
+    /// The other.
+    pub other: (Cell, Cell),
+    /// Whether the other is compared as it was walked, or inverted.
+    pub sense: Sense,
+    /// f_S.
+    pub score: f64,
+}
+
+/// A walk along a true fragment.
+struct Walked {
+    fragment: u32,
+    is_forward: bool,
+    ends: (Cell, Cell),
+    patterns: Vec<PatternId>,
+}
+
+/// Lets the paper's robot walk every fragment both ways once with each seed, and compares all walks with all, both ways, as online
+/// CPM does.
+///
+/// O(walks² · length) comparisons of patterns.
+///
+/// # Errors
+/// [`TrialError`] if the robot cannot walk a fragment.
+pub fn distinctness(
+    maze: &Maze,
+    corridor_width: f64,
+    patterns: &CommonPatterns,
+    seeds: impl IntoIterator<Item = u64>,
+) -> Result<Distinctness, TrialError> {
+    let config = walker_config(corridor_width)?;
+    let mut walks = Vec::new();
+    for seed in seeds {
+        let walked = survey(maze, &epuck(), &config, seed)?;
+        walks.extend(walked.into_iter().map(|walk| Walked {
+            fragment: walk.way.fragment,
+            is_forward: walk.way.is_forward,
+            ends: (walk.from, walk.way.to),
+            patterns: patterns.patterns(&walk.observations),
+        }));
+    }
+    let (matching, dictionary) = (CpmConfig::online().matching, patterns.dictionary());
+    let mut found = Distinctness {
+        most_alike: None,
+        least_alike: None,
+    };
+    for (index, one) in walks.iter().enumerate() {
+        // Each with itself as well, which inverted it must not be.
+        for other in &walks[..=index] {
+            for sense in [Sense::Same, Sense::Inverted] {
+                let score = matching.score_as(dictionary, &one.patterns, &other.patterns, sense);
+                let pair = Pair {
+                    one: one.ends,
+                    other: other.ends,
+                    sense,
+                    score,
+                };
+                let is_same_way = one.is_forward == other.is_forward;
+                let is_one =
+                    one.fragment == other.fragment && is_same_way == (sense == Sense::Same);
+                if is_one {
+                    let is_less = |least: Pair| score < least.score;
+                    if found.least_alike.is_none_or(is_less) {
+                        found.least_alike = Some(pair);
+                    }
+                } else if found.most_alike.is_none_or(|most| score > most.score) {
+                    found.most_alike = Some(pair);
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::agents::cpm::learn;
+
+    /// Two straight corridors of one length beside one with bends.
+    #[test]
+    fn fragments_that_look_the_same_are_told() {
+        let text = "\
+start = 0 1 east
+
+o---o---o---o---o---o---o---o
+|   |   |   |   |           |
+o---o---o---o   o   o---o   o
+| S                     | G |
+o---o---o---o---o---o---o---o
+";
+        let maze = tolman_maze::read(text).unwrap().maze;
+        let learning = include_str!("../../../../../mazes/cpm-learning.maze");
+        let learning = tolman_maze::read(learning).unwrap().maze;
+        let patterns = learn(&learning, 0.25, 1).unwrap();
+        let found = distinctness(&maze, 0.25, &patterns, 0..2).unwrap();
+        // A straight corridor is the same from both ends.
+        let most = found.most_alike.unwrap();
+        assert!(most.score > 0.9, "{most:?}");
+        let least = found.least_alike.unwrap();
+        assert!(least.score > 0.8 && least.score < 1.0, "{least:?}");
+    }
+}

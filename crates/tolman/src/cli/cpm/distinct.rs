@@ -1,0 +1,78 @@
+//! `tolman cpm distinct`: can an e-puck tell the fragments of these mazes apart?
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use tolman::agents::cpm::{Pair, Venue, distinctness, learn};
+use tolman_maps::cpm::Sense;
+
+use super::learn::LEARNING_MAZE;
+use super::venue;
+use crate::cli::Failure;
+use crate::cli::failure::OrBadInput;
+
+/// Lets an e-puck walk every fragment of mazes both ways, and exits 2 if two of them look alike
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman cpm distinct mazes/cpm-1.maze mazes/cpm-2.maze mazes/cpm-3.maze")]
+pub(in crate::cli) struct Arguments {
+    /// The maze files, of any format, with a start
+    #[arg(required = true)]
+    mazes: Vec<PathBuf>,
+    /// What the common patterns that are learned follow from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// How often each fragment is walked either way
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    walks: u16,
+    /// How similar two fragments may be, by f_S; the paper takes those above 0.9 for one
+    #[arg(long, value_name = "F_S", default_value_t = 0.8)]
+    below: f64,
+}
+
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
+    let patterns = learn(&learning.maze, learning.corridor_width, arguments.seed)?;
+    for path in &arguments.mazes {
+        let Venue {
+            name,
+            maze,
+            corridor_width,
+        } = venue(path)?;
+        let seeds = 0..u64::from(arguments.walks);
+        let found = distinctness(&maze, corridor_width, &patterns, seeds).or_bad_input()?;
+        if let Some(most) = found.most_alike {
+            let told = told(&most);
+            // What is no number is not below anything.
+            if most.score.is_nan() || most.score >= arguments.below {
+                let below = arguments.below;
+                let error = anyhow!("{name}: {told}, which is not below {below}: bend one of them");
+                return Err(error).or_bad_input();
+            }
+            writeln!(out, "{name}: of different fragments, {told}")?;
+        }
+        if let Some(least) = found.least_alike {
+            writeln!(out, "{name}: of one fragment, {}", told(&least))?;
+        }
+    }
+    Ok(())
+}
+
+fn told(pair: &Pair) -> String {
+    let Pair {
+        one,
+        other,
+        sense,
+        score,
+    } = pair;
+    let sense = match sense {
+        Sense::Same => "",
+        Sense::Inverted => ", inverted,",
+    };
+    format!(
+        "that from {} to {} and that from {} to {}{sense} have f_S = {score:.3}",
+        one.0, one.1, other.0, other.1
+    )
+}
