@@ -76,6 +76,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
             .unit("%"),
     )
     .metric(named("reduction_percent", "reduction").titled("reduction").unit("%"))
+    .metric(Metric::percent("long_percent", "long").titled("long ones"))
     .metric(
         named("reduction_long_percent", "reduction_long")
             .titled("reduction of long ones")
@@ -196,6 +197,7 @@ fn fields(table: Table) -> Table {
         .field("solved", Kind::Flag)
         .field("shortest_as_it_lies", Kind::Flag)
         .optional_field("reduction", Kind::Number)
+        .field("long", Kind::Flag)
         .optional_field("reduction_long", Kind::Number)
         .field("closure_precision", Kind::Number)
         .field("closure_recall", Kind::Number)
@@ -270,10 +272,13 @@ fn measured(venue: &Venue, record: &Record) -> Result<Fields, BoxError> {
         .count("true_fragments", record.true_fragments.into())
         .count("contradictions", record.contradictions.into())
         .count("bumps", record.bumps.into());
+    let shortest = venue.shortest_metres();
+    let is_long =
+        record.is_solved() && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
+    fields = fields.flag("long", is_long);
     if let Some(reduction) = record.reduction_percent() {
         fields = fields.number("reduction", reduction);
-        let shortest = venue.shortest_metres();
-        if shortest.is_some_and(|shortest| metres(record) >= LONG * shortest) {
+        if is_long {
             fields = fields.number("reduction_long", reduction);
         }
     }
@@ -318,6 +323,10 @@ fn share(part: u32, rest: u32) -> f64 {
 pub(super) fn check(run: &Run) -> Result<(), BoxError> {
     let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
     let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
+    let is_long = run.fields.get("long").and_then(Field::as_flag) == Some(true);
+    if is_long && !solved {
+        return Err("a long run is one that is solved".into());
+    }
     for name in ["closure_precision", "closure_recall"] {
         let share = number(name);
         if share.is_none_or(|share| !(0.0..=1.0).contains(&share)) {
@@ -352,8 +361,9 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
         None if solved => return Err("a run that is solved has a reduction".into()),
         _ => {}
     }
-    if number("reduction_long").is_some_and(|found| !is_that(found)) {
-        return Err("the reduction of a long run is its reduction".into());
+    let of_long = number("reduction_long");
+    if of_long.is_some() != is_long || of_long.is_some_and(|found| !is_that(found)) {
+        return Err("the reduction of a long run, and of no other, is its reduction".into());
     }
     if solved && run.fields.get("trouble").is_some() {
         return Err("a run in trouble is not solved".into());
@@ -391,6 +401,7 @@ mod tests {
             .count("observations_1", 100)
             .count("observations_2", 5)
             .number("reduction", 75.0)
+            .flag("long", false)
             .count("traversals", 9)
             .count("fragments", 4)
             .count("true_fragments", 5)
@@ -402,11 +413,17 @@ mod tests {
     fn what_no_trial_measures_is_refused() {
         let refused = |fields: Fields| check(&run(fields)).unwrap_err().to_string();
         assert!(check(&run(solved())).is_ok());
-        assert!(check(&run(solved().number("reduction_long", 75.0))).is_ok());
+        let long = || solved().flag("long", true);
+        assert!(check(&run(long().number("reduction_long", 75.0))).is_ok());
         for (fields, why) in [
             (solved().number("closure_recall", 1.5), "no share"),
             (solved().number("reduction", 70.0), "expected Some(75"),
-            (solved().number("reduction_long", 70.0), "is its reduction"),
+            (long().number("reduction_long", 70.0), "is its reduction"),
+            (long(), "is its reduction"),
+            (
+                solved().flag("solved", false).flag("long", true),
+                "long run",
+            ),
             (solved().flag("solved", false), "expected None"),
             (solved().text("trouble", "lost"), "trouble"),
             (solved().count("fragments", 10), "more fragments"),
