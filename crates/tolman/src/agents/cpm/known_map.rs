@@ -1,4 +1,4 @@
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 
 use tolman_maze::{Cell, Maze};
 use tolman_planners::{Arcs, costs_from};
