@@ -21,7 +21,7 @@ use super::whereabouts::{Approach, Whereabouts, find_out};
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
 ///
 /// [`Record`](super::Record)s of a [`Trial`](super::Trial) each have a `map` and its `truth`, of which [`KnownMaze`]s are made.
-/// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell in the first half of a fragment that the map has, looking along it.
+/// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell between the places at the ends of a fragment that the map has, looking along it.
 #[derive(Clone, Debug)]
 pub struct PutDown<'a> {
     /// The mazes that the robot knows, all with one width of corridors and learned with the same patterns.
@@ -172,7 +172,7 @@ impl PutDown<'_> {
             let Some((cells, _)) = out else { continue };
             // The places at both ends are no part of the fragment.
             let amid = cells.get(1..cells.len() - 1).unwrap_or_default();
-            for (index, cell) in amid.iter().enumerate().take(amid.len() / 2) {
+            for (index, cell) in amid.iter().enumerate() {
                 let next: Option<&Cell> = cells.get(index + 2);
                 let ahead = known
                     .maze

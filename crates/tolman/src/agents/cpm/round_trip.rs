@@ -3,7 +3,8 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{Aim, CpMap, Landmark};
 
-use super::agent::{Cpm, Episode};
+use super::agent::{Cpm, Episode, Step};
+use super::body::SimulatedEpuck;
 use super::trial::{Trial, TrialError};
 use super::walker::Walk;
 
@@ -32,6 +33,10 @@ pub struct RoundTrip {
     pub map: CpMap,
     /// Where the robot was after every step.
     pub path: Vec<Pose>,
+    /// When the way back began, steps.
+    pub back_from: usize,
+    /// When the second way to the goal began, steps.
+    pub again_from: usize,
 }
 
 impl Trial<'_> {
@@ -40,9 +45,20 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`].
     pub fn round_trip(&self) -> Result<RoundTrip, TrialError> {
+        self.watch_round_trip(|_, _| {})
+    }
+
+    /// [Plays](Self::round_trip) all three ways. `see` is told of every fragment of the first two.
+    ///
+    /// # Errors
+    /// [`TrialError`].
+    pub fn watch_round_trip(
+        &self,
+        mut see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+    ) -> Result<RoundTrip, TrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let mut agent = Cpm::begin(self.set_up()?, self.patterns, self.mode.config())?;
-        let there = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
+        let there = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, &mut see)?;
         let mut trip = RoundTrip {
             there,
             back: None,
@@ -53,15 +69,19 @@ impl Trial<'_> {
             length_after: 0,
             map: CpMap::default(),
             path: Vec::new(),
+            back_from: agent.walker().body().path().len(),
+            again_from: 0,
         };
         if agent.explorer().map().has_goal() {
             agent.optimize()?;
             let home = agent.explorer().plan(Landmark::Start);
             trip.length_before = home.map_or(0, |plan| plan.length);
-            trip.back = Some(agent.pursue(Aim::WayBack, &mut rng, |_, step| {
+            trip.back = Some(agent.pursue(Aim::WayBack, &mut rng, |agent, step| {
+                see(agent, step);
                 trip.tried += u32::from(step.leg.known.is_none());
                 trip.given_up += u32::from(matches!(step.walk, Walk::TurnedBack { .. }));
             })?);
+            trip.again_from = agent.walker().body().path().len();
             if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
                 trip.length_after = plan.length;
                 trip.again = Some(agent.drive_plan(&plan)?);

@@ -21,6 +21,7 @@ use super::body::SimulatedEpuck;
 use super::common_patterns::{CommonPatterns, LearnError, wander};
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
+use super::layout::Layout;
 use super::robot::{epuck, soinn, walker_config};
 use super::walker::{HeadingBy, Walk, WalkError, Walker};
 use super::whereabouts::WhereaboutsError;
@@ -114,14 +115,14 @@ impl Record {
     }
 }
 
-/// Loops closed: arrivals by a way that was not on the map.
+/// Loops closed in the first episode: arrivals by a way that was not on the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Closures {
-    /// A duplicate was told, and it was that one.
+    /// A duplicate was told, and it was that one; on arrival, or by what was met later.
     pub right: u32,
     /// A duplicate was told, and it was another or none.
     pub wrong: u32,
-    /// A duplicate was not told.
+    /// A fragment was walked again, and still is on the map at the end as another one.
     pub missed: u32,
 }
 
@@ -236,10 +237,10 @@ impl Trial<'_> {
         let mut score = Score::of(self.maze);
         score.begin(agent, start);
         let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
-            score.see(agent, step);
+            score.see(agent, step, self.maze);
             see(agent, step);
         });
-        record.closures = score.closures;
+        record.closures = score.closures_at_the_end(agent.explorer().map());
         record.contradictions = agent.explorer().contradictions();
         record.traversals = agent.explorer().traversals();
         record.fragments = agent.explorer().map().fragments().count() as u32;
@@ -301,7 +302,7 @@ impl<'a> Score<'a> {
         }
     }
 
-    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step, maze: &Maze) {
         let (Some(arrival), Walk::Arrived { observations, .. }) = (step.arrival, &step.walk) else {
             return;
         };
@@ -331,6 +332,7 @@ impl<'a> Score<'a> {
             self.places.entry(junction).or_insert(here);
         }
         match arrival {
+            Arrival::Revised => self.lay_anew(agent.explorer().map(), maze),
             Arrival::Duplicate if is_same => self.closures.right += 1,
             Arrival::Duplicate => self.closures.wrong += 1,
             Arrival::Loop if stands == here => self.closures.right += 1,
@@ -342,6 +344,36 @@ impl<'a> Score<'a> {
             self.truth.entry(end.fragment).or_insert(way);
         }
         self.lengths.entry(way.fragment).or_insert(length);
+    }
+
+    /// Another map has its own names of fragments and places: where they lie follows from laying it over the maze.
+    fn lay_anew(&mut self, map: &CpMap, maze: &Maze) {
+        let layout = Layout::of(map, maze);
+        let place = |(id, _)| Some((id, layout.place(id)?));
+        self.places = map.junctions().filter_map(place).collect();
+        let way = |(id, _)| {
+            let cells = &layout.course(id)?.cells;
+            let (from, next) = (cells.first()?, cells.get(1)?);
+            let (out, _) = maze.neighbours(*from).find(|(_, cell)| cell == next)?;
+            Some((id, self.fragments.way(*from, heading_of(out))?))
+        };
+        self.truth = map.fragments().filter_map(way).collect();
+    }
+
+    /// Loops count as closed too that were closed after the arrival, by another fragment or another map, and as missed those that are open on
+    /// the map at the end, where a fragment is on it more than once.
+    fn closures_at_the_end(&self, map: &CpMap) -> Closures {
+        let known = map.fragments().filter_map(|(id, _)| self.truth.get(&id));
+        let mut fragments: Vec<u32> = known.map(|way| way.fragment).collect();
+        let all = fragments.len();
+        fragments.sort_unstable();
+        fragments.dedup();
+        let open = (all - fragments.len()) as u32;
+        Closures {
+            right: self.closures.right + self.closures.missed.saturating_sub(open),
+            missed: open,
+            ..self.closures
+        }
     }
 
     /// The length of the shortest way from start to goal over the fragments that were walked, by observations.
@@ -428,6 +460,7 @@ pub enum TrialError {
 mod tests {
     use std::sync::LazyLock;
 
+    use tolman_maps::cpm::{Matching, Similarity};
     use tolman_maze::{Direction, Grid};
     use tolman_sim::noise::{DropOut, Stuck};
 
@@ -493,6 +526,35 @@ mod tests {
         maze.set_goals(vec![Cell::new(3, 0)]);
         let record = play(&maze, epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
+    }
+
+    #[test]
+    fn loops_that_stay_open_on_the_map_are_missed() {
+        let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
+        // A robot to which nothing is similar closes none.
+        let matching = Matching::Positions(Similarity {
+            mu: 2.0,
+            ..Similarity::paper()
+        });
+        let config = CpmConfig {
+            matching,
+            most_traversals: 20,
+            ..CpmConfig::online()
+        };
+        let mut missed = 0;
+        for seed in 0..4 {
+            let blind = Trial {
+                mode: Mode::Paper(config),
+                seed,
+                ..trial(&maze, epuck())
+            };
+            let record = blind.play().unwrap();
+            let closures = record.closures;
+            assert_eq!((closures.right, closures.wrong), (0, 0));
+            assert_eq!(closures.missed, record.fragments - record.true_fragments);
+            missed += closures.missed;
+        }
+        assert!(missed > 0);
     }
 
     #[test]

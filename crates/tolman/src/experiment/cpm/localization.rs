@@ -72,7 +72,7 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
         }
     }
     table.note(format!(
-        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, and is put down in the first half of a \
+        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, and is put down amid a \
          fragment of the row's; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on, or \
          back to the place behind first and from there along the whole fragment. Right: maze, fragment and direction, when it sees that the fragment \
          ends and not yet at what, and at that place. It goes on until it is sure, up to {MOST_PLACES} places. SOINN-AM is asked with the \

@@ -199,8 +199,13 @@ impl Experiment for Cpm {
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
-        // Those of the first are as those of figure 9; the other's are no trials.
-        if [EPISODES, FIGURE_11].contains(&job.table) {
+        if job.table == FIGURE_11 {
+            let mode = trials::faithful();
+            let trial = trials::trial(&self.real, &self.patterns, mode, job.seed);
+            return replay::of_round_trip(&self.real, &trial, job).map(Some);
+        }
+        // Those are as those of figure 9.
+        if job.table == EPISODES {
             return Ok(None);
         }
         let Some((venue, mode)) = self.cast(job)? else {

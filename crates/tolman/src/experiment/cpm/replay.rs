@@ -53,6 +53,43 @@ pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Repl
     )
 }
 
+/// Plays a round trip again and watches it: to the goal, back, and to the goal again.
+pub(super) fn of_round_trip(
+    venue: &Venue,
+    trial: &Trial<'_>,
+    job: &Job<'_>,
+) -> Result<Replay, BoxError> {
+    let world = venue.world()?;
+    let mut watch = Watch::new(&venue.maze, &world);
+    let trip = trial.watch_round_trip(|agent, step| watch.see(agent, step))?;
+    let body = Body::Circle {
+        radius: BODY_RADIUS,
+    };
+    let mut track = Track::new("e-puck", body, trip.path.clone());
+    for (episode, begun, name) in [
+        (trip.back, trip.back_from, "way back"),
+        (trip.again, trip.again_from, "to the goal again"),
+    ] {
+        if episode.is_some() {
+            let mut mark = Marks::new(Mark::Arrival, name);
+            mark.steps.push(begun as u32);
+            track.marks.push(mark);
+        }
+    }
+    track.maps = vec![watch.growth()];
+    track.notes = vec![watch.arrivals];
+    track.series = vec![watch.fragments];
+    let step_s = epuck().step_us as f64 * 1e-6;
+    let title = format!("{}, run {}", job.row, job.run);
+    Ok(
+        Replay::new(title, step_s, Scenery::of_world(&world), vec![track])
+            .fact("maze", &venue.name)
+            .fact("seed", job.seed.to_string())
+            .fact("fragments tried on the way back", trip.tried.to_string())
+            .fact("given up", trip.given_up.to_string()),
+    )
+}
+
 /// What is noted at the end of each fragment.
 struct Watch<'a> {
     maze: &'a Maze,
