@@ -136,7 +136,7 @@ impl Mapper {
         // The sort is stable: of equals the older first.
         similar.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
         let agree = |a: &Fragment, b: &Fragment, sense: Sense| {
-            matching.agrees(dictionary, &a.patterns, &b.patterns, sense)
+            matching.agrees_at_port(dictionary, &a.patterns, &b.patterns, sense)
         };
         similar.into_iter().find_map(|(_, other, sense)| {
             let (map, merges) = self.map.unified(new, other, sense, &agree).ok()?;

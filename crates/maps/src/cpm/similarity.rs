@@ -122,6 +122,23 @@ impl Matching {
         self.score_as(dictionary, a, b, sense) > self.threshold()
     }
 
+    /// Whether two fragments may be one, the second walked as the sense says, that would lead out of one port because others are similar: what others
+    /// say for it makes up for a little that is missing to μ.
+    #[must_use]
+    pub fn agrees_at_port(
+        &self,
+        dictionary: &Dictionary,
+        a: &[PatternId],
+        b: &[PatternId],
+        sense: Sense,
+    ) -> bool {
+        let threshold = match self {
+            Self::Positions(similarity) => similarity.mu_at_port,
+            Self::Alignment(alignment) => alignment.threshold,
+        };
+        self.score_as(dictionary, a, b, sense) > threshold
+    }
+
     /// Whether 𝔸₁ ≅ 𝔸₂ or 𝔸₁ ≅ 𝔸₂⁻¹: "The inverse of 𝔸₂ must also be compared with 𝔸₁."
     #[must_use]
     pub fn matches(
@@ -170,6 +187,8 @@ pub struct Similarity {
     pub sum: Sum,
     /// μ: above it two fragments are the same; 0 to 1. "We simply set μ = 0.9."
     pub mu: f64,
+    /// Above it two fragments are the same that would lead out of one port, because others are similar; 0 to `mu`. Ours.
+    pub mu_at_port: f64,
 }
 
 /// What the difference of two patterns, aⱼ − a'ⱼ in (4), is.
@@ -201,7 +220,8 @@ pub enum Sum {
 }
 
 impl Similarity {
-    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9.
+    /// As we read the paper: distances of prototypes, whole sequences, means, μ = 0.9; at one port half-way between that and 0.8, under which
+    /// distinctive fragments stay.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -209,6 +229,7 @@ impl Similarity {
             span: Span::Whole,
             sum: Sum::Mean,
             mu: 0.9,
+            mu_at_port: 0.85,
         }
     }
 
@@ -220,6 +241,7 @@ impl Similarity {
             span: Span::Shorter,
             sum: Sum::Euclidean,
             mu: 0.9,
+            mu_at_port: 0.9,
         }
     }
 

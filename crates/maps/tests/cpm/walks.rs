@@ -302,3 +302,40 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
     let (way, on) = (mean(Onward::ShortestKnownWay), mean(Onward::GoOn));
     assert!(on > 1.1 * way, "{on} and {way}");
 }
+
+/// From a dead end along A to a fork, out of which B leads round to itself. Two walks along B that differ by three observations of 25 are less
+/// similar than μ and stay two; A walked from both their ends shows that they are one.
+#[test]
+fn what_is_missing_to_mu_others_make_up_for() {
+    let dictionary = dictionary();
+    let [a, b, strange] = [fragment(0, 8), fragment(1, 25), fragment(2, 25)];
+    let differing_by = |observations: usize| {
+        let mut again = b.clone();
+        again[..observations].copy_from_slice(&strange[..observations]);
+        again
+    };
+    let back = |patterns: &[PatternId]| dictionary.inverse(patterns).unwrap();
+    // How many fragments are on the map at the end.
+    let fragments = |again: &[PatternId]| {
+        let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
+        let mut arrive = |turn: Turn, patterns: &[PatternId], degree: u32| {
+            explorer
+                .arrive(turn, &walk(patterns, degree), &dictionary)
+                .unwrap()
+        };
+        assert_eq!(arrive(Turn::BACK, &a, 3), Arrival::New);
+        assert_eq!(arrive(Turn(1), &b, 3), Arrival::New);
+        // Straight on, into B again.
+        let second = arrive(Turn(2), again, 3);
+        // Home from there: the fork of this end of B is that of the first.
+        arrive(Turn(1), &back(&a), 1);
+        assert_eq!(arrive(Turn::BACK, &a, 3), Arrival::Known);
+        assert_eq!(arrive(Turn(2), &back(again), 3), Arrival::Known);
+        // The fork of B's other end has A as well.
+        arrive(Turn(2), &back(&a), 1);
+        (second, explorer.map().fragments().len())
+    };
+    assert_eq!(fragments(&differing_by(2)), (Arrival::Duplicate, 2));
+    assert_eq!(fragments(&differing_by(3)), (Arrival::New, 2));
+    assert_eq!(fragments(&differing_by(4)).1, 4);
+}
