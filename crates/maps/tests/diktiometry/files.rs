@@ -3,12 +3,16 @@
 use serde_json::{Value, json};
 use tolman_maps::diktiometry::{Config, JournalLength, MapFile, MapFileError};
 
-use super::walk::{ODOMETRY, Walk, open};
+use super::walk::{ODOMETRY, Walk, open, painted};
 
+/// Among walls of chance colours, so that views are indexed.
 fn walked() -> Walk {
-    let mut config = Config::new(Config::compass_actions(), 1.0);
-    config.journal = JournalLength::All;
-    let mut walk = Walk::new(open(4), ODOMETRY, config, 1);
+    let config = Config {
+        journal: JournalLength::All,
+        ..painted()
+    };
+    let world = open(4).painted(5, 1);
+    let mut walk = Walk::new(world, ODOMETRY, config, 1);
     walk.wander(100);
     walk
 }
@@ -27,7 +31,7 @@ fn a_file_is_read_back_to_the_bit() {
     assert_eq!(again, walk.observer);
 }
 
-/// Files of version 1 say `On` where those of today say by what views are indexed.
+/// Files of version 1 say `On` where those of today say by what views are indexed, and nothing of merges by looks.
 #[test]
 fn files_of_the_first_version_are_read() {
     let walk = walked();
@@ -37,6 +41,10 @@ fn files_of_the_first_version_are_read() {
     let perceptual = &mut value["config"]["indexing"]["perceptual"];
     assert_eq!(*perceptual, json!("Columns"));
     *perceptual = json!("On");
+    let restructuring = value["config"]["restructuring"].as_object_mut().unwrap();
+    for key in ["look_merge", "look_error"] {
+        assert!(restructuring.remove(key).is_some(), "{key}");
+    }
     let file: MapFile = serde_json::from_value(value).unwrap();
     assert_eq!(file.observer().unwrap(), walk.observer);
 }

@@ -21,12 +21,16 @@ const COMPARED: usize = 64;
 /// Whether two places may be merged by what they and the places along the same actions look like.
 ///
 /// Where the same actions lead from one place, there is the same place. If the two are different, so are the places that the same
-/// actions lead to from them, and each pair of them looks alike by chance p at most ([`Looks`](crate::diktiometry::Looks)).
+/// actions lead to from them, and each pair of them looks alike by a chance of about p ([`Looks`](crate::diktiometry::Looks)).
 /// With k kinds of looks in agreement and n places that the one may be taken for, one that it is not does all that with a chance
-/// below n · pᵏ.
+/// of about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
         return Verdict::Abstain;
+    }
+    // Looks stretch what geometry allows, never break it: also where geometry has no say of its own.
+    if !pair.offset.contains(Point::origin()) {
+        return Verdict::Reject;
     }
     let separation = config.least_distance();
     let sides = [pair.offset.x, pair.offset.y].map(|side| side.width() / separation + 1.0);
@@ -102,7 +106,7 @@ fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
     let chance = map.looks.chance_of_alike();
     let wanted = libm::log(config.restructuring.look_error / others) / libm::log(chance);
     let kinds = f64::from(map.looks.kinds);
-    (chance < 1.0 && wanted < kinds).then_some(wanted as usize + 1)
+    (chance < 1.0 && wanted < kinds).then(|| wanted as usize + 1)
 }
 
 /// Whether so many kinds of looks agree along the same actions from two places, and nothing speaks against it that
@@ -152,4 +156,25 @@ fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool
         }
     }
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_apart_is_never_one_however_it_looks() {
+        let mut config = Config::new(Config::compass_actions(), 1.0);
+        config.restructuring.look_merge = Use::On;
+        let verdict = |x: f64| {
+            let pair = Pair {
+                a: PlaceId(0),
+                b: PlaceId(1),
+                offset: PointBox::about(Point::new(x, 0.0), 0.5).unwrap(),
+            };
+            merge(&Diktiometry::default(), &pair, &config)
+        };
+        assert_eq!(verdict(0.25), Verdict::Abstain);
+        assert_eq!(verdict(2.0), Verdict::Reject);
+    }
 }

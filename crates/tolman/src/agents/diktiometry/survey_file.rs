@@ -13,8 +13,8 @@ use super::surveyor::SurveyorConfig;
 
 /// What `format` says in a file of ours.
 const FORMAT: &str = "tolman-survey";
-/// The version that is written; all versions up to it are read.
-const VERSION: u32 = 1;
+/// The version that is written; all versions up to it are read. Since version 2 the map is one of version 2.
+const VERSION: u32 = 2;
 
 /// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
 /// survey can go on; the map is the journal of all moves.
@@ -209,6 +209,7 @@ impl SurveyFile {
 mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
+    use serde_json::{Value, json};
     use tolman_maps::diktiometry::JournalLength;
 
     use super::super::blocks;
@@ -246,6 +247,25 @@ mod tests {
         assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
     }
 
+    /// Its map is of version 1, too: it says `On` where views are indexed, and nothing of merges by looks.
+    #[test]
+    fn files_of_the_first_version_are_read() {
+        let written = survey(30);
+        let text = written.to_json().unwrap();
+        let mut value: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["version"], json!(2));
+        value["version"] = json!(1);
+        value["map"]["version"] = json!(1);
+        let config = &mut value["map"]["config"];
+        config["indexing"]["perceptual"] = json!("On");
+        let restructuring = config["restructuring"].as_object_mut().unwrap();
+        for key in ["look_merge", "look_error"] {
+            assert!(restructuring.remove(key).is_some(), "{key}");
+        }
+        let read = SurveyFile::from_json(&value.to_string()).unwrap();
+        assert_eq!(read.observer, written.observer);
+    }
+
     #[test]
     fn what_is_no_survey_is_refused_with_a_reason() {
         let text = survey(5).to_json().unwrap();
@@ -261,7 +281,7 @@ mod tests {
             "Format",
         );
         check(
-            text.replacen("\"version\":1", "\"version\":2", 1),
+            text.replacen("\"version\":2", "\"version\":3", 1),
             "Version",
         );
         check(
