@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use columns::ColumnIndex;
 use feature_tree::Feature;
-use triangles::TriangleIndex;
+use triangles::{Seen, TriangleIndex};
 
 use crate::diktiometry::config::{Config, Percepts, PerceptualIndexing, Rotation};
 use crate::diktiometry::ids::PlaceId;
@@ -52,12 +52,20 @@ impl ViewIndex {
         let Percepts::Signatures(kind) = &config.percepts else {
             return Vec::new();
         };
-        let mut sets = sizes().map(|size| match config.indexing.perceptual {
-            PerceptualIndexing::Off => Vec::new(),
-            PerceptualIndexing::Columns => self.columns.within(percept, kind, paths, size),
-            PerceptualIndexing::Triangles => self.triangles.within(percept, kind, paths, size),
-        });
-        sets.find(|set| !set.is_empty()).unwrap_or_default()
+        let first = |set: &Vec<PlaceId>| !set.is_empty();
+        let set = match config.indexing.perceptual {
+            PerceptualIndexing::Off => None,
+            PerceptualIndexing::Columns => sizes()
+                .map(|size| self.columns.within(percept, kind, paths, size))
+                .find(first),
+            PerceptualIndexing::Triangles => {
+                let seen = Seen::of(percept);
+                sizes()
+                    .map(|size| self.triangles.within(&seen, kind, paths, size))
+                    .find(first)
+            }
+        };
+        set.unwrap_or_default()
     }
 
     /// The places that look like a percept, by the measure that matchers use. By id.

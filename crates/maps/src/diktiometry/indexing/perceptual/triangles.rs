@@ -16,6 +16,10 @@ use crate::diktiometry::signature::Signature;
 /// How many edges of a view are kept, the clearest: 56 triangles.
 const EDGES: usize = 8;
 
+/// How many borders of a percept are asked for, the clearest: 560 triangles, however many columns there are. Twice the edges that are kept, since
+/// noise can make others clearer than those.
+const BORDERS: usize = 2 * EDGES;
+
 /// All views of all places, by triangles of their edges.
 ///
 /// An *edge* is the border between two columns that differ, with its *contrast*, by how much in each row. Three edges are a
@@ -50,20 +54,35 @@ impl Edge {
     }
 }
 
+/// What is asked for of a percept.
+pub(super) struct Seen {
+    /// Its triangles, told from each of their longest sides.
+    features: Vec<Feature>,
+    columns: usize,
+}
+
+impl Seen {
+    pub(super) fn of(percept: &Signature) -> Self {
+        let columns = percept.columns();
+        let edges = clearest(borders(percept), BORDERS);
+        let features = triangles(&edges).flat_map(|triangle| turns(triangle, columns));
+        Self {
+            features: features.collect(),
+            columns,
+        }
+    }
+}
+
 impl TriangleIndex {
     /// Takes in a view of a place. Views with fewer than three edges have no triangle and are never found.
     ///
-    /// An edge is kept if noise alone cannot make it, and all borders of a percept are asked for: so a view whose values are seen
-    /// again within the tolerance is found by all its triangles.
+    /// An edge is kept if noise alone cannot make it, and borders of a percept are asked for whether it can or not: so a view whose
+    /// values are seen again within the tolerance is found by all its triangles, as long as it has no more borders than are asked for
+    /// or its edges are clearer than all others by four tolerances.
     pub(super) fn insert(&mut self, place: PlaceId, view: &Signature, kind: &SignatureKind) {
         let mut edges = borders(view);
         edges.retain(|edge| edge.clearness() > kind.tolerance);
-        edges.sort_by(|a, b| {
-            let clearer = b.clearness().total_cmp(&a.clearness());
-            clearer.then(a.column.cmp(&b.column))
-        });
-        edges.truncate(EDGES);
-        edges.sort_by_key(|edge| edge.column);
+        let edges = clearest(edges, EDGES);
         // As many as the share of the edges makes that has to agree.
         let agreeing = libm::ceil(kind.share * edges.len() as f64 - 1e-9) as usize;
         let number = self.views.len() as u32;
@@ -83,26 +102,22 @@ impl TriangleIndex {
     }
 
     /// The places with a view of which enough triangles are those of a percept, their contrasts within `size` times what noise may
-    /// do. By id. O(borders³ · √(triangles)).
+    /// do. By id. O(√(triangles)) for each triangle asked for.
     pub(super) fn within(
         &self,
-        percept: &Signature,
+        percept: &Seen,
         kind: &SignatureKind,
         paths: &PathGraph,
         size: f64,
     ) -> Vec<PlaceId> {
-        let columns = percept.columns();
-        let edges = borders(percept);
         // Each of the two columns at an edge may differ by the tolerance. Sides are whole columns.
         let mut half_sizes = Vec::from([0.0; SIDES]);
         half_sizes.resize(SIDES + 3 * kind.rows, 2.0 * kind.tolerance * size);
         let mut votes = Vec::new();
-        for triangle in triangles(&edges) {
-            for seen in turns(triangle, columns) {
-                self.tree.within(&seen.values, &half_sizes, |known| {
-                    votes.push(Vote::of(known, seen.column, columns));
-                });
-            }
+        for seen in &percept.features {
+            self.tree.within(&seen.values, &half_sizes, |known| {
+                votes.push(Vote::of(known, seen.column, percept.columns));
+            });
         }
         let enough = |view: u32| self.views[view as usize].enough;
         let place = |view: u32| self.views[view as usize].place;
@@ -122,6 +137,17 @@ fn borders(view: &Signature) -> Vec<Edge> {
         }
     };
     (0..columns).map(border).collect()
+}
+
+/// The clearest of some edges, by column.
+fn clearest(mut edges: Vec<Edge>, count: usize) -> Vec<Edge> {
+    edges.sort_by(|a, b| {
+        let clearer = b.clearness().total_cmp(&a.clearness());
+        clearer.then(a.column.cmp(&b.column))
+    });
+    edges.truncate(count);
+    edges.sort_by_key(|edge| edge.column);
+    edges
 }
 
 /// How many triples there are of so many things.
@@ -256,7 +282,7 @@ mod tests {
             let truth = truth.index(views.len());
             let percept = seen(&views[truth], turned, &noise, brighter);
             let map = places(views.len());
-            let found = index(&stored, &kind).within(&percept, &kind, &map.paths, 1.0);
+            let found = index(&stored, &kind).within(&Seen::of(&percept), &kind, &map.paths, 1.0);
             let place = PlaceId(truth as u32);
             prop_assert_eq!(found.contains(&place), edges(&stored[truth], &kind) >= 3);
         }
@@ -274,7 +300,7 @@ mod tests {
             let still = vec![0.0; ROWS * COLUMNS];
             let [north, other] = [0, turned].map(|turned| {
                 let percept = seen(&percept, turned, &still, 0.0);
-                index.within(&percept, &kind, &map.paths, 1.0)
+                index.within(&Seen::of(&percept), &kind, &map.paths, 1.0)
             });
             prop_assert_eq!(north, other);
         }
@@ -293,9 +319,34 @@ mod tests {
         let still = vec![0.0; ROWS * COLUMNS];
         let found = |turned: usize| {
             let percept = seen(&view, turned, &still, 0.0);
-            index.within(&percept, &kind, &map.paths, 1.0)
+            index.within(&Seen::of(&percept), &kind, &map.paths, 1.0)
         };
         assert_eq!(found(0), [PlaceId(0)]);
         assert!((1..COLUMNS).all(|turned| found(turned).is_empty()));
+    }
+
+    /// As many columns as a laser has beams, most of them of one wall: four clear edges are found among the borders that noise makes.
+    #[test]
+    fn views_of_many_columns_are_asked_for_by_few_triangles() {
+        const MANY: usize = 2000;
+        let kind = SignatureKind {
+            columns: MANY,
+            ..kind(Rotation::Free)
+        };
+        let mut view = vec![0.0; ROWS * MANY];
+        for column in (100..300).chain(700..1600) {
+            view[column * ROWS] = 2.0;
+        }
+        let noise: Vec<f64> = (0..view.len())
+            .map(|at| 0.1 * libm::sin(at as f64))
+            .collect();
+        let index = index(core::slice::from_ref(&view), &kind);
+        let map = places(1);
+        for turned in [0, 1, 250, 1999] {
+            let percept = Seen::of(&seen(&view, turned, &noise, 1.0));
+            assert!(percept.features.len() <= 3 * triples(BORDERS));
+            let found = index.within(&percept, &kind, &map.paths, 1.0);
+            assert_eq!(found, [PlaceId(0)], "turned by {turned}");
+        }
     }
 }
