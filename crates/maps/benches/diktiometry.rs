@@ -1,5 +1,5 @@
 //! A move taken in by the observer of a diktiometry, on open worlds of places that all look alike: while the world is being
-//! learned and once it is known.
+//! learned and once it is known; and of places of many looks.
 //!
 //! Criterion measures moves on known maps; the table is of single moves, of which percentiles say more on a busy machine.
 
@@ -19,14 +19,15 @@ use core::time::Duration;
 use std::time::Instant;
 
 use criterion::Criterion;
-use tolman_maps::diktiometry::{Config, StepReport};
+use tolman_maps::diktiometry::{Config, StepReport, Use};
 use tolman_maze::Direction;
-use walk::{ODOMETRY, Scripted, Walk, open};
+use walk::{ODOMETRY, Scripted, Walk, open, painted};
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     println!("| places | moves | map | median µs | 90 % µs | mean µs |");
     println!("| ---: | ---: | --- | ---: | ---: | ---: |");
+    by_looks();
     for (side, moves) in [(10, 1000), (32, 6000), (63, 24_000)] {
         let config = Config::new(Config::compass_actions(), 1.0);
         let mut walk = Walk::new(open(side), ODOMETRY, config, 1);
@@ -62,6 +63,25 @@ fn main() {
         );
     }
     criterion.final_summary();
+}
+
+/// Walls of eight colours, and merges by looks: on a map that is being learned they are weighed with every move.
+fn by_looks() {
+    for (name, look_merge) in [("off", Use::Off), ("on", Use::On)] {
+        let mut config = painted();
+        config.restructuring.look_merge = look_merge;
+        let mut walk = Walk::new(open(32).painted(8, 1), ODOMETRY, config, 1);
+        let mut planner = Scripted::new(0.3, 1);
+        for moves in [1000, 3000] {
+            let times = (0..moves).map(|_| {
+                let direction = planner.choose(&walk);
+                timed(&mut walk, direction).0
+            });
+            let times = times.collect();
+            let map = format!("eight colours, `look_merge` {name}");
+            row(walk.score().places, &map, times);
+        }
+    }
 }
 
 /// One move, of which only the observer's part is timed.

@@ -16,7 +16,7 @@ use super::path_graph::{Fate, Note, Successor};
 use super::projector::{Projection, between_places};
 use super::reference_graph::search;
 use super::report::{Contradiction, Culprit};
-use super::restructuring::{Hints, elide_place, tell, tell_apart};
+use super::restructuring::{Hints, anywhere, elide_place, tell_apart};
 use super::signature::Signature;
 use super::track::Track;
 use super::updater::{arrive, see_exits};
@@ -161,7 +161,7 @@ impl Observer {
         if alike.is_empty() {
             self.map.looks.kinds = self.map.looks.kinds.saturating_add(1);
         }
-        if !tell(&self.map, &self.config) {
+        if anywhere(&self.map, &self.config).is_none() {
             return;
         }
         self.note_alike(place, &alike, &apart);

@@ -69,15 +69,6 @@ impl Place {
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)
     }
-
-    /// Takes the place out of the map and returns what it knew: the grave keeps its frame and position alone.
-    pub(super) fn bury(&mut self, fate: Fate) -> Self {
-        let grave = Self {
-            fate,
-            ..Self::new(self.frame, self.position)
-        };
-        core::mem::replace(self, grave)
-    }
 }
 
 /// What became of a place.
@@ -149,6 +140,8 @@ pub enum Standing {
 pub struct PathGraph {
     pub(super) places: Vec<Place>,
     pub(super) links: Vec<Link>,
+    /// How many of the places stand.
+    standing: usize,
 }
 
 impl PathGraph {
@@ -235,7 +228,24 @@ impl PathGraph {
     pub(super) fn add_place(&mut self, frame: FrameId, position: PointBox) -> PlaceId {
         let id = PlaceId(self.places.len() as u32);
         self.places.push(Place::new(frame, position));
+        self.standing += 1;
         id
+    }
+
+    /// Takes a place that stands out of the graph and returns what it knew: the grave keeps its frame and position alone.
+    pub(super) fn bury(&mut self, id: PlaceId, fate: Fate) -> Place {
+        self.standing -= 1;
+        let place = &mut self.places[id.index()];
+        let grave = Place {
+            fate,
+            ..Place::new(place.frame, place.position)
+        };
+        core::mem::replace(place, grave)
+    }
+
+    /// How many places stand.
+    pub(super) const fn standing(&self) -> usize {
+        self.standing
     }
 
     /// The link for an action between two places, made where there is none.

@@ -18,7 +18,7 @@ use super::map::Diktiometry;
 use super::matching::share_a_view;
 use super::path_graph::{Estim, Fate};
 use super::report::Restructured;
-pub(super) use looks::{tell, tell_apart};
+pub(super) use looks::{anywhere, tell_apart};
 pub(super) use non_local_path::deposit;
 pub(super) use transients::elide_place;
 

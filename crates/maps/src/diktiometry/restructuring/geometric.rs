@@ -60,6 +60,7 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
     let here = &map.paths.places[place.index()];
     let (frame, position) = (here.frame, here.position);
     let reached = search(&map.reference, frame, &config.search);
+    let wanted = looks::anywhere(map, config);
     let mut pairs: Vec<Pair> = Vec::new();
     let mut left = Vec::new();
     for mut note in notes {
@@ -77,7 +78,7 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
         let way = reached.iter().find(|reached| reached.frame == there.frame);
         let offset = way
             .map(|way| way.position + there.position - position)
-            .or_else(|| looks::out_of_reach(map, place, other, config));
+            .or_else(|| looks::out_of_reach(map, place, other, wanted?, config));
         // What cannot be one is settled, too. It was noted at both.
         let apart = offset.is_some_and(|offset| !offset.contains(Point::origin()));
         if apart && place < other {

@@ -41,23 +41,25 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
 }
 
 /// Where b lies as seen from a by all that is known, m, if looks say that the two are one and the search of the neighbourhood does
-/// not reach so far: geometry has its say before a merge. O(frames · degree · log frames) if they do.
+/// not reach so far: geometry has its say before a merge. `wanted` kinds of looks have to agree ([`anywhere`]).
+/// O(frames · degree · log frames) if they do.
 pub(super) fn out_of_reach(
     map: &Diktiometry,
     a: PlaceId,
     b: PlaceId,
+    wanted: usize,
     config: &Config,
 ) -> Option<PointBox> {
     let offset = PointBox::UNBOUNDED;
+    if !agree(map, &Pair { a, b, offset }, config, wanted) {
+        return None;
+    }
     let everywhere = SearchLimits {
         width: f64::INFINITY,
         frames: usize::MAX,
         depth: u32::MAX,
     };
-    match merge(map, &Pair { a, b, offset }, config) {
-        Verdict::Propose => Some(map.displacement(a, b, &everywhere).unwrap_or(offset)),
-        Verdict::Abstain | Verdict::Reject => None,
-    }
+    Some(map.displacement(a, b, &everywhere).unwrap_or(offset))
 }
 
 /// Geometry has told that two places are two: what that says of looks.
@@ -94,14 +96,17 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
     Some(similarity(one, other, &config.percepts))
 }
 
-/// Whether looks tell anything where geometry knows nothing.
-pub(in crate::diktiometry) fn tell(map: &Diktiometry, config: &Config) -> bool {
-    enough(map, f64::INFINITY, config).is_some()
+/// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing there.
+pub(in crate::diktiometry) fn anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
+    match config.restructuring.look_merge {
+        Use::On => enough(map, f64::INFINITY, config),
+        Use::Off => None,
+    }
 }
 
 /// How many kinds of looks have to agree if there is room for so many places; none if there are not as many kinds.
 fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
-    let others = room.min(map.paths.places().count() as f64);
+    let others = room.min(map.paths.standing() as f64);
     // n · pᵏ < error for k > log(error / n) / log p.
     let chance = map.looks.chance_of_alike();
     let wanted = libm::log(config.restructuring.look_error / others) / libm::log(chance);

@@ -21,7 +21,7 @@ pub(super) fn merge(
     let (kept, lost) = (a.min(b), a.max(b));
     let shift = join_frames(map, kept, lost)?;
     move_links(&mut map.paths, kept, lost);
-    let gone = map.paths.places[lost.index()].bury(Fate::MergedInto(kept));
+    let gone = map.paths.bury(lost, Fate::MergedInto(kept));
     let place = &mut map.paths.places[kept.index()];
     place.envelope = place.envelope.hull(gone.envelope + shift);
     let middle = shift.middle();

@@ -60,7 +60,7 @@ pub(in crate::diktiometry) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
     for link in links {
         map.paths.remove_link(link);
     }
-    let frame = map.paths.places[id.index()].bury(Fate::Elided).frame;
+    let frame = map.paths.bury(id, Fate::Elided).frame;
     let places = &mut map.reference.frames[frame.index()].places;
     places.retain(|other| *other != id);
     if places.is_empty() {
