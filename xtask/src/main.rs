@@ -42,7 +42,7 @@ enum Verb {
     },
     /// Holds the dependencies between the crates to the tables of docs/architecture.md
     Layers,
-    /// Reads every maze in mazes/ and checks that it can be solved, and those of CPM that they are distinctive
+    /// Reads every maze in mazes/ and checks that it can be solved, and that the fragments of Mazes 1 to 3 of CPM are distinctive
     Mazes,
     /// Measures the speed: all criterion benches and the long ray fuzz, or one bench
     Bench {

@@ -100,6 +100,19 @@ fn a_goal_that_is_walled_off_is_told() {
 }
 
 #[test]
+fn fragments_that_look_alike_are_told() {
+    let folder = folder("cpm-distinct");
+    let corridor = "corridor_width = 0.25\nstart = 0 0 east\n\no---o---o---o---o---o\n| S               G |\no---o---o---o---o---o\n";
+    fs::write(folder.join("corridor.maze"), corridor).unwrap();
+    let alike = ["cpm", "distinct", "corridor.maze", "--walks", "1"];
+    tolman_in(&folder, &alike).refused(2, &["which is not below 0.8", "bend one of them"]);
+    let none = ["cpm", "distinct", "corridor.maze", "--walks", "0"];
+    tolman_in(&folder, &none).refused(2, &["--walks"]);
+    let below = ["cpm", "distinct", "corridor.maze", "--below", "nan"];
+    tolman_in(&folder, &below).refused(2, &["a number from 0 to 1"]);
+}
+
+#[test]
 fn a_maze_without_junctions_is_learned_and_driven() {
     let folder = folder("cpm-corridor");
     let corridor = "start = 0 1 east\n\no---o---o---o\n| S         |\no---o---o   o\n|     G     |\no---o---o---o\n";

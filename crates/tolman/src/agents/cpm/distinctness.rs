@@ -44,7 +44,7 @@ struct Walked {
 /// O(walks² · length) comparisons of patterns.
 ///
 /// # Errors
-/// [`TrialError`] if the robot cannot walk a fragment.
+/// [`TrialError`] if the robot cannot walk a fragment, comes to another place than its end, or sees nothing on the way.
 pub fn distinctness(
     maze: &Maze,
     corridor_width: f64,
@@ -55,12 +55,18 @@ pub fn distinctness(
     let mut walks = Vec::new();
     for seed in seeds {
         let walked = survey(maze, &epuck(), &config, seed)?;
-        walks.extend(walked.into_iter().map(|walk| Walked {
-            fragment: walk.way.fragment,
-            is_forward: walk.way.is_forward,
-            ends: (walk.from, walk.way.to),
-            patterns: patterns.patterns(&walk.observations),
-        }));
+        for walk in walked {
+            let ends = (walk.from, walk.way.to);
+            if walk.to != Some(walk.way.to) || walk.observations.is_empty() {
+                return Err(TrialError::Unwalked { ends });
+            }
+            walks.push(Walked {
+                fragment: walk.way.fragment,
+                is_forward: walk.way.is_forward,
+                ends,
+                patterns: patterns.patterns(&walk.observations),
+            });
+        }
     }
     let (matching, dictionary) = (CpmConfig::online().matching, patterns.dictionary());
     let mut found = Distinctness {
@@ -118,5 +124,16 @@ o---o---o---o---o---o
         assert!(most.score > 0.9, "{most:?}");
         let least = found.least_alike.unwrap();
         assert!(least.score > 0.8 && least.score < 1.0, "{least:?}");
+    }
+
+    #[test]
+    fn a_fragment_without_anything_to_see_is_refused() {
+        let text = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
+        let maze = tolman_maze::read(text).unwrap().maze;
+        let learning = include_str!("../../../../../mazes/cpm-learning.maze");
+        let learning = tolman_maze::read(learning).unwrap().maze;
+        let patterns = learn(&learning, 0.25, 1).unwrap();
+        let refused = distinctness(&maze, 0.25, &patterns, 0..1).unwrap_err();
+        assert!(matches!(refused, TrialError::Unwalked { .. }), "{refused}");
     }
 }

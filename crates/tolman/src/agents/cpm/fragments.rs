@@ -1,7 +1,7 @@
 use alloc::collections::BTreeMap;
 use core::f64::consts::FRAC_PI_2;
 
-use tolman_geom::Heading;
+use tolman_geom::{Heading, Vector};
 use tolman_maze::{Cell, Direction, Maze};
 
 /// The fragments that a maze really has, for scoring; no robot knows them.
@@ -57,6 +57,12 @@ pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell
     Some((cells, came))
 }
 
+/// Where one looks who goes from one cell to another.
+fn heading_between(from: Cell, to: Cell) -> Heading {
+    let step = |from: u16, to: u16| f64::from(to) - f64::from(from);
+    Heading::of(Vector::new(step(from.x, to.x), step(from.y, to.y)))
+}
+
 /// Counter-clockwise from a heading of 0.
 pub(super) const DIRECTIONS: [Direction; 4] = [
     Direction::East,
@@ -101,8 +107,90 @@ impl TrueFragments {
         self.ways.get(&(from, direction)).copied()
     }
 
+    /// The ways that a drive over these cells was along, one after another; none where it left a place by no way. A drive that turns back amid a
+    /// fragment was along it. One that looks into the next cell and comes back was not.
+    pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<Way>> {
+        let mut cells = cells.into_iter();
+        let (Some(mut at), mut driven) = (cells.next(), Vec::new()) else {
+            return Some(Vec::new());
+        };
+        let mut last = at;
+        // The way by which it left, and how many cells of it were entered.
+        let mut under_way = None::<(Way, u32)>;
+        for cell in cells {
+            if cell == last {
+                continue;
+            }
+            last = cell;
+            under_way = match under_way {
+                None => Some((self.way(at, heading_between(at, cell))?, 1)),
+                Some((way, entered)) if cell == at => {
+                    // The end of a loop, too.
+                    if entered > 1 {
+                        driven.push(way);
+                    }
+                    None
+                }
+                Some((way, entered)) => Some((way, entered + 1)),
+            };
+            if let Some((way, _)) = under_way
+                && cell == way.to
+            {
+                driven.push(way);
+                (at, under_way) = (cell, None);
+            }
+        }
+        Some(driven)
+    }
+
     /// All ways out of all places.
     pub fn ways(&self) -> impl Iterator<Item = (Cell, Way)> + '_ {
         self.ways.iter().map(|((from, _), way)| (*from, *way))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One crossing: the start to its west, the goal to its east, and a loop from its north to its south.
+    const LOOP: &str = "\
+start = 0 1 east
+
+o---o---o---o---o
+|   |           |
+o---o   o---o   o
+| S       G |   |
+o---o   o---o   o
+|   |           |
+o---o---o---o---o
+";
+
+    fn walked(text: &str, cells: &[(u16, u16)]) -> Option<Vec<u32>> {
+        let maze = tolman_maze::read(text).unwrap().maze;
+        let fragments = TrueFragments::of(&maze);
+        let driven = fragments.driven(cells.iter().map(|(x, y)| Cell::new(*x, *y)))?;
+        Some(driven.iter().map(|way| way.fragment).collect())
+    }
+
+    #[test]
+    fn a_drive_round_a_loop_was_along_it() {
+        let straight = walked(LOOP, &[(0, 1), (1, 1), (2, 1)]).unwrap();
+        let north = [(1, 1), (1, 2), (2, 2), (3, 2)];
+        let south = [(3, 1), (3, 0), (2, 0), (1, 0), (1, 1)];
+        let around = [&[(0, 1)][..], &north, &south, &[(2, 1)]].concat();
+        let around = walked(LOOP, &around).unwrap();
+        assert_eq!((straight.len(), around.len()), (2, 3));
+        assert_eq!([around[0], around[2]], straight[..]);
+    }
+
+    #[test]
+    fn a_drive_that_turns_back_was_along_what_it_turned_back_in() {
+        let drive = [(0, 1), (1, 1), (1, 2), (2, 2), (1, 2), (1, 1), (2, 1)];
+        assert_eq!(walked(LOOP, &drive).unwrap().len(), 3);
+        let look = [(0, 1), (1, 1), (1, 2), (1, 1), (1, 1), (2, 1)];
+        assert_eq!(walked(LOOP, &look).unwrap().len(), 2);
+        assert_eq!(walked(LOOP, &[(0, 1), (0, 2)]), None);
+        assert_eq!(walked(LOOP, &[]), Some(vec![]));
     }
 }

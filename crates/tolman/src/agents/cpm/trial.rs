@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_control::heading_of;
-use tolman_geom::{Heading, Pose};
+use tolman_geom::Pose;
 use tolman_maps::cpm::{
     Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, JunctionId, Landmark, RecallError,
 };
@@ -392,28 +392,10 @@ impl<'a> Score<'a> {
 
     /// The length of a drive, in observations of the fragments it was along; none if one of them was not walked before.
     fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
-        let mut cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
-        let mut at = cells.next()?;
-        let (mut under_way, mut length) = (None::<Way>, 0);
-        for cell in cells {
-            if cell == at {
-                under_way = None;
-                continue;
-            }
-            let way = match under_way {
-                Some(way) => way,
-                None => {
-                    let step = world.cell_centre(cell) - world.cell_centre(at);
-                    self.fragments.way(at, Heading::of(step))?
-                }
-            };
-            under_way = Some(way);
-            if cell == way.to {
-                length += self.lengths.get(&way.fragment)?;
-                (at, under_way) = (cell, None);
-            }
-        }
-        Some(length)
+        let cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
+        let driven = self.fragments.driven(cells)?;
+        let lengths = driven.iter().map(|way| self.lengths.get(&way.fragment));
+        lengths.map(|length| length.copied()).sum()
     }
 }
 
@@ -430,6 +412,15 @@ pub enum TrialError {
     /// The robot cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
+    /// A fragment was not walked from end to end.
+    #[error(
+        "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",
+        ends.0, ends.1
+    )]
+    Unwalked {
+        /// The places it leads from and to.
+        ends: (Cell, Cell),
+    },
     /// The map leads to no goal.
     #[error("the map has no way to a goal: learn until the goal is found")]
     NoPlan,
@@ -605,20 +596,27 @@ mod tests {
             map: &record.map,
             truth: &record.truth,
         }];
-        for seed in 0..4 {
+        let straight_on = (0..4).map(|seed| (Approach::StraightOn, seed));
+        let back_first = (0..4).map(|seed| (Approach::BackFirst, seed));
+        let mut under_way = 0;
+        for (approach, seed) in straight_on.chain(back_first) {
             let put_down = PutDown {
                 known: &known,
                 here: 0,
                 corridor_width: WIDTH,
                 patterns: &PATTERNS,
                 robot: epuck(),
-                approach: Approach::StraightOn,
+                approach,
                 most_places: 6,
                 seed,
             };
             let found = put_down.play().unwrap().unwrap();
             assert!(found.is_right_at_last, "{:?}", found.whereabouts);
+            if approach == Approach::BackFirst {
+                under_way += u32::from(found.is_right_under_way == Some(true));
+            }
         }
+        assert!(under_way >= 3, "{under_way} of 4");
     }
 
     #[test]

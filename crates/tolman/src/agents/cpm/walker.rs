@@ -234,6 +234,8 @@ impl<B: Body> Walker<B> {
     /// # Errors
     /// [`WalkError`].
     pub fn set_off(&mut self) -> Result<Walk, WalkError<B::Error>> {
+        // It may have been carried here.
+        self.trail.clear();
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         let is_place = match view.segments.place() {

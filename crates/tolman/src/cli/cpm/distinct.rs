@@ -25,10 +25,10 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// How often each fragment is walked either way
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     walks: u16,
     /// How similar two fragments may be, by f_S; the paper takes those above 0.9 for one
-    #[arg(long, value_name = "F_S", default_value_t = 0.8)]
+    #[arg(long, value_name = "F_S", default_value_t = 0.8, value_parser = similarity)]
     below: f64,
 }
 
@@ -45,8 +45,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         let found = distinctness(&maze, corridor_width, &patterns, seeds).or_bad_input()?;
         if let Some(most) = found.most_alike {
             let told = told(&most);
-            // What is no number is not below anything.
-            if most.score.is_nan() || most.score >= arguments.below {
+            if most.score >= arguments.below {
                 let below = arguments.below;
                 let error = anyhow!("{name}: {told}, which is not below {below}: bend one of them");
                 return Err(error).or_bad_input();
@@ -58,6 +57,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         }
     }
     Ok(())
+}
+
+/// Within 0 … 1.
+fn similarity(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "give a number".to_owned())?;
+    let is_one = (0.0..=1.0).contains(&value);
+    is_one
+        .then_some(value)
+        .ok_or_else(|| "give a number from 0 to 1".to_owned())
 }
 
 fn told(pair: &Pair) -> String {

@@ -150,9 +150,10 @@ impl Known {
 /// A robot put down in a maze with fragments that look alike.
 fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<Fields, BoxError> {
     for attempt in 0..ATTEMPTS {
-        let seed = run_seed(seed, "localization mazes", attempt);
-        let venue = venue::aliased(seed)?;
-        let learned = trials::trial(&venue, patterns, trials::better(), seed).play()?;
+        let seed = |of| run_seed(seed, of, attempt);
+        let venue = venue::aliased(seed("localization mazes"))?;
+        let learning = seed("localization maps");
+        let learned = trials::trial(&venue, patterns, trials::better(), learning).play()?;
         if !learned.is_solved() {
             continue;
         }
@@ -164,7 +165,7 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
             robot: epuck(),
             approach,
             most_places: MOST_PLACES,
-            seed,
+            seed: seed("localization"),
         };
         if let Some(record) = put_down.play()? {
             return Ok(measured(approach, &record));

@@ -85,7 +85,7 @@ pub(super) fn of_round_trip(
         Replay::new(title, step_s, Scenery::of_world(&world), vec![track])
             .fact("maze", &venue.name)
             .fact("seed", job.seed.to_string())
-            .fact("fragments tried on the way back", trip.tried.to_string())
+            .fact("tried on the way", trip.tried.to_string())
             .fact("given up", trip.given_up.to_string()),
     )
 }
