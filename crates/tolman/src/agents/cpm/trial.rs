@@ -394,8 +394,10 @@ impl<'a> Score<'a> {
     fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
         let cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
         let driven = self.fragments.driven(cells)?;
-        let lengths = driven.iter().map(|way| self.lengths.get(&way.fragment));
-        lengths.map(|length| length.copied()).sum()
+        let lengths = driven
+            .iter()
+            .map(|way| self.lengths.get(&way.fragment).copied());
+        lengths.sum()
     }
 }
 
