@@ -102,7 +102,7 @@ fn a_file_that_is_no_sound_survey_is_refused() {
     check("{}", "no survey");
     check(&text[..text.len() - 40], "no survey");
     check(
-        &text.replacen("\"version\":1", "\"version\":7", 1),
+        &text.replacen("\"version\":2", "\"version\":7", 1),
         "version is 7",
     );
     check(
