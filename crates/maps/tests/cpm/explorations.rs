@@ -82,6 +82,8 @@ proptest! {
             (CpmConfig::online(), Reckoning::None),
             (CpmConfig::robust(), Reckoning::Bounded),
         ] {
+            // Ten times what any of these mazes needs: who goes round for ever is told soon.
+            let config = CpmConfig { most_traversals: 1500, ..config };
             let mut rng = rng.clone();
             let mut rover = Rover::new(&world, Noise::NONE, reckoning);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
