@@ -73,7 +73,7 @@ fn drawn((maze, seed): (MazeConfig, u64)) -> (World, ChaCha8Rng) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, max_shrink_iters: 32, ..ProptestConfig::default() })]
 
     #[test]
     fn online_every_maze_is_explored_rightly_and_within_theorem_1(maze in mazes()) {
@@ -82,8 +82,8 @@ proptest! {
             (CpmConfig::online(), Reckoning::None),
             (CpmConfig::robust(), Reckoning::Bounded),
         ] {
-            // Ten times what any of these mazes needs: who goes round for ever is told soon.
-            let config = CpmConfig { most_traversals: 1500, ..config };
+            // Several times what any of these mazes needs: who goes round for ever is told soon.
+            let config = CpmConfig { most_traversals: 400, ..config };
             let mut rng = rng.clone();
             let mut rover = Rover::new(&world, Noise::NONE, reckoning);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
