@@ -136,7 +136,8 @@ impl Mapper {
         // The sort is stable: of equals the older first.
         similar.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
         let agree = |a: &Fragment, b: &Fragment, sense: Sense| {
-            matching.agrees_at_port(dictionary, &a.patterns, &b.patterns, sense)
+            let score = matching.score_as(dictionary, &a.patterns, &b.patterns, sense);
+            score > matching.threshold_at_port()
         };
         similar.into_iter().find_map(|(_, other, sense)| {
             let (map, merges) = self.map.unified(new, other, sense, &agree).ok()?;

@@ -95,6 +95,16 @@ impl Matching {
         }
     }
 
+    /// Above it two fragments may be one that would lead out of one port because others are similar: what others say for it makes up for a
+    /// little that is missing to μ.
+    #[must_use]
+    pub const fn threshold_at_port(&self) -> f64 {
+        match self {
+            Self::Positions(similarity) => similarity.mu_at_port,
+            Self::Alignment(alignment) => alignment.threshold,
+        }
+    }
+
     /// How similar two sequences are, the second walked as the sense says.
     #[must_use]
     pub fn score_as(
@@ -120,23 +130,6 @@ impl Matching {
         sense: Sense,
     ) -> bool {
         self.score_as(dictionary, a, b, sense) > self.threshold()
-    }
-
-    /// Whether two fragments may be one, the second walked as the sense says, that would lead out of one port because others are similar: what others
-    /// say for it makes up for a little that is missing to μ.
-    #[must_use]
-    pub fn agrees_at_port(
-        &self,
-        dictionary: &Dictionary,
-        a: &[PatternId],
-        b: &[PatternId],
-        sense: Sense,
-    ) -> bool {
-        let threshold = match self {
-            Self::Positions(similarity) => similarity.mu_at_port,
-            Self::Alignment(alignment) => alignment.threshold,
-        };
-        self.score_as(dictionary, a, b, sense) > threshold
     }
 
     /// Whether 𝔸₁ ≅ 𝔸₂ or 𝔸₁ ≅ 𝔸₂⁻¹: "The inverse of 𝔸₂ must also be compared with 𝔸₁."

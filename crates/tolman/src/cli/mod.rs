@@ -20,6 +20,7 @@ mod mouse;
 mod replay;
 mod replay_file;
 mod run;
+mod share;
 mod solve;
 mod stdout;
 mod survey;

@@ -11,6 +11,7 @@ use tolman::agents::diktiometry::{
 use tolman_maps::diktiometry::{JournalLength, Use};
 
 use super::failure::OrBadInput;
+use super::share::share;
 use super::{Failure, file, map, maze};
 
 /// Lets a robot walk a maze from place to place while the diktiometry maps it, and writes the map down
@@ -54,13 +55,6 @@ pub(super) struct Arguments {
 
 /// As the paper's robot: about 30 % of the time.
 const HEED: f64 = 0.3;
-
-fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse::<f64>().ok();
-    share
-        .filter(|share| (0.0..=1.0).contains(share))
-        .ok_or_else(|| "give a number from 0 to 1".to_owned())
-}
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     if let Some(path) = &arguments.from {

@@ -17,11 +17,21 @@ o   o   o   o
 o---o---o---o
 ";
 
+/// Learns a map of a maze, `map.json`.
+const fn learn(maze: &str) -> [&str; 6] {
+    ["cpm", "learn", "--maze", maze, "--out", "map.json"]
+}
+
+/// Drives by a map.
+const fn solve<'a>(map: &'a str, maze: &'a str) -> [&'a str; 6] {
+    ["cpm", "solve", "--map", map, "--maze", maze]
+}
+
 #[test]
 fn a_map_is_learned_looked_at_and_driven_by() {
     let folder = folder("cpm");
     fs::write(folder.join("fork.maze"), MAZE).unwrap();
-    let learn = ["cpm", "learn", "--maze", "fork.maze", "--out", "map.json"];
+    let learn = learn("fork.maze");
     let told = tolman_in(&folder, &learn).done();
     assert!(told.contains("clusters"), "{told}");
     let first = fs::read(folder.join("map.json")).unwrap();
@@ -43,16 +53,8 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     let svg = fs::read_to_string(folder.join("map.svg")).unwrap();
     assert!(svg.contains("A0") && svg.contains("goal"), "{svg}");
 
-    let solve = [
-        "cpm",
-        "solve",
-        "--map",
-        "map.json",
-        "--maze",
-        "fork.maze",
-        "--json",
-    ];
-    let told = tolman_in(&folder, &solve).done();
+    let json = [&solve("map.json", "fork.maze")[..], &["--json"]].concat();
+    let told = tolman_in(&folder, &json).done();
     let told: serde_json::Value = serde_json::from_str(&told).unwrap();
     assert_eq!(told["reached"], true, "{told}");
 
@@ -66,14 +68,7 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     let refused = ["version is 2", "update tolman"];
     tolman_in(&folder, &["map", "show", "later.json"]).refused(2, &refused);
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
-    let elsewhere = [
-        "cpm",
-        "solve",
-        "--map",
-        "corridor.maze",
-        "--maze",
-        "fork.maze",
-    ];
+    let elsewhere = solve("corridor.maze", "fork.maze");
     tolman_in(&folder, &elsewhere).refused(2, &["corridor.maze", "tolman cpm learn"]);
 }
 
@@ -81,8 +76,7 @@ fn a_map_is_learned_looked_at_and_driven_by() {
 fn refused_maze(name: &str, maze: &str, told: &[&str]) {
     let folder = folder(name);
     fs::write(folder.join("maze.maze"), maze).unwrap();
-    let learn = ["cpm", "learn", "--maze", "maze.maze", "--out", "map.json"];
-    tolman_in(&folder, &learn).refused(2, told);
+    tolman_in(&folder, &learn("maze.maze")).refused(2, told);
     assert!(!folder.join("map.json").exists());
 }
 
@@ -117,24 +111,8 @@ fn a_maze_without_junctions_is_learned_and_driven() {
     let folder = folder("cpm-corridor");
     let corridor = "start = 0 1 east\n\no---o---o---o\n| S         |\no---o---o   o\n|     G     |\no---o---o---o\n";
     fs::write(folder.join("corridor.maze"), corridor).unwrap();
-    let learn = [
-        "cpm",
-        "learn",
-        "--maze",
-        "corridor.maze",
-        "--out",
-        "map.json",
-    ];
-    tolman_in(&folder, &learn).done();
-    let solve = [
-        "cpm",
-        "solve",
-        "--map",
-        "map.json",
-        "--maze",
-        "corridor.maze",
-    ];
-    let told = tolman_in(&folder, &solve).done();
+    tolman_in(&folder, &learn("corridor.maze")).done();
+    let told = tolman_in(&folder, &solve("map.json", "corridor.maze")).done();
     assert!(told.contains("reached the goal"), "{told}");
 }
 
@@ -142,11 +120,10 @@ fn a_maze_without_junctions_is_learned_and_driven() {
 fn a_map_of_another_robot_or_maze_is_refused_or_fails_as_it_is_said() {
     let folder = folder("cpm-other");
     fs::write(folder.join("fork.maze"), MAZE).unwrap();
-    let learn = ["cpm", "learn", "--maze", "fork.maze", "--out", "map.json"];
+    let learn = learn("fork.maze");
     tolman_in(&folder, &learn).done();
     let text = fs::read_to_string(folder.join("map.json")).unwrap();
-    let solve =
-        |map: &str, maze: &str| tolman_in(&folder, &["cpm", "solve", "--map", map, "--maze", maze]);
+    let solve = |map: &str, maze: &str| tolman_in(&folder, &solve(map, maze));
     // Another robot's dictionary under this map, a later version, and a map of another maze.
     let key = "\"fingerprint\":\"";
     let at = text.find(key).unwrap() + key.len();

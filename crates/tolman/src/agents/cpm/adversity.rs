@@ -3,7 +3,6 @@
 
 use alloc::sync::Arc;
 use core::f64::consts::{PI, TAU};
-use std::sync::LazyLock;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -16,9 +15,9 @@ use tolman_sim::{Area, StepError, Wall, World, Zone};
 
 use super::agent::{AgentError, Cpm, Episode};
 use super::body::{Body, SimulatedEpuck};
-use super::common_patterns::CommonPatterns;
 use super::robot::{epuck, walker_config};
-use super::trial::{learn, placed};
+use super::trial::placed;
+use super::trial::tests::PATTERNS;
 use super::walker::{Walker, WalkerConfig};
 
 const WIDTH: f64 = 0.25;
@@ -74,11 +73,6 @@ impl Body for OneSensor {
         self.body.landmark()
     }
 }
-
-static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
-    let text = include_str!("../../../../../mazes/cpm-learning.maze");
-    learn(&tolman_maze::read(text).unwrap().maze, WIDTH, 1).unwrap()
-});
 
 /// The first episode, and whether the robot truly stands at the goal at its end.
 fn search<B: Body>(body: B, width: f64) -> Result<(Episode, bool), AgentError<B::Error>> {

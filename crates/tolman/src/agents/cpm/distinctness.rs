@@ -104,7 +104,7 @@ pub fn distinctness(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::agents::cpm::learn;
+    use crate::agents::cpm::trial::tests::PATTERNS;
 
     #[test]
     fn a_straight_corridor_is_the_same_from_both_ends() {
@@ -116,10 +116,7 @@ o---o---o---o---o---o
 o---o---o---o---o---o
 ";
         let maze = tolman_maze::read(text).unwrap().maze;
-        let learning = include_str!("../../../../../mazes/cpm-learning.maze");
-        let learning = tolman_maze::read(learning).unwrap().maze;
-        let patterns = learn(&learning, 0.25, 1).unwrap();
-        let found = distinctness(&maze, 0.25, &patterns, 0..2).unwrap();
+        let found = distinctness(&maze, 0.25, &PATTERNS, 0..2).unwrap();
         let most = found.most_alike.unwrap();
         assert!(most.score > 0.9, "{most:?}");
         let least = found.least_alike.unwrap();
@@ -130,10 +127,7 @@ o---o---o---o---o---o
     fn a_fragment_without_anything_to_see_is_refused() {
         let text = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
         let maze = tolman_maze::read(text).unwrap().maze;
-        let learning = include_str!("../../../../../mazes/cpm-learning.maze");
-        let learning = tolman_maze::read(learning).unwrap().maze;
-        let patterns = learn(&learning, 0.25, 1).unwrap();
-        let refused = distinctness(&maze, 0.25, &patterns, 0..1).unwrap_err();
+        let refused = distinctness(&maze, 0.25, &PATTERNS, 0..1).unwrap_err();
         assert!(matches!(refused, TrialError::Unwalked { .. }), "{refused}");
     }
 }

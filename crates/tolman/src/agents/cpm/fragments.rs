@@ -143,9 +143,10 @@ impl TrueFragments {
         Some(driven)
     }
 
-    /// All ways out of all places.
-    pub fn ways(&self) -> impl Iterator<Item = (Cell, Way)> + '_ {
-        self.ways.iter().map(|((from, _), way)| (*from, *way))
+    /// All ways out of all places: the place, the direction in which one leaves it, and the way.
+    pub fn ways(&self) -> impl Iterator<Item = (Cell, Direction, Way)> + '_ {
+        let ways = self.ways.iter();
+        ways.map(|((from, out), way)| (*from, *out, *way))
     }
 }
 

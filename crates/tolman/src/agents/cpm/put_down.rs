@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 
@@ -164,12 +164,10 @@ impl PutDown<'_> {
                 .any(|truth| truth.fragment == way.fragment)
         };
         let mut spots = Vec::new();
-        for (from, way) in fragments.ways().filter(|(_, way)| is_known(way)) {
-            let outs = Direction::ALL.into_iter();
-            let out = outs
-                .filter(|out| fragments.way(from, heading_of(*out)) == Some(way))
-                .find_map(|out| along(known.maze, from, out));
-            let Some((cells, _)) = out else { continue };
+        for (from, out, way) in fragments.ways().filter(|(.., way)| is_known(way)) {
+            let Some((cells, _)) = along(known.maze, from, out) else {
+                continue;
+            };
             // The places at both ends are no part of the fragment.
             let amid = cells.get(1..cells.len() - 1).unwrap_or_default();
             for (index, cell) in amid.iter().enumerate() {

@@ -3,7 +3,7 @@ use alloc::sync::Arc;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
 use tolman_maps::cpm::Sighting;
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 
@@ -41,14 +41,8 @@ pub fn survey(
     let world: Arc<World> = Arc::new(world_of(maze, config.corridor_width)?);
     let fragments = TrueFragments::of(maze);
     let mut walks = Vec::new();
-    for (cell, way) in fragments.ways() {
+    for (cell, out, way) in fragments.ways() {
         // Whoever came by this fragment looks into the place.
-        let Some(out) = Direction::ALL
-            .into_iter()
-            .find(|direction| fragments.way(cell, heading_of(*direction)) == Some(way))
-        else {
-            continue;
-        };
         let start = Pose::new(world.cell_centre(cell), heading_of(out.opposite()));
         let body =
             SimulatedEpuck::new(Arc::clone(&world), Epuck::new(robot.clone())?, start, seed)?;
@@ -115,11 +109,7 @@ mod tests {
         let config = walker_config(0.25).unwrap();
         let world = Arc::new(world_of(&maze, 0.25).unwrap());
         let fragments = TrueFragments::of(&maze);
-        for (from, way) in fragments.ways() {
-            let out = Direction::ALL
-                .into_iter()
-                .find(|out| fragments.way(from, heading_of(*out)) == Some(way))
-                .unwrap();
+        for (from, out, way) in fragments.ways() {
             let start = Pose::new(world.cell_centre(from), heading_of(out.opposite()));
             let robot = Epuck::new(epuck()).unwrap();
             let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, 2).unwrap();

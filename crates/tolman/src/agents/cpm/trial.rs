@@ -7,11 +7,8 @@ use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{
-    Aim, Arrival, CpMap, CpmConfig, Done, FragmentId, JunctionId, Landmark, RecallError,
-};
+use tolman_maps::cpm::{Aim, CpMap, CpmConfig, Done, FragmentId, Landmark, RecallError};
 use tolman_maze::{Cell, Maze};
-use tolman_planners::{Arcs, costs_from};
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
@@ -19,11 +16,10 @@ use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
 use super::agent::{AgentError, Cpm, Episode, Step};
 use super::body::SimulatedEpuck;
 use super::common_patterns::{CommonPatterns, LearnError, wander};
-use super::fragments::{TrueFragments, Way};
-use super::known_map::KnownMap;
-use super::layout::Layout;
+use super::fragments::Way;
 use super::robot::{epuck, soinn, walker_config};
-use super::walker::{HeadingBy, Walk, WalkError, Walker};
+use super::score::{Closures, Score};
+use super::walker::{HeadingBy, WalkError, Walker};
 use super::whereabouts::WhereaboutsError;
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
@@ -113,17 +109,6 @@ impl Record {
         (first.seconds > 0.0 && self.is_solved())
             .then(|| 100.0 * (1.0 - second.seconds / first.seconds))
     }
-}
-
-/// Loops closed in the first episode: arrivals by a way that was not on the map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Closures {
-    /// A duplicate was told, and it was that one; on arrival, or by what was met later.
-    pub right: u32,
-    /// A duplicate was told, and it was another or none.
-    pub wrong: u32,
-    /// A fragment was walked again, and still is on the map at the end as another one.
-    pub missed: u32,
 }
 
 /// The learning maze: 1000 observations (section 5).
@@ -271,136 +256,6 @@ fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
     shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
 }
 
-/// What really happened, for scoring.
-struct Score<'a> {
-    fragments: TrueFragments,
-    closures: Closures,
-    /// The true way from − to + of each fragment of the map.
-    truth: BTreeMap<FragmentId, Way>,
-    /// The cell of each place of the map.
-    places: BTreeMap<JunctionId, Cell>,
-    /// Observations of each true fragment when it was first walked.
-    lengths: BTreeMap<u32, u32>,
-    known: KnownMap<'a>,
-}
-
-impl<'a> Score<'a> {
-    fn of(maze: &'a Maze) -> Self {
-        Self {
-            fragments: TrueFragments::of(maze),
-            closures: Closures::default(),
-            truth: BTreeMap::new(),
-            places: BTreeMap::new(),
-            lengths: BTreeMap::new(),
-            known: KnownMap::new(maze),
-        }
-    }
-
-    fn begin(&mut self, agent: &Cpm<'_, SimulatedEpuck>, start: Pose) {
-        if let Some(cell) = agent.walker().body().world().cell_at(start.position) {
-            self.places.insert(agent.explorer().at().junction, cell);
-        }
-    }
-
-    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step, maze: &Maze) {
-        let (Some(arrival), Walk::Arrived { observations, .. }) = (step.arrival, &step.walk) else {
-            return;
-        };
-        let body = agent.walker().body();
-        let here = body.world().cell_at(body.truth().pose.position);
-        let way = agent.walker().departed_at(body.path()).and_then(|from| {
-            let cell = body.world().cell_at(from.position)?;
-            self.fragments.way(cell, from.heading)
-        });
-        let length = (observations.len() as u32).max(1);
-        if let Some(here) = here {
-            let way = way.filter(|way| way.to == here);
-            let before = way.and_then(|way| self.lengths.get(&way.fragment));
-            self.known.walk(way, here, *before.unwrap_or(&length));
-        }
-        let Some(way) = way else {
-            return;
-        };
-        let is_old = self.lengths.contains_key(&way.fragment);
-        let told = agent.explorer().map().end_at(agent.explorer().at());
-        let known = told.and_then(|end| self.truth.get(&end.fragment).copied());
-        let is_same = known.is_some_and(|known| known.fragment == way.fragment);
-        // The place that the map says it is at, where that is a place of the map.
-        let junction = agent.explorer().at().junction;
-        let stands = self.places.get(&junction).copied();
-        if let Some(here) = here {
-            self.places.entry(junction).or_insert(here);
-        }
-        match arrival {
-            Arrival::Revised => self.lay_anew(agent.explorer().map(), maze),
-            Arrival::Duplicate if is_same => self.closures.right += 1,
-            Arrival::Duplicate => self.closures.wrong += 1,
-            Arrival::Loop if stands == here => self.closures.right += 1,
-            Arrival::Loop => self.closures.wrong += 1,
-            Arrival::New if is_old => self.closures.missed += 1,
-            _ => {}
-        }
-        if let Some(end) = told {
-            self.truth.entry(end.fragment).or_insert(way);
-        }
-        self.lengths.entry(way.fragment).or_insert(length);
-    }
-
-    /// Another map has its own names of fragments and places: where they lie follows from laying it over the maze.
-    fn lay_anew(&mut self, map: &CpMap, maze: &Maze) {
-        let layout = Layout::of(map, maze);
-        let place = |(id, _)| Some((id, layout.place(id)?));
-        self.places = map.junctions().filter_map(place).collect();
-        let way = |(id, _)| {
-            let cells = &layout.course(id)?.cells;
-            let (from, next) = (cells.first()?, cells.get(1)?);
-            let (out, _) = maze.neighbours(*from).find(|(_, cell)| cell == next)?;
-            Some((id, self.fragments.way(*from, heading_of(out))?))
-        };
-        self.truth = map.fragments().filter_map(way).collect();
-    }
-
-    /// Loops count as closed too that were closed after the arrival, by another fragment or another map, and as missed those that are open on
-    /// the map at the end, where a fragment is on it more than once.
-    fn closures_at_the_end(&self, map: &CpMap) -> Closures {
-        let known = map.fragments().filter_map(|(id, _)| self.truth.get(&id));
-        let mut fragments: Vec<u32> = known.map(|way| way.fragment).collect();
-        let all = fragments.len();
-        fragments.sort_unstable();
-        fragments.dedup();
-        let open = (all - fragments.len()) as u32;
-        Closures {
-            right: self.closures.right + self.closures.missed.saturating_sub(open),
-            missed: open,
-            ..self.closures
-        }
-    }
-
-    /// The length of the shortest way from start to goal over the fragments that were walked, by observations.
-    fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
-        let (start, _) = maze.start()?;
-        let node = |cell: Cell| maze.grid().index(cell) as u32;
-        let walked = |(from, way): (Cell, Way)| {
-            let length = self.lengths.get(&way.fragment)?;
-            Some((node(from), node(way.to), *length))
-        };
-        let arcs: Vec<_> = self.fragments.ways().filter_map(walked).collect();
-        let costs = costs_from(&Arcs::new(maze.grid().cell_count(), &arcs), [node(start)]);
-        let goals = maze.goals().iter();
-        goals.filter_map(|goal| costs[node(*goal) as usize]).min()
-    }
-
-    /// The length of a drive, in observations of the fragments it was along; none if one of them was not walked before.
-    fn length_of(&self, world: &World, path: &[Pose]) -> Option<u32> {
-        let cells = path.iter().filter_map(|pose| world.cell_at(pose.position));
-        let driven = self.fragments.driven(cells)?;
-        let lengths = driven
-            .iter()
-            .map(|way| self.lengths.get(&way.fragment).copied());
-        lengths.sum()
-    }
-}
-
 /// Why a trial cannot be played.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -450,7 +305,7 @@ pub enum TrialError {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::sync::LazyLock;
 
     use tolman_maps::cpm::{Matching, Similarity};
@@ -466,7 +321,8 @@ mod tests {
         tolman_maze::read(text).unwrap().maze
     }
 
-    static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
+    /// What a robot learns in the learning maze, for all tests of CPM.
+    pub(in crate::agents::cpm) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
         let maze = read(include_str!("../../../../../mazes/cpm-learning.maze"));
         learn(&maze, WIDTH, 1).unwrap()
     });

@@ -305,7 +305,7 @@ fn true_places(maze: &Maze, world: &World) -> BTreeMap<u32, TruePlace> {
     let fragments = TrueFragments::of(maze);
     let site = |cell: Cell| maze.grid().index(cell) as u32;
     let mut places = BTreeMap::new();
-    for (cell, _) in fragments.ways() {
+    for (cell, ..) in fragments.ways() {
         let leads = |way| fragments.way(cell, heading_of(way)).map(|way| site(way.to));
         let place = TruePlace {
             site: site(cell),

@@ -11,6 +11,7 @@ use super::learn::LEARNING_MAZE;
 use super::venue;
 use crate::cli::Failure;
 use crate::cli::failure::OrBadInput;
+use crate::cli::share::share;
 
 /// Lets an e-puck walk every fragment of mazes both ways, and exits 2 if two of them look alike
 #[derive(clap::Args)]
@@ -28,7 +29,7 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     walks: u16,
     /// How similar two fragments may be, by f_S; the paper takes those above 0.9 for one
-    #[arg(long, value_name = "F_S", default_value_t = 0.8, value_parser = similarity)]
+    #[arg(long, value_name = "F_S", default_value_t = 0.8, value_parser = share)]
     below: f64,
 }
 
@@ -57,15 +58,6 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         }
     }
     Ok(())
-}
-
-/// Within 0 … 1.
-fn similarity(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "give a number".to_owned())?;
-    let is_one = (0.0..=1.0).contains(&value);
-    is_one
-        .then_some(value)
-        .ok_or_else(|| "give a number from 0 to 1".to_owned())
 }
 
 fn told(pair: &Pair) -> String {

@@ -139,7 +139,7 @@ impl JunctionTask {
     fn of(maze: &Maze) -> Result<Self, BoxError> {
         let fragments = TrueFragments::of(maze);
         let mut out: BTreeMap<Cell, Vec<Way>> = BTreeMap::new();
-        for (from, way) in fragments.ways() {
+        for (from, _, way) in fragments.ways() {
             out.entry(from).or_default().push(way);
         }
         let places: Vec<Cell> = out.keys().copied().collect();

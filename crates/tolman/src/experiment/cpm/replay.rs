@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_geom::Point;
+use tolman_geom::{Point, Pose};
 use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Sign};
 use tolman_maze::Maze;
 use tolman_robot::Body;
@@ -22,10 +22,7 @@ pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Repl
     let world = venue.world()?;
     let mut watch = Watch::new(&venue.maze, &world);
     let record = trial.watch(|agent, step| watch.see(agent, step))?;
-    let body = Body::Circle {
-        radius: BODY_RADIUS,
-    };
-    let mut track = Track::new("e-puck", body, record.path.clone());
+    let mut track = track(&record.path);
     let begun = record.second_from as u32;
     let mut second = Marks::new(Mark::Arrival, "second episode");
     if record.second.is_some() {
@@ -34,23 +31,15 @@ pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Repl
         watch.arrivals.say(begun, "drives by the map");
     }
     track.marks = vec![second];
-    track.maps = vec![watch.growth()];
-    track.notes = vec![watch.arrivals];
-    track.series = vec![watch.fragments];
-    let step_s = epuck().step_us as f64 * 1e-6;
-    let title = format!("{}, run {}", job.row, job.run);
     let outcome = if record.is_solved() {
         "solved"
     } else {
         "not solved"
     };
-    Ok(
-        Replay::new(title, step_s, Scenery::of_world(&world), vec![track])
-            .fact("maze", &venue.name)
-            .fact("seed", job.seed.to_string())
-            .fact("outcome", outcome)
-            .fact("fragments walked", record.traversals.to_string()),
-    )
+    Ok(watch
+        .replay(venue, job, track)
+        .fact("outcome", outcome)
+        .fact("fragments walked", record.traversals.to_string()))
 }
 
 /// Plays a round trip again and watches it: to the goal, back, and to the goal again.
@@ -62,10 +51,7 @@ pub(super) fn of_round_trip(
     let world = venue.world()?;
     let mut watch = Watch::new(&venue.maze, &world);
     let trip = trial.watch_round_trip(|agent, step| watch.see(agent, step))?;
-    let body = Body::Circle {
-        radius: BODY_RADIUS,
-    };
-    let mut track = Track::new("e-puck", body, trip.path.clone());
+    let mut track = track(&trip.path);
     for (episode, begun, name) in [
         (trip.back, trip.back_from, "way back"),
         (trip.again, trip.again_from, "to the goal again"),
@@ -76,18 +62,18 @@ pub(super) fn of_round_trip(
             track.marks.push(mark);
         }
     }
-    track.maps = vec![watch.growth()];
-    track.notes = vec![watch.arrivals];
-    track.series = vec![watch.fragments];
-    let step_s = epuck().step_us as f64 * 1e-6;
-    let title = format!("{}, run {}", job.row, job.run);
-    Ok(
-        Replay::new(title, step_s, Scenery::of_world(&world), vec![track])
-            .fact("maze", &venue.name)
-            .fact("seed", job.seed.to_string())
-            .fact("tried on the way", trip.tried.to_string())
-            .fact("given up", trip.given_up.to_string()),
-    )
+    Ok(watch
+        .replay(venue, job, track)
+        .fact("tried on the way", trip.tried.to_string())
+        .fact("given up", trip.given_up.to_string()))
+}
+
+/// Where an e-puck was after every step.
+fn track(path: &[Pose]) -> Track {
+    let body = Body::Circle {
+        radius: BODY_RADIUS,
+    };
+    Track::new("e-puck", body, path.to_vec())
 }
 
 /// What is noted at the end of each fragment.
@@ -126,6 +112,19 @@ impl<'a> Watch<'a> {
                 samples: Vec::new(),
             },
         }
+    }
+
+    /// The replay of a track, with what was seen on it.
+    fn replay(self, venue: &Venue, job: &Job<'_>, mut track: Track) -> Replay {
+        let scenery = Scenery::of_world(self.world);
+        track.maps = vec![self.growth()];
+        track.notes = vec![self.arrivals];
+        track.series = vec![self.fragments];
+        let step_s = epuck().step_us as f64 * 1e-6;
+        let title = format!("{}, run {}", job.row, job.run);
+        Replay::new(title, step_s, scenery, vec![track])
+            .fact("maze", &venue.name)
+            .fact("seed", job.seed.to_string())
     }
 
     fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
