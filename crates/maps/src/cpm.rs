@@ -44,6 +44,7 @@
 //! ```
 
 mod alignment;
+mod beam;
 mod config;
 mod environments;
 mod explorer;

@@ -53,6 +53,16 @@ pub enum Mapping {
     },
 }
 
+impl Mapping {
+    /// Whether a robot that has walked so many fragments looks at its map.
+    pub(super) const fn looks_at_map(self, traversals: u32) -> bool {
+        match self {
+            Self::Offline { patience } => traversals >= patience,
+            Self::Online | Self::Hypotheses { .. } => true,
+        }
+    }
+}
+
 /// What a robot does online at a junction that "has no unknown ports left".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Onward {

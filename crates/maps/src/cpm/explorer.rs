@@ -3,8 +3,9 @@ use alloc::vec::Vec;
 use rand::{Rng, RngExt};
 use thiserror::Error;
 
+use super::beam::{Beam, Understood};
 use super::config::{CpmConfig, Mapping, Onward};
-use super::hypothesis::{Belief, Hypothesis};
+use super::hypothesis::Belief;
 use super::map::{CpMap, End, JunctionId, Port, PortState};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
@@ -22,13 +23,42 @@ use super::turn::{NoSuchTurn, Turn};
 #[derive(Clone, Debug)]
 pub struct Explorer {
     config: CpmConfig,
-    /// The most likely one; offline and online there is no other.
-    best: Hypothesis,
-    /// The others, the likelier first.
-    rivals: Vec<Hypothesis>,
+    knowledge: Knowledge,
     traversals: u32,
     before_duplicate: Option<u32>,
     contradictions: u32,
+}
+
+/// What the robot knows of the maze, and where it is there.
+#[derive(Clone, Debug)]
+enum Knowledge {
+    /// Offline and online: one map.
+    Map(Mapper),
+    /// [`Mapping::Hypotheses`].
+    Beam(Beam),
+}
+
+impl Knowledge {
+    fn new(mapping: Mapping, mapper: Mapper) -> Self {
+        match mapping {
+            Mapping::Hypotheses { width } => Self::Beam(Beam::new(mapper, width)),
+            Mapping::Offline { .. } | Mapping::Online => Self::Map(mapper),
+        }
+    }
+
+    fn mapper(&self) -> &Mapper {
+        match self {
+            Self::Map(mapper) => mapper,
+            Self::Beam(beam) => beam.best(),
+        }
+    }
+
+    fn map_mut(&mut self) -> &mut CpMap {
+        match self {
+            Self::Map(mapper) => &mut mapper.map,
+            Self::Beam(beam) => beam.best_map_mut(),
+        }
+    }
 }
 
 /// What the robot wants.
@@ -116,9 +146,6 @@ pub enum CpmError {
     Dictionary(#[from] DictionaryError),
 }
 
-/// The logarithm of odds from which a hypothesis is given up.
-const HOPELESS: f64 = 25.0;
-
 /// Of one junction.
 pub(super) const MOST_PORTS: u32 = 1000;
 
@@ -134,11 +161,7 @@ impl Explorer {
         check(start)?;
         Ok(Self {
             config,
-            best: Hypothesis {
-                mapper: Mapper::new(start),
-                cost: 0.0,
-            },
-            rivals: Vec::new(),
+            knowledge: Knowledge::new(config.mapping, Mapper::new(start)),
             traversals: 0,
             before_duplicate: None,
             contradictions: 0,
@@ -153,11 +176,7 @@ impl Explorer {
         Turn::BACK.exit(at.number, map.degree(at.junction))?;
         Ok(Self {
             config,
-            best: Hypothesis {
-                mapper: Mapper { map, at },
-                cost: 0.0,
-            },
-            rivals: Vec::new(),
+            knowledge: Knowledge::new(config.mapping, Mapper { map, at }),
             traversals: 0,
             before_duplicate: None,
             contradictions: 0,
@@ -166,14 +185,14 @@ impl Explorer {
 
     /// The map as it is now. Offline it holds duplicates until it is [optimized](Self::optimize).
     #[must_use]
-    pub const fn map(&self) -> &CpMap {
-        &self.best.mapper.map
+    pub fn map(&self) -> &CpMap {
+        &self.knowledge.mapper().map
     }
 
     /// Where the robot is on the map: the port behind it.
     #[must_use]
-    pub const fn at(&self) -> Port {
-        self.best.mapper.at
+    pub fn at(&self) -> Port {
+        self.knowledge.mapper().at
     }
 
     /// How many fragments were walked to their end.
@@ -228,109 +247,33 @@ impl Explorer {
     ) -> Result<Arrival, CpmError> {
         check(walk.sighting)?;
         dictionary.check(&walk.patterns)?;
-        if let Some(version) = self.best.mapper.map.version {
+        if let Some(version) = self.map().version() {
             dictionary.check_version(version)?;
         }
-        let exit = self.best.mapper.exit(turn)?;
-        let arrival = match self.config.mapping {
-            Mapping::Hypotheses { width } => self.weigh(turn, walk, dictionary, width)?,
-            _ => self.reason(exit, walk, dictionary),
+        let (arrival, came_again) = match &mut self.knowledge {
+            Knowledge::Map(mapper) => {
+                let is_online = self.config.mapping.looks_at_map(self.traversals);
+                let arrival = reason(mapper, turn, walk, &self.config, is_online, dictionary)?;
+                let came_again = matches!(arrival, Arrival::Known | Arrival::Duplicate);
+                (arrival, came_again)
+            }
+            Knowledge::Beam(beam) => {
+                match beam.walked(turn, walk, &self.config.comparison(dictionary))? {
+                    Understood::As(belief) => (belief.into(), belief.came_again()),
+                    Understood::Anew(belief) => (Arrival::Revised, belief.came_again()),
+                    Understood::Not => (Arrival::Contradiction, false),
+                }
+            }
         };
+        if came_again {
+            self.before_duplicate.get_or_insert(self.traversals);
+        }
+        self.knowledge.map_mut().version = Some(dictionary.version());
         self.traversals += 1;
-        self.best.mapper.map.version = Some(dictionary.version());
         if arrival == Arrival::Contradiction {
             self.contradictions += 1;
         }
         Ok(arrival)
-    }
-
-    /// Offline and online: one map, on which what is similar is the same.
-    fn reason(&mut self, exit: Port, walk: &Traversal, dictionary: &Dictionary) -> Arrival {
-        let online = self.looks_at_map();
-        let config = self.config;
-        let mapper = &mut self.best.mapper;
-        let walked = mapper.walk(exit, walk, |map, known, sense| {
-            !online || trusts(&config, dictionary, map, walk, known, sense)
-        });
-        let (new, arrival) = match walked {
-            Walked::Known => {
-                self.came_again();
-                return Arrival::Known;
-            }
-            Walked::New(new) => (new, Arrival::New),
-            Walked::Contradicted(new) => (new, Arrival::Contradiction),
-        };
-        let merges = if online {
-            mapper.unify_with_similar(new, &config.comparison(dictionary))
-        } else {
-            None
-        };
-        match (merges, arrival) {
-            (Some(_), Arrival::New) => {
-                self.came_again();
-                Arrival::Duplicate
-            }
-            _ => arrival,
-        }
-    }
-
-    /// The fragment walked last was walked before.
-    fn came_again(&mut self) {
-        self.before_duplicate.get_or_insert(self.traversals);
-    }
-
-    /// With hypotheses: each makes others of the walk, of which the likeliest are kept.
-    fn weigh(
-        &mut self,
-        turn: Turn,
-        walk: &Traversal,
-        dictionary: &Dictionary,
-        width: u32,
-    ) -> Result<Arrival, CpmError> {
-        let judge = self.config.comparison(dictionary);
-        let mut all = Vec::new();
-        let before = core::iter::once(&self.best).chain(&self.rivals);
-        for (parent, hypothesis) in before.enumerate() {
-            // The same place looks the same in all, so the turn is there in all.
-            let after = hypothesis.after(turn, walk, &judge)?;
-            all.extend(
-                after
-                    .into_iter()
-                    .map(|(next, belief)| (next, belief, parent)),
-            );
-        }
-        all.sort_by(|(a, ..), (b, ..)| a.cost.total_cmp(&b.cost));
-        let mut all = all.into_iter();
-        let Some((best, belief, parent)) = all.next() else {
-            let exit = self.best.mapper.exit(turn)?;
-            self.best.mapper.walk(exit, walk, |_, _, _| false);
-            self.rivals.clear();
-            return Ok(Arrival::Contradiction);
-        };
-        let mut signatures = Vec::from([best.signature()]);
-        self.rivals.clear();
-        for (mut rival, ..) in all.take_while(|(rival, ..)| rival.cost < best.cost + HOPELESS) {
-            if signatures.len() >= width as usize {
-                break;
-            }
-            let signature = rival.signature();
-            if !signatures.contains(&signature) {
-                signatures.push(signature);
-                rival.cost -= best.cost;
-                self.rivals.push(rival);
-            }
-        }
-        self.best = Hypothesis { cost: 0.0, ..best };
-        if let Belief::Known | Belief::Duplicate = belief {
-            self.came_again();
-        }
-        Ok(match belief {
-            _ if parent > 0 => Arrival::Revised,
-            Belief::NewPlace => Arrival::New,
-            Belief::NewWay => Arrival::Loop,
-            Belief::Duplicate => Arrival::Duplicate,
-            Belief::Known => Arrival::Known,
-        })
     }
 
     /// The robot has turned round in an unknown fragment after so many observations, and is back at the junction it came from.
@@ -338,15 +281,13 @@ impl Explorer {
     /// # Errors
     /// [`CpmError::Turn`] if the junction has no such turn.
     pub fn turned_back(&mut self, turn: Turn, observations: u32) -> Result<(), CpmError> {
-        let exit = self.best.mapper.exit(turn)?;
-        self.best.mapper.came_back(exit, observations);
-        self.rivals.retain_mut(|rival| {
-            let exit = rival.mapper.exit(turn);
-            exit.is_ok_and(|exit| {
-                rival.mapper.came_back(exit, observations);
-                true
-            })
-        });
+        match &mut self.knowledge {
+            Knowledge::Map(mapper) => {
+                let exit = mapper.exit(turn)?;
+                mapper.came_back(exit, observations);
+            }
+            Knowledge::Beam(beam) => beam.turned_back(turn, observations)?,
+        }
         self.traversals += 1;
         Ok(())
     }
@@ -357,16 +298,13 @@ impl Explorer {
     /// # Errors
     /// [`CpmError::Dictionary`] if the map is another dictionary's.
     pub fn optimize(&mut self, dictionary: &Dictionary) -> Result<usize, CpmError> {
-        if let Some(version) = self.best.mapper.map.version {
+        if let Some(version) = self.map().version() {
             dictionary.check_version(version)?;
         }
-        if let Mapping::Hypotheses { .. } = self.config.mapping {
-            return Ok(0);
-        }
-        Ok(self
-            .best
-            .mapper
-            .optimize(&self.config.comparison(dictionary)))
+        Ok(match &mut self.knowledge {
+            Knowledge::Map(mapper) => mapper.optimize(&self.config.comparison(dictionary)),
+            Knowledge::Beam(_) => 0,
+        })
     }
 
     /// The shortest known way from here to a landmark; none if none is known.
@@ -382,8 +320,8 @@ impl Explorer {
     pub fn place(&mut self, at: Port) -> Result<(), CpmError> {
         let degree = self.map().degree(at.junction);
         Turn::BACK.exit(at.number, degree)?;
-        self.best.mapper.at = at;
-        self.rivals.clear();
+        let map = self.map().clone();
+        self.knowledge = Knowledge::new(self.config.mapping, Mapper { map, at });
         Ok(())
     }
 
@@ -402,13 +340,6 @@ impl Explorer {
         place.is_some_and(|place| place.landmark == Some(landmark))
     }
 
-    const fn looks_at_map(&self) -> bool {
-        match self.config.mapping {
-            Mapping::Offline { patience } => self.traversals >= patience,
-            _ => true,
-        }
-    }
-
     /// The first leg of the shortest known way to a landmark.
     fn towards(&self, landmark: Landmark) -> Option<Leg> {
         self.first_leg(|id| self.has(id, landmark))
@@ -425,7 +356,7 @@ impl Explorer {
     }
 
     fn explore(&self, rng: &mut impl Rng) -> Option<Leg> {
-        if !self.looks_at_map() {
+        if !self.config.mapping.looks_at_map(self.traversals) {
             return self.wander(rng);
         }
         let here = self.map().junction(self.at().junction)?;
@@ -454,7 +385,7 @@ impl Explorer {
         } else {
             Turn(rng.random_range(1..degree))
         };
-        let port = self.best.mapper.exit(turn).ok()?;
+        let port = self.knowledge.mapper().exit(turn).ok()?;
         self.leg_to(port.number, None)
     }
 
@@ -533,6 +464,46 @@ impl Explorer {
             })
         };
         self.first_leg(helps)
+    }
+}
+
+/// Offline and online: on the one map there is, what is similar is the same.
+fn reason(
+    mapper: &mut Mapper,
+    turn: Turn,
+    walk: &Traversal,
+    config: &CpmConfig,
+    is_online: bool,
+    dictionary: &Dictionary,
+) -> Result<Arrival, NoSuchTurn> {
+    let exit = mapper.exit(turn)?;
+    let walked = mapper.walk(exit, walk, |map, known, sense| {
+        !is_online || trusts(config, dictionary, map, walk, known, sense)
+    });
+    let (new, arrival) = match walked {
+        Walked::Known => return Ok(Arrival::Known),
+        Walked::New(new) => (new, Arrival::New),
+        Walked::Contradicted(new) => (new, Arrival::Contradiction),
+    };
+    let merges = if is_online {
+        mapper.unify_with_similar(new, &config.comparison(dictionary))
+    } else {
+        None
+    };
+    Ok(match (merges, arrival) {
+        (Some(_), Arrival::New) => Arrival::Duplicate,
+        _ => arrival,
+    })
+}
+
+impl From<Belief> for Arrival {
+    fn from(belief: Belief) -> Self {
+        match belief {
+            Belief::NewPlace => Self::New,
+            Belief::NewWay => Self::Loop,
+            Belief::Duplicate => Self::Duplicate,
+            Belief::Known => Self::Known,
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::map::{End, Fragment, FragmentId, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
 use super::similarity::Sense;
-use super::traversal::{Motion, Traversal};
+use super::traversal::{Landmark, Motion, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 
 /// One way to understand all that the robot has met: a map, and what it costs to believe in it.
@@ -33,7 +33,18 @@ pub(super) enum Belief {
     Known,
 }
 
+impl Belief {
+    /// Whether the fragment had been walked before.
+    pub(super) const fn came_again(self) -> bool {
+        matches!(self, Self::Known | Self::Duplicate)
+    }
+}
+
 impl Hypothesis {
+    pub(super) const fn certain(mapper: Mapper) -> Self {
+        Self { mapper, cost: 0.0 }
+    }
+
     /// All hypotheses that a walk makes of this one; none if it cannot have been.
     pub(super) fn after(
         &self,
@@ -57,12 +68,34 @@ impl Hypothesis {
             ..self.clone()
         };
         let mut all = base.to_places(exit, walk);
+        let is_known_place = self.is_known_place(exit, walk);
         let mut new = base;
         let fragment = new.mapper.append(exit, walk);
         all.extend(new.duplicates(fragment, judge));
-        new.cost += NEW_PLACE;
-        all.push((new, Belief::NewPlace));
+        if !is_known_place {
+            new.cost += NEW_PLACE;
+            all.push((new, Belief::NewPlace));
+        }
         Ok(all)
+    }
+
+    /// Whether a walk has led, for certain, to a place of the map: to the only start, or where one like it is and two do not fit.
+    fn is_known_place(&self, exit: Port, walk: &Traversal) -> bool {
+        // Without bounds no way leads to known places but over fragments that are known.
+        let Some(motion) = walk.motion else {
+            return false;
+        };
+        let map = &self.mapper.map;
+        let is_start = walk.sighting.landmark == Some(Landmark::Start);
+        if is_start && map.landmarks(Landmark::Start).next().is_some() {
+            return true;
+        }
+        let positions = map.positions_from(exit.junction);
+        positions.iter().any(|(id, position)| {
+            let place = map.junction(*id);
+            place.is_some_and(|place| place.sighting() == walk.sighting)
+                && position.distance(motion.displacement).high() < LEAST_APART
+        })
     }
 
     /// The walk followed a fragment of the map.
@@ -259,6 +292,9 @@ fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
 }
+
+/// No two places are nearer to each other, m: it is less than the width of any robot that could tell them apart.
+const LEAST_APART: f64 = 0.05;
 
 /// What a new place costs: a map with fewer is simpler.
 const NEW_PLACE: f64 = 1.0;

@@ -175,6 +175,41 @@ proptest! {
     }
 }
 
+/// A beam as narrow as can be loses the truth, finds out, and looks again with a wider one.
+#[test]
+fn the_truth_is_found_again() {
+    let mut revised = 0;
+    for seed in 0..100 {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let maze = MazeConfig {
+            columns: 4,
+            rows: 4,
+            loops: 0.9,
+            diagonals: 0.9,
+            ..MazeConfig::small()
+        };
+        let world = World::random(&maze, &mut rng).unwrap();
+        let config = CpmConfig {
+            mapping: Mapping::Hypotheses { width: 1 },
+            most_traversals: 400,
+            ..CpmConfig::robust()
+        };
+        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+        let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+            let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
+                unreachable!("it was not told to give up");
+            };
+            let arrival = explorer.arrive(leg.turn, &walk, world.dictionary());
+            revised += u32::from(arrival.unwrap() == Arrival::Revised);
+        }
+        let check = world.check(explorer.map(), explorer.at(), rover.at());
+        assert_eq!(check, MapCheck::Right, "seed {seed}");
+        assert_eq!(explorer.contradictions(), 0, "seed {seed}");
+    }
+    assert!(revised > 0);
+}
+
 /// On a large map the index finds the duplicates among all fragments that share patterns.
 #[test]
 fn a_large_maze_needs_few_comparisons() {

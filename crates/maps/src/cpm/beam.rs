@@ -1,0 +1,198 @@
+use alloc::vec::Vec;
+
+use super::hypothesis::{Belief, Hypothesis};
+use super::map::CpMap;
+use super::mapper::{Comparison, Mapper};
+use super::traversal::Traversal;
+use super::turn::{NoSuchTurn, Turn};
+
+/// The likeliest ways to understand all that the robot has met: a beam search over hypotheses.
+///
+/// Where much is open at once a beam may lose the truth. It is known by a walk that no hypothesis explains; all that was met is
+/// gone through again then with a wider beam.
+#[derive(Clone, Debug)]
+pub(super) struct Beam {
+    /// The likeliest first, never empty. Costs are counted from that of the first.
+    hypotheses: Vec<Hypothesis>,
+    /// How many there are at most.
+    width: usize,
+    /// How many there were to be at most.
+    narrow: usize,
+    /// What was known when the first of `met` was met.
+    begin: Mapper,
+    met: Vec<Event>,
+}
+
+#[derive(Clone, Debug)]
+enum Event {
+    Walked(Turn, Traversal),
+    TurnedBack(Turn, u32),
+}
+
+/// What the likeliest hypothesis makes of a walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Understood {
+    /// All before is understood as it was.
+    As(Belief),
+    /// What was met before is understood in another way now.
+    Anew(Belief),
+    /// No hypothesis explains it.
+    Not,
+}
+
+/// What a walk makes of one of the hypotheses before it.
+struct Child {
+    hypothesis: Hypothesis,
+    belief: Belief,
+    /// Its parent's place in the beam.
+    parent: usize,
+}
+
+/// The logarithm of odds from which a hypothesis is given up.
+const HOPELESS: f64 = 25.0;
+
+/// A beam that has lost the truth is made up to so many times as wide.
+const WIDEST: usize = 16;
+
+impl Beam {
+    /// It begins with what is known for certain.
+    pub(super) fn new(begin: Mapper, width: u32) -> Self {
+        let narrow = width.max(1) as usize;
+        Self {
+            hypotheses: Vec::from([Hypothesis::certain(begin.clone())]),
+            width: narrow,
+            narrow,
+            begin,
+            met: Vec::new(),
+        }
+    }
+
+    /// The likeliest map, and where the robot is on it.
+    pub(super) fn best(&self) -> &Mapper {
+        self.hypotheses
+            .first()
+            .map_or(&self.begin, |best| &best.mapper)
+    }
+
+    pub(super) fn best_map_mut(&mut self) -> &mut CpMap {
+        match self.hypotheses.first_mut() {
+            Some(best) => &mut best.mapper.map,
+            None => &mut self.begin.map,
+        }
+    }
+
+    /// Takes in a walk. O(width · fragments) comparisons; where the beam has to be wider, as many for each walk since the beginning.
+    ///
+    /// # Errors
+    /// If the place where the robot is has no such turn; nothing is changed then.
+    pub(super) fn walked(
+        &mut self,
+        turn: Turn,
+        walk: &Traversal,
+        judge: &Comparison<'_>,
+    ) -> Result<Understood, NoSuchTurn> {
+        let exit = self.best().exit(turn)?;
+        let children = children(&self.hypotheses, turn, walk, judge, self.width)?;
+        self.met.push(Event::Walked(turn, walk.clone()));
+        if let Some(first) = children.first() {
+            let understood = match first.parent {
+                0 => Understood::As(first.belief),
+                _ => Understood::Anew(first.belief),
+            };
+            self.hypotheses = hypotheses(children);
+            return Ok(understood);
+        }
+        while self.width < WIDEST * self.narrow {
+            self.width *= 2;
+            if let Some(belief) = self.look_again(judge) {
+                return Ok(Understood::Anew(belief));
+            }
+        }
+        // It goes on with what it has found, apart from the rest.
+        let mut adrift = self.best().clone();
+        adrift.walk(exit, walk, |_, _, _| false);
+        *self = Self::new(adrift, self.narrow as u32);
+        Ok(Understood::Not)
+    }
+
+    /// Goes through all that was met. Returns what was believed of the last walk; nothing, and the beam is as before, if nothing explains all.
+    fn look_again(&mut self, judge: &Comparison<'_>) -> Option<Belief> {
+        let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
+        let mut belief = None;
+        for event in &self.met {
+            match event {
+                Event::Walked(turn, walk) => {
+                    let children = children(&now, *turn, walk, judge, self.width).ok()?;
+                    belief = Some(children.first()?.belief);
+                    now = hypotheses(children);
+                }
+                Event::TurnedBack(turn, observations) => turn_back(&mut now, *turn, *observations),
+            }
+        }
+        self.hypotheses = now;
+        belief
+    }
+
+    /// The robot has turned round in an unknown fragment after so many observations.
+    ///
+    /// # Errors
+    /// If the place where the robot is has no such turn; nothing is changed then.
+    pub(super) fn turned_back(&mut self, turn: Turn, observations: u32) -> Result<(), NoSuchTurn> {
+        self.best().exit(turn)?;
+        turn_back(&mut self.hypotheses, turn, observations);
+        self.met.push(Event::TurnedBack(turn, observations));
+        Ok(())
+    }
+}
+
+fn turn_back(hypotheses: &mut Vec<Hypothesis>, turn: Turn, observations: u32) {
+    hypotheses.retain_mut(|hypothesis| {
+        let exit = hypothesis.mapper.exit(turn);
+        exit.is_ok_and(|exit| {
+            hypothesis.mapper.came_back(exit, observations);
+            true
+        })
+    });
+}
+
+/// What a walk makes of the hypotheses, the likeliest first; of those that say the same one.
+fn children(
+    parents: &[Hypothesis],
+    turn: Turn,
+    walk: &Traversal,
+    judge: &Comparison<'_>,
+    width: usize,
+) -> Result<Vec<Child>, NoSuchTurn> {
+    let mut all = Vec::new();
+    for (parent, hypothesis) in parents.iter().enumerate() {
+        // The same place looks the same in all, so the turn is there in all.
+        for (hypothesis, belief) in hypothesis.after(turn, walk, judge)? {
+            all.push(Child {
+                hypothesis,
+                belief,
+                parent,
+            });
+        }
+    }
+    all.sort_by(|a, b| a.hypothesis.cost.total_cmp(&b.hypothesis.cost));
+    let least = all.first().map_or(0.0, |best| best.hypothesis.cost);
+    let mut signatures = Vec::new();
+    let mut kept = Vec::new();
+    for mut child in all {
+        child.hypothesis.cost -= least;
+        if kept.len() >= width || child.hypothesis.cost >= HOPELESS {
+            break;
+        }
+        let signature = child.hypothesis.signature();
+        if !signatures.contains(&signature) {
+            signatures.push(signature);
+            kept.push(child);
+        }
+    }
+    Ok(kept)
+}
+
+fn hypotheses(children: Vec<Child>) -> Vec<Hypothesis> {
+    let hypotheses = children.into_iter().map(|child| child.hypothesis);
+    hypotheses.collect()
+}
