@@ -51,6 +51,7 @@ mod grid;
 mod ids;
 mod indexing;
 mod journal;
+mod look_learning;
 mod looks;
 mod map;
 #[cfg(feature = "serde")]
@@ -88,7 +89,7 @@ pub use matching::Matcher;
 pub use observation::{Exits, Move, Outcome, Start};
 pub use observer::Observer;
 pub use opportunities::{Opportunity, OpportunityKind};
-pub use path_graph::{Estim, Fate, Link, Note, PathGraph, Place, Standing, Successor};
+pub use path_graph::{Estim, Fate, Ground, Link, Note, PathGraph, Place, Standing, Successor};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
     Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport,

@@ -4,20 +4,16 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::config::{Config, Use};
 use super::estimator::trusted_odometry;
 use super::ids::{LinkId, PlaceId};
-use super::looks::Similarity;
-use super::map::{Diktiometry, Site};
+use super::map::Site;
 use super::matching::{Choice, Look, Matcher, remember};
 use super::observation::Move;
 use super::observer::Observer;
-use super::path_graph::{Fate, Note, Successor};
+use super::path_graph::{Fate, Ground, Successor};
 use super::projector::{Projection, between_places};
-use super::reference_graph::search;
 use super::report::{Contradiction, Culprit};
-use super::restructuring::{Hints, anywhere, elide_place, tell_apart};
-use super::signature::Signature;
+use super::restructuring::{Hints, elide_place};
 use super::track::Track;
 use super::updater::{arrive, see_exits};
 
@@ -90,8 +86,7 @@ impl Observer {
         see_exits(&mut self.map, to, &step.exits, &self.config);
         let pairs = choice.doubts.iter().chain(&choice.twins);
         for &other in pairs.filter(|&&other| other != to) {
-            self.note(to, other);
-            self.note(other, to);
+            self.map.paths.note(to, other, Ground::Position);
         }
         hints
             .near
@@ -143,61 +138,6 @@ impl Observer {
         (self.map.new_place(Site::OwnFrame), PointBox::ORIGIN)
     }
 
-    /// A place is new: which of those around it are different for certain, and whether they look like it. O(a search) if
-    /// looks are used; all places are gone through if they tell more than before.
-    fn learn_looks(&mut self, place: PlaceId, view: &Signature, hints: &mut Hints) {
-        if self.config.restructuring.look_merge == Use::Off {
-            return;
-        }
-        let alike = self.views.alike(view, &self.config, &self.map.paths);
-        let apart = apart(&self.map, place, &self.config);
-        for other in &apart {
-            let look = match alike.binary_search(other) {
-                Ok(_) => Similarity::Alike,
-                Err(_) => Similarity::Unlike,
-            };
-            tell_apart(&mut self.map, [place, *other], look, &self.config);
-        }
-        if alike.is_empty() {
-            self.map.looks.kinds = self.map.looks.kinds.saturating_add(1);
-        }
-        if anywhere(&self.map, &self.config).is_none() {
-            return;
-        }
-        self.note_alike(place, &alike, &apart);
-        if alike.is_empty() {
-            // Looks tell more than before, of places where the robot may never come again, too.
-            let places: Vec<PlaceId> = self.map.paths.places().map(|(id, _)| id).collect();
-            for id in places {
-                let views = self.map.paths.places[id.index()].views.first();
-                let alike = views.map(|view| self.views.alike(view, &self.config, &self.map.paths));
-                let alike = alike.unwrap_or_default();
-                if alike.len() > 1 {
-                    let apart = self::apart(&self.map, id, &self.config);
-                    self.note_alike(id, &alike, &apart);
-                    hints.near.push(id);
-                }
-            }
-        }
-    }
-
-    /// Notes the places that look like a place, but for those that are not it for certain.
-    fn note_alike(&mut self, place: PlaceId, alike: &[PlaceId], apart: &[PlaceId]) {
-        for &other in alike {
-            if other != place && !apart.contains(&other) {
-                self.note(place, other);
-                self.note(other, place);
-            }
-        }
-    }
-
-    fn note(&mut self, at: PlaceId, other: PlaceId) {
-        let notes = &mut self.map.paths.places[at.index()].notes;
-        if notes.iter().all(|note| note.other != other) {
-            notes.push(Note { other });
-        }
-    }
-
     fn traverse(&mut self, from: PlaceId, projection: &Projection) {
         let place = &self.map.paths.places[from.index()];
         let [start, end] = [place.position, projection.position].map(PointBox::middle);
@@ -231,19 +171,4 @@ impl Observer {
             elide_place(&mut self.map, place);
         }
     }
-}
-
-/// The places around a place that are different from it for certain.
-fn apart(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<PlaceId> {
-    let here = &map.paths.places[place.index()];
-    let reached = search(&map.reference, here.frame, &config.search);
-    let all = reached.iter().flat_map(|around| {
-        let places = &map.reference.frames[around.frame.index()].places;
-        places.iter().map(|other| (*other, around.position))
-    });
-    let excluded = all.filter(|(other, frame)| {
-        let there = *frame + map.paths.places[other.index()].position;
-        *other != place && !there.meets(here.position)
-    });
-    excluded.map(|(other, _)| other).collect()
 }

@@ -104,6 +104,14 @@ pub struct SignatureKind {
     pub views: usize,
 }
 
+impl SignatureKind {
+    /// How many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
+    pub(super) fn enough(&self) -> usize {
+        let enough = libm::ceil(self.share * self.columns as f64 - 1e-9) as usize;
+        enough.max(1)
+    }
+}
+
 /// Whether views of one place may be turned against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -15,6 +15,10 @@ pub struct Looks {
     pub followed: u32,
     /// Those of them whose neighbours look alike, too.
     pub repeating: u32,
+    /// Places before this id were held against all that look like them.
+    pub(super) noted: usize,
+    /// The fewest kinds of looks so far that would do for a merge where geometry knows nothing.
+    pub(super) least_wanted: Option<usize>,
 }
 
 impl Looks {
@@ -37,10 +41,10 @@ impl Looks {
         wilson_upper(rate, trials).max(repeats)
     }
 
-    /// Geometry has told that two places are two.
+    /// Counts two places that geometry has told apart.
     ///
     /// Of two that look alike, `neighbours` says how two look that the same action leads from or to, if any are known.
-    pub(super) fn tell_apart(&mut self, look: Similarity, neighbours: Option<Similarity>) {
+    pub(super) fn count(&mut self, look: Similarity, neighbours: Option<Similarity>) {
         self.different = self.different.saturating_add(1);
         if look == Similarity::Unlike {
             return;
@@ -94,11 +98,11 @@ mod tests {
         };
         assert!(looks.chance_of_alike() < 0.01);
         for _ in 0..20 {
-            looks.tell_apart(Similarity::Alike, Some(Similarity::Unlike));
+            looks.count(Similarity::Alike, Some(Similarity::Unlike));
         }
         assert!(looks.chance_of_alike() < 0.01);
         for _ in 0..20 {
-            looks.tell_apart(Similarity::Alike, Some(Similarity::Alike));
+            looks.count(Similarity::Alike, Some(Similarity::Alike));
         }
         assert!(looks.chance_of_alike() > 0.4);
     }

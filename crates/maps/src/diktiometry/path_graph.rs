@@ -91,11 +91,22 @@ pub struct Estim {
     pub weight: f64,
 }
 
-/// "A note is made of the operation to be performed": a merge that waits for a narrower box.
+/// "A note is made of the operation to be performed": a merge that waits for a narrower box or for more looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Note {
     /// The place that may be the same as the one the note is left at.
     pub other: PlaceId,
+    /// Why it may be.
+    pub ground: Ground,
+}
+
+/// Why two places may be one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// Their boxes meet.
+    Position,
+    /// They look alike, however far apart they may be.
+    Look,
 }
 
 /// An action link: the action led from one place to another. Several links may bear the same action.
@@ -241,6 +252,19 @@ impl PathGraph {
             ..Place::new(place.frame, place.position)
         };
         core::mem::replace(place, grave)
+    }
+
+    /// Notes at both of two places that they may be one.
+    pub(super) fn note(&mut self, a: PlaceId, b: PlaceId, ground: Ground) {
+        for (at, other) in [(a, b), (b, a)] {
+            let notes = &mut self.places[at.index()].notes;
+            match notes.iter_mut().find(|note| note.other == other) {
+                // Nearness is asked for more often than looks are.
+                Some(note) if ground == Ground::Position => note.ground = ground,
+                Some(_) => {}
+                None => notes.push(Note { other, ground }),
+            }
+        }
     }
 
     /// How many places stand.

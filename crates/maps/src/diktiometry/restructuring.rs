@@ -2,7 +2,7 @@
 
 mod geometric;
 mod local_path;
-mod looks;
+mod look_agreement;
 mod merge;
 mod non_local_path;
 mod split;
@@ -18,7 +18,7 @@ use super::map::Diktiometry;
 use super::matching::share_a_view;
 use super::path_graph::{Estim, Fate};
 use super::report::Restructured;
-pub(super) use looks::{anywhere, tell_apart};
+pub(super) use look_agreement::{learn_of_two, wanted_anywhere};
 pub(super) use non_local_path::deposit;
 pub(super) use transients::elide_place;
 
@@ -97,7 +97,11 @@ pub(super) fn restructure(
         let Some(place) = map.paths.resolve(hint) else {
             continue;
         };
-        let noted = geometric::noted(map, place, config);
+        let noted = if changed || geometric::is_nearness_noted(map, place) {
+            geometric::noted(map, place, config)
+        } else {
+            look_agreement::noted(map, place, config)
+        };
         let mut near = Vec::new();
         if changed {
             done.extend(transients::elide(map, place, occupied, config));
@@ -160,7 +164,7 @@ fn merge_verdicts(
         .chain(iter::once_with(views))
         .chain(iter::once_with(|| local_path::merge(map, pair, config)))
         .chain(iter::once_with(|| non_local_path::merge(map, pair, config)))
-        .chain(iter::once_with(|| looks::merge(map, pair, config)))
+        .chain(iter::once_with(|| look_agreement::merge(map, pair, config)))
 }
 
 /// What is proposed for a place that is two. Neither restructurer has grounds to reject what the other sees: places at one

@@ -26,17 +26,18 @@ pub(in crate::diktiometry) struct ViewIndex {
 }
 
 impl ViewIndex {
-    /// Takes in a view of a place. O(features · log features), and now and then all of them anew.
+    /// Takes in a view of a place. O(features of the view · log² views), amortized.
     pub(in crate::diktiometry) fn insert(
         &mut self,
         place: PlaceId,
         view: &Signature,
         config: &Config,
     ) {
-        self.columns.insert(place, view);
-        if let (PerceptualIndexing::Triangles, Percepts::Signatures(kind)) =
-            (config.indexing.perceptual, &config.percepts)
-        {
+        let Percepts::Signatures(kind) = &config.percepts else {
+            return;
+        };
+        self.columns.insert(place, view, kind);
+        if config.indexing.perceptual == PerceptualIndexing::Triangles {
             self.triangles.insert(place, view, kind);
         }
     }

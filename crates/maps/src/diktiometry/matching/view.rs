@@ -35,13 +35,11 @@ pub(in crate::diktiometry) fn alike(
     other: &Signature,
     kind: &SignatureKind,
 ) -> bool {
-    // Of 8 columns at a share of 0.6, 5 have to agree.
-    let enough = libm::ceil(kind.share * kind.columns as f64 - 1e-9) as usize;
     let offsets = match kind.rotation {
         Rotation::Aligned => 1,
         Rotation::Free => kind.columns,
     };
-    (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= enough)
+    (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= kind.enough())
 }
 
 /// Adds a percept to a place's view set, if it has none like it and room is left; returns whether it did.

@@ -4,12 +4,13 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use super::{Diagnosis, Verdict, looks};
+use super::look_agreement::{self, Sight};
+use super::{Diagnosis, Verdict};
 use crate::diktiometry::config::{Config, GeometricMerge, Use};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::map::Diktiometry;
 use crate::diktiometry::matching::{share_a_view, similarity};
-use crate::diktiometry::path_graph::Estim;
+use crate::diktiometry::path_graph::{Estim, Ground, Note};
 use crate::diktiometry::reference_graph::search;
 use crate::diktiometry::updater::merge_estims;
 
@@ -51,44 +52,59 @@ pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair
     })
 }
 
+/// Whether it is noted at a place that another may be one with it by its position.
+pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
+    let notes = &map.paths.places[place.index()].notes;
+    notes.iter().any(|note| note.ground == Ground::Position)
+}
+
+/// The notes at `place`, taken from it, with the places they mean by their names now; those that were settled elsewhere are left out.
+pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<Note> {
+    let mut notes = core::mem::take(&mut map.paths.places[place.index()].notes);
+    let mut seen: Vec<PlaceId> = Vec::new();
+    notes.retain_mut(|note| {
+        let other = map.paths.resolve(note.other);
+        let Some(other) = other.filter(|other| *other != place && !seen.contains(other)) else {
+            return false;
+        };
+        seen.push(other);
+        note.other = other;
+        true
+    });
+    notes
+}
+
 /// The pairs noted at `place`, with what is known of them now. Notes that are settled are taken away.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
-    let notes = core::mem::take(&mut map.paths.places[place.index()].notes);
+    let notes = take_notes(map, place);
     if notes.is_empty() {
         return Vec::new();
     }
     let here = &map.paths.places[place.index()];
     let (frame, position) = (here.frame, here.position);
     let reached = search(&map.reference, frame, &config.search);
-    let wanted = looks::anywhere(map, config);
+    let wanted = look_agreement::wanted_anywhere(map, config);
     let mut pairs: Vec<Pair> = Vec::new();
-    let mut left = Vec::new();
-    for mut note in notes {
-        let Some(other) = map
-            .paths
-            .resolve(note.other)
-            .filter(|other| *other != place)
-        else {
-            continue; // It was settled elsewhere.
-        };
-        if left.contains(&other) {
-            continue;
-        }
+    for note in notes {
+        let other = note.other;
         let there = &map.paths.places[other.index()];
         let way = reached.iter().find(|reached| reached.frame == there.frame);
-        let offset = way
-            .map(|way| way.position + there.position - position)
-            .or_else(|| looks::out_of_reach(map, place, other, wanted?, config));
+        let mut offset = way.map(|way| way.position + there.position - position);
+        if let (None, Some(wanted)) = (offset, wanted) {
+            match look_agreement::out_of_reach(map, place, other, wanted, config) {
+                Sight::Same(there) => offset = Some(there),
+                Sight::Different if note.ground == Ground::Look => continue,
+                Sight::Different | Sight::Open => {}
+            }
+        }
         // What cannot be one is settled, too. It was noted at both.
         let apart = offset.is_some_and(|offset| !offset.contains(Point::origin()));
         if apart && place < other {
             let [a, b] = [place, other].map(|place| &map.paths.places[place.index()]);
             let look = similarity(a, b, &config.percepts);
-            looks::tell_apart(map, [place, other], look, config);
+            look_agreement::learn_of_two(map, [place, other], look, config);
         }
         if !apart {
-            left.push(other);
-            note.other = other;
             map.paths.places[place.index()].notes.push(note);
         }
         if let Some(offset) = offset {

@@ -1,8 +1,9 @@
+use alloc::vec;
 use alloc::vec::Vec;
 
+use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use super::{Vote, elected};
-use crate::diktiometry::config::SignatureKind;
+use crate::diktiometry::config::{Rotation, SignatureKind};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::path_graph::PathGraph;
 use crate::diktiometry::signature::Signature;
@@ -10,28 +11,53 @@ use crate::diktiometry::signature::Signature;
 /// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
 /// marking each signature found at the offset implied by the column match. When enough of a database signature's
 /// columns have been marked, the signature's place is suggested as a match candidate."
+///
+/// What is found is that. But columns are indexed as many at once as possible, since one column says little: if `enough` of the columns
+/// agree, then of `columns - enough + 1` groups of columns at least one agrees as a whole, since those that do not are too few to
+/// spoil each. Only views that share a group with the percept are compared with it column by column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnIndex {
-    tree: FeatureTree,
-    /// Whose view it is, by number of the view.
-    views: Vec<PlaceId>,
+    /// One a group; where views may be turned, one of the groups that begin at all columns.
+    trees: Vec<FeatureTree>,
+    /// By number of the view.
+    views: Vec<View>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct View {
+    place: PlaceId,
+    look: Signature,
 }
 
 impl ColumnIndex {
-    /// Takes in a view of a place. O(columns · log columns), and now and then all of them anew.
-    pub(super) fn insert(&mut self, place: PlaceId, view: &Signature) {
+    /// Takes in a view of a place. O(groups · log² views), amortized.
+    pub(super) fn insert(&mut self, place: PlaceId, view: &Signature, kind: &SignatureKind) {
         let number = self.views.len() as u32;
-        self.views.push(place);
-        for column in 0..view.columns() {
-            self.tree.insert(Feature {
-                values: view.column(column).to_vec(),
+        self.views.push(View {
+            place,
+            look: view.clone(),
+        });
+        let groups = Groups::of(kind);
+        let turned = kind.rotation == Rotation::Free;
+        self.trees
+            .resize_with(if turned { 1 } else { groups.count }, FeatureTree::default);
+        let starts: Vec<usize> = if turned {
+            (0..kind.columns).collect()
+        } else {
+            groups.starts().collect()
+        };
+        for (at, start) in starts.into_iter().enumerate() {
+            let tree = if turned { 0 } else { at };
+            self.trees[tree].insert(Feature {
+                values: groups.values(view, start),
                 view: number,
-                column: column as u32,
+                column: start as u32,
             });
         }
     }
 
-    /// The places with a view whose columns are near enough to those of a percept in a hypercube of `size` tolerances.
+    /// The places with a view of which enough columns are near enough to those of a percept in a hypercube of `size` tolerances. By
+    /// id.
     pub(super) fn within(
         &self,
         percept: &Signature,
@@ -39,17 +65,108 @@ impl ColumnIndex {
         paths: &PathGraph,
         size: f64,
     ) -> Vec<PlaceId> {
-        let columns = percept.columns();
-        let enough = libm::ceil(kind.share * columns as f64 - 1e-9) as usize;
-        let half_sizes = alloc::vec![kind.tolerance * size; kind.rows];
+        let groups = Groups::of(kind);
+        let tolerance = kind.tolerance * size;
+        let half_sizes = vec![tolerance; groups.size * kind.rows];
         let mut votes = Vec::new();
-        for column in 0..columns {
-            let values = percept.column(column);
-            self.tree.within(values, &half_sizes, |known| {
-                votes.push(Vote::of(known, column as u32, columns));
+        // One tree answers for all groups where views may be turned.
+        let trees = self.trees.iter().cycle();
+        for (start, tree) in groups.starts().zip(trees) {
+            tree.within(&groups.values(percept, start), &half_sizes, |known| {
+                votes.push(Vote::of(known, start as u32, kind.columns));
             });
         }
-        let place = |view: u32| self.views[view as usize];
-        elected(votes, kind.rotation, |_| enough, place, paths)
+        votes.sort_unstable();
+        votes.dedup();
+        let agrees = |vote: &Vote| {
+            let view = &self.views[vote.view as usize].look;
+            percept.agreement(view, vote.offset as usize, tolerance) >= kind.enough()
+        };
+        let elected = votes.iter().filter(|vote| agrees(vote));
+        let mut places: Vec<PlaceId> = elected
+            .filter_map(|vote| paths.resolve(self.views[vote.view as usize].place))
+            .collect();
+        places.sort_unstable();
+        places.dedup();
+        places
+    }
+}
+
+/// Neighbouring columns that are indexed together.
+struct Groups {
+    count: usize,
+    /// Columns in each.
+    size: usize,
+}
+
+impl Groups {
+    fn of(kind: &SignatureKind) -> Self {
+        let count = kind.columns - kind.enough() + 1;
+        let size = kind.columns / count;
+        Self { count, size }
+    }
+
+    /// Where the groups begin.
+    fn starts(&self) -> impl Iterator<Item = usize> + use<> {
+        let size = self.size;
+        (0..self.count).map(move |group| group * size)
+    }
+
+    /// The values of the columns from one on, round the circle.
+    fn values(&self, view: &Signature, start: usize) -> Vec<f64> {
+        let columns = (start..start + self.size).map(|column| column % view.columns());
+        columns
+            .flat_map(|column| view.column(column))
+            .copied()
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::diktiometry::map::{Diktiometry, Site};
+
+    const ROWS: usize = 2;
+    const COLUMNS: usize = 7;
+
+    fn view() -> impl Strategy<Value = Vec<f64>> {
+        prop::collection::vec((0_i8..3).prop_map(f64::from), ROWS * COLUMNS)
+    }
+
+    proptest! {
+        /// The index finds what a comparison with all views finds.
+        #[test]
+        fn it_finds_all_that_look_alike(
+            views in prop::collection::vec(view(), 1..100),
+            percept in view(),
+            share in 0.1..1.0,
+            tolerance in 0.0..2.0,
+            turned in any::<bool>(),
+        ) {
+            let rotation = if turned { Rotation::Free } else { Rotation::Aligned };
+            let kind = SignatureKind { rows: ROWS, columns: COLUMNS, tolerance, share, rotation, views: 1 };
+            let signature = |values: &Vec<f64>| Signature::new(ROWS, values.clone()).unwrap();
+            let percept = signature(&percept);
+            let mut map = Diktiometry::default();
+            let mut index = ColumnIndex::default();
+            let mut expected = Vec::new();
+            let offsets = if turned { COLUMNS } else { 1 };
+            let alike = |view: &Signature| {
+                (0..offsets).any(|offset| {
+                    percept.agreement(view, offset, tolerance) >= kind.enough()
+                })
+            };
+            for view in views.iter().map(signature) {
+                let place = map.new_place(Site::OwnFrame);
+                index.insert(place, &view, &kind);
+                if alike(&view) {
+                    expected.push(place);
+                }
+            }
+            prop_assert_eq!(index.within(&percept, &kind, &map.paths, 1.0), expected);
+        }
     }
 }

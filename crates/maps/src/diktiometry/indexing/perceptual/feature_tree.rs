@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-/// What a view is indexed by: one of its columns, or a triangle of its edges.
+/// What a view is indexed by: some of its columns, or a triangle of its edges.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Feature {
     /// As many in all features of a tree.
@@ -11,63 +11,78 @@ pub(super) struct Feature {
     pub(super) column: u32,
 }
 
-/// A k-d tree of features: the first part of the list is a balanced tree (the middle of every range splits it, by one
-/// coordinate after the other), the rest are features that came since it was balanced.
+/// Features that are not in a tree yet, at most.
+const LOOSE: usize = 32;
+
+/// A k-d tree of features to which features are added one by one: in truth several balanced trees (the middle of every range splits
+/// it, by one coordinate after the other), one for each binary digit of their number, and some loose features behind them.
+///
+/// Source: J. L. Bentley, J. B. Saxe, "Decomposable searching problems I: Static-to-dynamic transformation", the logarithmic method.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FeatureTree {
     features: Vec<Feature>,
-    balanced: usize,
 }
 
 impl FeatureTree {
-    /// Adds a feature. The tree is balanced anew when more than its square root have come, so that neither queries nor
-    /// insertions take long: amortized O(√n · log n).
+    /// Adds a feature. Trees of one size become one, as digits are carried: amortized O(log² n).
     pub(super) fn insert(&mut self, feature: Feature) {
         self.features.push(feature);
-        let new = self.features.len() - self.balanced;
-        if new > 32 && new * new > self.features.len() {
-            balance(&mut self.features, 0);
-            self.balanced = self.features.len();
+        let count = self.features.len();
+        let carried = 1 << count.trailing_zeros();
+        if carried >= LOOSE {
+            balance(&mut self.features[count - carried..], 0);
         }
     }
 
-    /// Visits the features that differ from `middle` nowhere by more than `half_sizes`, value by value. O(√n + visited), for
-    /// features of few values.
+    /// Visits the features that differ from `middle` nowhere by more than `half_sizes`, value by value. O(n^(1 − 1/d) + visited) for
+    /// features of d values.
     pub(super) fn within(
         &self,
         middle: &[f64],
         half_sizes: &[f64],
         mut visit: impl FnMut(&Feature),
     ) {
-        let near = |feature: &Feature| {
-            let pairs = feature.values.iter().zip(middle);
-            let mut all = pairs.zip(half_sizes);
-            all.all(|((a, b), half_size)| (a - b).abs() <= *half_size)
-        };
-        // Ranges of the tree that are still to be searched, with the coordinate that splits them.
-        let mut ranges = Vec::from([(0, self.balanced, 0)]);
-        while let Some((from, to, axis)) = ranges.pop() {
-            if from >= to {
-                continue;
-            }
-            let split = usize::midpoint(from, to);
-            let feature = &self.features[split];
-            if near(feature) {
-                visit(feature);
-            }
-            let value = feature.values[axis];
-            let next = (axis + 1) % feature.values.len();
-            if middle[axis] + half_sizes[axis] >= value {
-                ranges.push((split + 1, to, next));
-            }
-            if middle[axis] - half_sizes[axis] <= value {
-                ranges.push((from, split, next));
-            }
+        let cube = Hypercube { middle, half_sizes };
+        let mut rest = self.features.as_slice();
+        while rest.len() >= LOOSE {
+            let (tree, behind) = rest.split_at(1 << rest.len().ilog2());
+            cube.search(tree, 0, &mut visit);
+            rest = behind;
         }
-        for feature in &self.features[self.balanced..] {
-            if near(feature) {
-                visit(feature);
-            }
+        for feature in rest.iter().filter(|feature| cube.holds(feature)) {
+            visit(feature);
+        }
+    }
+}
+
+/// "A hypercube around the input column."
+struct Hypercube<'a> {
+    middle: &'a [f64],
+    half_sizes: &'a [f64],
+}
+
+impl Hypercube<'_> {
+    fn holds(&self, feature: &Feature) -> bool {
+        let pairs = feature.values.iter().zip(self.middle);
+        let mut all = pairs.zip(self.half_sizes);
+        all.all(|((a, b), half_size)| (a - b).abs() <= *half_size)
+    }
+
+    /// Visits what it holds of a balanced range.
+    fn search(&self, range: &[Feature], axis: usize, visit: &mut impl FnMut(&Feature)) {
+        let middle = range.len() / 2;
+        let Some(feature) = range.get(middle) else {
+            return;
+        };
+        if self.holds(feature) {
+            visit(feature);
+        }
+        let (value, next) = (feature.values[axis], (axis + 1) % feature.values.len());
+        if self.middle[axis] - self.half_sizes[axis] <= value {
+            self.search(&range[..middle], next, visit);
+        }
+        if self.middle[axis] + self.half_sizes[axis] >= value {
+            self.search(&range[middle + 1..], next, visit);
         }
     }
 }

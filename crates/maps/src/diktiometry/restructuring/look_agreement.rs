@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 
 use super::Verdict;
-use super::geometric::Pair;
+use super::geometric::{Pair, take_notes};
 use crate::diktiometry::config::{Config, SearchLimits, Use};
 use crate::diktiometry::ids::PlaceId;
 use crate::diktiometry::looks::Similarity;
@@ -35,35 +35,75 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     let separation = config.least_distance();
     let sides = [pair.offset.x, pair.offset.y].map(|side| side.width() / separation + 1.0);
     match enough(map, sides[0] * sides[1], config) {
-        Some(wanted) if agree(map, pair, config, wanted) => Verdict::Propose,
+        Some(wanted) if agreement(map, pair, config, wanted) == Agreement::Enough => {
+            Verdict::Propose
+        }
         _ => Verdict::Abstain,
     }
 }
 
-/// Where b lies as seen from a by all that is known, m, if looks say that the two are one and the search of the neighbourhood does
-/// not reach so far: geometry has its say before a merge. `wanted` kinds of looks have to agree ([`anywhere`]).
-/// O(frames · degree · log frames) if they do.
+/// What looks say of two places that may be one, wherever they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Sight {
+    /// As many kinds of looks agree as have to. Where b lies as seen from a by all that is known, m: geometry has its say before a merge.
+    Same(PointBox),
+    /// The two are not one: what the same actions lead to does not agree.
+    Different,
+    /// Not enough was seen.
+    Open,
+}
+
+/// What looks say of two places that the search of the neighbourhood does not relate. `wanted` kinds of looks have to agree
+/// ([`wanted_anywhere`]). O(frames · degree · log frames) if they do.
 pub(super) fn out_of_reach(
     map: &Diktiometry,
     a: PlaceId,
     b: PlaceId,
     wanted: usize,
     config: &Config,
-) -> Option<PointBox> {
-    let offset = PointBox::UNBOUNDED;
-    if !agree(map, &Pair { a, b, offset }, config, wanted) {
-        return None;
-    }
-    let everywhere = SearchLimits {
-        width: f64::INFINITY,
-        frames: usize::MAX,
-        depth: u32::MAX,
+) -> Sight {
+    let anywhere = PointBox::UNBOUNDED;
+    let pair = Pair {
+        a,
+        b,
+        offset: anywhere,
     };
-    Some(map.displacement(a, b, &everywhere).unwrap_or(offset))
+    match agreement(map, &pair, config, wanted) {
+        Agreement::Enough => {
+            let everywhere = SearchLimits {
+                width: f64::INFINITY,
+                frames: usize::MAX,
+                depth: u32::MAX,
+            };
+            Sight::Same(map.displacement(a, b, &everywhere).unwrap_or(anywhere))
+        }
+        Agreement::Broken => Sight::Different,
+        Agreement::TooLittle => Sight::Open,
+    }
 }
 
-/// Geometry has told that two places are two: what that says of looks.
-pub(in crate::diktiometry) fn tell_apart(
+/// The pairs noted at `place` that are one by their looks, without a search of the neighbourhood. Notes that looks settle are taken away.
+pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
+    let Some(wanted) = wanted_anywhere(map, config) else {
+        return Vec::new();
+    };
+    let mut pairs = Vec::new();
+    let mut notes = take_notes(map, place);
+    notes.retain(|note| {
+        let (a, b) = (place, note.other);
+        match out_of_reach(map, a, b, wanted, config) {
+            Sight::Same(offset) => pairs.push(Pair { a, b, offset }),
+            Sight::Different => return false,
+            Sight::Open => {}
+        }
+        true
+    });
+    map.paths.places[place.index()].notes = notes;
+    pairs
+}
+
+/// Geometry has told two places apart: what that says of looks.
+pub(in crate::diktiometry) fn learn_of_two(
     map: &mut Diktiometry,
     pair: [PlaceId; 2],
     look: Similarity,
@@ -73,7 +113,7 @@ pub(in crate::diktiometry) fn tell_apart(
         Similarity::Alike => neighbours(map, pair, config),
         Similarity::Unlike => None,
     };
-    map.looks.tell_apart(look, neighbours);
+    map.looks.count(look, neighbours);
 }
 
 /// How two places look from which the same action leads to those of a pair, or else to which it leads from them; none if there are
@@ -97,7 +137,7 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
 }
 
 /// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing there.
-pub(in crate::diktiometry) fn anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
+pub(in crate::diktiometry) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),
         Use::Off => None,
@@ -114,9 +154,20 @@ fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
     (chance < 1.0 && wanted < kinds).then(|| wanted as usize + 1)
 }
 
+/// How far looks agree along the same actions from two places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Agreement {
+    /// As many kinds of looks agree as have to.
+    Enough,
+    /// Fewer do, as far as is known.
+    TooLittle,
+    /// A look differs, or geometry tells two places apart that would be one.
+    Broken,
+}
+
 /// Whether so many kinds of looks agree along the same actions from two places, and nothing speaks against it that
 /// the two are one.
-fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool {
+fn agreement(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> Agreement {
     let paths = &map.paths;
     let mut pairs = Vec::from([(pair.a, pair.b)]);
     let mut kinds: Vec<PlaceId> = Vec::new();
@@ -128,7 +179,7 @@ fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool
             || there.views.is_empty()
             || !share_a_view(here, there, &config.percepts)
         {
-            return false;
+            return Agreement::Broken;
         }
         let is_new = kinds.iter().all(|&kind| {
             let kind = &paths.places[kind.index()];
@@ -137,7 +188,7 @@ fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool
         if is_new {
             kinds.push(a);
             if kinds.len() >= wanted {
-                return true;
+                return Agreement::Enough;
             }
         }
         for (_, link) in paths.ways(a) {
@@ -155,12 +206,12 @@ fn agree(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> bool
                 .related(ends.0, ends.1)
                 .is_some_and(|offset| !offset.contains(Point::origin()));
             if apart || ways.is_some_and(|(one, other)| !one.meets(other)) {
-                return false;
+                return Agreement::Broken;
             }
             pairs.push(ends);
         }
     }
-    false
+    Agreement::TooLittle
 }
 
 #[cfg(test)]

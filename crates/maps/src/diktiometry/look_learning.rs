@@ -1,0 +1,98 @@
+//! What new places teach of looks, and which places are noted since they look alike. Beyond the paper.
+
+use alloc::vec::Vec;
+
+use super::config::{Config, Use};
+use super::ids::PlaceId;
+use super::looks::Similarity;
+use super::map::Diktiometry;
+use super::observer::Observer;
+use super::path_graph::{Fate, Ground};
+use super::reference_graph::search;
+use super::restructuring::{Hints, learn_of_two, wanted_anywhere};
+use super::signature::Signature;
+
+impl Observer {
+    /// A place is new: which of those around it are different for certain, and whether they look like it.
+    ///
+    /// O(a search) a place if looks are used, amortized; where looks have begun to tell more, what is noted is weighed anew.
+    pub(super) fn learn_looks(&mut self, place: PlaceId, view: &Signature, hints: &mut Hints) {
+        if self.config.restructuring.look_merge == Use::Off {
+            return;
+        }
+        let alike = self.views.alike(view, &self.config, &self.map.paths);
+        let apart = apart(&self.map, place, &self.config);
+        for &other in &apart {
+            let look = match alike.binary_search(&other) {
+                Ok(_) => Similarity::Alike,
+                Err(_) => Similarity::Unlike,
+            };
+            learn_of_two(&mut self.map, [place, other], look, &self.config);
+        }
+        if alike.is_empty() {
+            self.map.looks.kinds = self.map.looks.kinds.saturating_add(1);
+        }
+        let Some(wanted) = wanted_anywhere(&self.map, &self.config) else {
+            return;
+        };
+        // Places that came while looks told nothing, and this one.
+        while self.map.looks.noted < self.map.paths.places.len() {
+            let id = PlaceId(self.map.looks.noted as u32);
+            self.map.looks.noted += 1;
+            if id == place {
+                self.note_alike(place, &alike, &apart);
+            } else if self.map.paths.places[id.index()].fate == Fate::Standing {
+                self.note_all_alike(id);
+            }
+        }
+        // Looks tell more than ever, of places where the robot may never come again, too.
+        if self
+            .map
+            .looks
+            .least_wanted
+            .is_none_or(|least| wanted < least)
+        {
+            self.map.looks.least_wanted = Some(wanted);
+            let places = self.map.paths.places();
+            let waiting = places.filter(|(_, place)| !place.notes.is_empty());
+            hints.near.extend(waiting.map(|(id, _)| id));
+        }
+    }
+
+    fn note_all_alike(&mut self, place: PlaceId) {
+        let Some(view) = self.map.paths.places[place.index()].views.first() else {
+            return;
+        };
+        let alike = self.views.alike(view, &self.config, &self.map.paths);
+        if alike.len() > 1 {
+            let apart = apart(&self.map, place, &self.config);
+            self.note_alike(place, &alike, &apart);
+        }
+    }
+
+    /// Notes the places that look like a place, but for those that are not it for certain.
+    fn note_alike(&mut self, place: PlaceId, alike: &[PlaceId], apart: &[PlaceId]) {
+        for &other in alike {
+            if other != place && apart.binary_search(&other).is_err() {
+                self.map.paths.note(place, other, Ground::Look);
+            }
+        }
+    }
+}
+
+/// The places around a place that are different from it for certain, by id.
+fn apart(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<PlaceId> {
+    let here = &map.paths.places[place.index()];
+    let reached = search(&map.reference, here.frame, &config.search);
+    let all = reached.iter().flat_map(|around| {
+        let places = &map.reference.frames[around.frame.index()].places;
+        places.iter().map(|other| (*other, around.position))
+    });
+    let excluded = all.filter(|(other, frame)| {
+        let there = *frame + map.paths.places[other.index()].position;
+        *other != place && !there.meets(here.position)
+    });
+    let mut apart: Vec<PlaceId> = excluded.map(|(other, _)| other).collect();
+    apart.sort_unstable();
+    apart
+}
