@@ -19,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
     Ablation, Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
 };
-use tolman_maze::Direction;
+use tolman_maze::{Braided, Direction};
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 use walk::{COMPASS, ODOMETRY, Scripted, Walk, alike, blocks, open, painted};
 
@@ -31,7 +31,7 @@ struct Table {
     print: fn(u64),
 }
 
-const TABLES: [Table; 5] = [
+const TABLES: [Table; 6] = [
     Table {
         name: "parts",
         runs: 6,
@@ -51,6 +51,11 @@ const TABLES: [Table; 5] = [
         name: "looks",
         runs: 10,
         print: looks,
+    },
+    Table {
+        name: "braided",
+        runs: 100,
+        print: braided,
     },
     Table {
         name: "kidnapped",
@@ -336,6 +341,47 @@ fn looks(runs: u64) {
                 "| {name}, {colours} colours | {before:.2} | {share:.2} | {pure:.4} | {purity:.4} |"
             );
         }
+    }
+}
+
+/// Whether merges by looks make the map the world in corridors of braided mazes, which are up to six cells long; of fewer and fewer colours.
+fn braided(runs: u64) {
+    println!(
+        "| walls | places for each true one | most | maps with each place once | least purity |"
+    );
+    println!("| ---: | ---: | ---: | ---: | ---: |");
+    for colours in [8, 4, 3, 2, 1] {
+        let (mut share, mut most, mut once, mut purity) = (0.0, 0.0_f64, 0, 1.0_f64);
+        for seed in 0..runs {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let shape = Braided {
+                width: 6,
+                height: 6,
+                share: 1.0,
+            };
+            let maze = shape.generate(&mut rng).unwrap();
+            let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
+            let errors = MoveError {
+                stop: 0.0175,
+                look: 0.2,
+                ..ROUGH
+            };
+            let mut config = painted();
+            config.place_radius = errors.stop;
+            config.restructuring.look_merge = Use::On;
+            let mut walk = Walk::new(world, errors, config, seed);
+            let mut planner = Scripted::new(0.3, seed);
+            for _ in 0..1500 {
+                planner.go(&mut walk);
+            }
+            let score = walk.score();
+            let places = score.places as f64 / score.visited as f64;
+            share += places / runs as f64;
+            most = most.max(places);
+            once += u32::from(score.places == score.visited);
+            purity = purity.min(score.purity);
+        }
+        println!("| {colours} | {share:.2} | {most:.2} | {once} | {purity:.4} |");
     }
 }
 

@@ -81,9 +81,13 @@ fn contract(place: &mut Place, estimate: PointBox) {
     }
 }
 
-/// Takes an estimate of a place's position into its nominal envelope and its estims.
+/// Takes an estimate of a place's position into its nominal envelope and, if it is not too wide to tell one place from the next, its
+/// estims: the middle of a wide box is no point where the place was seen.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);
+    if robot.width() > separation {
+        return;
+    }
     place.estims.push(Estim {
         position: robot.middle(),
         weight: 1.0,

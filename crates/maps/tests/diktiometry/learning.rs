@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
     Config, ConfigError, GeometricMerge, Identity, Matcher, Percepts, PerceptualIndexing, Use,
 };
-use tolman_maze::Direction;
+use tolman_maze::{Braided, Direction};
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 
 use super::walk::{COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, open, painted};
@@ -157,6 +157,39 @@ fn looks_close_loops_that_are_too_wide_for_geometry() {
     assert_eq!(with.score(), perfect(with.score().visited));
     let looks = with.observer.map().looks;
     assert!(looks.kinds > 20 && looks.different > 200, "{looks:?}");
+}
+
+/// What a robot that went to and fro unfolded before it had seen enough is folded once the map around it is known.
+#[test]
+fn no_double_is_left_of_a_corridor_gone_to_and_fro() {
+    for seed in [6, 8, 11, 17] {
+        let shape = Braided {
+            width: 6,
+            height: 6,
+            share: 1.0,
+        };
+        let maze = shape
+            .generate(&mut ChaCha8Rng::seed_from_u64(seed))
+            .unwrap();
+        let world = AbstractWorld::from_corridors(&maze, 1.0).painted(8, seed);
+        let errors = MoveError {
+            distance: 0.13,
+            compass: 1.3 * COMPASS,
+            stop: 0.0175,
+            look: 0.2,
+            ..MoveError::NONE
+        };
+        let mut config = painted();
+        config.place_radius = errors.stop;
+        config.restructuring.look_merge = Use::On;
+        let mut walk = Walk::new(world, errors, config, seed);
+        let mut planner = Scripted::new(0.3, seed);
+        for _ in 0..1500 {
+            planner.go(&mut walk);
+        }
+        let score = walk.score();
+        assert_eq!(score, perfect(score.visited), "seed {seed}");
+    }
 }
 
 /// Looks tell nothing where all look alike, and the map learns that they tell nothing where rooms are furnished alike.

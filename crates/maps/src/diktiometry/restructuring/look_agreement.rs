@@ -18,12 +18,17 @@ use crate::diktiometry::matching::{share_a_view, similarity};
 /// Pairs of places that are compared at most.
 const COMPARED: usize = 64;
 
+/// For how many places one may be taken where an action relates the two to one place ([`share_a_way`]): how often, at most, it leads
+/// elsewhere than it did, or not back, since the world has changed or the place is two.
+const ELSEWHERE: f64 = 1e-3;
+
 /// Whether two places may be merged by what they and the places along the same actions look like.
 ///
 /// Where the same actions lead from one place, there is the same place. If the two are different, so are the places that the same
 /// actions lead to from them, and each pair of them looks alike by a chance of about p ([`Looks`](crate::diktiometry::Looks)).
 /// With k kinds of looks in agreement and n places that the one may be taken for, one that it is not does all that with a chance
-/// of about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others.
+/// of about n · pᵏ at most: p is the mean over all pairs, and some looks are commoner than others. Where one action led from one place to
+/// both, the one is taken for the other only if the action has led elsewhere.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
         return Verdict::Abstain;
@@ -34,12 +39,36 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     }
     let separation = config.least_distance();
     let sides = [pair.offset.x, pair.offset.y].map(|side| side.width() / separation + 1.0);
-    match enough(map, sides[0] * sides[1], config) {
+    let others = if share_a_way(map, pair, config) {
+        ELSEWHERE
+    } else {
+        sides[0] * sides[1]
+    };
+    match enough(map, others, config) {
         Some(wanted) if agreement(map, pair, config, wanted) == Agreement::Enough => {
             Verdict::Propose
         }
         _ => Verdict::Abstain,
     }
+}
+
+/// Whether one action led to both from one place, or from both to one from where the action back leads to either.
+fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
+    let Pair { a, b, .. } = *pair;
+    let paths = &map.paths;
+    let one_origin = paths.incoming(a).any(|(_, link)| {
+        let mut others = paths.along(link.from, link.action);
+        others.any(|(_, other)| other.to == b)
+    });
+    one_origin
+        || paths.outgoing(a).any(|(_, link)| {
+            let kind = config.actions.get(link.action.0 as usize);
+            let Some(back) = kind.and_then(|kind| kind.reverse) else {
+                return false;
+            };
+            let leads_back = |place| paths.between(link.to, back, place).is_some();
+            paths.between(b, link.action, link.to).is_some() && (leads_back(a) || leads_back(b))
+        })
 }
 
 /// What looks say of two places that may be one, wherever they are.
