@@ -72,7 +72,7 @@ pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
 pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 #[cfg(feature = "serde")]
-pub use map_file::{MapFile, MapFileError, MapFileHeader};
+pub use map_file::{MapFile, MapFileError};
 pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
 pub use plan::{Plan, PlanLeg};
 pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};

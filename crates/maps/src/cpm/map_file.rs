@@ -34,19 +34,12 @@ const VERSION: u32 = 1;
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
-    #[serde(flatten)]
-    header: MapFileHeader,
+    format: String,
+    version: u32,
     /// How many there are of each: a file that was cut off has fewer.
     counts: Counts,
     dictionary: SavedDictionary,
     map: SavedMap,
-}
-
-/// How a [`MapFile`] begins, whatever its version: for readers that want to know before they read the rest.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct MapFileHeader {
-    format: String,
-    version: u32,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -188,39 +181,13 @@ fn hexadecimal(fingerprint: u64) -> String {
     format!("{fingerprint:016x}")
 }
 
-impl MapFileHeader {
-    /// Whether it is a file of ours, of whatever version.
-    #[must_use]
-    pub fn is_ours(&self) -> bool {
-        self.format == FORMAT
-    }
-
-    /// Whether a text that is no whole JSON, as one that was cut off, says that it was a file of ours.
-    #[must_use]
-    pub fn is_named_in(text: &str) -> bool {
-        text.contains(&format!("\"{FORMAT}\""))
-    }
-
-    /// Whether it is a file of ours that can be read here.
-    ///
-    /// # Errors
-    /// [`MapFileError::Format`], [`MapFileError::Version`].
-    pub fn check(&self) -> Result<(), MapFileError> {
-        if !self.is_ours() {
-            return Err(MapFileError::Format {
-                found: self.format.clone(),
-            });
-        }
-        if self.version == 0 || self.version > VERSION {
-            return Err(MapFileError::Version {
-                found: self.version,
-            });
-        }
-        Ok(())
-    }
-}
-
 impl MapFile {
+    /// What `format` says in a file of this kind.
+    pub const FORMAT: &str = FORMAT;
+
+    /// The version that is written; all versions up to it are read.
+    pub const VERSION: u32 = VERSION;
+
     /// What is to be written of a map.
     ///
     /// # Errors
@@ -245,10 +212,8 @@ impl MapFile {
             junctions: map.junctions().map(saved_junction).collect(),
         };
         Ok(Self {
-            header: MapFileHeader {
-                format: FORMAT.into(),
-                version: VERSION,
-            },
+            format: FORMAT.into(),
+            version: VERSION,
             counts: Counts {
                 patterns: dictionary.len(),
                 fragments: saved.fragments.len(),
@@ -353,7 +318,16 @@ impl MapFile {
     }
 
     fn check(&self) -> Result<(), MapFileError> {
-        self.header.check()?;
+        if self.format != FORMAT {
+            return Err(MapFileError::Format {
+                found: self.format.clone(),
+            });
+        }
+        if self.version == 0 || self.version > VERSION {
+            return Err(MapFileError::Version {
+                found: self.version,
+            });
+        }
         let counts = &self.counts;
         let parts = [
             ("patterns", counts.patterns, self.dictionary.patterns.len()),

@@ -7,6 +7,7 @@ mod avoid;
 mod cast;
 pub mod cpm;
 pub mod diktiometry;
+mod file_kind;
 pub mod mslst;
 mod oracle;
 mod random;
@@ -25,6 +26,7 @@ use tolman_sim::Truth;
 
 pub use avoid::Avoid;
 pub use cast::{Agent, Cast};
+pub use file_kind::FileError;
 pub use oracle::{Oracle, Policy};
 pub use random::Random;
 pub use thought::{Guess, Place, Thought};

@@ -63,6 +63,11 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     fs::write(folder.join("cut.json"), &text[..text.len() / 2]).unwrap();
     let cut_off = ["cut.json", "this map of CPM is cut off", "line 1"];
     tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &cut_off);
+    fs::write(folder.join("cut.json"), &text[..40]).unwrap();
+    tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &cut_off);
+    fs::write(folder.join("none.json"), "{}").unwrap();
+    let none = ["none.json is no learned map", "tolman cpm learn"];
+    tolman_in(&folder, &["map", "show", "none.json"]).refused(2, &none);
     let later = text.replace("\"version\":1", "\"version\":2");
     fs::write(folder.join("later.json"), later).unwrap();
     let refused = ["version is 2", "update tolman"];

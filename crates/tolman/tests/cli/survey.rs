@@ -100,7 +100,7 @@ fn a_file_that_is_no_sound_survey_is_refused() {
         assert!(!folder.join("never.json").exists());
     };
     check("{}", "no survey");
-    check(&text[..text.len() - 40], "no survey");
+    check(&text[..text.len() - 40], "this survey is cut off");
     check(
         &text.replacen("\"version\":2", "\"version\":7", 1),
         "version is 7",

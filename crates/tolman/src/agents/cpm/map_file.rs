@@ -2,6 +2,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_maps::cpm::{self, CpMap, CpmConfig};
 
+use super::super::file_kind::{FileError, FileKind};
 use super::common_patterns::CommonPatterns;
 use super::trial::Mode;
 
@@ -41,16 +42,20 @@ impl System {
     }
 }
 
+const KIND: FileKind = FileKind {
+    format: cpm::MapFile::FORMAT,
+    version: cpm::MapFile::VERSION,
+    name: "map of CPM",
+    command: "tolman cpm learn",
+};
+
 /// Why a file holds no map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is no JSON of the right form. The message has line and column.
-    #[error("this is no map of CPM: make one with `tolman cpm learn`")]
-    Json(#[from] serde_json::Error),
-    /// It ends amid the map. The message has line and column.
-    #[error("this map of CPM is cut off: copy it again, or make one with `tolman cpm learn`")]
-    CutOff(#[source] serde_json::Error),
+    /// It is another kind of file, of a later time, or cut off.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// It holds another thing, or not all of it.
     #[error("its map cannot be read")]
     Map(#[from] cpm::MapFileError),
@@ -58,14 +63,15 @@ pub enum MapFileError {
 
 #[derive(Serialize, Deserialize)]
 struct Body {
+    /// It has the header.
+    #[serde(flatten)]
+    map: cpm::MapFile,
     maze: String,
     seed: u64,
     system: System,
     /// Of SOINN.
     units: u32,
     clusters: u32,
-    #[serde(flatten)]
-    map: cpm::MapFile,
 }
 
 impl MapFile {
@@ -75,24 +81,21 @@ impl MapFile {
     /// If the map was learned with other patterns.
     pub fn to_json(&self) -> Result<String, MapFileError> {
         let body = Body {
+            map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
             maze: self.maze.clone(),
             seed: self.seed,
             system: self.system,
             units: self.patterns.unit_count(),
             clusters: self.patterns.cluster_count(),
-            map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
         };
-        Ok(serde_json::to_string(&body)? + "\n")
+        // Plain fields and finite numbers always have a JSON form.
+        Ok(serde_json::to_string(&body).unwrap_or_default() + "\n")
     }
 
     /// Whether a text says that it is such a file, of whatever version, whole or cut off.
     #[must_use]
     pub fn is_one(text: &str) -> bool {
-        let header: Result<cpm::MapFileHeader, _> = serde_json::from_str(text);
-        header.map_or_else(
-            |_| cpm::MapFileHeader::is_named_in(text),
-            |header| header.is_ours(),
-        )
+        KIND.claims(text)
     }
 
     /// Reads the text of a file.
@@ -100,15 +103,7 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let header: Result<cpm::MapFileHeader, _> = serde_json::from_str(text);
-        match header {
-            Ok(header) => header.check()?,
-            Err(error) if error.is_eof() && cpm::MapFileHeader::is_named_in(text) => {
-                return Err(MapFileError::CutOff(error));
-            }
-            Err(error) => return Err(error.into()),
-        }
-        let body: Body = serde_json::from_str(text)?;
+        let body: Body = KIND.parse(text)?;
         let dictionary = body.map.dictionary()?;
         let map = body.map.map(&dictionary)?;
         Ok(Self {

@@ -6,15 +6,19 @@ use tolman_geom::Point;
 use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
 use tolman_maze::{Direction, MazeError, MazeFile};
 
+use super::super::file_kind::{FileError, FileHeader, FileKind};
 use super::office::{Office, OfficeConfig, OfficeError};
 use super::score::Visit;
 use super::survey::{Past, RunError, Survey, SurveyConfig};
 use super::surveyor::SurveyorConfig;
 
-/// What `format` says in a file of ours.
-const FORMAT: &str = "tolman-survey";
-/// The version that is written; all versions up to it are read. Since version 2 the map is one of version 2.
-const VERSION: u32 = 2;
+/// Since version 2 the map is one of version 2.
+const KIND: FileKind = FileKind {
+    format: "tolman-survey",
+    version: 2,
+    name: "survey",
+    command: "tolman survey",
+};
 
 /// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
 /// survey can go on; the map is the journal of all moves.
@@ -36,21 +40,9 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// It is no JSON of the right form. The message has line and column.
-    #[error("this is no survey: make one with `tolman survey`")]
-    Json(#[from] serde_json::Error),
-    /// It is another kind of file.
-    #[error("its format is {found:?}, expected {FORMAT:?}: make a survey with `tolman survey`")]
-    Format {
-        /// What it says.
-        found: String,
-    },
-    /// It is of a later time.
-    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
-    Version {
-        /// What it says.
-        found: u32,
-    },
+    /// It is another kind of file, of a later time, or cut off.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// How likely a script is begun is no probability.
     #[error("its heed is {found}: give a number from 0 to 1")]
     Heed {
@@ -68,16 +60,10 @@ pub enum SurveyFileError {
     Map(#[from] MapFileError),
 }
 
-#[derive(Deserialize)]
-struct Header {
-    format: String,
-    version: u32,
-}
-
 #[derive(Serialize, Deserialize)]
 struct Body {
-    format: String,
-    version: u32,
+    #[serde(flatten)]
+    header: FileHeader,
     name: String,
     /// As it is drawn in maze files.
     maze: String,
@@ -107,11 +93,10 @@ impl SurveyFile {
         }
     }
 
-    /// Whether a text says that it is a survey, sound or not.
+    /// Whether a text says that it is such a file: of whatever version, sound, broken or cut off.
     #[must_use]
     pub fn is_one(text: &str) -> bool {
-        let header: Result<Header, _> = serde_json::from_str(text);
-        header.is_ok_and(|header| header.format == FORMAT)
+        KIND.claims(text)
     }
 
     /// The text of the file, with a line end.
@@ -126,8 +111,7 @@ impl SurveyFile {
             gone,
         } = &self.past;
         let body = Body {
-            format: FORMAT.to_owned(),
-            version: VERSION,
+            header: KIND.header(),
             name: self.name.clone(),
             maze: self.office.maze().to_string(),
             office: *self.office.config(),
@@ -142,9 +126,8 @@ impl SurveyFile {
             gone: gone.clone(),
             map: MapFile::of(&self.observer)?,
         };
-        let mut text = serde_json::to_string(&body)?;
-        text.push('\n');
-        Ok(text)
+        // Plain fields and finite numbers always have a JSON form.
+        Ok(serde_json::to_string(&body).unwrap_or_default() + "\n")
     }
 
     /// Reads the text of a file.
@@ -152,18 +135,7 @@ impl SurveyFile {
     /// # Errors
     /// [`SurveyFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
-        let header: Header = serde_json::from_str(text)?;
-        if header.format != FORMAT {
-            return Err(SurveyFileError::Format {
-                found: header.format,
-            });
-        }
-        if header.version == 0 || header.version > VERSION {
-            return Err(SurveyFileError::Version {
-                found: header.version,
-            });
-        }
-        let body: Body = serde_json::from_str(text)?;
+        let body: Body = KIND.parse(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
             return Err(SurveyFileError::Heed { found: body.heed });
         }
@@ -274,15 +246,16 @@ mod tests {
             let told = format!("{error:?}");
             assert!(told.starts_with(expect), "{told} for {expect}");
         };
-        check(String::new(), "Json");
-        check(text[..text.len() / 2].to_owned(), "Json");
+        check(String::new(), "File(Json");
+        check(text[..text.len() / 2].to_owned(), "File(CutOff");
+        check(text[..40].to_owned(), "File(CutOff");
         check(
             text.replacen("tolman-survey", "tolman-mslst-map", 1),
-            "Format",
+            "File(Format",
         );
         check(
             text.replacen("\"version\":2", "\"version\":3", 1),
-            "Version",
+            "File(Version",
         );
         check(
             text.replacen("\"moves\":5,", "\"moves\":6,", 1),

@@ -4,12 +4,15 @@ use tolman_geom::Point;
 use tolman_maps::mslst_graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
 use tolman_maze::Direction;
 
+use super::super::file_kind::{FileError, FileHeader, FileKind};
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
 
-/// What `format` says in a file of ours.
-const FORMAT: &str = "tolman-mslst-map";
-/// The version that is written; all versions up to it are read.
-const VERSION: u32 = 1;
+const KIND: FileKind = FileKind {
+    format: "tolman-mslst-map",
+    version: 1,
+    name: "map of MSLST",
+    command: "tolman learn",
+};
 
 /// A learned map as it lies in a file: JSON, read back to the bit.
 #[derive(Clone, Debug)]
@@ -28,21 +31,9 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is no JSON of the right form. The message has line and column.
-    #[error("this is no map of MSLST: make one with `tolman learn`")]
-    Json(#[from] serde_json::Error),
-    /// It is another kind of file.
-    #[error("its format is {found:?}, expected {FORMAT:?}: make a map with `tolman learn`")]
-    Format {
-        /// What it says.
-        found: String,
-    },
-    /// It is of a later time.
-    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
-    Version {
-        /// What it says.
-        found: u32,
-    },
+    /// It is another kind of file, of a later time, or cut off.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The states are none.
     #[error("its states are none")]
     States(#[from] StatesError),
@@ -62,15 +53,9 @@ pub enum MapFileError {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Header {
-    format: String,
-    version: u32,
-}
-
-#[derive(Serialize, Deserialize)]
 struct Body {
     #[serde(flatten)]
-    header: Header,
+    header: FileHeader,
     maze: String,
     seed: u64,
     config: MslstConfig,
@@ -92,6 +77,12 @@ struct SavedNode {
 }
 
 impl MapFile {
+    /// Whether a text says that it is such a file: of whatever version, sound, broken or cut off.
+    #[must_use]
+    pub fn is_one(text: &str) -> bool {
+        KIND.claims(text)
+    }
+
     /// The text of the file, with a line end.
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -99,10 +90,7 @@ impl MapFile {
         let surveyed = survey.positions.iter().zip(&survey.made_by);
         let nodes = map.graph.nodes().iter().zip(surveyed);
         let body = Body {
-            header: Header {
-                format: FORMAT.to_owned(),
-                version: VERSION,
-            },
+            header: KIND.header(),
             maze: self.maze.clone(),
             seed: self.seed,
             config: self.config,
@@ -128,18 +116,7 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let header: Header = serde_json::from_str(text)?;
-        if header.format != FORMAT {
-            return Err(MapFileError::Format {
-                found: header.format,
-            });
-        }
-        if header.version > VERSION {
-            return Err(MapFileError::Version {
-                found: header.version,
-            });
-        }
-        let body: Body = serde_json::from_str(text)?;
+        let body: Body = KIND.parse(text)?;
         let count = body.states.len();
         for (index, node) in body.nodes.iter().enumerate() {
             if node.state as usize >= count {

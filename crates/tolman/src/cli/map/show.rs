@@ -38,6 +38,12 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     if SurveyFile::is_one(&text) {
         return show_survey::carry_out(arguments, &text, out);
     }
+    if !cpm::MapFile::is_one(&text) && !MapFile::is_one(&text) {
+        let path = arguments.file.display();
+        return Err(Failure::BadInput(anyhow!(
+            "{path} is no learned map: make one with `tolman learn`, `tolman cpm learn` or `tolman survey`"
+        )));
+    }
     if arguments.svg.is_some() && arguments.maze.is_none() {
         let error = anyhow!("this map is drawn over its maze; name that with --maze");
         return Err(Failure::BadInput(error));
