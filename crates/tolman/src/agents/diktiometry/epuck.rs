@@ -33,19 +33,19 @@ pub struct EpuckSurveyConfig {
     pub heed: f64,
     /// How far odometry may be off at the end of a move along either axis, m: where in a place the robot stops.
     pub margin: f64,
-    /// And how much farther for each metre driven, m.
-    pub margin_per_metre: f64,
+    /// And how much farther after one metre, m; it grows as the root of the way, as each tick's slip is independent of the others'.
+    pub margin_per_root_metre: f64,
 }
 
 impl EpuckSurveyConfig {
-    /// Bounds that hold for wheels that slip by 10 %: in Maze-1 and Maze-3 odometry is off by up to 2 cm.
+    /// Bounds that hold for wheels that slip by 10 %, in Mazes 1 to 3.
     #[must_use]
     pub const fn usual(moves: u32) -> Self {
         Self {
             moves,
             heed: 0.3,
-            margin: 0.03,
-            margin_per_metre: 0.01,
+            margin: 0.025,
+            margin_per_root_metre: 0.01,
         }
     }
 
@@ -268,8 +268,8 @@ impl Rover for EpuckRover {
             Walk::Arrived { .. } => {}
             Walk::TurnedBack { .. } => return Err(WalkError::Lost.into()),
         }
-        let margin =
-            self.config.margin + self.config.margin_per_metre * (self.walker.driven() - driven);
+        let way = self.walker.driven() - driven;
+        let margin = self.config.margin + self.config.margin_per_root_metre * libm::sqrt(way);
         // From the axes of the start to those of the compass, which lie at right angles.
         let moved = self.walker.pose().position - from.position;
         let (sin, cos) = libm::sincos(self.ahead.radians());
