@@ -107,6 +107,14 @@ impl TrueFragments {
         self.ways.get(&(from, direction)).copied()
     }
 
+    /// The same fragment, walked the other way.
+    #[must_use]
+    pub fn reversed(&self, way: Way) -> Option<Way> {
+        let is_back =
+            |other: &&Way| other.fragment == way.fragment && other.is_forward != way.is_forward;
+        self.ways.values().find(is_back).copied()
+    }
+
     /// The ways that a drive over these cells was along, one after another; none where it left a place by no way. A drive that turns back amid a
     /// fragment was along it. One that looks into the next cell and comes back was not.
     pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<Way>> {

@@ -1,8 +1,7 @@
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 
-use tolman_control::heading_of;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId};
+use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Port, Sign, Turn};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::{Arcs, costs_from};
 use tolman_sim::World;
@@ -11,7 +10,6 @@ use super::agent::{Cpm, Step};
 use super::body::SimulatedEpuck;
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
-use super::layout::Layout;
 use super::walker::Walk;
 
 /// Loops closed in the first episode: arrivals by a way that was not on the map.
@@ -29,6 +27,10 @@ pub struct Closures {
 pub(super) struct Score<'a> {
     fragments: TrueFragments,
     closures: Closures,
+    /// The place where the map begins, and its cell.
+    start: Option<(Port, Cell)>,
+    /// All walks since: the turn, and the true way.
+    walked: Vec<(Turn, Option<Way>)>,
     /// The true way from − to + of each fragment of the map.
     pub(super) truth: BTreeMap<FragmentId, Way>,
     /// The cell of each place of the map.
@@ -43,6 +45,8 @@ impl<'a> Score<'a> {
         Self {
             fragments: TrueFragments::of(maze),
             closures: Closures::default(),
+            start: None,
+            walked: Vec::new(),
             truth: BTreeMap::new(),
             places: BTreeMap::new(),
             lengths: BTreeMap::new(),
@@ -52,11 +56,14 @@ impl<'a> Score<'a> {
 
     pub(super) fn begin(&mut self, agent: &Cpm<'_, SimulatedEpuck>, start: Pose) {
         if let Some(cell) = agent.walker().body().world().cell_at(start.position) {
-            self.places.insert(agent.explorer().at().junction, cell);
+            let at = agent.explorer().at();
+            self.places.insert(at.junction, cell);
+            self.start = Some((at, cell));
         }
     }
 
-    pub(super) fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step, maze: &Maze) {
+    /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
+    pub(super) fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
         let (Some(arrival), Walk::Arrived { observations, .. }) = (step.arrival, &step.walk) else {
             return;
         };
@@ -66,6 +73,7 @@ impl<'a> Score<'a> {
             let cell = body.world().cell_at(from.position)?;
             self.fragments.way(cell, from.heading)
         });
+        self.walked.push((step.leg.turn, way));
         let length = (observations.len() as u32).max(1);
         if let Some(here) = here {
             let way = way.filter(|way| way.to == here);
@@ -86,7 +94,7 @@ impl<'a> Score<'a> {
             self.places.entry(junction).or_insert(here);
         }
         match arrival {
-            Arrival::Revised => self.lay_anew(agent.explorer().map(), maze),
+            Arrival::Revised => self.retrace(agent.explorer().map()),
             Arrival::Duplicate if is_same => self.closures.right += 1,
             Arrival::Duplicate => self.closures.wrong += 1,
             Arrival::Loop if stands == here => self.closures.right += 1,
@@ -100,18 +108,43 @@ impl<'a> Score<'a> {
         self.lengths.entry(way.fragment).or_insert(length);
     }
 
-    /// Another map has its own names of fragments and places: where they lie follows from laying it over the maze.
-    fn lay_anew(&mut self, map: &CpMap, maze: &Maze) {
-        let layout = Layout::of(map, maze);
-        let place = |(id, _)| Some((id, layout.place(id)?));
-        self.places = map.junctions().filter_map(place).collect();
-        let way = |(id, _)| {
-            let cells = &layout.course(id)?.cells;
-            let (from, next) = (cells.first()?, cells.get(1)?);
-            let (out, _) = maze.neighbours(*from).find(|(_, cell)| cell == next)?;
-            Some((id, self.fragments.way(*from, heading_of(out))?))
+    /// Another map has its own names of fragments and places: what they are follows from the same walk on it. A fragment that was walked along
+    /// two true ones has closed a loop wrongly.
+    fn retrace(&mut self, map: &CpMap) {
+        let Some((mut at, cell)) = self.start else {
+            return;
         };
-        self.truth = map.fragments().filter_map(way).collect();
+        self.truth.clear();
+        self.places = BTreeMap::from([(at.junction, cell)]);
+        let mut confused = BTreeSet::new();
+        for (turn, way) in &self.walked {
+            let exit = turn.exit(at.number, map.degree(at.junction));
+            let exit = exit.map(|number| Port { number, ..at });
+            // On a map that broke off somewhere the walk cannot be retraced further.
+            let Some((end, beyond)) = exit
+                .ok()
+                .and_then(|exit| Some((map.end_at(exit)?.opposite(), map.beyond(exit)?)))
+            else {
+                break;
+            };
+            at = beyond;
+            let Some(way) = way else {
+                continue;
+            };
+            self.places.entry(at.junction).or_insert(way.to);
+            let from_minus = match end.sign {
+                Sign::Plus => Some(*way),
+                Sign::Minus => self.fragments.reversed(*way),
+            };
+            let Some(from_minus) = from_minus else {
+                continue;
+            };
+            let known = self.truth.entry(end.fragment).or_insert(from_minus);
+            if known.fragment != way.fragment {
+                confused.insert(end.fragment);
+            }
+        }
+        self.closures.wrong = self.closures.wrong.max(confused.len() as u32);
     }
 
     /// Loops count as closed too that were closed after the arrival, by another fragment or another map, and as missed those that are open on
@@ -152,5 +185,59 @@ impl<'a> Score<'a> {
             .iter()
             .map(|way| self.lengths.get(&way.fragment).copied());
         lengths.sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::Heading;
+    use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, PatternId, Sighting, Traversal};
+
+    use super::*;
+
+    /// A way from the start to a fork, from there to the goal, back, and home.
+    #[test]
+    fn a_walk_retraced_on_its_map_says_what_is_what() {
+        let text = "start = 0 0 east\n\no---o---o---o\n|   |   |   |\no---o   o---o\n| S       G |\no---o---o---o\n";
+        let maze = tolman_maze::read(text).unwrap().maze;
+        let mut dictionary = Dictionary::new(1);
+        let wall = dictionary.learn(&[1.0], &[1.0], 0.1).unwrap();
+        let door = dictionary.learn(&[0.0], &[0.0], 0.1).unwrap();
+        let mut explorer = Explorer::new(CpmConfig::robust(), Sighting::plain(1)).unwrap();
+        let mut score = Score::of(&maze);
+        let start = maze.start().unwrap().0;
+        score.start = Some((explorer.at(), start));
+        let fork = Cell::new(1, 0);
+        let mut walk = |turn: Turn, patterns: &[PatternId], degree, from, heading| {
+            let patterns = patterns.to_vec();
+            let sighting = Sighting::plain(degree);
+            let walk = Traversal {
+                patterns,
+                motion: None,
+                sighting,
+            };
+            explorer.arrive(turn, &walk, &dictionary).unwrap();
+            let way = score.fragments.way(from, Heading::from_degrees(heading));
+            score.walked.push((turn, way));
+        };
+        walk(Turn::BACK, &[wall, wall, wall], 3, start, 0.0);
+        walk(Turn(2), &[door, door, door], 1, fork, 0.0);
+        walk(Turn::BACK, &[door, door, door], 3, Cell::new(2, 0), 180.0);
+        walk(Turn(1), &[wall, wall, wall], 1, fork, 180.0);
+        let map = explorer.map().clone();
+        score.retrace(&map);
+        assert_eq!(map.fragments().len(), 2);
+        assert_eq!(score.truth.len(), 2);
+        for (id, _) in map.fragments() {
+            let (from, heading) = [(start, 0.0), (fork, 0.0)][id.0 as usize];
+            let way = score.fragments.way(from, Heading::from_degrees(heading));
+            assert_eq!(score.truth.get(&id).copied(), way);
+        }
+        assert_eq!(score.closures.wrong, 0);
+
+        // Had the robot truly gone to the third corridor, the map would have taken two for one.
+        score.walked[3].1 = score.fragments.way(fork, Heading::from_degrees(90.0));
+        score.retrace(&map);
+        assert_eq!(score.closures.wrong, 1);
     }
 }

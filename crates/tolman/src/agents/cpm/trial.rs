@@ -222,7 +222,7 @@ impl Trial<'_> {
         let mut score = Score::of(self.maze);
         score.begin(agent, start);
         let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
-            score.see(agent, step, self.maze);
+            score.see(agent, step);
             see(agent, step);
         });
         record.closures = score.closures_at_the_end(agent.explorer().map());
