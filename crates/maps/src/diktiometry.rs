@@ -44,6 +44,7 @@
 mod ablation;
 mod adapter;
 mod config;
+mod constancy;
 mod counts;
 mod error;
 mod estimator;
@@ -75,6 +76,7 @@ pub use config::{
     JournalLength, Matching, Opportunities, Order, Percepts, PerceptualIndexing, Restructuring,
     Rotation, SearchLimits, SignatureKind, Tracking, Transients, Use,
 };
+pub use constancy::Constancy;
 pub use counts::Counts;
 pub use error::{StartError, StepError};
 pub use grid::Grid;

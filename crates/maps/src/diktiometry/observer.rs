@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
-use tolman_planners::path_to;
+use tolman_planners::a_star;
 
 use super::config::{Config, Percepts};
 use super::error::{StartError, StepError};
@@ -152,16 +152,17 @@ impl Observer {
             .collect()
     }
 
-    /// The fewest actions from one place to another along the likeliest links, ties to the older links; none if no way is known.
-    /// O(places + links · degree).
+    /// The actions from one place to another that are the likeliest to lead there and few, along links that probably work now
+    /// ([`PathGraph::likely`](super::PathGraph::likely)); the fewest where the world never changed. None if no way is known.
+    /// O(places + links · (degree + log links)).
     #[must_use]
     pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Plan> {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
-        let way = path_to(&self.map.paths, from.0, |place| place == to.0)?;
+        let way = a_star(&self.map.paths, from.0, |place| place == to.0, |_| 0)?.path;
         let links = |place| {
-            let ways = self.map.paths.ways(place);
-            ways.map(|(_, link)| (link.action, link.to))
+            let likely = self.map.paths.likely(place);
+            likely.map(|(_, link)| (link.action, link.to))
         };
         let actions = actions_along(&way, links)?;
         let ends = way.iter().skip(1).map(|&place| PlaceId(place));
@@ -187,6 +188,7 @@ impl Observer {
     pub fn step(&mut self, step: &Move) -> Result<StepReport, StepError> {
         self.admit(step)?;
         self.moves += 1;
+        self.map.paths.now = self.moves;
         let mut report = StepReport {
             number: self.moves,
             tracks: Vec::new(),

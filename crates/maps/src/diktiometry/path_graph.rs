@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 use tolman_planners::Graph;
 
+use super::constancy::Constancy;
 use super::counts::Counts;
 use super::ids::{Action, FrameId, LinkId, PlaceId};
 use super::observation::Exits;
@@ -38,6 +39,8 @@ pub struct Place {
     pub visits: u32,
     /// How often it was expected to be here, and how often of these it was.
     pub counts: Counts,
+    /// Whether it was there when it was last expected, and how often that changed.
+    pub constancy: Constancy,
     /// Histories of tracks left here, the oldest first.
     pub histories: Vec<Vec<Match>>,
     /// Delayed gratification: what is to be decided once more is known.
@@ -59,6 +62,7 @@ impl Place {
             exits: Exits::Unknown,
             visits: 0,
             counts: Counts::default(),
+            constancy: Constancy::default(),
             histories: Vec::new(),
             notes: Vec::new(),
         }
@@ -122,6 +126,8 @@ pub struct Link {
     pub traversed: u32,
     /// How often it was expected to, and how often of these it did.
     pub counts: Counts,
+    /// Whether it worked when it was last expected to, and how often that changed.
+    pub constancy: Constancy,
     /// Which link was taken after it, and how often.
     pub then: Vec<Successor>,
     /// Whether it is still part of the map.
@@ -153,6 +159,8 @@ pub struct PathGraph {
     pub(super) links: Vec<Link>,
     /// How many of the places stand.
     standing: usize,
+    /// Moves so far.
+    pub(super) now: u64,
 }
 
 impl PathGraph {
@@ -236,6 +244,32 @@ impl PathGraph {
         })
     }
 
+    /// The chance that a link leads now where it led: as long as it and the place at its end are constant, by the less likely of both. 0
+    /// for ids never given.
+    #[must_use]
+    pub fn chance(&self, id: LinkId) -> f64 {
+        let Some(link) = self.link(id) else {
+            return 0.0;
+        };
+        let there = self.places[link.to.index()].constancy.chance(self.now);
+        link.constancy.chance(self.now).min(there)
+    }
+
+    /// The links that are most likely to work now, of each action at a place the one; of equals the one that was met more often
+    /// lately, then the older.
+    pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
+        self.outgoing(place).filter(move |(id, link)| {
+            let best = self
+                .along(place, link.action)
+                .max_by(|(a, one), (b, other)| {
+                    let chance = self.chance(*a).total_cmp(&self.chance(*b));
+                    let met = one.counts.met().total_cmp(&other.counts.met());
+                    chance.then(met).then(b.cmp(a))
+                });
+            best.is_some_and(|(best, _)| best == *id)
+        })
+    }
+
     pub(super) fn add_place(&mut self, frame: FrameId, position: PointBox) -> PlaceId {
         let id = PlaceId(self.places.len() as u32);
         self.places.push(Place::new(frame, position));
@@ -284,6 +318,7 @@ impl PathGraph {
             to,
             traversed: 0,
             counts: Counts::default(),
+            constancy: Constancy::default(),
             then: Vec::new(),
             standing: Standing::Standing,
         });
@@ -303,15 +338,28 @@ impl PathGraph {
     }
 }
 
-/// For planning: from every place, each action that is not blocked along its likeliest link. The nodes are the ids of places.
+/// For planning: from every place, each action along the link that is most likely to work now. The nodes are the ids of places.
+///
+/// A move costs [`MOVE`]; that it may fail costs as much as going [`FAILURE`] moves about, for each factor of e by which it makes the
+/// plan less likely to work. Where the world never changed, the cheapest plan has the fewest moves.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()
     }
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        for (_, link) in self.ways(PlaceId(node)) {
-            visit(link.to.0, 1);
+        for (id, link) in self.likely(PlaceId(node)) {
+            let doubt = -libm::log(self.chance(id).max(LEAST));
+            visit(link.to.0, MOVE + (f64::from(FAILURE * MOVE) * doubt) as u32);
         }
     }
 }
+
+/// The cost of a move.
+const MOVE: u32 = 100;
+
+/// A plan that fails is found out half-way and made anew: some dozen moves in worlds of dozens of places.
+const FAILURE: u32 = 20;
+
+/// A chance below this is as good as none.
+const LEAST: f64 = 1e-3;

@@ -137,6 +137,22 @@ pub(super) fn see_exits(map: &mut Diktiometry, place: PlaceId, exits: &Exits, co
     for action in shut {
         expect(map, place, action, None, config);
     }
+    // What is open leads where it always led, or, if it was shut, where it mostly led.
+    let here = &map.paths.places[place.index()];
+    let open = map
+        .paths
+        .outgoing(place)
+        .filter(|(_, link)| exits.allow(link.action));
+    let told = open.filter(|(id, link)| {
+        let alone = map.paths.along(place, link.action).count() == 1;
+        let again = !here.exits.allow(link.action);
+        alone || (again && map.paths.likeliest(place, link.action) == Some(*id))
+    });
+    let told: Vec<LinkId> = told.map(|(id, _)| id).collect();
+    for id in told {
+        let link = &mut map.paths.links[id.index()];
+        link.constancy.look(Expected::Met, map.paths.now);
+    }
     map.paths.places[place.index()].exits = exits.clone();
 }
 
@@ -148,7 +164,7 @@ fn expect(
     taken: Option<LinkId>,
     config: &Config,
 ) {
-    let fading = config.transients.fading;
+    let (fading, now) = (config.transients.fading, map.paths.now);
     for at in 0..map.paths.places[from.index()].outgoing.len() {
         let id = map.paths.places[from.index()].outgoing[at];
         let one = &mut map.paths.links[id.index()];
@@ -161,7 +177,12 @@ fn expect(
             Expected::InVain
         };
         one.counts.expect(outcome, fading);
+        one.constancy.look(outcome, now);
         let place = &mut map.paths.places[one.to.index()];
         place.counts.expect(outcome, fading);
+        // Behind a shut door the place is still there.
+        if taken.is_some() {
+            place.constancy.look(outcome, now);
+        }
     }
 }

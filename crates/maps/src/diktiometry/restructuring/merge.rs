@@ -36,6 +36,7 @@ pub(super) fn merge(
     }
     place.visits = place.visits.saturating_add(gone.visits);
     place.counts.join(gone.counts);
+    place.constancy.join(gone.constancy);
     // The younger place was made later: mostly it was seen later, too.
     if gone.exits != Exits::Unknown {
         place.exits = gone.exits;
@@ -131,7 +132,7 @@ fn move_links(paths: &mut PathGraph, kept: PlaceId, lost: PlaceId) {
                 let link = &mut paths.links[id.index()];
                 link.standing = Standing::Removed;
                 let then = core::mem::take(&mut link.then);
-                let (traversed, counts) = (link.traversed, link.counts);
+                let (traversed, counts, constancy) = (link.traversed, link.counts, link.constancy);
                 for (end, list) in [(ends[0], End::Tail), (ends[1], End::Head)] {
                     let place = &mut paths.places[end.index()];
                     let list = match list {
@@ -143,6 +144,7 @@ fn move_links(paths: &mut PathGraph, kept: PlaceId, lost: PlaceId) {
                 let link = &mut paths.links[other.index()];
                 link.traversed = link.traversed.saturating_add(traversed);
                 link.counts.join(counts);
+                link.constancy.join(constancy);
                 for successor in then {
                     match link.then.iter_mut().find(|one| one.link == successor.link) {
                         Some(one) => one.count = one.count.saturating_add(successor.count),

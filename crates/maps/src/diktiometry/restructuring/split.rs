@@ -64,6 +64,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
             let new = &mut map.paths.links[copied.index()];
             new.traversed = link.traversed;
             new.counts = link.counts;
+            new.constancy = link.constancy;
             map.paths.remove_link(id);
         }
     }

@@ -10,6 +10,7 @@
 mod drawing;
 mod epuck;
 mod errors;
+mod memory;
 mod office;
 mod planner;
 mod rover;
@@ -25,6 +26,6 @@ pub use office::{Office, OfficeConfig, OfficeError, PlaceKind, TruePlace, blocks
 pub use planner::{Decision, Planner, Reason};
 pub use rover::{Arrival, MapError, Mapped, Odometer, RoutineOutcome, Rover};
 pub use score::{Isomorphism, MapScore, Visit, score};
-pub use survey::{Drawn, Past, RunError, Survey, SurveyConfig, Surveyed, mapper};
+pub use survey::{Drawn, Past, PlanTrial, RunError, Survey, SurveyConfig, Surveyed, mapper};
 pub use survey_file::{SurveyFile, SurveyFileError};
 pub use surveyor::{Sight, SurveyError, Surveyor, SurveyorConfig};

@@ -31,6 +31,8 @@ pub struct MapScore {
     pub share_once: f64,
     /// Share of the links on the map that lead where their action truly leads.
     pub link_precision: f64,
+    /// The same of the links that the map takes to be there now: of each action the likeliest, if it is likelier than not.
+    pub believed_precision: f64,
     /// Share of the true ways of the whole world that are on the map.
     pub link_recall: f64,
     /// Share of the true ways that were gone at least once which are on the map.
@@ -101,14 +103,19 @@ pub fn score(
     };
     let mut found: Vec<Way> = Vec::new();
     let mut links = 0;
-    for (_, link) in map.links() {
+    let (mut believed, mut believed_rightly) = (0, 0);
+    for (id, link) in map.links() {
         links += 1;
+        let is_believed =
+            map.chance(id) >= 0.5 && map.likely(link.from).any(|(likely, _)| likely == id);
+        believed += usize::from(is_believed);
         let direction = Direction::ALL.get(link.action.0 as usize).copied();
         let ends = [link.from, link.to].map(|place| stands_for.get(&place).copied());
         if let (Some(direction), [Some(from), Some(to)]) = (direction, ends)
             && leads((from, direction)) == Some(to)
         {
             found.push((from, direction));
+            believed_rightly += usize::from(is_believed);
         }
     }
     let correct = found.len();
@@ -141,6 +148,7 @@ pub fn score(
         purity: share(right, all),
         share_once: share(once, visited.len()),
         link_precision: share(correct, links),
+        believed_precision: share(believed_rightly, believed),
         link_recall: share(open.iter().filter(|way| has(way)).count(), open.len()),
         gone_recall: share(gone.iter().filter(|way| has(way)).count(), gone.len()),
         isomorphism: if same {

@@ -13,6 +13,7 @@ use tolman_maze::Direction;
 use tolman_sim::DoorState;
 
 use super::errors::MoveError;
+use super::memory::Memory;
 use super::office::{Office, TruePlace};
 use super::planner::{Decision, Planner};
 use super::rover::{Arrival, MapError, Mapped, RoutineOutcome};
@@ -116,6 +117,7 @@ pub struct Survey<'a> {
     visits: Vec<Visit>,
     gone: Vec<(u32, Direction)>,
     errors: Vec<MoveError>,
+    memory: Memory,
 }
 
 /// A place of a learned map where it is drawn over the world.
@@ -129,6 +131,15 @@ pub struct Drawn {
     pub high: Point,
     /// What is known of it, in words.
     pub label: String,
+}
+
+/// What became of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlanTrial {
+    /// Whether it would lead where it says.
+    pub works: bool,
+    /// Whether a plan by all that the robot truly saw, places never confused, would lead there.
+    pub remembered_works: bool,
 }
 
 /// What happened in one move.
@@ -184,6 +195,8 @@ impl<'a> Survey<'a> {
             site: start.site,
             place: mapped.observer().place(),
         }];
+        let mut memory = Memory::default();
+        memory.see(start.site, mapped.exits());
         Ok(Self {
             office,
             planner: Planner::new(config.heed),
@@ -198,6 +211,7 @@ impl<'a> Survey<'a> {
             visits,
             gone: Vec::new(),
             errors: Vec::new(),
+            memory,
             config,
         })
     }
@@ -228,9 +242,11 @@ impl<'a> Survey<'a> {
             visits: past.visits,
             gone: past.gone,
             errors: Vec::new(),
+            memory: Memory::default(),
             config,
         };
         survey.site = survey.true_site(past.at)?;
+        survey.memory.see(survey.site, survey.mapped.exits());
         Ok(survey)
     }
 
@@ -264,12 +280,15 @@ impl<'a> Survey<'a> {
         let before = self.robot().position();
         let (arrival, report) = self.mapped.go(decision.direction)?;
         let here = self.robot().position();
+        let from = self.site;
+        self.site = self.true_site(here)?;
         if arrival.outcome == RoutineOutcome::Completed {
-            self.gone.push((self.site, decision.direction));
+            self.memory.go(from, decision.direction, self.site);
+            self.gone.push((from, decision.direction));
             self.errors
                 .push(MoveError::of(&report, arrival.moved, here - before));
         }
-        self.site = self.true_site(here)?;
+        self.memory.see(self.site, self.mapped.exits());
         self.visits.push(Visit {
             site: self.site,
             place: self.observer().place(),
@@ -374,8 +393,8 @@ impl<'a> Survey<'a> {
 
     /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its actions are followed on
     /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
-    /// no other place.
-    pub fn plan_works(&mut self) -> Option<bool> {
+    /// no other place, or what was drawn stands for a place that is not there now.
+    pub fn try_plan(&mut self) -> Option<PlanTrial> {
         let paths = &self.mapped.observer().map().paths;
         let here = self.observer().place();
         let others: Vec<PlaceId> = paths
@@ -389,17 +408,32 @@ impl<'a> Survey<'a> {
         let to = others[self.plans.random_range(0..others.len() as u32) as usize];
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
         let wanted = self.visits.iter().rev().find(is_to)?.site;
-        let plan = self.observer().plan(here, to);
-        let end = plan.and_then(|plan| {
-            plan.steps.iter().try_fold(self.site, |site, step| {
-                self.truth
-                    .get(&site)?
-                    .ways
-                    .get(step.action.0 as usize)
-                    .copied()?
+        self.truth.get(&wanted)?;
+        let end = |plan: Vec<usize>| {
+            plan.into_iter().try_fold(self.site, |site, direction| {
+                self.truth.get(&site)?.ways.get(direction).copied()?
             })
+        };
+        let plan = self.observer().plan(here, to);
+        let plan = plan.map(|plan| {
+            plan.steps
+                .iter()
+                .map(|step| step.action.0 as usize)
+                .collect()
         });
-        Some(end == Some(wanted))
+        let remembered = self.memory.plan(self.site, wanted);
+        let remembered = remembered.map(|plan| plan.into_iter().map(Direction::index).collect());
+        Some(PlanTrial {
+            works: plan.and_then(end) == Some(wanted),
+            remembered_works: remembered.and_then(end) == Some(wanted),
+        })
+    }
+
+    /// The share of ways that lead where they did when the robot last saw them, of those it would then take to be there: what a map
+    /// of this run can have at best that does not guess what has changed since.
+    #[must_use]
+    pub fn remembered_precision(&self) -> f64 {
+        self.memory.precision(&self.truth)
     }
 
     /// Where the run began, m.

@@ -32,13 +32,22 @@ pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> 
 }
 
 /// The shares that a map is scored by: the name of the field and metric, and the name on the page.
-const SHARES: [(&str, &str); 6] = [
+const SHARES: [(&str, &str); 9] = [
     ("purity", "purity"),
     ("link_precision", "link precision"),
+    (
+        "believed_precision",
+        "precision of links that are believed now",
+    ),
+    ("remembered_precision", "of ways as they were last seen"),
     ("link_recall", "link recall"),
     ("share_once", "true places with one node"),
     ("coverage", "moves that were expected"),
     ("plans", "plans that work"),
+    (
+        "remembered_plans",
+        "plans by ways as they were last seen that work",
+    ),
 ];
 
 fn table(trial: &Trial) -> Table {
@@ -164,7 +173,7 @@ impl Experiment for Diktiometry {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
-        let mut plans = (0_u32, 0_u32);
+        let (mut plans, mut work, mut remembered_work) = (0_u32, 0_u32, 0_u32);
         for number in 1..=setting.config.moves {
             survey.step()?;
             // Plans are tried where the asymptote is measured.
@@ -172,10 +181,11 @@ impl Experiment for Diktiometry {
             if late
                 && setting.subject == Subject::Map
                 && number.is_multiple_of(5)
-                && let Some(works) = survey.plan_works()
+                && let Some(trial) = survey.try_plan()
             {
-                plans.0 += u32::from(works);
-                plans.1 += 1;
+                plans += 1;
+                work += u32::from(trial.works);
+                remembered_work += u32::from(trial.remembered_works);
             }
         }
         let summary = ErrorSummary::of(survey.errors()).ok_or("no move was made")?;
@@ -195,10 +205,15 @@ impl Experiment for Diktiometry {
             .number("purity", score.purity)
             .number("share_once", score.share_once)
             .number("link_precision", score.link_precision)
+            .number("believed_precision", score.believed_precision)
+            .number("remembered_precision", survey.remembered_precision())
             .number("link_recall", score.link_recall)
             .flag("isomorphic", score.isomorphism == Isomorphism::Yes);
-        if plans.1 > 0 {
-            fields = fields.number("plans", f64::from(plans.0) / f64::from(plans.1));
+        if plans > 0 {
+            let share = |works: u32| f64::from(works) / f64::from(plans);
+            fields = fields
+                .number("plans", share(work))
+                .number("remembered_plans", share(remembered_work));
         }
         Ok(fields)
     }
