@@ -7,7 +7,8 @@ use tolman_maps::cpm::world::{
 };
 use tolman_maps::cpm::{
     Aim, CpMap, CpmConfig, Dictionary, DictionaryError, End, Environments, Explorer, Landmark,
-    LocalizeError, Localizer, LocalizerConfig, Location, PatternId, Port, Sighting, Sign, Turn,
+    LocalizeError, Localizer, LocalizerConfig, Location, PatternId, Port, Sighting, Sign,
+    Traversal, Turn,
 };
 
 use super::explorations::pursue;
@@ -76,7 +77,7 @@ fn from_mid_fragment_before_the_next_junction() {
         ..Noise::NONE
     };
     let mut rng = ChaCha8Rng::seed_from_u64(3);
-    let (mut before, mut at, mut sure, mut starts) = (0, 0, 0, 0);
+    let (mut before, mut at, mut sure, mut rightly_sure, mut starts) = (0, 0, 0, 0, 0);
     for _ in 0..20 {
         let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
         let mut rover = Rover::new(&known.world, noise, Reckoning::None);
@@ -90,15 +91,69 @@ fn from_mid_fragment_before_the_next_junction() {
                 localizer.observe(pattern).unwrap();
             }
             starts += 1;
-            before += u32::from(known.is_right(localizer.location(), rover.at()));
-            sure += u32::from(localizer.location().probability > 0.9);
+            let is_right = known.is_right(localizer.location(), rover.at());
+            let is_sure = localizer.location().probability > 0.9;
+            before += u32::from(is_right);
+            sure += u32::from(is_sure);
+            rightly_sure += u32::from(is_sure && is_right);
             localizer.arrive(walk.sighting);
             at += u32::from(known.is_right(localizer.location(), rover.at()));
         }
     }
-    println!("{before} right before the junction, {sure} sure, {at} right at it, of {starts}");
+    println!(
+        "{before} right before the junction, {rightly_sure} of {sure} that are sure, {at} right at it, of {starts}"
+    );
     assert!(10 * before >= 9 * starts, "{before} of {starts}");
+    assert!(
+        100 * rightly_sure >= 99 * sure,
+        "{rightly_sure} of {sure} that are sure"
+    );
     assert!(at >= before);
+}
+
+#[test]
+fn before_the_first_observation_each_map_is_as_likely_however_large() {
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    let small = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+    let dictionary = small.world.dictionary().clone();
+    let maze = MazeConfig {
+        columns: 6,
+        rows: 6,
+        ..MazeConfig::small()
+    };
+    let world = World::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
+    let large = explored_of(world, Noise::NONE, &mut rng);
+    let nothing = CpMap::default();
+    let maps = [small.map, nothing, large.map];
+    let localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();
+    let found = localizer.maps();
+    for (found, expected) in found.iter().zip([0.5, 0.0, 0.5]) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+}
+
+#[test]
+fn turns_that_lead_where_no_map_has_been_are_not_known() {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+    let dictionary = known.world.dictionary();
+    let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
+    let walk = Traversal {
+        patterns: vec![PatternId(0), PatternId(1), PatternId(2)],
+        motion: None,
+        sighting: Sighting::plain(3),
+    };
+    explorer.arrive(Turn::BACK, &walk, dictionary).unwrap();
+    let maps = [explorer.map().clone()];
+    let mut localizer = Localizer::new(&maps, dictionary, LocalizerConfig::usual()).unwrap();
+    for pattern in walk.patterns {
+        localizer.observe(pattern).unwrap();
+    }
+    localizer.arrive(walk.sighting);
+    let likely = |turn| localizer.knows(turn);
+    assert!(likely(Turn::BACK) > 0.9, "{}", likely(Turn::BACK));
+    assert!(likely(Turn(1)) < 0.1 && likely(Turn(2)) < 0.1);
+    assert!(likely(Turn(3)).abs() < 1e-12, "no junction has it");
 }
 
 #[test]

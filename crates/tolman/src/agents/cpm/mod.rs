@@ -24,6 +24,7 @@ mod put_down;
 mod robot;
 mod round_trip;
 mod score;
+mod spots;
 mod survey;
 mod trial;
 mod venue;

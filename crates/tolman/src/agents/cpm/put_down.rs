@@ -3,17 +3,17 @@ use alloc::sync::Arc;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_control::heading_of;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
-use tolman_maze::{Cell, Maze};
+use tolman_maze::Maze;
 use tolman_sim::World;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 
 use super::body::SimulatedEpuck;
 use super::common_patterns::CommonPatterns;
-use super::fragments::{TrueFragments, Way, along};
+use super::fragments::{TrueFragments, Way};
 use super::robot::walker_config;
+use super::spots::{Looks, Spot, knowable};
 use super::trial::{TrialError, world_of};
 use super::walker::Walker;
 use super::whereabouts::{Approach, Whereabouts, find_out};
@@ -58,10 +58,17 @@ pub struct KnownMaze<'a> {
 pub struct PutDownRecord {
     /// What the robot believed.
     pub whereabouts: Whereabouts,
-    /// Whether it knew maze, fragment and direction before it came to the place ahead; none if it saw nothing before.
-    pub is_right_under_way: Option<bool>,
+    /// How likely an ideal observer would have known maze, fragment and direction before it came to the place ahead, by how the corridor bends:
+    /// 0 to 1.
+    pub knowable_by_bends: f64,
+    /// The same if it also saw the ways to the sides of the places at both ends; no robot knows more on average.
+    pub knowable_by_sides: f64,
+    /// Whether the robot knew them then.
+    pub is_right_under_way: bool,
     /// The same at that place.
     pub is_right_at_first_place: bool,
+    /// The same within one further fragment (section 8): at that place if it was sure there, else before it came to the next.
+    pub is_right_within_one_further: bool,
     /// The same at the last place, where it was sure or gave up.
     pub is_right_at_last: bool,
     /// Whether SOINN-AM recalled the right maze of the first fragment walked whole; none if the robot knew before where it was.
@@ -70,6 +77,16 @@ pub struct PutDownRecord {
     pub seconds: f64,
     /// Where the robot was after every step.
     pub path: Vec<Pose>,
+}
+
+impl KnownMaze<'_> {
+    /// Where a robot may be put that has this map.
+    fn spots(&self) -> Vec<Spot> {
+        Spot::all(self.maze, |way| {
+            let mut known = self.truth.values();
+            known.any(|truth| truth.fragment == way.fragment)
+        })
+    }
 }
 
 impl PutDown<'_> {
@@ -84,11 +101,13 @@ impl PutDown<'_> {
         };
         let world: Arc<World> = Arc::new(world_of(known.maze, self.corridor_width)?);
         let fragments = TrueFragments::of(known.maze);
-        let spots = self.spots(known, &fragments, &world);
+        let mazes: Vec<Vec<Spot>> = self.known.iter().map(KnownMaze::spots).collect();
+        let spots = mazes.get(self.here).map(Vec::as_slice).unwrap_or_default();
         if spots.is_empty() {
             return Ok(None);
         }
-        let (start, way) = spots[rng.random_range(0..spots.len() as u32) as usize];
+        let spot = &spots[rng.random_range(0..spots.len() as u32) as usize];
+        let (start, way) = (spot.pose(&world), spot.way);
         let robot = Epuck::new(self.robot.clone())?;
         let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, self.seed)?;
         let mut walker = Walker::new(body, walker_config(self.corridor_width)?);
@@ -128,19 +147,26 @@ impl PutDown<'_> {
                         && is_along == (location.enter.sign == Sign::Minus)
                 })
         };
-        let at_places = &whereabouts.at_places;
         let ahead = self.approach.places_before();
+        let is_right_in = |beliefs: &[Location], place: usize| {
+            let location = beliefs.get(place);
+            location.is_some_and(|location| is_right(location, ways.get(place)))
+        };
+        let (at_places, under_way) = (&whereabouts.at_places, &whereabouts.under_way);
+        let is_right_at_first_place = is_right_in(at_places, ahead);
+        let last = at_places.len().saturating_sub(1);
+        let knowable_by = |looks| knowable(&mazes, self.here, spot, self.approach, looks);
         Ok(Some(PutDownRecord {
-            is_right_under_way: whereabouts
-                .under_way
-                .as_ref()
-                .map(|location| is_right(location, ways.get(ahead))),
-            is_right_at_first_place: at_places
-                .get(ahead)
-                .is_some_and(|location| is_right(location, ways.get(ahead))),
-            is_right_at_last: at_places
-                .last()
-                .is_some_and(|location| is_right(location, ways.last())),
+            knowable_by_bends: knowable_by(Looks::AtBends),
+            knowable_by_sides: knowable_by(Looks::AtSides),
+            is_right_under_way: is_right_in(under_way, ahead),
+            is_right_at_first_place,
+            is_right_within_one_further: if last == ahead {
+                is_right_at_first_place
+            } else {
+                is_right_in(under_way, ahead + 1)
+            },
+            is_right_at_last: is_right_in(at_places, last),
             is_recalled: self.recalled(&whereabouts)?,
             seconds: walker.time_us() as f64 * 1e-6,
             path: walker.body().path().to_vec(),
@@ -150,41 +176,6 @@ impl PutDown<'_> {
 }
 
 impl PutDown<'_> {
-    /// Where the robot may be put, and the way it then is on.
-    fn spots(
-        &self,
-        known: &KnownMaze<'_>,
-        fragments: &TrueFragments,
-        world: &World,
-    ) -> Vec<(Pose, Way)> {
-        let is_known = |way: &Way| {
-            known
-                .truth
-                .values()
-                .any(|truth| truth.fragment == way.fragment)
-        };
-        let mut spots = Vec::new();
-        for (from, out, way) in fragments.ways().filter(|(.., way)| is_known(way)) {
-            let Some((cells, _)) = along(known.maze, from, out) else {
-                continue;
-            };
-            // The places at both ends are no part of the fragment.
-            let amid = cells.get(1..cells.len() - 1).unwrap_or_default();
-            for (index, cell) in amid.iter().enumerate() {
-                let next: Option<&Cell> = cells.get(index + 2);
-                let ahead = known
-                    .maze
-                    .neighbours(*cell)
-                    .find(|(_, neighbour)| Some(neighbour) == next);
-                if let Some((ahead, _)) = ahead {
-                    let pose = Pose::new(world.cell_centre(*cell), heading_of(ahead));
-                    spots.push((pose, way));
-                }
-            }
-        }
-        spots
-    }
-
     /// Whether the fourth layer recalls the maze.
     fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, TrialError> {
         let Some(walked) = whereabouts.walks.first() else {

@@ -470,8 +470,16 @@ pub(super) mod tests {
             };
             let found = put_down.play().unwrap().unwrap();
             assert!(found.is_right_at_last, "{:?}", found.whereabouts);
+            assert!((0.0..=1.0).contains(&found.knowable_by_bends));
+            assert!((0.0..=1.0).contains(&found.knowable_by_sides));
+            assert_eq!(
+                found.whereabouts.under_way.len(),
+                found.whereabouts.at_places.len()
+            );
             if approach == Approach::BackFirst {
-                under_way += u32::from(found.is_right_under_way == Some(true));
+                // No two fragments of this maze bend alike.
+                assert!(found.knowable_by_bends > 0.99);
+                under_way += u32::from(found.is_right_under_way);
             }
         }
         assert!(under_way >= 3, "{under_way} of 4");

@@ -229,7 +229,7 @@ impl<B: Body> Walker<B> {
         }
     }
 
-    /// As [`begin`](Self::begin), and tells what it saw on the way; nothing where it stands at a place.
+    /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on; nothing where it stands at a place.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -237,14 +237,15 @@ impl<B: Body> Walker<B> {
         // It may have been carried here.
         self.trail.clear();
         let view = self.look()?;
+        let begun = self.pose().position;
         let landmark = self.pilot.robot().landmark();
         let is_place = match view.segments.place() {
             Place::Junction => true,
             Place::DeadEnd => self.is_before_a_wall(&view.segments, 0.75),
             Place::Path | Place::Closed => false,
         };
+        let seen = self.observation(&view)?;
         if is_place || landmark.is_some() {
-            let here = self.pose().position;
             let sighting = self.settle(view, landmark)?;
             if sighting.degree != 2 || landmark.is_some() {
                 return Ok(Walk::Arrived {
@@ -253,10 +254,10 @@ impl<B: Body> Walker<B> {
                 });
             }
             // A bend that looked like a junction.
-            self.pilot.go_to(self.pose().inverse().transform(here))?;
+            self.pilot.go_to(self.pose().inverse().transform(begun))?;
         }
         (self.departed_us, self.departed) = (self.time_us(), self.pose());
-        self.follow(Origin::Path, 0, None)
+        self.follow(Origin::Path, vec![(begun, seen)], 0, None)
     }
 
     /// Turns half round where it stands.
@@ -285,12 +286,13 @@ impl<B: Body> Walker<B> {
         self.pilot.turn(branch)?;
         self.departed_us = self.time_us();
         self.departed = self.pose();
-        self.follow(Origin::Place, skip, give_up_after)
+        self.follow(Origin::Place, Track::new(), skip, give_up_after)
     }
 
     fn follow(
         &mut self,
         from: Origin,
+        mut track: Track,
         skip: u32,
         give_up_after: Option<u32>,
     ) -> Result<Walk, WalkError<B::Error>> {
@@ -302,7 +304,6 @@ impl<B: Body> Walker<B> {
             Origin::Path => ROUND * width,
         };
         let mut left = self.pilot.robot().landmark();
-        let mut track = Vec::new();
         self.trail.clear();
         self.trail.push(origin);
         for stride in 0..self.config.longest_fragment {
@@ -357,7 +358,7 @@ impl<B: Body> Walker<B> {
                     }
                     if give_up_after.is_some_and(|most| track.len() >= most as usize) {
                         self.pilot.turn(PI)?;
-                        self.follow(Origin::Path, 0, None)?;
+                        self.follow(Origin::Path, Track::new(), 0, None)?;
                         return Ok(Walk::TurnedBack {
                             observations: filled(&track),
                         });

@@ -30,11 +30,10 @@ impl Approach {
 /// What a robot that was put down somewhere found out about where it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Whereabouts {
-    /// What it believed when it saw that the fragment ends, before it came to the place that was ahead of it and saw what that is; none if
-    /// it observed nothing before, as where it was put down at a place.
-    pub under_way: Option<Location>,
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
+    /// What it believed before each of them, when it saw that the fragment ends and not yet at what.
+    pub under_way: Vec<Location>,
     /// What it saw along each fragment it walked whole.
     pub walks: Vec<Vec<Observation>>,
 }
@@ -43,7 +42,7 @@ pub struct Whereabouts {
 const SURE: f64 = 0.95;
 
 /// Lets a robot that was put down anywhere, also in mid-fragment, find out on which of some maps it is, and where: it comes to the place ahead
-/// by its approach and then, at random, along further fragments, until it is sure or has come to so many places after the first
+/// by its approach and then, at random, along further fragments that its maps have, until it is sure or has come to so many places after the first
 /// (section 8, "the start point is changed"). The paper's robot begins to observe at that junction; ours does at once. `see` is told of
 /// every place it comes to.
 ///
@@ -79,10 +78,8 @@ pub fn find_out<B: Body>(
         for pattern in patterns.patterns(&observations) {
             localizer.observe(pattern)?;
         }
-        if place == first_ahead && !observations.is_empty() {
-            localizer.end_in_sight();
-            found.under_way = Some(localizer.location());
-        }
+        localizer.end_in_sight();
+        found.under_way.push(localizer.location());
         if place > 0 {
             found.walks.push(observations);
         }
@@ -93,14 +90,30 @@ pub fn find_out<B: Body>(
         if place == last || place >= first_ahead && here.probability > SURE {
             break;
         }
-        let turn = match sighting.degree {
-            degree if place >= first_ahead && degree > 1 => Turn(rng.random_range(1..degree)),
-            _ => Turn::BACK,
+        let turn = if place < first_ahead {
+            Turn::BACK
+        } else {
+            onward(&localizer, sighting.degree, rng)
         };
         localizer.turn(turn)?;
         walk = walker.walk(turn.0 as usize, 0, None)?;
     }
     Ok(found)
+}
+
+/// A turn at random among those that its maps most likely know: by others it would learn nothing.
+fn onward(localizer: &Localizer<'_>, degree: u32, rng: &mut impl Rng) -> Turn {
+    let turns = || (1..degree).map(Turn);
+    let best = turns()
+        .map(|turn| localizer.knows(turn))
+        .fold(0.0, f64::max);
+    let known: Vec<Turn> = turns()
+        .filter(|turn| localizer.knows(*turn) >= best / 2.0)
+        .collect();
+    match known.len() as u32 {
+        0 => Turn::BACK,
+        count => known[rng.random_range(0..count) as usize],
+    }
 }
 
 /// Why a robot cannot look where it is.

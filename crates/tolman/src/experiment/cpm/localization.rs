@@ -29,10 +29,17 @@ const ALIASED: &str = "Aliased";
 /// What follows the name of a maze in a row of robots that go back first.
 const BACK_FIRST: &str = " back first";
 
+/// What could be known before the place ahead: the name of the metric, and that on a page.
+const KNOWABLE: [(&str, &str); 2] = [
+    ("bends_percent", "could be known by bends"),
+    ("sides_percent", "and by the sides of places"),
+];
+
 /// The yes or no of a run: the beginning of its metric's name, and that on a page.
-const FLAGS: [(&str, &str); 4] = [
+const FLAGS: [(&str, &str); 5] = [
     ("under_way", "right before the place ahead"),
     ("first_place", "at it"),
+    ("one_further", "within one further fragment"),
     ("last_place", "at the last"),
     ("recalled", "maze recalled by SOINN-AM"),
 ];
@@ -54,10 +61,16 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
     let mut table = Table::new(LOCALIZATION, "Put down in mid-fragment of one of the mazes")
         .field("places", Kind::Count)
         .field("seconds", Kind::Number)
+        .field("bends_percent", Kind::Number)
+        .field("sides_percent", Kind::Number)
         .field("under_way", Kind::Flag)
         .field("first_place", Kind::Flag)
+        .field("one_further", Kind::Flag)
         .field("last_place", Kind::Flag)
         .optional_field("recalled", Kind::Flag);
+    for (name, title) in KNOWABLE {
+        table = table.metric(Metric::mean(name).titled(title).unit("%").decimals(1));
+    }
     for (name, title) in FLAGS {
         table = table.metric(Metric::percent(format!("{name}_percent"), name).titled(title));
     }
@@ -75,8 +88,9 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
         "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, and is put down amid a \
          fragment of the row's; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on, or \
          back to the place behind first and from there along the whole fragment. Right: maze, fragment and direction, when it sees that the fragment \
-         ends and not yet at what, and at that place. It goes on until it is sure, up to {MOST_PLACES} places. SOINN-AM is asked with the \
-         first fragment walked whole."
+         ends and not yet at what, and at that place; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
+         until it is sure, up to {MOST_PLACES} places. What could be known is how often the best guess is right of an observer that knows the mazes and sees \
+         without mistake how the corridor bends in every cell from the one behind on, and of one that sees the ways to the sides of the places at its ends too. SOINN-AM is asked with the first fragment walked whole."
     ))
 }
 
@@ -187,9 +201,11 @@ fn measured(approach: Approach, record: &PutDownRecord) -> Fields {
     let mut fields = Fields::new()
         .count("places", places as u64)
         .number("seconds", record.seconds)
-        // Who has seen nothing before does not know.
-        .flag("under_way", record.is_right_under_way == Some(true))
+        .number("bends_percent", 100.0 * record.knowable_by_bends)
+        .number("sides_percent", 100.0 * record.knowable_by_sides)
+        .flag("under_way", record.is_right_under_way)
         .flag("first_place", record.is_right_at_first_place)
+        .flag("one_further", record.is_right_within_one_further)
         .flag("last_place", record.is_right_at_last);
     if let Some(recalled) = record.is_recalled {
         fields = fields.flag("recalled", recalled);
@@ -205,7 +221,14 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
     if !(1.0..=f64::from(MOST_PLACES)).contains(&places) {
         return Err(format!("{places} places, expected 1 to {MOST_PLACES}").into());
     }
-    if places < 1.5 && flag("first_place") != flag("last_place") {
+    for (name, _) in KNOWABLE {
+        let knowable = number(name).unwrap_or_default();
+        if !(0.0..=100.0).contains(&knowable) {
+            return Err(format!("{name} is {knowable}, expected 0 to 100").into());
+        }
+    }
+    let is_as_at_first = |name| flag(name) == flag("first_place");
+    if places < 1.5 && !(is_as_at_first("last_place") && is_as_at_first("one_further")) {
         return Err("the first place is the last one".into());
     }
     Ok(())
