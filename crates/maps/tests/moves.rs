@@ -8,7 +8,8 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
 use tolman_maze::{Braided, Cell, Direction, Knowledge, Maze, Rooms, Walls};
 use tolman_planners::moves::{
-    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
+    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap, RolloutConfig,
+    Rollouts,
 };
 use tolman_planners::{Passages, Unknown};
 
@@ -74,13 +75,30 @@ fn look(map: &mut WallMap<16>, maze: &Maze, at: Cell, heading: Direction) {
 
 /// Explores `maze`; what is known in the end, the steps it took, the steps of the run that is proven.
 fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
+    let mut explorer = explorer(maze);
+    explore_by(maze, |map, at| explorer.decide(map, maze.goals(), at))
+}
+
+/// The same, every stop of the proof chosen by rollouts.
+fn explore_by_rollouts(maze: &Maze) -> (WallMap<16>, u32, u16) {
+    let mut rollouts = Rollouts::new(explorer(maze), RolloutConfig::tuned()).unwrap();
+    explore_by(maze, |map, at| rollouts.decide(map, maze.goals(), at))
+}
+
+fn explorer(maze: &Maze) -> MoveExplorer<16> {
+    MoveExplorer::new(MoveExplorerConfig::tuned(), maze.start().unwrap().0).unwrap()
+}
+
+fn explore_by(
+    maze: &Maze,
+    mut decide: impl FnMut(&WallMap<16>, Cell) -> MoveDecision,
+) -> (WallMap<16>, u32, u16) {
     let (start, mut heading) = maze.start().unwrap();
     let mut map = WallMap::new(maze.grid(), ClosedCells::Possible).unwrap();
-    let mut explorer = MoveExplorer::<16>::new(MoveExplorerConfig::tuned(), start).unwrap();
     let (mut at, mut visited) = (start, maze.goals().contains(&start));
     for steps in 0..5000 {
         look(&mut map, maze, at, heading);
-        match explorer.decide(&map, maze.goals(), at) {
+        match decide(&map, at) {
             MoveDecision::Drive(leap) => {
                 let _ = MouseStep::of_leap(&mut heading, leap);
                 let known = Passages::<16>::new(&map, Unknown::Closed);
@@ -100,6 +118,41 @@ fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
         }
     }
     panic!("never ends in\n{maze}");
+}
+
+/// No completion of what is unknown has a better run.
+fn check_proof(
+    maze: &Maze,
+    (map, _, moves): (WallMap<16>, u32, u16),
+    seed: u64,
+) -> Result<(), TestCaseError> {
+    let start = maze.grid().index(maze.start().unwrap().0);
+    let best = |maze: &Maze| {
+        maze.goals()
+            .iter()
+            .filter_map(|goal| fewest_steps(maze, *goal)[start])
+            .min()
+    };
+    prop_assert_eq!(best(maze), Some(moves));
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    for open_in_ten in [0, 3, 5, 8, 10_u32] {
+        let mut completed = maze.clone();
+        for cell in maze.grid().cells() {
+            for side in [Direction::North, Direction::East] {
+                if map.knowledge(cell, side) == Knowledge::Unknown {
+                    completed.set_wall(cell, side, rng.random_range(0..10_u32) >= open_in_ten);
+                }
+            }
+        }
+        prop_assert_eq!(
+            best(&completed),
+            Some(moves),
+            "in\n{}\nknown\n{}",
+            completed,
+            map
+        );
+    }
+    Ok(())
 }
 
 proptest! {
@@ -122,24 +175,7 @@ proptest! {
 
     #[test]
     fn what_is_proven_holds_however_the_unknown_walls_turn_out(maze in mazes(), seed in any::<u64>()) {
-        let (map, _, moves) = explore(&maze);
-        let start = maze.grid().index(maze.start().unwrap().0);
-        let best = |maze: &Maze| {
-            maze.goals().iter().filter_map(|goal| fewest_steps(maze, *goal)[start]).min()
-        };
-        prop_assert_eq!(best(&maze), Some(moves));
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        for open_in_ten in [0, 3, 5, 8, 10_u32] {
-            let mut completed = maze.clone();
-            for cell in maze.grid().cells() {
-                for side in [Direction::North, Direction::East] {
-                    if map.knowledge(cell, side) == Knowledge::Unknown {
-                        completed.set_wall(cell, side, rng.random_range(0..10_u32) >= open_in_ten);
-                    }
-                }
-            }
-            prop_assert_eq!(best(&completed), Some(moves), "in\n{}\nknown\n{}", completed, map);
-        }
+        check_proof(&maze, explore(&maze), seed)?;
     }
 
     #[test]
@@ -159,5 +195,16 @@ proptest! {
         let rooms = Rooms { width: 12, height: 12, attempts: 20, smallest: 2, largest: 4, extra_doors: 3 };
         let maze = rooms.generate(&mut rng).unwrap();
         prop_assert_eq!(explore(&maze).1, explore(&maze).1);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    #[test]
+    fn what_rollouts_prove_holds_as_well(maze in mazes(), seed in any::<u64>()) {
+        let explored = explore_by_rollouts(&maze);
+        prop_assert_eq!(explored.1, explore_by_rollouts(&maze).1, "the same maze, the same steps");
+        check_proof(&maze, explored, seed)?;
     }
 }

@@ -1,9 +1,11 @@
-use tolman_maze::{Cell, Walls};
+use core::array;
 
-use super::hopes::Hopes;
+use tolman_maze::{Cell, Direction, Walls};
+
+use super::chart::Chart;
 use super::outlook::Outlook;
+use super::stops::Stops;
 use super::{Leap, MoveExplorerConfig, MoveExplorerConfigError, MoveMap};
-use crate::{Passages, Unknown};
 
 /// Explores a maze until the best run is known for certain.
 ///
@@ -23,11 +25,15 @@ use crate::{Passages, Unknown};
 /// It always ends: each stop it makes for shows a wall nobody has looked at, and on the way there that stop only gets more
 /// attractive.
 ///
+/// [`Rollouts`](super::Rollouts) choose better among the stops that it weighs for the proof, and take longer.
+///
 /// The explorer remembers nothing but whether it has been at the goal; it compares everything else with `walls` at each
 /// call, so walls may be forgotten again at any time.
 #[derive(Clone, Debug)]
 pub struct MoveExplorer<const N: usize> {
     config: MoveExplorerConfig,
+    /// The power of the distance, of the first distances.
+    distances: [f32; 16],
     start: Cell,
     goal: Goal,
 }
@@ -55,6 +61,19 @@ pub enum MoveDecision {
     Stuck,
 }
 
+/// What there is to do.
+pub(super) enum Task {
+    /// Nothing to weigh.
+    Decided(MoveDecision),
+    /// To drive there.
+    DriveTo(Cell),
+    /// The mouse was at the goal and knows a run of so many steps: to look at what might make a better one.
+    Prove {
+        /// Steps.
+        closed: u16,
+    },
+}
+
 impl<const N: usize> MoveExplorer<N> {
     /// An explorer for a mouse that makes its runs from `start` and has seen nothing.
     ///
@@ -64,6 +83,7 @@ impl<const N: usize> MoveExplorer<N> {
         config.check()?;
         Ok(Self {
             config,
+            distances: array::from_fn(|moves| libm::powf(moves as f32, config.nearness)),
             start,
             goal: Goal::Ahead,
         })
@@ -72,122 +92,135 @@ impl<const N: usize> MoveExplorer<N> {
     /// What to do in the cell `at`, once what is seen from there is in `walls`, to reach one of `goals`. O(N²).
     #[must_use]
     pub fn decide(&mut self, walls: &impl Walls, goals: &[Cell], at: Cell) -> MoveDecision {
+        let chart = self.chart(walls, goals, at);
+        let target = match self.task(&chart, at) {
+            Task::Decided(decision) => return decision,
+            Task::DriveTo(target) => Some(target),
+            Task::Prove { closed } => self.proofs::<1>(&chart, at, closed).best(),
+        };
+        let leap = target.and_then(|target| chart.leap_towards(target, at));
+        leap.map_or(MoveDecision::Stuck, MoveDecision::Drive)
+    }
+
+    /// What is known, from where the mouse is now.
+    pub(super) fn chart(&mut self, walls: &impl Walls, goals: &[Cell], at: Cell) -> Chart<N> {
         if goals.contains(&at) {
             self.goal = Goal::Visited;
         }
-        let certain = Passages::new(walls, Unknown::Closed);
-        let hoped = Passages::new(walls, Unknown::Open);
-        let from_start = MoveMap::new(&hoped, [self.start]);
-        let to_goal = MoveMap::new(&hoped, goals.iter().copied());
-        let Some(open) = to_goal.moves(self.start) else {
-            return MoveDecision::Stuck;
+        Chart::new(walls, self.start, goals)
+    }
+
+    pub(super) fn task(&self, chart: &Chart<N>, at: Cell) -> Task {
+        let Some(open) = chart.open() else {
+            return Task::Decided(MoveDecision::Stuck);
         };
-        let closed = MoveMap::new(&certain, goals.iter().copied()).moves(self.start);
-        let hopes = Hopes {
-            walls,
-            hoped: &hoped,
-            from_start: &from_start,
-            to_goal: &to_goal,
-            goals,
-        };
-        if hopes.unknown_sides(at).next().is_some() {
+        if chart.unknown_sides(at).next().is_some() {
             // Only at the start has the mouse not seen what lies behind it: from then on it has seen, before
             // it drives along a row of cells, how far that row goes to both sides.
-            return MoveDecision::Turn;
+            return Task::Decided(MoveDecision::Turn);
         }
-        let here = MoveMap::new(&certain, [at]);
-        let target = match (closed, self.goal) {
+        let target = match (chart.closed, self.goal) {
             (Some(moves), Goal::Visited) if moves == open => {
-                return MoveDecision::Finished { moves };
+                return Task::Decided(MoveDecision::Finished { moves });
             }
+            (Some(closed), Goal::Visited) => return Task::Prove { closed },
             // Sooner or later it has to be there, and it is seldom nearer than now.
-            (Some(_), Goal::Ahead) => nearest(goals, &here),
-            (Some(closed), Goal::Visited) => {
-                let proof = self.best_proof(&hopes, &here, open, closed);
-                proof.map(|(_, cell)| cell)
-            }
+            (Some(_), Goal::Ahead) => nearest_goal(chart, at),
             (None, _) => {
                 // Nobody knows yet which runs matter besides the best ones.
-                let proof = self.best_proof(&hopes, &here, open, open + 1);
-                proof
-                    .filter(|(worth, _)| *worth > self.config.early_proof)
-                    .map(|(_, cell)| cell)
-                    .or_else(|| self.best_approach(&hopes, &here))
+                let proofs = self.proofs::<1>(chart, at, open + 1);
+                let early = proofs.best_above(self.config.early_proof);
+                early.or_else(|| self.best_approach(chart, at))
             }
         };
-        let Some(target) = target else {
-            return MoveDecision::Stuck;
-        };
-        let back = MoveMap::new(&certain, [target]);
-        let left = back.moves(at).and_then(|moves| moves.checked_sub(1));
-        // Of the ways there, the one with most to see on it.
-        Leap::all(&certain, at)
-            .filter(|leap| left.is_some() && back.moves(leap.end) == left)
-            .max_by_key(|leap| hopes.unknown_sides(leap.end).count())
-            .map_or(MoveDecision::Stuck, MoveDecision::Drive)
+        target.map_or(Task::Decided(MoveDecision::Stuck), Task::DriveTo)
     }
 
     /// Where to look while no way to the goal is known.
-    fn best_approach<W: Walls>(&self, hopes: &Hopes<'_, N, W>, here: &MoveMap<N>) -> Option<Cell> {
+    fn best_approach(&self, chart: &Chart<N>, at: Cell) -> Option<Cell> {
         let config = &self.config;
-        let outlook = Outlook::new(hopes);
-        let approach = best(hopes, here, |cell, moves| {
-            let onward = f32::from(hopes.to_goal.moves(cell)?)
-                + config.unknown_wall * f32::from(outlook.unknown_walls(cell));
-            let seen = hopes.unknown_sides(cell).count() as f32;
-            Some(config.sight * seen - config.known_step * f32::from(moves) - onward)
-        });
-        approach.map(|(_, cell)| cell)
+        let outlook = Outlook::new(chart);
+        let unknown = chart.unknown().cells();
+        let mut stops = Stops::<1>::new();
+        for (moves, front) in chart.around(at) {
+            for cell in front.and(&unknown).iter() {
+                let Some(onward) = chart.to_goal.moves(cell) else {
+                    continue;
+                };
+                let onward = f32::from(onward)
+                    + config.unknown_wall * f32::from(outlook.unknown_walls(cell));
+                let seen = chart.unknown_sides(cell).count() as f32;
+                let score = config.sight * seen - config.known_step * f32::from(moves) - onward;
+                stops.offer(score, cell);
+            }
+        }
+        stops.best()
     }
 
-    /// What to look at for the proof, and what it is worth, when runs of `closed` steps and more do not matter
-    /// and the best that can be hoped for takes `open`.
-    fn best_proof<W: Walls>(
+    /// What to look at for the proof, the best first, when runs of `limit` steps and more do not matter.
+    pub(super) fn proofs<const K: usize>(
         &self,
-        hopes: &Hopes<'_, N, W>,
-        here: &MoveMap<N>,
-        open: u16,
-        closed: u16,
-    ) -> Option<(f32, Cell)> {
-        let config = &self.config;
-        best(hopes, here, |cell, moves| {
-            let mut told = 0.0;
-            for side in hopes.unknown_sides(cell) {
-                if let Some(run) = hopes.run_through(cell, side)
-                    && run < closed
-                {
-                    told += config.base + power(config.patience, run - open);
-                }
+        chart: &Chart<N>,
+        at: Cell,
+        limit: u16,
+    ) -> Stops<K> {
+        let mut stops = Stops::new();
+        let unknown = chart.unknown().cells();
+        for (moves, front) in chart.around(at) {
+            let distance = self.distance(moves);
+            if stops.lowest() > self.most_told() / distance {
+                break;
             }
-            (told > 0.0).then(|| told / libm::powf(f32::from(moves), config.nearness))
-        })
+            front.and(&unknown).iter().for_each(|cell| {
+                let told = self.told(chart, cell, limit);
+                if told > 0.0 {
+                    stops.offer(told / distance, cell);
+                }
+            });
+        }
+        stops
+    }
+
+    /// How a stop so many steps away counts.
+    fn distance(&self, moves: u16) -> f32 {
+        let near = self.distances.get(usize::from(moves)).copied();
+        near.unwrap_or_else(|| libm::powf(f32::from(moves), self.config.nearness))
+    }
+
+    /// What a look around from `cell` tells about runs of less than `limit` steps.
+    fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
+        let mut told = 0.0;
+        // A leap over one of the sides begins or ends at the cell or drives over it, so a run with it is shorter by
+        // one step at most than a run that stops at the cell.
+        let stopping = chart.from_start.moves(cell).zip(chart.to_goal.moves(cell));
+        if stopping.is_none_or(|(before, after)| before + after > limit) {
+            return told;
+        }
+        let open = chart.open().unwrap_or(0);
+        for side in chart.unknown_sides(cell) {
+            if let Some(run) = chart.run_through(cell, side)
+                && run < limit
+            {
+                told += self.config.base + power(self.config.patience, run.saturating_sub(open));
+            }
+        }
+        told
+    }
+
+    /// What a stop tells at most: one of its four sides is known, by which the mouse gets there.
+    fn most_told(&self) -> f32 {
+        (Direction::ALL.len() - 1) as f32 * (self.config.base + 1.0)
     }
 }
 
 /// The goal that takes fewest steps to drive to.
-fn nearest<const N: usize>(goals: &[Cell], here: &MoveMap<N>) -> Option<Cell> {
-    let reached = goals.iter().filter(|goal| here.moves(**goal).is_some());
-    reached.min_by_key(|goal| here.moves(**goal)).copied()
-}
-
-/// The highest score, and the cell that has it, those the mouse can drive to and see something new from. `score` is given a
-/// cell and the steps to it. Of equals the first by [`tolman_maze::Grid::index`].
-fn best<const N: usize, W: Walls>(
-    hopes: &Hopes<'_, N, W>,
-    here: &MoveMap<N>,
-    score: impl Fn(Cell, u16) -> Option<f32>,
-) -> Option<(f32, Cell)> {
-    let mut best: Option<(f32, Cell)> = None;
-    for cell in hopes.walls.grid().cells() {
-        if let Some(moves @ 1..) = here.moves(cell)
-            && hopes.unknown_sides(cell).next().is_some()
-            && let Some(score) = score(cell, moves)
-            && best.is_none_or(|(highest, _)| score > highest)
-        {
-            best = Some((score, cell));
-        }
-    }
-    best
+fn nearest_goal<const N: usize>(chart: &Chart<N>, at: Cell) -> Option<Cell> {
+    let here = MoveMap::over(&chart.certain, &super::cell_set::CellSet::of([at]));
+    let reached = chart
+        .goals
+        .iter()
+        .filter(|goal| here.moves(*goal).is_some());
+    reached.min_by_key(|goal| here.moves(*goal))
 }
 
 /// A whole power.

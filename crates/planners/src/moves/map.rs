@@ -1,55 +1,134 @@
-use tolman_maze::Cell;
+use tolman_maze::{Cell, Direction};
 
 use super::Leap;
-use super::queue::Queue;
+use super::cell_set::CellSet;
+use super::sides::Sides;
 use crate::Passages;
 
-/// The fewest steps from every cell of a maze of up to `N` × `N` to the nearest of some cells, and to come
+/// The fewest steps from every cell of a maze of up to `N` × `N`, `N` ≤ 32, to the nearest of some cells, and to come
 /// from there: a leap can be driven back.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct MoveMap<const N: usize> {
     moves: [[u16; N]; N],
+    /// How many cells are so many steps away at most; as long as it has `levels`.
+    within: [[u16; N]; N],
+    levels: u16,
+    /// The first and the last number of steps that sides closed since put in doubt.
+    stale: Option<(u16, u16)>,
 }
 
 /// No way leads there.
 const NEVER: u16 = u16::MAX;
 
 impl<const N: usize> MoveMap<N> {
+    const BLANK: Self = Self {
+        moves: [[NEVER; N]; N],
+        within: [[0; N]; N],
+        levels: 0,
+        stale: None,
+    };
+
     /// Breadth-first search from `targets`, leap by leap; those outside of `N` × `N` cells are left out. O(N²).
     ///
     /// A target counts only where a leap ends, as the goal does in the paper's rules.
     #[must_use]
     pub fn new(passages: &Passages<N>, targets: impl IntoIterator<Item = Cell>) -> Self {
-        let mut map = Self {
-            moves: [[NEVER; N]; N],
-        };
-        let mut queue = Queue::new();
-        for target in targets {
-            map.reach(&mut queue, target, 0);
-        }
-        while let Some(cell) = queue.pop() {
-            let moves = map.moves(cell).unwrap_or(0) + 1;
-            for leap in Leap::all(passages, cell) {
-                map.reach(&mut queue, leap.end, moves);
-            }
-        }
+        Self::over(&Sides::from(passages), &CellSet::of(targets))
+    }
+
+    /// The same, all cells that are equally far away at once.
+    pub(super) fn over(sides: &Sides<N>, targets: &CellSet<N>) -> Self {
+        let mut map = Self::BLANK;
+        map.spread(sides, Wave::new(*targets), |_| false);
         map
     }
 
-    fn reach(&mut self, queue: &mut Queue<N>, cell: Cell, moves: u16) {
-        let row = self.moves.get_mut(usize::from(cell.y));
-        if let Some(slot @ &mut NEVER) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
-            *slot = moves;
-            queue.push(cell);
+    /// A map to `target` that may end where `from` is reached.
+    pub(super) fn between(sides: &Sides<N>, target: Cell, from: Cell) -> Self {
+        let mut map = Self::BLANK;
+        let wave = Wave::new(CellSet::of([target]));
+        map.spread(sides, wave, |front| front.contains(from));
+        map
+    }
+
+    /// Numbers the cells, from the front of `wave` on, until all that was put in doubt is certain again.
+    fn spread(
+        &mut self,
+        sides: &Sides<N>,
+        mut wave: Wave<N>,
+        is_enough: impl Fn(&CellSet<N>) -> bool,
+    ) {
+        let last = self.stale.take().map_or(NEVER, |(_, last)| last);
+        let mut within = match wave.moves.checked_sub(1) {
+            Some(before) => self.within(before),
+            None => 0,
+        };
+        while !wave.front.is_empty() {
+            within += wave.front.fill(&mut self.moves, wave.moves);
+            let as_before = wave.moves < self.levels && self.within(wave.moves) == within;
+            if as_before && wave.moves >= last {
+                // As many cells as before are so near, so it is the same ones, and all beyond is as it was.
+                return;
+            }
+            let slot = self.within.as_flattened_mut();
+            if let Some(slot) = slot.get_mut(usize::from(wave.moves)) {
+                *slot = within;
+            }
+            if is_enough(&wave.front) {
+                break;
+            }
+            wave.advance(sides);
         }
+        if self.levels > 0 {
+            wave.reached.fill_others(&mut self.moves, NEVER);
+        }
+        self.levels = wave.moves;
+    }
+
+    fn within(&self, moves: u16) -> u16 {
+        let slot = self.within.as_flattened().get(usize::from(moves));
+        slot.copied().unwrap_or(0)
+    }
+
+    /// Takes note that one of the `sides` was closed. The map is out of date until it is [mended](Self::mend).
+    pub(super) fn side_closed(&mut self, sides: &Sides<N>, cell: Cell, side: Direction) {
+        sides.leaps_over(cell, side, |tail, head| {
+            let (tail, head) = (self.moves_or_never(tail), self.moves_or_never(head));
+            if tail != head {
+                // The farther one was a step farther than the nearer one by this leap, and perhaps by no other.
+                let doubtful = tail.max(head);
+                let (first, last) = self.stale.unwrap_or((doubtful, doubtful));
+                self.stale = Some((first.min(doubtful), last.max(doubtful)));
+            }
+        });
+    }
+
+    /// Brings the map up to date with `sides`, if fewer than `limit` steps anywhere are in doubt. O(levels that change × N).
+    pub(super) fn mend(&mut self, sides: &Sides<N>, limit: u16) {
+        let Some((first, _)) = self.stale.filter(|(first, _)| *first < limit) else {
+            return;
+        };
+        let before = first.saturating_sub(1);
+        let mut wave = Wave {
+            reached: CellSet::filter(&self.moves, |moves| moves < first),
+            front: CellSet::filter(&self.moves, |moves| moves == before),
+            moves: before,
+        };
+        wave.advance(sides);
+        self.spread(sides, wave, |_| false);
     }
 
     /// Steps from `cell` to the nearest target, none if no way leads there.
     #[must_use]
     pub fn moves(&self, cell: Cell) -> Option<u16> {
-        let row = self.moves.get(usize::from(cell.y))?;
-        let moves = row.get(usize::from(cell.x)).copied()?;
+        let moves = self.moves_or_never(cell);
         (moves != NEVER).then_some(moves)
+    }
+
+    fn moves_or_never(&self, cell: Cell) -> u16 {
+        let row = self.moves.get(usize::from(cell.y));
+        let moves = row.and_then(|row| row.get(usize::from(cell.x)));
+        moves.copied().unwrap_or(NEVER)
     }
 
     /// A way of fewest steps from `cell` to a target, on the passages the map was made for. Nothing, where no
@@ -61,6 +140,44 @@ impl<const N: usize> MoveMap<N> {
             passages,
             at: cell,
         }
+    }
+}
+
+/// Breadth-first search: the cells that are so many steps away.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wave<const N: usize> {
+    /// So many at most.
+    reached: CellSet<N>,
+    /// Just so many.
+    pub(super) front: CellSet<N>,
+    pub(super) moves: u16,
+}
+
+impl<const N: usize> Wave<N> {
+    pub(super) const fn new(targets: CellSet<N>) -> Self {
+        Self {
+            reached: targets,
+            front: targets,
+            moves: 0,
+        }
+    }
+
+    /// Steps until one of some cells is reached.
+    pub(super) fn moves_to(mut self, targets: &CellSet<N>, sides: &Sides<N>) -> Option<u16> {
+        while self.front.and(targets).is_empty() {
+            if self.front.is_empty() {
+                return None;
+            }
+            self.advance(sides);
+        }
+        Some(self.moves)
+    }
+
+    /// One step farther.
+    pub(super) fn advance(&mut self, sides: &Sides<N>) {
+        self.front = sides.leaps_from(&self.front).minus(&self.reached);
+        self.reached = self.reached.or(&self.front);
+        self.moves += 1;
     }
 }
 
@@ -81,5 +198,67 @@ impl<const N: usize> Iterator for Way<'_, N> {
             .find(|leap| self.map.moves(leap.end) == Some(left))?;
         self.at = leap.end;
         Some(leap)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::moves::split_mix::SplitMix;
+
+    const SIDE: u16 = 9;
+
+    /// Some of the sides within a square, each with the same chance.
+    fn sides(rng: &mut SplitMix, open_in_ten: u32) -> Sides<12> {
+        let mut sides = Sides::NONE;
+        for y in 0..SIDE {
+            for x in 0..SIDE {
+                for (direction, last) in [(Direction::North, y), (Direction::East, x)] {
+                    if last + 1 < SIDE && rng.below(10) < open_in_ten {
+                        sides.insert(Cell::new(x, y), direction);
+                    }
+                }
+            }
+        }
+        sides
+    }
+
+    #[test]
+    fn a_map_follows_when_sides_are_closed() {
+        let mut rng = SplitMix::new(1);
+        for _ in 0..20 {
+            let mut sides = sides(&mut rng, 9);
+            let targets = CellSet::of([Cell::new(4, 4), Cell::new(5, 4)]);
+            let mut map = MoveMap::over(&sides, &targets);
+            for changes in 0..200 {
+                let cell = Cell::new(rng.below(8) as u16, rng.below(8) as u16);
+                let side = Direction::ALL[rng.below(2) as usize];
+                if sides.contains(cell, side) {
+                    sides.remove(cell, side);
+                    map.side_closed(&sides, cell, side);
+                }
+                if changes % 3 == 0 {
+                    map.mend(&sides, NEVER);
+                    assert_eq!(map.moves, MoveMap::over(&sides, &targets).moves);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_is_mended_below_a_limit_only() {
+        let mut sides = Sides::<12>::NONE;
+        for y in 0..SIDE {
+            sides.insert(Cell::new(0, y), Direction::North);
+        }
+        let mut map = MoveMap::over(&sides, &CellSet::of([Cell::new(0, 0)]));
+        let far = Cell::new(0, 6);
+        assert_eq!(map.moves(far), Some(2));
+        sides.remove(far, Direction::South);
+        map.side_closed(&sides, far, Direction::South);
+        map.mend(&sides, 2);
+        assert_eq!(map.moves(far), Some(2));
+        map.mend(&sides, 3);
+        assert_eq!(map.moves(far), None);
     }
 }

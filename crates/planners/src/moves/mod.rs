@@ -37,17 +37,23 @@
 //!
 //! Nothing here allocates and nothing panics: sizes are const generics.
 
+mod cell_set;
+mod chart;
+mod completion;
 mod config;
 mod explorer;
-mod hopes;
 mod leap;
 mod map;
 mod outlook;
-mod queue;
+mod rollouts;
+mod sides;
+mod split_mix;
 mod step;
+mod stops;
 
 pub use config::{MoveExplorerConfig, MoveExplorerConfigError};
 pub use explorer::{MoveDecision, MoveExplorer};
 pub use leap::Leap;
 pub use map::{MoveMap, Way};
+pub use rollouts::{RolloutConfig, RolloutConfigError, Rollouts};
 pub use step::{MouseStep, Turn};

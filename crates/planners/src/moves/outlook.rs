@@ -1,8 +1,7 @@
-use tolman_maze::{Cell, Direction, Walls};
+use tolman_maze::{Cell, Direction};
 
-use super::hopes::Hopes;
-use super::queue::Queue;
-use super::{Leap, MoveMap};
+use super::cell_set::CellSet;
+use super::chart::Chart;
 
 /// How many walls nobody has looked at the hoped-for way to the goal drives over, at least, from every cell.
 pub(super) struct Outlook<const N: usize> {
@@ -11,37 +10,53 @@ pub(super) struct Outlook<const N: usize> {
 
 impl<const N: usize> Outlook<N> {
     /// Among the ways of fewest steps the one over fewest unknown walls. O(N²).
-    pub(super) fn new<W: Walls>(hopes: &Hopes<'_, N, W>) -> Self {
+    pub(super) fn new(chart: &Chart<N>) -> Self {
         let mut outlook = Self {
             unknown: [[u8::MAX; N]; N],
         };
-        // Breadth-first again: all cells one step nearer are done before a cell's turn comes.
-        let mut queue = Queue::new();
-        for goal in hopes.goals {
-            outlook.lower(&mut queue, *goal, 0);
+        for goal in chart.goals.iter() {
+            outlook.lower(goal, 0);
         }
-        while let Some(cell) = queue.pop() {
-            let so_far = outlook.unknown_walls(cell);
-            for direction in Direction::ALL {
-                let (mut at, mut unknown) = (cell, so_far);
-                for leap in Leap::along(hopes.hoped, cell, direction) {
-                    unknown = unknown.saturating_add(hopes.is_unknown(at, direction).into());
-                    at = leap.end;
-                    if is_next(hopes.to_goal, cell, at) {
-                        outlook.lower(&mut queue, at, unknown.min(u8::MAX - 1));
-                    }
+        // Step by step away from the goal: all cells one step nearer are done before a cell's turn comes.
+        let mut front = chart.goals;
+        while !front.is_empty() {
+            let mut next = CellSet::EMPTY;
+            for cell in front.iter() {
+                for direction in Direction::ALL {
+                    outlook.look_back(chart, cell, direction, &mut next);
                 }
             }
+            front = next;
         }
         outlook
     }
 
-    fn lower(&mut self, queue: &mut Queue<N>, cell: Cell, unknown: u8) {
+    /// The leaps that lead to `cell`, which is on the way, against `direction`.
+    fn look_back(
+        &mut self,
+        chart: &Chart<N>,
+        cell: Cell,
+        direction: Direction,
+        next: &mut CellSet<N>,
+    ) {
+        let (mut at, mut unknown) = (cell, self.unknown_walls(cell));
+        for leap in chart.hoped.leaps_along(cell, direction) {
+            unknown = unknown.saturating_add(chart.is_unknown(at, direction).into());
+            at = leap.end;
+            let farther = chart
+                .to_goal
+                .moves(cell)
+                .and_then(|moves| moves.checked_add(1));
+            if chart.to_goal.moves(at) == farther {
+                self.lower(at, unknown.min(u8::MAX - 1));
+                next.insert(at);
+            }
+        }
+    }
+
+    fn lower(&mut self, cell: Cell, unknown: u8) {
         let row = self.unknown.get_mut(usize::from(cell.y));
         if let Some(slot) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
-            if *slot == u8::MAX {
-                queue.push(cell);
-            }
             *slot = (*slot).min(unknown);
         }
     }
@@ -52,10 +67,4 @@ impl<const N: usize> Outlook<N> {
         let unknown = row.and_then(|row| row.get(usize::from(cell.x)));
         unknown.copied().unwrap_or(u8::MAX)
     }
-}
-
-/// Whether `far` is one step farther than `near`.
-fn is_next<const N: usize>(map: &MoveMap<N>, near: Cell, far: Cell) -> bool {
-    let next = map.moves(near).and_then(|moves| moves.checked_add(1));
-    next.is_some() && map.moves(far) == next
 }

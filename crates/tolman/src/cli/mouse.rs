@@ -39,7 +39,7 @@ pub(super) struct Arguments {
     /// When the mouse of --mms has explored enough
     #[arg(long, value_enum, default_value_t = UntilArgument::Proof, requires = "mms")]
     until: UntilArgument,
-    /// How to explore: certify (until the run is proven), or as the paper does: target, counter-50, counter-75, random
+    /// How to explore: certify (until the run is proven), certify-plain (the same, without rollouts), or as the paper does: target, counter-50, counter-75, random
     #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
     search: Searcher,
     /// What the chance of the searches that have any follows from

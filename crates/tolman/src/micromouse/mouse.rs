@@ -1,7 +1,7 @@
 //! What a mouse is to the referee.
 
 use tolman_maps::wall_map::{ObserveError, TooLarge};
-use tolman_planners::moves::MoveExplorerConfigError;
+use tolman_planners::moves::{MoveExplorerConfigError, RolloutConfigError};
 
 use super::{Certificate, Order};
 
@@ -46,6 +46,9 @@ pub enum MouseError {
     /// It cannot search with these weights.
     #[error(transparent)]
     Config(#[from] MoveExplorerConfigError),
+    /// It cannot choose among stops with these values.
+    #[error(transparent)]
+    Rollouts(#[from] RolloutConfigError),
     /// No way leads to a goal.
     #[error("the mouse has found that no way leads to a goal: open a wall")]
     Stuck,

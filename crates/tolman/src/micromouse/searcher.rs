@@ -6,7 +6,7 @@ use core::str::FromStr;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::Maze;
-use tolman_planners::moves::{MoveExplorer, MoveExplorerConfig};
+use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use super::{
     Certify, CounterSearch, Driver, Mouse, MouseError, RandomSearch, RunTwo, TargetSearch,
@@ -17,6 +17,8 @@ use super::{
 pub enum Searcher {
     /// Ours, until the best run is proven.
     Certify,
+    /// The same without rollouts.
+    CertifyPlain,
     /// The paper's target search.
     Target,
     /// The paper's counter search, at least 50 %.
@@ -29,8 +31,9 @@ pub enum Searcher {
 
 impl Searcher {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Certify,
+        Self::CertifyPlain,
         Self::Target,
         Self::Counter50,
         Self::Counter75,
@@ -42,6 +45,7 @@ impl Searcher {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Certify => "certify",
+            Self::CertifyPlain => "certify-plain",
             Self::Target => "target",
             Self::Counter50 => "counter-50",
             Self::Counter75 => "counter-75",
@@ -52,7 +56,7 @@ impl Searcher {
     /// Whether the search makes the same run each time.
     #[must_use]
     pub const fn is_deterministic(self) -> bool {
-        matches!(self, Self::Certify | Self::Target)
+        matches!(self, Self::Certify | Self::CertifyPlain | Self::Target)
     }
 
     /// A mouse with this search at the start of `maze`, of which it knows the size, the start and the goals.
@@ -63,18 +67,20 @@ impl Searcher {
         let rng = || ChaCha8Rng::seed_from_u64(seed);
         let cells = RunTwo::FewestCells;
         Ok(match self {
-            Self::Certify => {
-                let (start, _) = maze.start().ok_or(MouseError::NoStart)?;
-                let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start)?;
-                let search = Certify::new(explorer);
-                Box::new(Driver::new(maze, search, RunTwo::FewestMoves)?)
-            }
+            Self::Certify => certify(maze, Some(RolloutConfig::tuned()))?,
+            Self::CertifyPlain => certify(maze, None)?,
             Self::Target => Box::new(Driver::new(maze, TargetSearch::new(), cells)?),
             Self::Counter50 => Box::new(Driver::new(maze, CounterSearch::new(50, rng()), cells)?),
             Self::Counter75 => Box::new(Driver::new(maze, CounterSearch::new(75, rng()), cells)?),
             Self::Random => Box::new(Driver::new(maze, RandomSearch::new(rng()), cells)?),
         })
     }
+}
+
+fn certify(maze: &Maze, rollouts: Option<RolloutConfig>) -> Result<Box<dyn Mouse>, MouseError> {
+    let (start, _) = maze.start().ok_or(MouseError::NoStart)?;
+    let search = Certify::new(MoveExplorerConfig::tuned(), rollouts, maze.grid(), start)?;
+    Ok(Box::new(Driver::new(maze, search, RunTwo::FewestMoves)?))
 }
 
 impl fmt::Display for Searcher {
@@ -85,7 +91,9 @@ impl fmt::Display for Searcher {
 
 /// A name that no search bears.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no search {name:?}: choose certify, target, counter-50, counter-75 or random")]
+#[error(
+    "there is no search {name:?}: choose certify, certify-plain, target, counter-50, counter-75 or random"
+)]
 pub struct UnknownSearcher {
     /// The name as given.
     pub name: String,

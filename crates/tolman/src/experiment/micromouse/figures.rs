@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
 use tolman_maps::wall_map::WallMap;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
-use tolman_planners::moves::{MoveExplorer, MoveExplorerConfig, MoveMap};
+use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
 use tolman_planners::{Passages, Unknown};
 
 use super::Micromouse;
@@ -101,8 +101,9 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);
     };
-    let explorer = MoveExplorer::new(MoveExplorerConfig::tuned(), start)?;
-    let mut mouse = Driver::new(maze, Certify::new(explorer), RunTwo::FewestMoves)?;
+    let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
+    let search = Certify::new(explorer, Some(rollouts), maze.grid(), start)?;
+    let mut mouse = Driver::new(maze, search, RunTwo::FewestMoves)?;
     let mut referee = Referee::new(maze)?;
     while !referee.is_over() {
         let order = mouse.next(referee.sight())?;

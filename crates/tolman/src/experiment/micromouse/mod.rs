@@ -13,7 +13,7 @@ mod paper;
 mod sets;
 
 use tolman_maze::Maze;
-use tolman_planners::moves::MoveExplorerConfig;
+use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use super::{
     BoxError, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table, Tolerance,
@@ -39,6 +39,9 @@ struct Micromouse {
 /// The name of the table of sets.
 const SETS: &str = "sets";
 
+/// The same, every stop chosen by the base policy.
+const WITHOUT_ROLLOUTS: &str = "sets-without-rollouts";
+
 /// Reads the mazes and sets the tables up.
 ///
 /// # Errors
@@ -52,11 +55,13 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     let sets = sets::all(folder.as_deref(), &options.mazes)?;
     let mut tables: Vec<Table> = paper.iter().map(PaperTable::table).collect();
     tables.extend(comparisons::tables(&paper));
-    let mut table = sets_table(&sets);
+    let mut table = sets_table(SETS, "Our search on sets of mazes", &sets);
     if folder.is_none() {
         table.note = format!("{} {}", table.note, data::missing("the mazes of others"));
     }
     tables.push(table);
+    let title = "The same search, without rollouts";
+    tables.push(sets_table(WITHOUT_ROLLOUTS, title, &sets));
     tables.push(competition::table(&sets));
     tables.push(noise::table());
     let complaints: Vec<String> = sets.iter().filter_map(MazeSet::complaint).collect();
@@ -68,8 +73,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     }))
 }
 
-fn sets_table(sets: &[MazeSet]) -> Table {
-    let mut table = fields(Table::new(SETS, "Our search on sets of mazes"))
+fn sets_table(name: &str, title: &str, sets: &[MazeSet]) -> Table {
+    let mut table = fields(Table::new(name, title))
         .field("maze", Kind::Text)
         .metric(Metric::mean("score_minus_floor").titled("score − floor"))
         .metric(Metric::percent("certified_percent", "certified"))
@@ -84,6 +89,15 @@ fn sets_table(sets: &[MazeSet]) -> Table {
         table = table.row(Row::new(&set.name).runs(mazes));
     }
     table
+}
+
+/// Who plays in a table of sets of mazes.
+fn on_sets(table: &str) -> Option<Searcher> {
+    match table {
+        SETS => Some(Searcher::Certify),
+        WITHOUT_ROLLOUTS => Some(Searcher::CertifyPlain),
+        _ => None,
+    }
 }
 
 /// What every run of this experiment measures.
@@ -105,10 +119,10 @@ impl Micromouse {
 
     /// What is played: by whom, in which maze, and how the maze is called.
     fn cast(&self, job: &Job<'_>) -> Option<(Searcher, &Maze, &str)> {
-        if job.table == SETS {
+        if let Some(searcher) = on_sets(job.table) {
             let set = self.set(job.row)?;
             let (name, maze) = set.mazes.get(job.run as usize)?;
-            return Some((Searcher::Certify, maze, name));
+            return Some((searcher, maze, name));
         }
         let table = self.paper.iter().find(|table| table.name == job.table)?;
         let (searcher, maze) = table.row(job.row)?;
@@ -159,6 +173,10 @@ impl Experiment for Micromouse {
             format!("{:?}", MoveExplorerConfig::tuned()).into(),
         );
         config.insert(
+            "rollouts".into(),
+            format!("{:?}", RolloutConfig::tuned()).into(),
+        );
+        config.insert(
             "q_learning".into(),
             format!("{:?}", QLearningConfig::usual()).into(),
         );
@@ -205,7 +223,7 @@ impl Experiment for Micromouse {
                 .number("score", score)
                 .number("score_minus_floor", above);
         }
-        if job.table == SETS {
+        if on_sets(job.table).is_some() {
             fields = fields.text("maze", name);
         }
         Ok(fields)
@@ -225,7 +243,7 @@ impl Experiment for Micromouse {
         let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
         let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);
         if let Some((_, _, name)) = self.cast(&run.job())
-            && run.table == SETS
+            && on_sets(&run.table).is_some()
             && run.fields.get("maze").and_then(Field::as_text) != Some(name)
         {
             return Err(format!("run {} is of {name}", run.run).into());

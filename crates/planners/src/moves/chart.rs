@@ -1,0 +1,185 @@
+use core::cmp::Ordering;
+
+use tolman_maze::{Cell, Direction, Walls};
+
+use super::cell_set::CellSet;
+use super::leap::beyond;
+use super::map::Wave;
+use super::sides::Sides;
+use super::{Leap, MoveMap};
+use crate::Unknown;
+
+/// What is known of a maze, and how long runs through it can be.
+///
+/// Walls can be [learned](Self::look) one after the other; the maps follow, and only as far as they change.
+#[derive(Clone, Debug)]
+pub(super) struct Chart<const N: usize> {
+    pub(super) start: Cell,
+    pub(super) goals: CellSet<N>,
+    /// The sides that may be open.
+    pub(super) hoped: Sides<N>,
+    /// The sides known to be open.
+    pub(super) certain: Sides<N>,
+    /// Steps from the start, hoped for.
+    pub(super) from_start: MoveMap<N>,
+    /// Steps to the goal, hoped for.
+    pub(super) to_goal: MoveMap<N>,
+    /// The paper's close path: steps of the best run that is certain.
+    pub(super) closed: Option<u16>,
+}
+
+impl<const N: usize> Chart<N> {
+    pub(super) fn new(walls: &impl Walls, start: Cell, goals: &[Cell]) -> Self {
+        let hoped = Sides::new(walls, Unknown::Open);
+        let certain = Sides::new(walls, Unknown::Closed);
+        let goals = CellSet::of(goals.iter().copied());
+        let from = CellSet::of([start]);
+        Self {
+            start,
+            goals,
+            hoped,
+            certain,
+            from_start: MoveMap::over(&hoped, &from),
+            to_goal: MoveMap::over(&hoped, &goals),
+            closed: Wave::new(from).moves_to(&goals, &certain),
+        }
+    }
+
+    /// The paper's open path: steps of the best run that can be hoped for.
+    pub(super) fn open(&self) -> Option<u16> {
+        self.to_goal.moves(self.start)
+    }
+
+    /// The sides that nobody has looked at.
+    pub(super) fn unknown(&self) -> Sides<N> {
+        self.hoped.minus(&self.certain)
+    }
+
+    /// Those of one cell.
+    pub(super) fn unknown_sides(&self, cell: Cell) -> impl Iterator<Item = Direction> {
+        Direction::ALL
+            .into_iter()
+            .filter(move |side| self.is_unknown(cell, *side))
+    }
+
+    pub(super) fn is_unknown(&self, cell: Cell, side: Direction) -> bool {
+        self.hoped.contains(cell, side) && !self.certain.contains(cell, side)
+    }
+
+    /// The steps of the best run from the start to the goal that drives over the `side` of `cell`. At most
+    /// six leaps do, each in both directions.
+    pub(super) fn run_through(&self, cell: Cell, side: Direction) -> Option<u16> {
+        let mut best: Option<u16> = None;
+        self.hoped.leaps_over(cell, side, |one, other| {
+            for (tail, head) in [(one, other), (other, one)] {
+                if let (Some(before), Some(after)) =
+                    (self.from_start.moves(tail), self.to_goal.moves(head))
+                {
+                    let run = before + 1 + after;
+                    best = Some(best.map_or(run, |best| best.min(run)));
+                }
+            }
+        });
+        best
+    }
+
+    /// The first leap of a way of fewest steps from `at` to `target` on known ground. Of such ways it is one with much to see
+    /// at its last stops.
+    pub(super) fn leap_towards(&self, target: Cell, at: Cell) -> Option<Leap> {
+        if let Some(leap) = self.leap_to(target, at) {
+            return Some(leap);
+        }
+        let here = MoveMap::between(&self.certain, at, target);
+        let mut stop = target;
+        for steps in (1..here.moves(target)?).rev() {
+            let mut best = None;
+            self.certain.for_each_leap(stop, |leap| {
+                if here.moves(leap.end) == Some(steps) {
+                    let seen = self.unknown_sides(leap.end).count();
+                    if best.is_none_or(|(most, _)| seen > most) {
+                        best = Some((seen, leap.end));
+                    }
+                }
+            });
+            (_, stop) = best?;
+        }
+        self.leap_to(stop, at)
+    }
+
+    /// The leap from `at` to `end`, if one leads there.
+    fn leap_to(&self, end: Cell, at: Cell) -> Option<Leap> {
+        let direction = match (end.x.cmp(&at.x), end.y.cmp(&at.y)) {
+            (Ordering::Equal, Ordering::Greater) => Direction::North,
+            (Ordering::Greater, Ordering::Equal) => Direction::East,
+            (Ordering::Equal, Ordering::Less) => Direction::South,
+            (Ordering::Less, Ordering::Equal) => Direction::West,
+            _ => return None,
+        };
+        let mut leaps = self.certain.leaps_along(at, direction);
+        leaps.find(|leap| leap.end == end)
+    }
+
+    /// Drives from `at` towards `target` through a maze with the open sides `truth`, until there is something new to see.
+    pub(super) fn drive(&mut self, truth: &Sides<N>, target: Cell, at: Cell) -> Option<Driven> {
+        let mut driven = Driven { steps: 0, at };
+        while driven.at != target {
+            driven.at = self.leap_towards(target, driven.at)?.end;
+            driven.steps += 1;
+            if self.look(truth, driven.at) {
+                break;
+            }
+        }
+        Some(driven)
+    }
+
+    /// Looks to the four sides, each as far as the next wall. Whether there was anything new.
+    fn look(&mut self, truth: &Sides<N>, from: Cell) -> bool {
+        let (mut news, mut shorter) = (false, false);
+        let limit = self.closed.unwrap_or(u16::MAX);
+        for side in Direction::ALL {
+            let mut at = from;
+            while self.hoped.contains(at, side) {
+                if !self.certain.contains(at, side) {
+                    news = true;
+                    if !truth.contains(at, side) {
+                        self.hoped.remove(at, side);
+                        self.from_start.side_closed(&self.hoped, at, side);
+                        self.to_goal.side_closed(&self.hoped, at, side);
+                        break;
+                    }
+                    self.certain.insert(at, side);
+                    shorter |= self.run_through(at, side).is_some_and(|run| run < limit);
+                }
+                match beyond(at, side) {
+                    Some(next) => at = next,
+                    None => break,
+                }
+            }
+        }
+        if shorter {
+            let wave = Wave::new(CellSet::of([self.start]));
+            self.closed = wave.moves_to(&self.goals, &self.certain);
+        }
+        // Only runs that are better than the best one that is certain matter.
+        let limit = self.closed.unwrap_or(u16::MAX);
+        self.from_start.mend(&self.hoped, limit);
+        self.to_goal.mend(&self.hoped, limit);
+        news
+    }
+
+    /// Cells by their distance from `at` on known ground, nearest first.
+    pub(super) fn around(&self, at: Cell) -> impl Iterator<Item = (u16, CellSet<N>)> {
+        let mut wave = Wave::new(CellSet::of([at]));
+        core::iter::from_fn(move || {
+            wave.advance(&self.certain);
+            (!wave.front.is_empty()).then_some((wave.moves, wave.front))
+        })
+    }
+}
+
+/// Where a drive ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Driven {
+    pub(super) steps: u16,
+    pub(super) at: Cell,
+}

@@ -1,0 +1,289 @@
+use tolman_maze::{Cell, Direction, Knowledge, Walls};
+
+use super::Leap;
+use super::cell_set::CellSet;
+use super::leap::beyond;
+use crate::{Passages, Unknown};
+
+/// A set of sides of cells: those that are open. A side is in it for both its cells. What [`Passages`] is for one cell at a time, this is
+/// for all cells at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Sides<const N: usize> {
+    /// The cells whose northern side is in the set.
+    north: CellSet<N>,
+    /// The cells whose eastern side is in the set.
+    east: CellSet<N>,
+}
+
+impl<const N: usize> Sides<N> {
+    pub(super) const NONE: Self = Self {
+        north: CellSet::EMPTY,
+        east: CellSet::EMPTY,
+    };
+
+    /// The open sides of a maze as far as it is known; none where it has more than `N` columns or rows. O(N²).
+    pub(super) fn new(walls: &impl Walls, unknown: Unknown) -> Self {
+        let mut sides = Self::NONE;
+        let grid = walls.grid();
+        if usize::from(grid.width().max(grid.height())) > N {
+            return sides;
+        }
+        for cell in grid.cells() {
+            for (direction, last) in [
+                (Direction::North, cell.y + 1 == grid.height()),
+                (Direction::East, cell.x + 1 == grid.width()),
+            ] {
+                let open = match walls.knowledge(cell, direction) {
+                    Knowledge::Open => true,
+                    Knowledge::Wall => false,
+                    Knowledge::Unknown => unknown == Unknown::Open,
+                };
+                if open && !last {
+                    sides.insert(cell, direction);
+                }
+            }
+        }
+        sides
+    }
+
+    /// The cell that a side is north or east of, and the set that it is in.
+    fn slot(&mut self, cell: Cell, direction: Direction) -> Option<(Cell, &mut CellSet<N>)> {
+        Some(match direction {
+            Direction::North => (cell, &mut self.north),
+            Direction::East => (cell, &mut self.east),
+            Direction::South => (beyond(cell, direction)?, &mut self.north),
+            Direction::West => (beyond(cell, direction)?, &mut self.east),
+        })
+    }
+
+    pub(super) fn insert(&mut self, cell: Cell, direction: Direction) {
+        if let Some((cell, set)) = self.slot(cell, direction) {
+            set.insert(cell);
+        }
+    }
+
+    pub(super) fn remove(&mut self, cell: Cell, direction: Direction) {
+        if let Some((cell, set)) = self.slot(cell, direction) {
+            set.remove(cell);
+        }
+    }
+
+    pub(super) fn contains(&self, cell: Cell, direction: Direction) -> bool {
+        match direction {
+            Direction::North => self.north.contains(cell),
+            Direction::East => self.east.contains(cell),
+            Direction::South => {
+                beyond(cell, direction).is_some_and(|cell| self.north.contains(cell))
+            }
+            Direction::West => beyond(cell, direction).is_some_and(|cell| self.east.contains(cell)),
+        }
+    }
+
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        Self {
+            north: self.north.minus(&other.north),
+            east: self.east.minus(&other.east),
+        }
+    }
+
+    /// How many sides, each counted once.
+    pub(super) fn len(&self) -> u32 {
+        self.north.len() + self.east.len()
+    }
+
+    /// The cells that have one of these sides.
+    pub(super) fn cells(&self) -> CellSet<N> {
+        let mut cells = self.north.or(&self.east);
+        let rows = cells.rows.iter_mut().zip(&self.east.rows);
+        let mut below = 0;
+        for ((cells, east), north) in rows.zip(&self.north.rows) {
+            *cells |= east << 1 | below;
+            below = *north;
+        }
+        cells
+    }
+
+    /// Every side once: the northern ones, then the eastern ones.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Cell, Direction)> + use<N> {
+        let north = self.north.iter().map(|cell| (cell, Direction::North));
+        north.chain(self.east.iter().map(|cell| (cell, Direction::East)))
+    }
+
+    /// The cells that are one leap away from some of `cells`.
+    pub(super) fn leaps_from(&self, cells: &CellSet<N>) -> CellSet<N> {
+        let mut ends = CellSet::EMPTY;
+        let rows = ends.rows.iter_mut().zip(&cells.rows);
+        for ((ends, cells), open) in rows.zip(&self.east.rows) {
+            let (mut east, mut west) = (*cells, *cells);
+            for _ in 0..Leap::MOST_CELLS {
+                east = (east & open) << 1;
+                west = west >> 1 & open;
+                *ends |= east | west;
+            }
+        }
+        // Who comes from the row before, having driven over none, one or two cells.
+        let mut coming = [0; Leap::MOST_CELLS as usize];
+        let rows = ends.rows.iter_mut().zip(&cells.rows);
+        for ((ends, cells), open) in rows.zip(&self.north.rows) {
+            let [one, two, three] = coming;
+            *ends |= one | two | three;
+            coming = [cells & open, one & open, two & open];
+        }
+        let mut above = [0; Leap::MOST_CELLS as usize];
+        let rows = ends.rows.iter_mut().zip(&cells.rows);
+        for ((ends, cells), open) in rows.zip(&self.north.rows).rev() {
+            let [one, two, three] = above.map(|cells| cells & open);
+            *ends |= one | two | three;
+            above = [*cells, one, two];
+        }
+        ends
+    }
+
+    /// The leaps from a cell in one direction, the short ones first.
+    pub(super) fn leaps_along(
+        &self,
+        from: Cell,
+        direction: Direction,
+    ) -> impl Iterator<Item = Leap> {
+        let mut at = from;
+        (1..=Leap::MOST_CELLS).map_while(move |cells| {
+            if !self.contains(at, direction) {
+                return None;
+            }
+            at = beyond(at, direction)?;
+            Some(Leap {
+                direction,
+                cells,
+                end: at,
+            })
+        })
+    }
+
+    /// Visits all leaps from a cell, in the order of [`Leap::all`].
+    pub(super) fn for_each_leap(&self, from: Cell, mut visit: impl FnMut(Leap)) {
+        for direction in Direction::ALL {
+            let mut end = from;
+            for cells in 1..=Leap::MOST_CELLS {
+                match self.next(end, direction) {
+                    Some(next) => end = next,
+                    None => break,
+                }
+                visit(Leap {
+                    direction,
+                    cells,
+                    end,
+                });
+            }
+        }
+    }
+
+    /// All leaps over the `side` of `cell`, whether it is in the set or not: `visit` is told where they begin and where they
+    /// end. They can be driven the other way as well.
+    pub(super) fn leaps_over(
+        &self,
+        cell: Cell,
+        side: Direction,
+        mut visit: impl FnMut(Cell, Cell),
+    ) {
+        let Some(mut head) = beyond(cell, side) else {
+            return;
+        };
+        let mut heads = [head; Leap::MOST_CELLS as usize];
+        let mut count = 0;
+        for slot in &mut heads {
+            *slot = head;
+            count += 1;
+            match self.next(head, side) {
+                Some(next) => head = next,
+                None => break,
+            }
+        }
+        let mut tail = cell;
+        for most in (1..=heads.len()).rev() {
+            for head in heads.iter().take(most.min(count)) {
+                visit(tail, *head);
+            }
+            match self.next(tail, side.opposite()) {
+                Some(next) => tail = next,
+                None => break,
+            }
+        }
+    }
+
+    /// The cell across an open side.
+    fn next(&self, cell: Cell, side: Direction) -> Option<Cell> {
+        beyond(cell, side).filter(|_| self.contains(cell, side))
+    }
+}
+
+impl<const N: usize> From<&Passages<N>> for Sides<N> {
+    fn from(passages: &Passages<N>) -> Self {
+        let mut sides = Self::NONE;
+        for y in 0..N as u16 {
+            for x in 0..N as u16 {
+                let cell = Cell::new(x, y);
+                for direction in [Direction::North, Direction::East] {
+                    if passages.is_open(cell, direction) {
+                        sides.insert(cell, direction);
+                    }
+                }
+            }
+        }
+        sides
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::moves::split_mix::SplitMix;
+
+    fn some_sides(rng: &mut SplitMix) -> Sides<16> {
+        let mut sides = Sides::NONE;
+        for _ in 0..300 {
+            let cell = Cell::new(rng.below(15) as u16, rng.below(15) as u16);
+            sides.insert(cell, Direction::ALL[rng.below(2) as usize]);
+        }
+        sides
+    }
+
+    #[test]
+    fn the_leaps_of_all_cells_are_those_of_each() {
+        let mut rng = SplitMix::new(1);
+        for _ in 0..20 {
+            let sides = some_sides(&mut rng);
+            let mut from = CellSet::EMPTY;
+            let mut expect = CellSet::EMPTY;
+            for _ in 0..10 {
+                let cell = Cell::new(rng.below(16) as u16, rng.below(16) as u16);
+                from.insert(cell);
+                sides.for_each_leap(cell, |leap| expect.insert(leap.end));
+            }
+            assert_eq!(sides.leaps_from(&from), expect);
+        }
+    }
+
+    #[test]
+    fn the_leaps_over_a_side_are_those_that_it_makes_possible() {
+        let mut rng = SplitMix::new(2);
+        for _ in 0..20 {
+            let mut sides = some_sides(&mut rng);
+            let cell = Cell::new(rng.below(15) as u16, rng.below(15) as u16);
+            for side in [Direction::North, Direction::East] {
+                let count = |sides: &Sides<16>| {
+                    let mut leaps = 0;
+                    for cell in sides.cells().iter() {
+                        sides.for_each_leap(cell, |_| leaps += 1);
+                    }
+                    leaps
+                };
+                sides.remove(cell, side);
+                let without = count(&sides);
+                let mut over = 0;
+                sides.leaps_over(cell, side, |_, _| over += 2);
+                sides.insert(cell, side);
+                assert_eq!(count(&sides), without + over);
+            }
+        }
+    }
+}
