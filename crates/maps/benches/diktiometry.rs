@@ -23,8 +23,9 @@ use tolman_maps::diktiometry::{Config, StepReport, Use};
 use tolman_maze::Direction;
 use walk::{ODOMETRY, Scripted, Walk, open, painted};
 
-/// Moves of a row of the worlds of many looks, each row going on with the map of the one before.
-const LOOKED_AT: [usize; 2] = [1000, 7000];
+/// Moves through each of the worlds of many looks, and how many of the first and of the last of them make a row.
+const LOOKED_AT: usize = 8000;
+const ROW: usize = 1000;
 
 /// How often these moves are made: the least time of each counts.
 const AGAIN: usize = 3;
@@ -76,28 +77,26 @@ fn by_looks() {
     for (name, look_merge) in [("off", Use::Off), ("on", Use::On)] {
         let mut config = painted();
         config.restructuring.look_merge = look_merge;
-        let mut times = vec![Duration::MAX; LOOKED_AT[0] + LOOKED_AT[1]];
-        let mut places = Vec::new();
+        let mut times = vec![Duration::MAX; LOOKED_AT];
+        // How many places there were after so many moves.
+        let mut places = vec![1; LOOKED_AT + 1];
         // The same moves again and again: what else the machine does is not counted.
         for _ in 0..AGAIN {
             let mut walk = Walk::new(open(32).painted(8, 1), ODOMETRY, config.clone(), 1);
             let mut planner = Scripted::new(0.3, 1);
-            places.clear();
             for (number, time) in times.iter_mut().enumerate() {
                 let direction = planner.choose(&walk);
                 *time = timed(&mut walk, direction).0.min(*time);
-                if number + 1 == LOOKED_AT[0] || number + 1 == LOOKED_AT[0] + LOOKED_AT[1] {
-                    places.push(walk.observer.map().paths.places().count());
-                }
+                places[number + 1] = walk.observer.map().paths.places().count();
             }
         }
-        let rest = times.split_off(LOOKED_AT[0]);
-        for (places, times) in places.into_iter().zip([times, rest]) {
-            row(
-                places,
-                &format!("eight colours, `look_merge` {name}"),
-                times,
+        for begin in [0, LOOKED_AT - ROW] {
+            let end = begin + ROW;
+            let map = format!(
+                "eight colours, `look_merge` {name}, from {} places on",
+                places[begin]
             );
+            row(places[end], &map, times[begin..end].to_vec());
         }
     }
 }

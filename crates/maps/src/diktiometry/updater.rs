@@ -33,7 +33,11 @@ pub(super) fn arrive(
     map.paths.places[from.index()]
         .blocked
         .retain(|blocked| *blocked != action);
-    expect(map, from, action, Some(link), config);
+    let taken = Taken {
+        link,
+        length: length(projection.displacement),
+    };
+    expect(map, from, action, Some(taken), config);
     let taken = &mut map.paths.links[link.index()];
     taken.traversed = taken.traversed.saturating_add(1);
     let visits = &mut map.paths.places[to.index()].visits;
@@ -156,33 +160,63 @@ pub(super) fn see_exits(map: &mut Diktiometry, place: PlaceId, exits: &Exits, co
     map.paths.places[place.index()].exits = exits.clone();
 }
 
+/// The link along which an action led.
+#[derive(Clone, Copy, Debug)]
+struct Taken {
+    link: LinkId,
+    /// How far away it ended, m.
+    length: f64,
+}
+
 /// Counts that the links of an action, and the places they lead to, were expected, and that one of them, if any, was met.
 fn expect(
     map: &mut Diktiometry,
     from: PlaceId,
     action: Action,
-    taken: Option<LinkId>,
+    taken: Option<Taken>,
     config: &Config,
 ) {
     let (fading, now) = (config.transients.fading, map.paths.now);
     for at in 0..map.paths.places[from.index()].outgoing.len() {
         let id = map.paths.places[from.index()].outgoing[at];
-        let one = &mut map.paths.links[id.index()];
+        let one = &map.paths.links[id.index()];
         if one.action != action {
             continue;
         }
-        let outcome = if taken == Some(id) {
+        let to = one.to;
+        let looked_for = taken.is_some_and(|taken| {
+            taken.link == id || !ends_before(map, from, to, taken.length, config.separation)
+        });
+        let one = &mut map.paths.links[id.index()];
+        let outcome = if taken.is_some_and(|taken| taken.link == id) {
             Expected::Met
         } else {
             Expected::InVain
         };
         one.counts.expect(outcome, fading);
         one.constancy.look(outcome, now);
-        let place = &mut map.paths.places[one.to.index()];
+        let place = &mut map.paths.places[to.index()];
         place.counts.expect(outcome, fading);
-        // Behind a shut door the place is still there.
-        if taken.is_some() {
+        // Behind a shut door the place is still there, and so it is behind a new one.
+        if looked_for {
             place.constancy.look(outcome, now);
         }
     }
+}
+
+/// Whether a way of this length from a place ends before another place: two places are δ_sep apart, so that it ends before it, and
+/// not there, if it is shorter by more than half of that. By the middles of the boxes, along ways that do not turn.
+fn ends_before(
+    map: &Diktiometry,
+    from: PlaceId,
+    place: PlaceId,
+    way: f64,
+    separation: f64,
+) -> bool {
+    let there = map.related(from, place);
+    there.is_some_and(|there| way + 0.5 * separation < length(there))
+}
+
+fn length(displacement: PointBox) -> f64 {
+    displacement.middle().coords.norm()
 }

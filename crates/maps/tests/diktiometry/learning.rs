@@ -2,8 +2,9 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use tolman_geom::Point;
 use tolman_maps::diktiometry::{
-    Config, ConfigError, GeometricMerge, Identity, Matcher, Percepts, PerceptualIndexing, Use,
+    Config, ConfigError, GeometricMerge, Identity, Link, Matcher, Percepts, PerceptualIndexing, Use,
 };
 use tolman_maze::{Braided, Direction};
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
@@ -315,6 +316,44 @@ fn plans_lead_round_a_door_that_may_have_moved() {
         walk.go(Direction::West);
     }
     assert_eq!(steps(&walk), 3);
+}
+
+/// A door that opens into the side of a corridor makes a place there; the one behind it is where it was. One that the robot goes past is
+/// gone.
+#[test]
+fn a_place_that_appears_hides_none_behind_it() {
+    let at = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0)];
+    let places = at.map(|(x, y)| Point::new(x, y)).to_vec();
+    let corner = AbstractWorld::of_places(places, vec![[None; 4]; 4]).unwrap();
+    let corner = corner.with_way(2, Direction::North, Some(3));
+    let past = corner.clone().with_way(0, Direction::East, Some(2));
+    let between = corner.with_way(0, Direction::East, Some(1));
+    let between = between.with_way(1, Direction::East, Some(2));
+    let mut walk = Walk::new(past.clone(), ODOMETRY, alike(), 1);
+    let (north, east) = (Direction::North, Direction::East);
+    for direction in [east, north, north.opposite(), east.opposite()] {
+        walk.go(direction);
+    }
+    // The chance that the way from a true place leads to another.
+    let chance = |walk: &Walk, from: u32, to: u32| {
+        let (truths, paths) = (walk.truths(), &walk.observer.map().paths);
+        let is = |link: &Link| [link.from, link.to].map(|end| truths[&end]) == [from, to];
+        let id = paths.links().find(|(_, link)| is(link)).unwrap().0;
+        paths.chance(id)
+    };
+    walk.robot.find_itself_in(between.into());
+    walk.go(east);
+    assert!(chance(&walk, 0, 2) < 0.01);
+    assert!((chance(&walk, 3, 2) - 1.0).abs() < 1e-12);
+    for direction in [east, east.opposite(), east.opposite()] {
+        walk.go(direction);
+    }
+    assert!(chance(&walk, 2, 1) > 0.99);
+    walk.robot.find_itself_in(past.into());
+    walk.go(east);
+    assert!(chance(&walk, 2, 1) < 0.01);
+    assert!((chance(&walk, 3, 2) - 1.0).abs() < 1e-12);
+    assert!((walk.score().purity - 1.0).abs() < 1e-12);
 }
 
 #[test]

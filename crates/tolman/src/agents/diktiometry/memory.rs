@@ -1,4 +1,4 @@
-//! What a mapper can know that confuses no two places and remembers all that it saw: the measure of a map whose world changes.
+//! What a mapper can know that confuses no two places and remembers how each way last was: the measure of a map whose world changes.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 
@@ -7,14 +7,23 @@ use tolman_planners::{Graph, path_to};
 
 use super::office::TruePlace;
 
-/// The true ways as they were when the robot last saw them.
+/// Where a way led.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    site: u32,
+    /// How far from the beginning of the way, m.
+    distance: f64,
+}
+
+/// The true ways as they were when the robot last saw them. Nothing is inferred of ways that it did not see: where a place has
+/// appeared on a way, the way back is what it was until it is gone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
     /// Where a way led when it was last gone, by site and direction.
-    led: BTreeMap<(u32, Direction), u32>,
+    led: BTreeMap<(u32, Direction), End>,
     /// Ways that were shut when they were last seen.
     shut: BTreeSet<(u32, Direction)>,
-    /// Places that were not met where they had been.
+    /// Places that the robot went past and did not meet.
     missed: BTreeSet<u32>,
 }
 
@@ -32,15 +41,21 @@ impl Memory {
         }
     }
 
-    /// A way led to a site.
-    pub(super) fn go(&mut self, from: u32, direction: Direction, to: u32) {
-        let before = self.led.insert((from, direction), to);
-        self.missed.extend(before.filter(|before| *before != to));
+    /// A way led to a site, at a distance in metres. Ways do not turn: where it led before is missed if that is nearer, and behind
+    /// the new end if it is not.
+    pub(super) fn go(&mut self, from: u32, direction: Direction, to: u32, distance: f64) {
+        let end = End { site: to, distance };
+        if let Some(before) = self.led.insert((from, direction), end)
+            && before.site != to
+            && before.distance < distance
+        {
+            self.missed.insert(before.site);
+        }
     }
 
     /// The ways that it takes to be there.
     fn ways(&self) -> impl Iterator<Item = ((u32, Direction), u32)> {
-        let all = self.led.iter().map(|(way, to)| (*way, *to));
+        let all = self.led.iter().map(|(way, end)| (*way, end.site));
         all.filter(|(way, to)| {
             let ends = [way.0, *to].iter().any(|end| self.missed.contains(end));
             !ends && !self.shut.contains(way)
@@ -75,7 +90,7 @@ impl Memory {
     fn ways_from(&self, site: u32) -> impl Iterator<Item = (Direction, u32)> {
         let ways = Direction::ALL.map(|direction| (site, direction));
         ways.into_iter().filter_map(|way| {
-            let to = *self.led.get(&way)?;
+            let to = self.led.get(&way)?.site;
             let there = !self.shut.contains(&way) && !self.missed.contains(&to);
             there.then_some((way.1, to))
         })
@@ -84,7 +99,7 @@ impl Memory {
 
 impl Graph for Memory {
     fn node_count(&self) -> usize {
-        let ends = self.led.iter().flat_map(|(way, to)| [way.0, *to]);
+        let ends = self.led.iter().flat_map(|(way, end)| [way.0, end.site]);
         ends.max().map_or(0, |last| last as usize + 1)
     }
 
@@ -104,16 +119,37 @@ mod tests {
         let mut memory = Memory::default();
         let all = [true; 4];
         memory.see(0, &all);
-        memory.go(0, Direction::East, 1);
+        memory.go(0, Direction::East, 1, 2.0);
         memory.see(1, &all);
-        memory.go(1, Direction::East, 2);
+        memory.go(1, Direction::East, 2, 2.0);
         memory.see(2, &all);
         assert_eq!(memory.plan(0, 2), Some(vec![Direction::East; 2]));
         // The place between is no longer one.
-        memory.go(0, Direction::East, 2);
+        memory.go(0, Direction::East, 2, 4.0);
         assert_eq!(memory.plan(0, 2), Some(vec![Direction::East]));
         assert_eq!(memory.plan(0, 1), None);
         memory.see(0, &[false; 4]);
         assert_eq!(memory.plan(0, 2), None);
+    }
+
+    #[test]
+    fn a_place_that_appears_hides_none_behind_it() {
+        let mut memory = Memory::default();
+        memory.see(0, &[true; 4]);
+        memory.go(0, Direction::East, 2, 4.0);
+        memory.see(2, &[true; 4]);
+        memory.go(2, Direction::North, 3, 2.0);
+        memory.go(3, Direction::South, 2, 2.0);
+        // A door has opened into the corridor.
+        memory.go(0, Direction::East, 1, 2.0);
+        memory.see(1, &[true; 4]);
+        assert_eq!(memory.plan(3, 2), Some(vec![Direction::South]));
+        assert_eq!(memory.plan(0, 2), None);
+        memory.go(1, Direction::East, 2, 2.0);
+        assert_eq!(memory.plan(0, 2), Some(vec![Direction::East; 2]));
+        // It is shut again.
+        memory.go(0, Direction::East, 2, 4.0);
+        assert_eq!(memory.plan(0, 2), Some(vec![Direction::East]));
+        assert_eq!(memory.plan(2, 1), None);
     }
 }

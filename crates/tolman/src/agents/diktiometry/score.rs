@@ -107,7 +107,7 @@ pub fn score(
     for (id, link) in map.links() {
         links += 1;
         let is_believed =
-            map.chance(id) >= 0.5 && map.likely(link.from).any(|(likely, _)| likely == id);
+            map.chance(id) > 0.5 && map.likely(link.from).any(|(likely, _)| likely == id);
         believed += usize::from(is_believed);
         let direction = Direction::ALL.get(link.action.0 as usize).copied();
         let ends = [link.from, link.to].map(|place| stands_for.get(&place).copied());

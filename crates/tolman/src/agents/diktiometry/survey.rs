@@ -133,13 +133,18 @@ pub struct Drawn {
     pub label: String,
 }
 
-/// What became of a plan.
+/// What became of a plan to a place of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PlanTrial {
-    /// Whether it would lead where it says.
-    pub works: bool,
-    /// Whether a plan by all that the robot truly saw, places never confused, would lead there.
-    pub remembered_works: bool,
+pub enum PlanTrial {
+    /// The place is not there now (a doorway that is shut, a junction whose branch is): no plan leads to it.
+    Gone,
+    /// The place is there.
+    There {
+        /// Whether the plan would lead to it.
+        works: bool,
+        /// Whether a plan by the ways as the robot last saw them, places never confused, would.
+        remembered_works: bool,
+    },
 }
 
 /// What happened in one move.
@@ -283,7 +288,8 @@ impl<'a> Survey<'a> {
         let from = self.site;
         self.site = self.true_site(here)?;
         if arrival.outcome == RoutineOutcome::Completed {
-            self.memory.go(from, decision.direction, self.site);
+            let way = (here - before).norm();
+            self.memory.go(from, decision.direction, self.site, way);
             self.gone.push((from, decision.direction));
             self.errors
                 .push(MoveError::of(&report, arrival.moved, here - before));
@@ -393,7 +399,7 @@ impl<'a> Survey<'a> {
 
     /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its actions are followed on
     /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
-    /// no other place, or what was drawn stands for a place that is not there now.
+    /// no other place, or the robot was never where the one drawn is.
     pub fn try_plan(&mut self) -> Option<PlanTrial> {
         let paths = &self.mapped.observer().map().paths;
         let here = self.observer().place();
@@ -408,7 +414,9 @@ impl<'a> Survey<'a> {
         let to = others[self.plans.random_range(0..others.len() as u32) as usize];
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
         let wanted = self.visits.iter().rev().find(is_to)?.site;
-        self.truth.get(&wanted)?;
+        if !self.truth.contains_key(&wanted) {
+            return Some(PlanTrial::Gone);
+        }
         let end = |plan: Vec<usize>| {
             plan.into_iter().try_fold(self.site, |site, direction| {
                 self.truth.get(&site)?.ways.get(direction).copied()?
@@ -423,14 +431,15 @@ impl<'a> Survey<'a> {
         });
         let remembered = self.memory.plan(self.site, wanted);
         let remembered = remembered.map(|plan| plan.into_iter().map(Direction::index).collect());
-        Some(PlanTrial {
+        Some(PlanTrial::There {
             works: plan.and_then(end) == Some(wanted),
             remembered_works: remembered.and_then(end) == Some(wanted),
         })
     }
 
     /// The share of ways that lead where they did when the robot last saw them, of those it would then take to be there: what a map
-    /// of this run can have at best that does not guess what has changed since.
+    /// of this run is measured against that does not guess what has changed since. A run that was resumed remembers what it saw since then
+    /// alone: the ways of before are no part of its [`Past`].
     #[must_use]
     pub fn remembered_precision(&self) -> f64 {
         self.memory.precision(&self.truth)

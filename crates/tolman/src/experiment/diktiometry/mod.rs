@@ -8,7 +8,9 @@ use super::{
     BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run,
     Settling, Table,
 };
-use crate::agents::diktiometry::{ErrorSummary, Isomorphism, NEAR, Survey, TAIL, WINDOW};
+use crate::agents::diktiometry::{
+    ErrorSummary, Isomorphism, NEAR, PlanTrial, Survey, TAIL, WINDOW,
+};
 use crate::draw::Figure;
 use crate::replay::Replay;
 
@@ -32,7 +34,7 @@ pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> 
 }
 
 /// The shares that a map is scored by: the name of the field and metric, and the name on the page.
-const SHARES: [(&str, &str); 9] = [
+const SHARES: [(&str, &str); 10] = [
     ("purity", "purity"),
     ("link_precision", "link precision"),
     (
@@ -43,12 +45,42 @@ const SHARES: [(&str, &str); 9] = [
     ("link_recall", "link recall"),
     ("share_once", "true places with one node"),
     ("coverage", "moves that were expected"),
-    ("plans", "plans that work"),
+    ("plans", "plans that work, to places that are there"),
     (
         "remembered_plans",
         "plans by ways as they were last seen that work",
     ),
+    ("plans_to_gone", "plans to places that are gone"),
 ];
+
+/// What became of the plans of a run.
+#[derive(Debug, Default)]
+struct Plans {
+    /// Those to places that were there.
+    there: u32,
+    /// Of these, those that work.
+    work: u32,
+    /// Of these, those by ways as they were last seen that work.
+    remembered_work: u32,
+    /// Those to places that were gone.
+    gone: u32,
+}
+
+impl Plans {
+    fn count(&mut self, trial: PlanTrial) {
+        match trial {
+            PlanTrial::Gone => self.gone += 1,
+            PlanTrial::There {
+                works,
+                remembered_works,
+            } => {
+                self.there += 1;
+                self.work += u32::from(works);
+                self.remembered_work += u32::from(remembered_works);
+            }
+        }
+    }
+}
 
 fn table(trial: &Trial) -> Table {
     let reference = trial.settings.first().map_or("", |setting| setting.row);
@@ -173,7 +205,7 @@ impl Experiment for Diktiometry {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
-        let (mut plans, mut work, mut remembered_work) = (0_u32, 0_u32, 0_u32);
+        let mut plans = Plans::default();
         for number in 1..=setting.config.moves {
             survey.step()?;
             // Plans are tried where the asymptote is measured.
@@ -183,9 +215,7 @@ impl Experiment for Diktiometry {
                 && number.is_multiple_of(5)
                 && let Some(trial) = survey.try_plan()
             {
-                plans += 1;
-                work += u32::from(trial.works);
-                remembered_work += u32::from(trial.remembered_works);
+                plans.count(trial);
             }
         }
         let summary = ErrorSummary::of(survey.errors()).ok_or("no move was made")?;
@@ -209,11 +239,18 @@ impl Experiment for Diktiometry {
             .number("remembered_precision", survey.remembered_precision())
             .number("link_recall", score.link_recall)
             .flag("isomorphic", score.isomorphism == Isomorphism::Yes);
-        if plans > 0 {
-            let share = |works: u32| f64::from(works) / f64::from(plans);
+        let share = |part: u32, whole: u32| f64::from(part) / f64::from(whole);
+        if plans.there > 0 {
             fields = fields
-                .number("plans", share(work))
-                .number("remembered_plans", share(remembered_work));
+                .number("plans", share(plans.work, plans.there))
+                .number(
+                    "remembered_plans",
+                    share(plans.remembered_work, plans.there),
+                );
+        }
+        let all = plans.there + plans.gone;
+        if all > 0 {
+            fields = fields.number("plans_to_gone", share(plans.gone, all));
         }
         Ok(fields)
     }
