@@ -1,6 +1,8 @@
 //! How CPM explores random mazes of corridors and junctions: the table in docs/cpm.md.
 //!
 //! `cargo run --release -p tolman-maps --example cpm_worlds`
+//!
+//! With `-- lost [MAZES]` instead: in how many mazes without noise (6000 if not told) hypotheses lose the truth for good.
 #![expect(clippy::print_stdout, reason = "its table is its result")]
 
 use core::error::Error;
@@ -24,7 +26,43 @@ struct Tally {
     ratio: f64,
 }
 
+/// Mazes without noise to look for the truth lost in, if not told.
+const MANY: u32 = 6000;
+
 fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    match arguments.next().as_deref() {
+        None => table(),
+        Some("lost") => lost(match arguments.next() {
+            Some(mazes) => mazes.parse()?,
+            None => MANY,
+        }),
+        Some(other) => Err(format!("{other:?} is no mode: give none, or `lost [MAZES]`").into()),
+    }
+}
+
+/// Explores mazes without noise, with as many hypotheses as usual and with one, with dead reckoning.
+fn lost(mazes: u32) -> Result<(), Box<dyn Error>> {
+    for width in [16, 1] {
+        let config = CpmConfig {
+            mapping: Mapping::Hypotheses { width },
+            ..CpmConfig::robust()
+        };
+        for alike in [false, true] {
+            let tally = explore(config, Reckoning::Bounded, Noise::NONE, alike, mazes)?;
+            let kind = if alike { "alike" } else { "distinctive" };
+            println!(
+                "{width} hypotheses, {kind}: of {mazes} maps {} are right, {} wrong, {} were explored without end",
+                tally.right,
+                tally.wrong,
+                mazes - tally.right - tally.wrong
+            );
+        }
+    }
+    Ok(())
+}
+
+fn table() -> Result<(), Box<dyn Error>> {
     let literal = CpmConfig {
         matching: Matching::Positions(Similarity::literal()),
         ..CpmConfig::online()
@@ -72,7 +110,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, config, reckoning) in explorers {
         for alike in [false, true] {
             let cells: Result<Vec<String>, _> = [Noise::NONE, calm, noisy, wild]
-                .map(|noise| explore(config, reckoning, noise, alike))
+                .map(|noise| {
+                    explore(config, reckoning, noise, alike, MAZES).map(|tally| tally.cell(MAZES))
+                })
                 .into_iter()
                 .collect();
             let mazes = if alike { "alike" } else { "distinctive" };
@@ -106,9 +146,10 @@ fn explore(
     reckoning: Reckoning,
     noise: Noise,
     alike: bool,
-) -> Result<String, Box<dyn Error>> {
+    mazes: u32,
+) -> Result<Tally, Box<dyn Error>> {
     let mut tally = Tally::default();
-    for number in 0..MAZES {
+    for number in 0..mazes {
         let mut rng = ChaCha8Rng::seed_from_u64(number.into());
         let world = World::random(&maze(number, alike), &mut rng)?;
         let mut rover = Rover::new(&world, noise, reckoning);
@@ -136,11 +177,15 @@ fn explore(
             _ => {}
         }
     }
-    let percent = |count: u32| 100.0 * f64::from(count) / f64::from(MAZES);
-    let ratio = tally.ratio / f64::from(tally.right.max(1));
-    Ok(format!(
-        "{:.1} / {:.1} / {ratio:.2}",
-        percent(tally.right),
-        percent(tally.wrong)
-    ))
+    Ok(tally)
+}
+
+impl Tally {
+    /// As the table has it.
+    fn cell(&self, mazes: u32) -> String {
+        let percent = |count: u32| 100.0 * f64::from(count) / f64::from(mazes);
+        let ratio = self.ratio / f64::from(self.right.max(1));
+        let (right, wrong) = (percent(self.right), percent(self.wrong));
+        format!("{right:.1} / {wrong:.1} / {ratio:.2}")
+    }
 }

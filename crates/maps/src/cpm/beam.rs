@@ -9,7 +9,7 @@ use super::turn::{NoSuchTurn, Turn};
 /// The likeliest ways to understand all that the robot has met: a beam search over hypotheses.
 ///
 /// Where much is open at once a beam may lose the truth. It is known by a walk that no hypothesis explains; all that was met is
-/// gone through again then with a wider beam.
+/// gone through again then with a wider beam, which grows narrow again while all is understood.
 #[derive(Clone, Debug)]
 pub(super) struct Beam {
     /// The likeliest first, never empty. Costs are counted from that of the first.
@@ -18,6 +18,8 @@ pub(super) struct Beam {
     width: usize,
     /// How many there were to be at most.
     narrow: usize,
+    /// Walks understood since the width last changed.
+    understood: u32,
     /// What was known when the first of `met` was met.
     begin: Mapper,
     met: Vec<Event>,
@@ -54,6 +56,9 @@ const HOPELESS: f64 = 25.0;
 /// A beam that has lost the truth is made up to so many times as wide.
 const WIDEST: usize = 16;
 
+/// After so many walks understood one after the other a beam that was made wider is halved.
+const CALM: u32 = 32;
+
 impl Beam {
     /// It begins with what is known for certain.
     pub(super) fn new(begin: Mapper, width: u32) -> Self {
@@ -62,6 +67,7 @@ impl Beam {
             hypotheses: Vec::from([Hypothesis::certain(begin.clone())]),
             width: narrow,
             narrow,
+            understood: 0,
             begin,
             met: Vec::new(),
         }
@@ -81,7 +87,8 @@ impl Beam {
         }
     }
 
-    /// Takes in a walk. O(width · fragments) comparisons; where the beam has to be wider, as many for each walk since the beginning.
+    /// Takes in a walk. O(width · fragments) comparisons. Where the beam has to be wider all walks since the beginning are gone through again with each
+    /// width tried: O(sum of these widths · walks · fragments), the sum less than twice the widest.
     ///
     /// # Errors
     /// If the place where the robot is has no such turn; nothing is changed then.
@@ -100,19 +107,33 @@ impl Beam {
                 _ => Understood::Anew(first.belief),
             };
             self.hypotheses = hypotheses(children);
+            self.calm_down();
             return Ok(understood);
         }
-        while self.width < WIDEST * self.narrow {
-            self.width *= 2;
+        self.understood = 0;
+        while self.width < self.narrow.saturating_mul(WIDEST) {
+            self.width = self.width.saturating_mul(2);
             if let Some(belief) = self.look_again(judge) {
                 return Ok(Understood::Anew(belief));
             }
         }
         // It goes on with what it has found, apart from the rest.
         let mut adrift = self.best().clone();
-        adrift.walk(exit, walk, |_, _, _| false);
+        adrift.go_adrift(exit, walk);
         *self = Self::new(adrift, self.narrow as u32);
         Ok(Understood::Not)
+    }
+
+    /// The beam is made narrower once it has understood enough.
+    fn calm_down(&mut self) {
+        if self.width <= self.narrow {
+            return;
+        }
+        self.understood += 1;
+        if self.understood >= CALM {
+            self.width = self.narrow.max(self.width / 2);
+            self.understood = 0;
+        }
     }
 
     /// Goes through all that was met. Returns what was believed of the last walk; nothing, and the beam is as before, if nothing explains all.
@@ -195,4 +216,101 @@ fn children(
 fn hypotheses(children: Vec<Child>) -> Vec<Hypothesis> {
     let hypotheses = children.into_iter().map(|child| child.hypothesis);
     hypotheses.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Interval, Point, PointBox};
+
+    use super::super::config::CpmConfig;
+    use super::super::map::{Port, PortState};
+    use super::super::pattern::{Dictionary, PatternId};
+    use super::super::traversal::{Landmark, Motion, Sighting};
+    use super::*;
+
+    const START: Sighting = Sighting {
+        degree: 1,
+        landmark: Some(Landmark::Start),
+    };
+
+    fn dictionary() -> Dictionary {
+        let mut dictionary = Dictionary::new(2);
+        dictionary.learn(&[1.0, 0.0], &[1.0, 0.0], 0.0).unwrap();
+        dictionary.learn(&[0.0, 1.0], &[0.0, 1.0], 0.0).unwrap();
+        dictionary
+    }
+
+    /// A walk of ten equal observations to the east or the west.
+    fn walk(pattern: u32, east: f64, sighting: Sighting) -> Traversal {
+        let heading = if east > 0.0 {
+            0.0
+        } else {
+            core::f64::consts::PI
+        };
+        let heading = Interval::new(heading - 0.1, heading + 0.1).unwrap();
+        let motion = Motion {
+            displacement: PointBox::about(Point::new(east, 0.0), 0.01).unwrap(),
+            departure: heading,
+            arrival: heading,
+        };
+        Traversal {
+            patterns: [PatternId(pattern); 10].to_vec(),
+            motion: Some(motion),
+            sighting,
+        }
+    }
+
+    #[test]
+    fn a_wide_beam_grows_narrow_while_all_is_understood() {
+        let (dictionary, config) = (dictionary(), CpmConfig::robust());
+        let judge = config.comparison(&dictionary);
+        let mut beam = Beam::new(Mapper::new(START), 2);
+        beam.width = 8;
+        let mut widths = Vec::new();
+        for number in 0..3 * CALM {
+            let walk = match number % 2 {
+                0 => walk(0, 1.0, Sighting::plain(1)),
+                _ => walk(0, -1.0, START),
+            };
+            let understood = beam.walked(Turn::BACK, &walk, &judge).unwrap();
+            assert_ne!(understood, Understood::Not);
+            if widths.last() != Some(&beam.width) {
+                widths.push(beam.width);
+            }
+        }
+        assert_eq!(widths, [8, 4, 2]);
+    }
+
+    /// The way seems to lead to the start, whose only port has another fragment.
+    #[test]
+    fn what_nothing_explains_hangs_on_nothing() {
+        let (dictionary, config) = (dictionary(), CpmConfig::robust());
+        let judge = config.comparison(&dictionary);
+        let mut beam = Beam::new(Mapper::new(START), 4);
+        let start = beam.best().at;
+        let first = walk(0, 1.0, Sighting::plain(3));
+        beam.walked(Turn::BACK, &first, &judge).unwrap();
+        let open = beam.best().exit(Turn(1)).unwrap();
+        let second = walk(1, -1.0, START);
+        let understood = beam.walked(Turn(1), &second, &judge).unwrap();
+        assert_eq!(understood, Understood::Not);
+        let Mapper { map, at } = beam.best();
+        assert_eq!(map.port(open), Some(PortState::Open { at_least: 0 }));
+        assert_eq!(map.fragments().len(), 2);
+        assert_ne!(at.junction, start.junction);
+        assert!(
+            !map.positions_from(start.junction)
+                .contains_key(&at.junction)
+        );
+        // The copy of the junction has the fragment at the same turn.
+        let port = map.beyond(*at).unwrap();
+        assert_ne!(port.junction, open.junction);
+        assert_eq!((port.number, map.degree(port.junction)), (1, 3));
+        let behind = Port { number: 0, ..port };
+        assert_eq!(map.port(behind), Some(PortState::Open { at_least: 0 }));
+        // It walks back, and knows that.
+        let back = walk(1, 1.0, Sighting::plain(3));
+        let understood = beam.walked(Turn::BACK, &back, &judge).unwrap();
+        assert_eq!(understood, Understood::As(Belief::Known));
+    }
 }

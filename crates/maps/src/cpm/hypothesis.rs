@@ -3,7 +3,7 @@ use core::cell::Cell;
 
 use tolman_geom::{Interval, PointBox};
 
-use super::map::{End, Fragment, FragmentId, Port, Sign};
+use super::map::{End, Fragment, FragmentId, JunctionId, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
 use super::similarity::Sense;
@@ -79,22 +79,26 @@ impl Hypothesis {
         Ok(all)
     }
 
-    /// Whether a walk has led, for certain, to a place of the map: to the only start, or where one like it is and two do not fit.
+    /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is known where that lies from here, or where one
+    /// like it is and two do not fit.
     fn is_known_place(&self, exit: Port, walk: &Traversal) -> bool {
         // Without bounds no way leads to known places but over fragments that are known.
         let Some(motion) = walk.motion else {
             return false;
         };
         let map = &self.mapper.map;
+        let positions = map.positions_from(exit.junction);
+        let is_alike = |id: JunctionId| {
+            let place = map.junction(id);
+            place.is_some_and(|place| place.sighting() == walk.sighting)
+        };
         let is_start = walk.sighting.landmark == Some(Landmark::Start);
-        if is_start && map.landmarks(Landmark::Start).next().is_some() {
+        let mut starts = map.landmarks(Landmark::Start);
+        if is_start && starts.any(|id| positions.contains_key(&id) && is_alike(id)) {
             return true;
         }
-        let positions = map.positions_from(exit.junction);
         positions.iter().any(|(id, position)| {
-            let place = map.junction(*id);
-            place.is_some_and(|place| place.sighting() == walk.sighting)
-                && position.distance(motion.displacement).high() < LEAST_APART
+            is_alike(*id) && position.distance(motion.displacement).high() < LEAST_APART
         })
     }
 

@@ -61,7 +61,12 @@ impl Mapper {
             self.confirm(end, walk);
             return Walked::Known;
         }
-        // The robot is not where the map has it. What it has walked hangs on nothing then, until it is recognized.
+        Walked::Contradicted(self.go_adrift(exit, walk))
+    }
+
+    /// The robot is not where the map has it. What it has walked begins at a copy of its place that hangs on nothing, until it is
+    /// recognized; the port stays as it is.
+    pub(super) fn go_adrift(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let sighting = self.map.junction(exit.junction).map(Junction::sighting);
         let degree = sighting.map_or(1, |sighting| sighting.degree);
         let turn = Turn::between(self.at.number, exit.number, degree).unwrap_or(Turn::BACK);
@@ -73,7 +78,7 @@ impl Mapper {
             junction: adrift,
             number: turn.0,
         };
-        Walked::Contradicted(self.append(exit, walk))
+        self.append(exit, walk)
     }
 
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {

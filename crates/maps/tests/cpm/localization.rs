@@ -104,6 +104,7 @@ fn from_mid_fragment_before_the_next_junction() {
         "{before} right before the junction, {rightly_sure} of {sure} that are sure, {at} right at it, of {starts}"
     );
     assert!(10 * before >= 9 * starts, "{before} of {starts}");
+    assert!(2 * sure > starts, "{sure} sure of {starts}");
     assert!(
         100 * rightly_sure >= 99 * sure,
         "{rightly_sure} of {sure} that are sure"
