@@ -22,7 +22,7 @@ pub(super) struct FileHeader {
     version: u32,
 }
 
-/// Why a file is none of its kind, or cannot be read.
+/// Why a file is none of its kind, or cannot be read or written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FileError {
@@ -66,6 +66,22 @@ pub enum FileError {
         /// The latest that is known.
         latest: u32,
     },
+    /// It says version 0; versions begin with 1.
+    #[error("its version is 0, which no {name} ever had: make one with `{command}`")]
+    NoVersion {
+        /// What it should be.
+        name: &'static str,
+        /// What makes one.
+        command: &'static str,
+    },
+    /// What it should hold has no JSON form.
+    #[error("this {name} has no JSON form")]
+    Unwritable {
+        /// What it should be.
+        name: &'static str,
+        /// Why.
+        source: serde_json::Error,
+    },
 }
 
 impl FileKind {
@@ -83,6 +99,17 @@ impl FileKind {
             |_| text.contains(&format!("\"{}\"", self.format)),
             |header| header.format == self.format,
         )
+    }
+
+    /// The text of a file, with a line end. What it holds has the header.
+    ///
+    /// # Errors
+    /// [`FileError::Unwritable`].
+    pub(super) fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
+        let name = self.name;
+        serde_json::to_string(body)
+            .map(|text| text + "\n")
+            .map_err(|source| FileError::Unwritable { name, source })
     }
 
     /// What a file holds, its header besides.
@@ -120,12 +147,55 @@ impl FileKind {
                 command,
             });
         }
-        if header.version == 0 || header.version > version {
+        if header.version == 0 {
+            return Err(FileError::NoVersion { name, command });
+        }
+        if header.version > version {
             return Err(FileError::Version {
                 found: header.version,
                 latest: version,
             });
         }
         serde_json::from_str(text).map_err(json)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::collections::BTreeMap;
+
+    use super::*;
+
+    const KIND: FileKind = FileKind {
+        format: "tolman-test",
+        version: 2,
+        name: "test",
+        command: "tolman test",
+    };
+
+    #[test]
+    fn version_0_is_not_of_a_later_time() {
+        let read = |version: u32| {
+            let text = format!("{{\"format\":\"tolman-test\",\"version\":{version}}}");
+            KIND.parse::<FileHeader>(&text)
+        };
+        assert!(matches!(read(0), Err(FileError::NoVersion { .. })));
+        assert!(read(1).is_ok() && read(2).is_ok());
+        assert!(matches!(
+            read(3),
+            Err(FileError::Version {
+                found: 3,
+                latest: 2
+            })
+        ));
+    }
+
+    #[test]
+    fn what_has_no_json_form_is_not_written() {
+        assert_eq!(KIND.write(&[1, 2]).unwrap(), "[1,2]\n");
+        // Keys have to be strings.
+        let unwritable = BTreeMap::from([([1, 2], 3)]);
+        let error = KIND.write(&unwritable).unwrap_err();
+        assert!(matches!(error, FileError::Unwritable { .. }), "{error}");
     }
 }

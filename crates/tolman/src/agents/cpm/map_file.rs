@@ -53,7 +53,7 @@ const KIND: FileKind = FileKind {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is another kind of file, of a later time, or cut off.
+    /// It is another kind of file, of a later time, or cut off; or it cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
     /// It holds another thing, or not all of it.
@@ -78,7 +78,7 @@ impl MapFile {
     /// The text of the file, with a line end.
     ///
     /// # Errors
-    /// If the map was learned with other patterns.
+    /// If the map was learned with other patterns, or cannot be written.
     pub fn to_json(&self) -> Result<String, MapFileError> {
         let body = Body {
             map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
@@ -88,8 +88,7 @@ impl MapFile {
             units: self.patterns.unit_count(),
             clusters: self.patterns.cluster_count(),
         };
-        // Plain fields and finite numbers always have a JSON form.
-        Ok(serde_json::to_string(&body).unwrap_or_default() + "\n")
+        Ok(KIND.write(&body)?)
     }
 
     /// Whether a text says that it is such a file, of whatever version, whole or cut off.

@@ -63,7 +63,7 @@ pub struct PutDownRecord {
     pub knowable_by_bends: f64,
     /// The same if it also saw the ways to the sides of the places at both ends; no robot knows more on average.
     pub knowable_by_sides: f64,
-    /// Whether the robot knew them then.
+    /// Whether the robot knew them then; who has observed nothing did not.
     pub is_right_under_way: bool,
     /// The same at that place.
     pub is_right_at_first_place: bool,
@@ -137,45 +137,43 @@ impl PutDown<'_> {
                 ways.push(if ways.is_empty() { Some(begun) } else { walked });
             },
         )?;
-        let is_right = |location: &Location, way: Option<&Option<Way>>| {
-            let way = way.copied().flatten();
+        let is_right = |location: Option<Location>, place: usize| {
+            let (Some(location), Some(&Some(way))) = (location, ways.get(place)) else {
+                return false;
+            };
             let truth = known.truth.get(&location.enter.fragment);
             location.map == self.here
-                && truth.zip(way).is_some_and(|(truth, way)| {
+                && truth.is_some_and(|truth| {
                     let is_along = truth.is_forward == way.is_forward;
                     truth.fragment == way.fragment
                         && is_along == (location.enter.sign == Sign::Minus)
                 })
         };
         let ahead = self.approach.places_before();
-        let is_right_in = |beliefs: &[Location], place: usize| {
-            let location = beliefs.get(place);
-            location.is_some_and(|location| is_right(location, ways.get(place)))
-        };
-        let (at_places, under_way) = (&whereabouts.at_places, &whereabouts.under_way);
-        let is_right_at_first_place = is_right_in(at_places, ahead);
-        let last = at_places.len().saturating_sub(1);
+        let is_right_at = |place: usize| is_right(whereabouts.at_places.get(place).copied(), place);
+        let is_right_before =
+            |place: usize| is_right(whereabouts.under_way.get(place).copied().flatten(), place);
+        let is_right_at_first_place = is_right_at(ahead);
+        let last = whereabouts.at_places.len().saturating_sub(1);
         let knowable_by = |looks| knowable(&mazes, self.here, spot, self.approach, looks);
         Ok(Some(PutDownRecord {
             knowable_by_bends: knowable_by(Looks::AtBends),
             knowable_by_sides: knowable_by(Looks::AtSides),
-            is_right_under_way: is_right_in(under_way, ahead),
+            is_right_under_way: is_right_before(ahead),
             is_right_at_first_place,
             is_right_within_one_further: if last == ahead {
                 is_right_at_first_place
             } else {
-                is_right_in(under_way, ahead + 1)
+                is_right_before(ahead + 1)
             },
-            is_right_at_last: is_right_in(at_places, last),
+            is_right_at_last: is_right_at(last),
             is_recalled: self.recalled(&whereabouts)?,
             seconds: walker.time_us() as f64 * 1e-6,
             path: walker.body().path().to_vec(),
             whereabouts,
         }))
     }
-}
 
-impl PutDown<'_> {
     /// Whether the fourth layer recalls the maze.
     fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, TrialError> {
         let Some(walked) = whereabouts.walks.first() else {

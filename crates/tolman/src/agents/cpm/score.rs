@@ -1,7 +1,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Port, Sign, Turn};
+use tolman_maps::cpm::{Arrival, CpMap, Explorer, FragmentId, JunctionId, Port, Sign, Turn};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::{Arcs, costs_from};
 use tolman_sim::World;
@@ -12,12 +12,13 @@ use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
 use super::walker::Walk;
 
-/// Loops closed in the first episode: arrivals by a way that was not on the map.
+/// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Closures {
-    /// A duplicate was told, and it was that one; on arrival, or by what was met later.
+    /// A duplicate was told, and it was that fragment, or a loop, and it was that place; on arrival, or by what was met later.
     pub right: u32,
-    /// A duplicate was told, and it was another or none.
+    /// Arrivals by which a duplicate or a loop was told that was another one or none: on arrival, or by a map that became the likeliest later. Each counts
+    /// once, however much of the map is wrong by it, and though it be mended later.
     pub wrong: u32,
     /// A fragment was walked again, and still is on the map at the end as another one.
     pub missed: u32,
@@ -26,11 +27,15 @@ pub struct Closures {
 /// What really happened, for scoring.
 pub(super) struct Score<'a> {
     fragments: TrueFragments,
-    closures: Closures,
-    /// The place where the map begins, and its cell.
-    start: Option<(Port, Cell)>,
-    /// All walks since: the turn, and the true way.
-    walked: Vec<(Turn, Option<Way>)>,
+    /// Loops closed rightly, and those that were not, on arrival.
+    right: u32,
+    missed: u32,
+    /// The numbers of the walks that closed a loop wrongly.
+    wrong: BTreeSet<usize>,
+    /// Where walks are retraced from; none if nobody knows where that was.
+    base: Option<Base>,
+    /// All walks.
+    walked: Vec<Walked>,
     /// The true way from − to + of each fragment of the map.
     pub(super) truth: BTreeMap<FragmentId, Way>,
     /// The cell of each place of the map.
@@ -40,12 +45,34 @@ pub(super) struct Score<'a> {
     pub(super) known: KnownMap<'a>,
 }
 
+/// What all maps have in common that became the likeliest since: how things stood at the start, or when nothing explained what was met and the mapper
+/// began anew.
+struct Base {
+    /// The port behind the robot.
+    at: Port,
+    /// So many walks came before.
+    walks: usize,
+    truth: BTreeMap<FragmentId, Way>,
+    places: BTreeMap<JunctionId, Cell>,
+}
+
+/// A walk to the end of a fragment, as it truly was.
+struct Walked {
+    turn: Turn,
+    /// None if it began on no fragment.
+    way: Option<Way>,
+    /// The cell it led to.
+    here: Option<Cell>,
+}
+
 impl<'a> Score<'a> {
     pub(super) fn of(maze: &'a Maze) -> Self {
         Self {
             fragments: TrueFragments::of(maze),
-            closures: Closures::default(),
-            start: None,
+            right: 0,
+            missed: 0,
+            wrong: BTreeSet::new(),
+            base: None,
             walked: Vec::new(),
             truth: BTreeMap::new(),
             places: BTreeMap::new(),
@@ -55,11 +82,8 @@ impl<'a> Score<'a> {
     }
 
     pub(super) fn begin(&mut self, agent: &Cpm<'_, SimulatedEpuck>, start: Pose) {
-        if let Some(cell) = agent.walker().body().world().cell_at(start.position) {
-            let at = agent.explorer().at();
-            self.places.insert(at.junction, cell);
-            self.start = Some((at, cell));
-        }
+        let cell = agent.walker().body().world().cell_at(start.position);
+        self.begin_at(agent.explorer().at(), cell);
     }
 
     /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
@@ -73,54 +97,92 @@ impl<'a> Score<'a> {
             let cell = body.world().cell_at(from.position)?;
             self.fragments.way(cell, from.heading)
         });
-        self.walked.push((step.leg.turn, way));
         let length = (observations.len() as u32).max(1);
         if let Some(here) = here {
             let way = way.filter(|way| way.to == here);
             let before = way.and_then(|way| self.lengths.get(&way.fragment));
             self.known.walk(way, here, *before.unwrap_or(&length));
         }
-        let Some(way) = way else {
-            return;
-        };
+        let turn = step.leg.turn;
+        let walked = Walked { turn, way, here };
+        self.take_in(agent.explorer(), arrival, walked, length);
+    }
+
+    fn take_in(&mut self, explorer: &Explorer, arrival: Arrival, walked: Walked, length: u32) {
+        let Walked { way, here, .. } = walked;
+        let number = self.walked.len();
+        self.walked.push(walked);
+        if let Some(way) = way {
+            self.judge(explorer, arrival, number, way, here);
+            self.lengths.entry(way.fragment).or_insert(length);
+        }
+        if arrival == Arrival::Contradiction {
+            self.begin_at(explorer.at(), here);
+        }
+    }
+
+    fn judge(
+        &mut self,
+        explorer: &Explorer,
+        arrival: Arrival,
+        number: usize,
+        way: Way,
+        here: Option<Cell>,
+    ) {
         let is_old = self.lengths.contains_key(&way.fragment);
-        let told = agent.explorer().map().end_at(agent.explorer().at());
+        let told = explorer.map().end_at(explorer.at());
         let known = told.and_then(|end| self.truth.get(&end.fragment).copied());
         let is_same = known.is_some_and(|known| known.fragment == way.fragment);
         // The place that the map says it is at, where that is a place of the map.
-        let junction = agent.explorer().at().junction;
+        let junction = explorer.at().junction;
         let stands = self.places.get(&junction).copied();
         if let Some(here) = here {
             self.places.entry(junction).or_insert(here);
         }
         match arrival {
-            Arrival::Revised => self.retrace(agent.explorer().map()),
-            Arrival::Duplicate if is_same => self.closures.right += 1,
-            Arrival::Duplicate => self.closures.wrong += 1,
-            Arrival::Loop if stands == here => self.closures.right += 1,
-            Arrival::Loop => self.closures.wrong += 1,
-            Arrival::New if is_old => self.closures.missed += 1,
+            Arrival::Revised => self.retrace(explorer.map()),
+            Arrival::Duplicate if is_same => self.right += 1,
+            Arrival::Loop if stands == here => self.right += 1,
+            Arrival::Duplicate | Arrival::Loop => {
+                self.wrong.insert(number);
+            }
+            Arrival::New if is_old => self.missed += 1,
             _ => {}
         }
         if let Some(end) = told {
             self.truth.entry(end.fragment).or_insert(way);
         }
-        self.lengths.entry(way.fragment).or_insert(length);
     }
 
-    /// Another map has its own names of fragments and places: what they are follows from the same walk on it. A fragment that was walked along
-    /// two true ones has closed a loop wrongly.
+    /// A map begins at a port, in a cell; what is known of its fragments and places stays known.
+    fn begin_at(&mut self, at: Port, cell: Option<Cell>) {
+        self.base = cell.map(|cell| {
+            self.places.insert(at.junction, cell);
+            Base {
+                at,
+                walks: self.walked.len(),
+                truth: self.truth.clone(),
+                places: self.places.clone(),
+            }
+        });
+    }
+
+    /// Another map has its own names of fragments and places: what they are follows from the same walks on it. An arrival has closed a loop wrongly that
+    /// is the first to show a fragment of the map to be two true ones, or a place; but for those of a robot that was taken to be elsewhere before, as they
+    /// follow from that.
     fn retrace(&mut self, map: &CpMap) {
-        let Some((mut at, cell)) = self.start else {
+        let Some(base) = &self.base else {
             return;
         };
-        self.truth.clear();
-        self.places = BTreeMap::from([(at.junction, cell)]);
-        let mut confused = BTreeSet::new();
-        for (turn, way) in &self.walked {
-            let exit = turn.exit(at.number, map.degree(at.junction));
+        self.truth.clone_from(&base.truth);
+        self.places.clone_from(&base.places);
+        let mut at = base.at;
+        let (mut two_fragments, mut two_places) = (BTreeSet::new(), BTreeSet::new());
+        let mut is_astray = false;
+        for (number, walked) in self.walked.iter().enumerate().skip(base.walks) {
+            let exit = walked.turn.exit(at.number, map.degree(at.junction));
             let exit = exit.map(|number| Port { number, ..at });
-            // On a map that broke off somewhere the walk cannot be retraced further.
+            // On a map that broke off somewhere the walks cannot be retraced further.
             let Some((end, beyond)) = exit
                 .ok()
                 .and_then(|exit| Some((map.end_at(exit)?.opposite(), map.beyond(exit)?)))
@@ -128,23 +190,25 @@ impl<'a> Score<'a> {
                 break;
             };
             at = beyond;
-            let Some(way) = way else {
-                continue;
-            };
-            self.places.entry(at.junction).or_insert(way.to);
-            let from_minus = match end.sign {
-                Sign::Plus => Some(*way),
-                Sign::Minus => self.fragments.reversed(*way),
-            };
-            let Some(from_minus) = from_minus else {
-                continue;
-            };
-            let known = self.truth.entry(end.fragment).or_insert(from_minus);
-            if known.fragment != way.fragment {
-                confused.insert(end.fragment);
+            let was_astray = is_astray;
+            let mut is_wrong = false;
+            if let Some(here) = walked.here {
+                is_astray = *self.places.entry(at.junction).or_insert(here) != here;
+                is_wrong |= is_astray && two_places.insert((at.junction, here));
+            }
+            let from_minus = walked.way.and_then(|way| match end.sign {
+                Sign::Plus => Some(way),
+                Sign::Minus => self.fragments.reversed(way),
+            });
+            if let Some(way) = from_minus {
+                let known = self.truth.entry(end.fragment).or_insert(way);
+                let is_other = known.fragment != way.fragment;
+                is_wrong |= is_other && two_fragments.insert((end.fragment, way.fragment));
+            }
+            if is_wrong && !was_astray {
+                self.wrong.insert(number);
             }
         }
-        self.closures.wrong = self.closures.wrong.max(confused.len() as u32);
     }
 
     /// Loops count as closed too that were closed after the arrival, by another fragment or another map, and as missed those that are open on
@@ -157,9 +221,9 @@ impl<'a> Score<'a> {
         fragments.dedup();
         let open = (all - fragments.len()) as u32;
         Closures {
-            right: self.closures.right + self.closures.missed.saturating_sub(open),
+            right: self.right + self.missed.saturating_sub(open),
+            wrong: self.wrong.len() as u32,
             missed: open,
-            ..self.closures
         }
     }
 
@@ -191,7 +255,7 @@ impl<'a> Score<'a> {
 #[cfg(test)]
 mod tests {
     use tolman_geom::Heading;
-    use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, PatternId, Sighting, Traversal};
+    use tolman_maps::cpm::{CpmConfig, Dictionary, PatternId, Sighting, Traversal};
 
     use super::*;
 
@@ -206,7 +270,7 @@ mod tests {
         let mut explorer = Explorer::new(CpmConfig::robust(), Sighting::plain(1)).unwrap();
         let mut score = Score::of(&maze);
         let start = maze.start().unwrap().0;
-        score.start = Some((explorer.at(), start));
+        score.begin_at(explorer.at(), Some(start));
         let fork = Cell::new(1, 0);
         let mut walk = |turn: Turn, patterns: &[PatternId], degree, from, heading| {
             let patterns = patterns.to_vec();
@@ -218,7 +282,8 @@ mod tests {
             };
             explorer.arrive(turn, &walk, &dictionary).unwrap();
             let way = score.fragments.way(from, Heading::from_degrees(heading));
-            score.walked.push((turn, way));
+            let here = way.map(|way| way.to);
+            score.walked.push(Walked { turn, way, here });
         };
         walk(Turn::BACK, &[wall, wall, wall], 3, start, 0.0);
         walk(Turn(2), &[door, door, door], 1, fork, 0.0);
@@ -233,11 +298,52 @@ mod tests {
             let way = score.fragments.way(from, Heading::from_degrees(heading));
             assert_eq!(score.truth.get(&id).copied(), way);
         }
-        assert_eq!(score.closures.wrong, 0);
+        assert!(score.wrong.is_empty());
 
-        // Had the robot truly gone to the third corridor, the map would have taken two for one.
-        score.walked[3].1 = score.fragments.way(fork, Heading::from_degrees(90.0));
+        // Had the robot truly gone to the third corridor, the map would have taken two for one, and their ends.
+        let third = score.fragments.way(fork, Heading::from_degrees(90.0));
+        let home = (score.walked[3].way, score.walked[3].here);
+        (score.walked[3].way, score.walked[3].here) = (third, third.map(|way| way.to));
         score.retrace(&map);
-        assert_eq!(score.closures.wrong, 1);
+        assert_eq!(score.wrong, BTreeSet::from([3]));
+
+        // Had it come to another fork, all else would follow from that.
+        score.wrong.clear();
+        score.walked[2].here = Some(Cell::new(1, 1));
+        score.retrace(&map);
+        assert_eq!(score.wrong, BTreeSet::from([2]));
+
+        // The place alone may be another.
+        score.wrong.clear();
+        (score.walked[3].way, score.walked[3].here) = home;
+        score.retrace(&map);
+        assert_eq!(score.wrong, BTreeSet::from([2]));
+
+        // Home again, that is of two ways now: nothing explains it, and the mapper begins anew.
+        score.walked[2].here = Some(fork);
+        score.wrong.clear();
+        score.retrace(&map);
+        let mut take_in = |turn: Turn, degree, from, heading| {
+            let walk = Traversal {
+                patterns: vec![wall, wall, wall],
+                motion: None,
+                sighting: Sighting::plain(degree),
+            };
+            let arrival = explorer.arrive(turn, &walk, &dictionary).unwrap();
+            let way = score.fragments.way(from, Heading::from_degrees(heading));
+            let here = way.map(|way| way.to);
+            score.take_in(&explorer, arrival, Walked { turn, way, here }, 3);
+            arrival
+        };
+        assert_eq!(take_in(Turn::BACK, 3, start, 0.0), Arrival::Known);
+        let strange = take_in(Turn::BACK, 2, fork, 90.0);
+        assert_eq!(strange, Arrival::Contradiction);
+        take_in(Turn::BACK, 3, Cell::new(1, 1), 270.0);
+        let before = score.truth.clone();
+        assert_eq!(before.len(), 3);
+        score.retrace(explorer.map());
+        assert!(score.wrong.is_empty(), "{:?}", score.wrong);
+        assert_eq!(score.truth, before);
+        assert_eq!(score.places.get(&explorer.at().junction), Some(&fork));
     }
 }

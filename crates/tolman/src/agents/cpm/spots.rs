@@ -17,13 +17,13 @@ pub(super) struct Spot {
     /// The way it then is on.
     pub(super) way: Way,
     /// The place behind.
-    behind: End,
+    behind: PlaceAtEnd,
     /// The bend of every cell between the places.
     bends: Vec<Quarters>,
     /// How many of those cells lie behind it.
     passed: usize,
     /// The place ahead.
-    ahead: End,
+    ahead: PlaceAtEnd,
 }
 
 /// Quarters of a turn, clockwise.
@@ -31,7 +31,7 @@ type Quarters = usize;
 
 /// A place at an end of a fragment, for one who goes along it.
 #[derive(Clone, Debug, PartialEq)]
-struct End {
+struct PlaceAtEnd {
     /// The ways out of it, from the direction in which it is left or entered.
     open: Vec<Quarters>,
     landmark: Option<Landmark>,
@@ -50,14 +50,14 @@ pub(super) enum Looks {
 #[derive(Clone, Debug, PartialEq)]
 struct View<'a> {
     /// The place behind, if it is seen.
-    behind: Option<End>,
+    behind: Option<PlaceAtEnd>,
     /// The bends of the cells that it sees.
     bends: &'a [Quarters],
     /// The place ahead.
-    ahead: End,
+    ahead: PlaceAtEnd,
 }
 
-impl End {
+impl PlaceAtEnd {
     fn of(maze: &Maze, cell: Cell, heading: Direction) -> Self {
         let is_start = maze.start().is_some_and(|(start, _)| start == cell);
         let is_goal = maze.goals().contains(&cell);
@@ -119,10 +119,10 @@ impl Spot {
                 cell: *cell,
                 heading: *heading,
                 way,
-                behind: End::of(maze, from, out),
+                behind: PlaceAtEnd::of(maze, from, out),
                 bends: bends.clone(),
                 passed,
-                ahead: End::of(maze, way.to, came),
+                ahead: PlaceAtEnd::of(maze, way.to, came),
             }));
         }
         spots
@@ -260,6 +260,28 @@ o---o---o---o---o---o
         check(&mazes, 0, Approach::StraightOn, &[0.5; 4]);
         let known = |spot| knowable(&mazes, 0, spot, Approach::StraightOn, Looks::AtSides);
         assert!(mazes[0].iter().all(|spot| known(spot) > 0.99));
+    }
+
+    /// Whoever looks at the sides too is right as often at least, over all spots of each maze.
+    #[test]
+    fn sides_tell_no_less_than_bends() {
+        let texts = [
+            include_str!("../../../../../mazes/cpm-1.maze"),
+            include_str!("../../../../../mazes/cpm-2.maze"),
+            include_str!("../../../../../mazes/cpm-3.maze"),
+        ];
+        let mazes = texts.map(spots);
+        for here in 0..mazes.len() {
+            let mean = |looks| {
+                let each = mazes[here].iter();
+                let known =
+                    each.map(|spot| knowable(&mazes, here, spot, Approach::StraightOn, looks));
+                known.sum::<f64>() / mazes[here].len() as f64
+            };
+            let (bends, sides) = (mean(Looks::AtBends), mean(Looks::AtSides));
+            assert!(sides >= bends, "maze {here}: {sides} and {bends}");
+            assert!((0.5..0.99).contains(&bends), "maze {here}: {bends}");
+        }
     }
 
     #[test]

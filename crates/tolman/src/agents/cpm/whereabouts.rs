@@ -32,8 +32,9 @@ impl Approach {
 pub struct Whereabouts {
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
-    /// What it believed before each of them, when it saw that the fragment ends and not yet at what.
-    pub under_way: Vec<Location>,
+    /// What it believed before each of them, when it saw that the fragment ends and not yet at what; none if it had observed nothing at all, and so does
+    /// not know.
+    pub under_way: Vec<Option<Location>>,
     /// What it saw along each fragment it walked whole.
     pub walks: Vec<Vec<Observation>>,
 }
@@ -75,11 +76,14 @@ pub fn find_out<B: Body>(
         else {
             return Err(WalkError::Lost.into());
         };
-        for pattern in patterns.patterns(&observations) {
+        let seen = patterns.patterns(&observations);
+        let has_seen = place > 0 || !seen.is_empty();
+        for pattern in seen {
             localizer.observe(pattern)?;
         }
         localizer.end_in_sight();
-        found.under_way.push(localizer.location());
+        let belief = has_seen.then(|| localizer.location());
+        found.under_way.push(belief);
         if place > 0 {
             found.walks.push(observations);
         }

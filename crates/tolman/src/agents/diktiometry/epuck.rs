@@ -38,7 +38,8 @@ pub struct EpuckSurveyConfig {
 }
 
 impl EpuckSurveyConfig {
-    /// Bounds that hold for wheels that slip by 10 %, in Mazes 1 to 3.
+    /// Bounds for wheels that slip by 10 %. They were seen to hold: in Mazes 1 to 3, of 3600 moves with seeds 1 to 3, for all. As slips are independent
+    /// of each other, this is no strict bound.
     #[must_use]
     pub const fn usual(moves: u32) -> Self {
         Self {

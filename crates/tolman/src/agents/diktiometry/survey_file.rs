@@ -40,7 +40,7 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// It is another kind of file, of a later time, or cut off.
+    /// It is another kind of file, of a later time, or cut off; or it cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
     /// How likely a script is begun is no probability.
@@ -102,7 +102,7 @@ impl SurveyFile {
     /// The text of the file, with a line end.
     ///
     /// # Errors
-    /// [`SurveyFileError::Map`] if the mapper kept no journal.
+    /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it cannot be written.
     pub fn to_json(&self) -> Result<String, SurveyFileError> {
         let Past {
             start,
@@ -126,8 +126,7 @@ impl SurveyFile {
             gone: gone.clone(),
             map: MapFile::of(&self.observer)?,
         };
-        // Plain fields and finite numbers always have a JSON form.
-        Ok(serde_json::to_string(&body).unwrap_or_default() + "\n")
+        Ok(KIND.write(&body)?)
     }
 
     /// Reads the text of a file.
