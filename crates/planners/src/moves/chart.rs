@@ -83,15 +83,17 @@ impl<const N: usize> Chart<N> {
         best
     }
 
-    /// The first leap of a way of fewest steps from `at` to `target` on known ground. Of such ways it is one with much to see
-    /// at its last stops.
-    pub(super) fn leap_towards(&self, target: Cell, at: Cell) -> Option<Leap> {
-        if let Some(leap) = self.leap_to(target, at) {
-            return Some(leap);
+    /// A way of fewest steps from `at` to `target` on known ground; none if none leads there. Of such ways it is one with much to
+    /// see at its last stops.
+    pub(super) fn course(&self, target: Cell, at: Cell) -> Option<Course> {
+        let mut course = Course::to(target);
+        if self.leap_to(target, at).is_some() {
+            return Some(course);
         }
         let here = MoveMap::between(&self.certain, at, target);
         let mut stop = target;
-        for steps in (1..here.moves(target)?).rev() {
+        course.steps = here.moves(target)?;
+        for steps in (1..course.steps).rev() {
             let mut best = None;
             self.certain.for_each_leap(stop, |leap| {
                 if here.moves(leap.end) == Some(steps) {
@@ -102,8 +104,15 @@ impl<const N: usize> Chart<N> {
                 }
             });
             (_, stop) = best?;
+            course.pass(stop, steps);
         }
-        self.leap_to(stop, at)
+        Some(course)
+    }
+
+    /// The first leap of the way from `at` to `target`.
+    pub(super) fn leap_towards(&self, target: Cell, at: Cell) -> Option<Leap> {
+        let first = self.course(target, at)?.stops().next()?;
+        self.leap_to(first, at)
     }
 
     /// The leap from `at` to `end`, if one leads there.
@@ -123,10 +132,13 @@ impl<const N: usize> Chart<N> {
     pub(super) fn drive(&mut self, truth: &Sides<N>, target: Cell, at: Cell) -> Option<Driven> {
         let mut driven = Driven { steps: 0, at };
         while driven.at != target {
-            driven.at = self.leap_towards(target, driven.at)?.end;
-            driven.steps += 1;
-            if self.look(truth, driven.at) {
-                break;
+            // As long as there is nothing new, the way onward stays the same.
+            for stop in self.course(target, driven.at)?.stops() {
+                driven.at = stop;
+                driven.steps += 1;
+                if self.look(truth, stop) {
+                    return Some(driven);
+                }
             }
         }
         Some(driven)
@@ -174,6 +186,39 @@ impl<const N: usize> Chart<N> {
             wave.advance(&self.certain);
             (!wave.front.is_empty()).then_some((wave.moves, wave.front))
         })
+    }
+}
+
+/// Where the leaps of a way end: the first of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    stops: [Cell; Self::MOST],
+    /// Of the whole way.
+    steps: u16,
+}
+
+impl Course {
+    /// So many stops are kept.
+    const MOST: usize = 32;
+
+    /// The way of one leap.
+    const fn to(target: Cell) -> Self {
+        Self {
+            stops: [target; Self::MOST],
+            steps: 1,
+        }
+    }
+
+    /// The way leads to `stop` after so many steps.
+    fn pass(&mut self, stop: Cell, steps: u16) {
+        if let Some(slot) = self.stops.get_mut(usize::from(steps) - 1) {
+            *slot = stop;
+        }
+    }
+
+    fn stops(&self) -> impl Iterator<Item = Cell> {
+        let count = usize::from(self.steps).min(Self::MOST);
+        self.stops.into_iter().take(count)
     }
 }
 
