@@ -26,6 +26,8 @@ pub(super) struct Chart<const N: usize> {
     pub(super) to_goal: MoveMap<N>,
     /// The paper's close path: steps of the best run that is certain.
     pub(super) closed: Option<u16>,
+    /// A fingerprint of the sides that were [looked at](Self::look) since the chart was made.
+    pub(super) learned: u64,
 }
 
 impl<const N: usize> Chart<N> {
@@ -42,6 +44,7 @@ impl<const N: usize> Chart<N> {
             from_start: MoveMap::over(&hoped, &from),
             to_goal: MoveMap::over(&hoped, &goals),
             closed: Wave::new(from).moves_to(&goals, &certain),
+            learned: 0,
         }
     }
 
@@ -144,6 +147,17 @@ impl<const N: usize> Chart<N> {
         Some(driven)
     }
 
+    /// Whether what is across a side is a goal, or leads on: a run over a side that is certain only now has to go on from there.
+    fn joins(&self, at: Cell, side: Direction) -> bool {
+        let Some(across) = beyond(at, side) else {
+            return false;
+        };
+        let mut onward = Direction::ALL
+            .into_iter()
+            .filter(|on| *on != side.opposite());
+        self.goals.contains(across) || onward.any(|on| self.certain.contains(across, on))
+    }
+
     /// Looks to the four sides, each as far as the next wall. Whether there was anything new.
     fn look(&mut self, truth: &Sides<N>, from: Cell) -> bool {
         let (mut news, mut shorter) = (false, false);
@@ -153,6 +167,7 @@ impl<const N: usize> Chart<N> {
             while self.hoped.contains(at, side) {
                 if !self.certain.contains(at, side) {
                     news = true;
+                    self.learned ^= Sides::<N>::fingerprint(at, side);
                     if !truth.contains(at, side) {
                         self.hoped.remove(at, side);
                         self.from_start.side_closed(&self.hoped, at, side);
@@ -160,7 +175,8 @@ impl<const N: usize> Chart<N> {
                         break;
                     }
                     self.certain.insert(at, side);
-                    shorter |= self.run_through(at, side).is_some_and(|run| run < limit);
+                    shorter |= self.joins(at, side)
+                        && self.run_through(at, side).is_some_and(|run| run < limit);
                 }
                 match beyond(at, side) {
                     Some(next) => at = next,

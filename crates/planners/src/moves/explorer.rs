@@ -187,6 +187,11 @@ impl<const N: usize> MoveExplorer<N> {
         near.unwrap_or_else(|| libm::powf(f32::from(moves), self.config.nearness))
     }
 
+    /// Whether a look around from `cell` tells anything about runs of less than `limit` steps.
+    pub(super) fn tells(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> bool {
+        self.told(chart, cell, limit) > 0.0
+    }
+
     /// What a look around from `cell` tells about runs of less than `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;

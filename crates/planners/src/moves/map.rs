@@ -1,3 +1,5 @@
+use core::cmp::Ordering;
+
 use tolman_maze::{Cell, Direction};
 
 use super::Leap;
@@ -93,13 +95,19 @@ impl<const N: usize> MoveMap<N> {
     /// Takes note that one of the `sides` was closed. The map is out of date until it is [mended](Self::mend).
     pub(super) fn side_closed(&mut self, sides: &Sides<N>, cell: Cell, side: Direction) {
         sides.leaps_over(cell, side, |tail, head| {
-            let (tail, head) = (self.moves_or_never(tail), self.moves_or_never(head));
-            if tail != head {
-                // The farther one was a step farther than the nearer one by this leap, and perhaps by no other.
-                let doubtful = tail.max(head);
-                let (first, last) = self.stale.unwrap_or((doubtful, doubtful));
-                self.stale = Some((first.min(doubtful), last.max(doubtful)));
+            let (near, far) = match self.moves_or_never(tail).cmp(&self.moves_or_never(head)) {
+                Ordering::Less => (tail, head),
+                Ordering::Equal => return,
+                Ordering::Greater => (head, tail),
+            };
+            // The farther one was a step farther than the nearer one by this leap. It still is, if by another, too.
+            let before = self.moves_or_never(near);
+            if sides.any_leap(far, |leap| self.moves_or_never(leap.end) == before) {
+                return;
             }
+            let doubtful = self.moves_or_never(far);
+            let (first, last) = self.stale.unwrap_or((doubtful, doubtful));
+            self.stale = Some((first.min(doubtful), last.max(doubtful)));
         });
     }
 

@@ -158,9 +158,11 @@ impl<const N: usize> Rollouts<N> {
 
     fn aim(&mut self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {
         let unknown = chart.unknown().len();
-        let kept = self
-            .aim
-            .filter(|aim| aim.unknown == unknown && aim.stop != at);
+        let kept = self.aim.filter(|aim| {
+            aim.unknown == unknown
+                && self.base.tells(chart, aim.stop, closed)
+                && chart.course(aim.stop, at).is_some()
+        });
         self.aim = match kept {
             Some(aim) => Some(aim),
             None => {
@@ -187,13 +189,24 @@ impl<const N: usize> Rollouts<N> {
                 break;
             }
             let maze = completions.draw();
-            let own = self.play(chart, &maze, own, at)?;
+            let mut play = Play::new();
+            // A play that comes to no end tells nothing of this maze.
+            let Some(steps) = self.play(chart, &maze, own, at, |stage, steps| {
+                play.record(stage, steps);
+                None
+            }) else {
+                continue;
+            };
             for slot in &mut rivals {
-                if let Some(rival) = slot {
-                    rival.add(self.play(chart, &maze, rival.stop, at)? - own);
-                    if drawn >= self.config.trial && rival.sum >= 0.0 {
-                        *slot = None;
-                    }
+                let Some(rival) = slot else {
+                    continue;
+                };
+                let met = |stage, so_far| play.steps_at(stage).map(|at| steps - at + so_far);
+                if let Some(its) = self.play(chart, &maze, rival.stop, at, met) {
+                    rival.add(its - steps);
+                }
+                if drawn >= self.config.trial && rival.sum >= 0.0 {
+                    *slot = None;
                 }
             }
         }
@@ -208,8 +221,16 @@ impl<const N: usize> Rollouts<N> {
         Some(best.1)
     }
 
-    /// Steps from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`.
-    fn play(&self, chart: &Chart<N>, maze: &Sides<N>, stop: Cell, at: Cell) -> Option<f32> {
+    /// Steps from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`. After each drive `met` is told where the
+    /// play is and after how many steps, and may know how many there are in all.
+    fn play(
+        &self,
+        chart: &Chart<N>,
+        maze: &Sides<N>,
+        stop: Cell,
+        at: Cell,
+        mut met: impl FnMut(Stage, f32) -> Option<f32>,
+    ) -> Option<f32> {
         let mut chart = chart.clone();
         let (mut at, mut stop, mut steps) = (at, stop, 0.0);
         loop {
@@ -220,8 +241,54 @@ impl<const N: usize> Rollouts<N> {
             if open == closed {
                 return Some(steps);
             }
+            let learned = chart.learned;
+            if let Some(all) = met(Stage { at, learned }, steps) {
+                return Some(all);
+            }
             stop = self.base.proofs::<1>(&chart, at, closed).best()?;
         }
+    }
+}
+
+/// How far a play has come: plays of one maze that are at the same stage go on alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Stage {
+    at: Cell,
+    /// [`Chart::learned`].
+    learned: u64,
+}
+
+/// The stages of the explorer's own play, and after how many steps it came to each; the first of them.
+#[derive(Clone, Copy, Debug)]
+struct Play {
+    stages: [Option<(Stage, f32)>; Self::MOST],
+    count: usize,
+}
+
+impl Play {
+    /// So many stages are kept.
+    const MOST: usize = 64;
+
+    const fn new() -> Self {
+        Self {
+            stages: [None; Self::MOST],
+            count: 0,
+        }
+    }
+
+    fn record(&mut self, stage: Stage, steps: f32) {
+        if let Some(slot) = self.stages.get_mut(self.count) {
+            *slot = Some((stage, steps));
+            self.count += 1;
+        }
+    }
+
+    /// After how many steps it came to a stage, if it did.
+    fn steps_at(&self, stage: Stage) -> Option<f32> {
+        let mut stages = self.stages.iter().map_while(|stage| *stage);
+        stages
+            .find(|(known, _)| *known == stage)
+            .map(|(_, steps)| steps)
     }
 }
 

@@ -3,6 +3,7 @@ use tolman_maze::{Cell, Direction, Knowledge, Walls};
 use super::Leap;
 use super::cell_set::CellSet;
 use super::leap::beyond;
+use super::split_mix::SplitMix;
 use crate::{Passages, Unknown};
 
 /// A set of sides of cells: those that are open. A side is in it for both its cells. What [`Passages`] is for one cell at a time, this is
@@ -77,6 +78,20 @@ impl<const N: usize> Sides<N> {
             }
             Direction::West => beyond(cell, direction).is_some_and(|cell| self.east.contains(cell)),
         }
+    }
+
+    /// A number that hardly another side has; the same from both its cells.
+    pub(super) fn fingerprint(cell: Cell, direction: Direction) -> u64 {
+        let (cell, is_north) = match direction {
+            Direction::North => (Some(cell), true),
+            Direction::East => (Some(cell), false),
+            Direction::South => (beyond(cell, direction), true),
+            Direction::West => (beyond(cell, direction), false),
+        };
+        let cell = cell.map_or(u64::MAX, |cell| {
+            u64::from(cell.y) << 17 | u64::from(cell.x) << 1
+        });
+        SplitMix::new(cell | u64::from(is_north)).next()
     }
 
     pub(super) fn minus(&self, other: &Self) -> Self {
@@ -161,6 +176,14 @@ impl<const N: usize> Sides<N> {
 
     /// Visits all leaps from a cell, in the order of [`Leap::all`].
     pub(super) fn for_each_leap(&self, from: Cell, mut visit: impl FnMut(Leap)) {
+        self.any_leap(from, |leap| {
+            visit(leap);
+            false
+        });
+    }
+
+    /// Whether a predicate holds for a leap from a cell; the others are not looked at any more then.
+    pub(super) fn any_leap(&self, from: Cell, mut holds: impl FnMut(Leap) -> bool) -> bool {
         for direction in Direction::ALL {
             let mut end = from;
             for cells in 1..=Leap::MOST_CELLS {
@@ -168,13 +191,17 @@ impl<const N: usize> Sides<N> {
                     Some(next) => end = next,
                     None => break,
                 }
-                visit(Leap {
+                let leap = Leap {
                     direction,
                     cells,
                     end,
-                });
+                };
+                if holds(leap) {
+                    return true;
+                }
             }
         }
+        false
     }
 
     /// All leaps over the `side` of `cell`, whether it is in the set or not: `visit` is told where they begin and where they
@@ -236,7 +263,6 @@ impl<const N: usize> From<&Passages<N>> for Sides<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::moves::split_mix::SplitMix;
 
     fn some_sides(rng: &mut SplitMix) -> Sides<16> {
         let mut sides = Sides::NONE;

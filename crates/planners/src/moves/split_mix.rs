@@ -1,5 +1,5 @@
 /// A generator of pseudo-random numbers: `SplitMix64` (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA
-/// 2014).
+/// 2014). A firmware has room for it, and it takes a few cycles where a play takes thousands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SplitMix(u64);
 
@@ -8,7 +8,7 @@ impl SplitMix {
         Self(seed)
     }
 
-    const fn next(&mut self) -> u64 {
+    pub(super) const fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut mixed = self.0;
         mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
