@@ -208,3 +208,61 @@ proptest! {
         check_proof(&maze, explored, seed)?;
     }
 }
+
+/// Played to its end before each stop, the proof takes fewer steps.
+#[test]
+fn rollouts_save_steps() {
+    let (mut plain, mut with_rollouts) = (0, 0);
+    for seed in 0..10 {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let shape = Braided {
+            width: 16,
+            height: 16,
+            share: 0.7,
+        };
+        let maze = shape.generate(&mut rng).unwrap();
+        plain += explore(&maze).1;
+        with_rollouts += explore_by_rollouts(&maze).1;
+    }
+    assert!(
+        with_rollouts < plain,
+        "{with_rollouts} steps, {plain} without"
+    );
+}
+
+/// The last looks are forgotten now and then, also on the way to a stop: it goes on with what it knows.
+#[test]
+fn rollouts_go_on_where_walls_are_forgotten() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let shape = Braided {
+        width: 9,
+        height: 9,
+        share: 0.5,
+    };
+    let maze = shape.generate(&mut rng).unwrap();
+    let (start, mut heading) = maze.start().unwrap();
+    let mut rollouts = Rollouts::new(explorer(&maze), RolloutConfig::tuned()).unwrap();
+    let mut map = WallMap::<16>::new(maze.grid(), ClosedCells::Possible).unwrap();
+    let (mut at, mut forgotten) = (start, 0);
+    for steps in 0..1000 {
+        look(&mut map, &maze, at, heading);
+        if steps % 5 == 4 && forgotten < 20 {
+            forgotten += map.undo(3);
+            // It stands in a cell that it has driven to, and sees where it stands.
+            look(&mut map, &maze, at, heading);
+        }
+        match rollouts.decide(&map, maze.goals(), at) {
+            MoveDecision::Drive(leap) => {
+                let _ = MouseStep::of_leap(&mut heading, leap);
+                at = leap.end;
+            }
+            MoveDecision::Turn => heading = heading.right(),
+            MoveDecision::Finished { .. } => {
+                assert!(forgotten >= 20, "{forgotten}");
+                return;
+            }
+            MoveDecision::Stuck => panic!("stuck at {at} in\n{map}"),
+        }
+    }
+    panic!("never ends in\n{maze}");
+}

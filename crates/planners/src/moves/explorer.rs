@@ -29,6 +29,8 @@ use super::{Leap, MoveExplorerConfig, MoveExplorerConfigError, MoveMap};
 ///
 /// The explorer remembers nothing but whether it has been at the goal; it compares everything else with `walls` at each
 /// call, so walls may be forgotten again at any time.
+///
+/// `N` is at most 32.
 #[derive(Clone, Debug)]
 pub struct MoveExplorer<const N: usize> {
     config: MoveExplorerConfig,

@@ -10,7 +10,7 @@ use tolman_maze::{Cell, Grid};
 #[derive(Clone, Debug)]
 pub struct Certify(Explorer);
 
-/// Most mazes have 16 × 16 cells, and half the room makes for half the time.
+/// Most mazes have 16 × 16 cells, and take half the room.
 #[derive(Clone, Debug)]
 enum Explorer {
     Plain(MoveExplorer<SIDE>),

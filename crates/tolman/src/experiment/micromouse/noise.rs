@@ -1,4 +1,4 @@
-//! The paper's outlook (section 6): the same search with thick walls, wheels that slip and noisy sensors.
+//! The paper's outlook (section 6): the same search, without rollouts, with thick walls, wheels that slip and noisy sensors.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
