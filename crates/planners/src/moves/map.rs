@@ -49,7 +49,7 @@ impl<const N: usize> MoveMap<N> {
     pub(super) fn between(sides: &Sides<N>, target: Cell, from: Cell) -> Self {
         let mut map = Self::BLANK;
         let wave = Wave::new(CellSet::of([target]));
-        map.spread(sides, wave, |front| front.contains(from));
+        map.spread(sides, wave, |wave| wave.front.contains(from));
         map
     }
 
@@ -58,7 +58,7 @@ impl<const N: usize> MoveMap<N> {
         &mut self,
         sides: &Sides<N>,
         mut wave: Wave<N>,
-        is_enough: impl Fn(&CellSet<N>) -> bool,
+        is_enough: impl Fn(&Wave<N>) -> bool,
     ) {
         let last = self.stale.take().map_or(NEVER, |(_, last)| last);
         let mut within = match wave.moves.checked_sub(1) {
@@ -76,7 +76,7 @@ impl<const N: usize> MoveMap<N> {
             if let Some(slot) = slot.get_mut(usize::from(wave.moves)) {
                 *slot = within;
             }
-            if is_enough(&wave.front) {
+            if is_enough(&wave) {
                 break;
             }
             wave.advance(sides);
@@ -106,12 +106,16 @@ impl<const N: usize> MoveMap<N> {
                 return;
             }
             let doubtful = self.moves_or_never(far);
+            if doubtful == NEVER {
+                return;
+            }
             let (first, last) = self.stale.unwrap_or((doubtful, doubtful));
             self.stale = Some((first.min(doubtful), last.max(doubtful)));
         });
     }
 
-    /// Brings the map up to date with `sides`, if fewer than `limit` steps anywhere are in doubt. O(levels that change × N).
+    /// Brings the map up to date with `sides`, if fewer than `limit` steps anywhere are in doubt; what is farther away than that
+    /// then may be as good as out of reach. O(levels that change × N).
     pub(super) fn mend(&mut self, sides: &Sides<N>, limit: u16) {
         let Some((first, _)) = self.stale.filter(|(first, _)| *first < limit) else {
             return;
@@ -123,7 +127,7 @@ impl<const N: usize> MoveMap<N> {
             moves: before,
         };
         wave.advance(sides);
-        self.spread(sides, wave, |_| false);
+        self.spread(sides, wave, |wave| wave.moves >= limit);
     }
 
     /// Steps from `cell` to the nearest target, none if no way leads there.
