@@ -56,6 +56,8 @@ pub(in crate::cli) fn each<T: Send>(
     threads.install(|| {
         mazes
             .par_iter()
+            // Mazes differ much, and the last must not leave the other cores idle.
+            .with_max_len(1)
             .progress_with(bar)
             .map(|(file, maze)| work(file, maze))
             .collect()
