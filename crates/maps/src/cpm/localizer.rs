@@ -35,9 +35,10 @@ use super::turn::{NoSuchTurn, Turn};
 /// let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual())?;
 /// localizer.observe(PatternId(5))?;
 /// localizer.observe(PatternId(2))?;
+/// localizer.observe(PatternId(7))?;
 /// let found = localizer.location();
 /// assert_eq!(found.map, 1);
-/// assert!(found.probability > 0.9);
+/// assert!(found.probability > 0.9, "{found:?}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
