@@ -340,7 +340,7 @@ impl PathGraph {
 
 /// For planning: from every place, each action along the link that is most likely to work now. The nodes are the ids of places.
 ///
-/// A move costs [`MOVE`]; that it may fail costs as much as going [`FAILURE`] moves about, for each factor of e by which it makes the
+/// A move costs `MOVE`; that it may fail costs as much as going `FAILURE` moves about, for each factor of e by which it makes the
 /// plan less likely to work. Where the world never changed, the cheapest plan has the fewest moves.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
