@@ -19,9 +19,11 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
     Ablation, Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
 };
-use tolman_maze::{Braided, Direction};
+use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
-use walk::{COMPASS, ODOMETRY, Scripted, Walk, alike, blocks, open, painted};
+use walk::{
+    COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
+};
 
 /// What can be asked for.
 struct Table {
@@ -83,13 +85,6 @@ fn main() {
         }
     }
 }
-
-/// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives a good metre more.
-const ROUGH: MoveError = MoveError {
-    distance: 0.13,
-    compass: 1.3 * ODOMETRY.compass,
-    ..ODOMETRY
-};
 
 /// How many moves it takes until the map is the world, without advice and with.
 fn growth(runs: u64) {
@@ -353,28 +348,7 @@ fn braided(runs: u64) {
     for colours in [8, 4, 3, 2, 1] {
         let (mut share, mut most, mut once, mut purity) = (0.0, 0.0_f64, 0, 1.0_f64);
         for seed in 0..runs {
-            let mut rng = ChaCha8Rng::seed_from_u64(seed);
-            let shape = Braided {
-                width: 6,
-                height: 6,
-                share: 1.0,
-            };
-            let maze = shape.generate(&mut rng).unwrap();
-            let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
-            let errors = MoveError {
-                stop: 0.0175,
-                look: 0.2,
-                ..ROUGH
-            };
-            let mut config = painted();
-            config.place_radius = errors.stop;
-            config.restructuring.look_merge = Use::On;
-            let mut walk = Walk::new(world, errors, config, seed);
-            let mut planner = Scripted::new(0.3, seed);
-            for _ in 0..1500 {
-                planner.go(&mut walk);
-            }
-            let score = walk.score();
+            let score = braided_corridors(colours, seed).score();
             let places = score.places as f64 / score.visited as f64;
             share += places / runs as f64;
             most = most.max(places);

@@ -15,16 +15,19 @@ use tolman_planners::{Passages, Unknown};
 
 fn mazes() -> impl Strategy<Value = Maze> {
     (3..=11_u16, 3..=11_u16, 0..=10_u8, any::<u64>()).prop_map(|(width, height, share, seed)| {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let share = f64::from(share) / 10.0;
-        Braided {
-            width,
-            height,
-            share,
-        }
-        .generate(&mut rng)
-        .unwrap()
+        braided(width, height, f64::from(share) / 10.0, seed)
     })
+}
+
+fn braided(width: u16, height: u16, share: f64, seed: u64) -> Maze {
+    let shape = Braided {
+        width,
+        height,
+        share,
+    };
+    shape
+        .generate(&mut ChaCha8Rng::seed_from_u64(seed))
+        .unwrap()
 }
 
 /// Fewest steps to each cell, written as plainly as it goes: up to three cells in a row without a wall between.
@@ -214,13 +217,7 @@ proptest! {
 fn rollouts_save_steps() {
     let (mut plain, mut with_rollouts) = (0, 0);
     for seed in 0..10 {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let shape = Braided {
-            width: 16,
-            height: 16,
-            share: 0.7,
-        };
-        let maze = shape.generate(&mut rng).unwrap();
+        let maze = braided(16, 16, 0.7, seed);
         plain += explore(&maze).1;
         with_rollouts += explore_by_rollouts(&maze).1;
     }
@@ -233,13 +230,7 @@ fn rollouts_save_steps() {
 /// The last looks are forgotten now and then, also on the way to a stop: it goes on with what it knows.
 #[test]
 fn rollouts_go_on_where_walls_are_forgotten() {
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let shape = Braided {
-        width: 9,
-        height: 9,
-        share: 0.5,
-    };
-    let maze = shape.generate(&mut rng).unwrap();
+    let maze = braided(9, 9, 0.5, 1);
     let (start, mut heading) = maze.start().unwrap();
     let mut rollouts = Rollouts::new(explorer(&maze), RolloutConfig::tuned()).unwrap();
     let mut map = WallMap::<16>::new(maze.grid(), ClosedCells::Possible).unwrap();

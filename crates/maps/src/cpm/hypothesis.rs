@@ -1,3 +1,4 @@
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
@@ -31,6 +32,13 @@ pub(super) enum Belief {
     Duplicate,
     /// A fragment of the map.
     Known,
+}
+
+/// What dead reckoning says of a walk.
+struct Reckoned {
+    motion: Motion,
+    /// Where the places of the map lie, seen from where the walk began.
+    positions: BTreeMap<JunctionId, PointBox>,
 }
 
 impl Belief {
@@ -67,8 +75,18 @@ impl Hypothesis {
             cost: self.cost + departure,
             ..self.clone()
         };
-        let mut all = base.to_places(exit, walk);
-        let is_known_place = self.is_known_place(exit, walk);
+        let reckoned = walk.motion.map(|motion| Reckoned {
+            motion,
+            positions: self.mapper.map.positions_from(exit.junction),
+        });
+        // Without bounds no way leads to known places but over fragments that are known.
+        let (mut all, is_known_place) = match &reckoned {
+            Some(reckoned) => (
+                base.to_places(exit, walk, reckoned),
+                self.is_known_place(walk, reckoned),
+            ),
+            None => (Vec::new(), false),
+        };
         let mut new = base;
         let fragment = new.mapper.append(exit, walk);
         all.extend(new.duplicates(fragment, judge));
@@ -81,13 +99,9 @@ impl Hypothesis {
 
     /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is known where that lies from here, or where one
     /// like it is and two do not fit.
-    fn is_known_place(&self, exit: Port, walk: &Traversal) -> bool {
-        // Without bounds no way leads to known places but over fragments that are known.
-        let Some(motion) = walk.motion else {
-            return false;
-        };
+    fn is_known_place(&self, walk: &Traversal, reckoned: &Reckoned) -> bool {
+        let Reckoned { motion, positions } = reckoned;
         let map = &self.mapper.map;
-        let positions = map.positions_from(exit.junction);
         let is_alike = |id: JunctionId| {
             let place = map.junction(id);
             place.is_some_and(|place| place.sighting() == walk.sighting)
@@ -128,12 +142,9 @@ impl Hypothesis {
     }
 
     /// The walk was a new fragment that led to a known place, through a port nobody has been through.
-    fn to_places(&self, exit: Port, walk: &Traversal) -> Vec<(Self, Belief)> {
-        let Some(motion) = walk.motion else {
-            return Vec::new();
-        };
+    fn to_places(&self, exit: Port, walk: &Traversal, reckoned: &Reckoned) -> Vec<(Self, Belief)> {
+        let Reckoned { motion, positions } = reckoned;
         let map = &self.mapper.map;
-        let positions = map.positions_from(exit.junction);
         let area = self.area();
         let mut all = Vec::new();
         for (id, place) in map.junctions() {

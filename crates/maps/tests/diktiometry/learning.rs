@@ -6,10 +6,12 @@ use tolman_geom::Point;
 use tolman_maps::diktiometry::{
     Config, ConfigError, GeometricMerge, Identity, Link, Matcher, Percepts, PerceptualIndexing, Use,
 };
-use tolman_maze::{Braided, Direction};
+use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 
-use super::walk::{COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, open, painted};
+use super::walk::{
+    COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
+};
 
 fn perfect(places: usize) -> Score {
     Score {
@@ -164,30 +166,7 @@ fn looks_close_loops_that_are_too_wide_for_geometry() {
 #[test]
 fn no_double_is_left_of_a_corridor_gone_to_and_fro() {
     for seed in [6, 8, 11, 17] {
-        let shape = Braided {
-            width: 6,
-            height: 6,
-            share: 1.0,
-        };
-        let maze = shape
-            .generate(&mut ChaCha8Rng::seed_from_u64(seed))
-            .unwrap();
-        let world = AbstractWorld::from_corridors(&maze, 1.0).painted(8, seed);
-        let errors = MoveError {
-            distance: 0.13,
-            compass: 1.3 * COMPASS,
-            stop: 0.0175,
-            look: 0.2,
-            ..MoveError::NONE
-        };
-        let mut config = painted();
-        config.place_radius = errors.stop;
-        config.restructuring.look_merge = Use::On;
-        let mut walk = Walk::new(world, errors, config, seed);
-        let mut planner = Scripted::new(0.3, seed);
-        for _ in 0..1500 {
-            planner.go(&mut walk);
-        }
+        let walk = braided_corridors(8, seed);
         let score = walk.score();
         assert_eq!(score, perfect(score.visited), "seed {seed}");
     }

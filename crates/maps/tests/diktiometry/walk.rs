@@ -6,9 +6,9 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
     Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, Signature,
-    SignatureKind, Start, StepReport,
+    SignatureKind, Start, StepReport, Use,
 };
-use tolman_maze::{Cell, Direction, Grid, Maze};
+use tolman_maze::{Braided, Cell, Direction, Grid, Maze};
 use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveError};
 
 pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
@@ -18,6 +18,13 @@ pub(crate) const ODOMETRY: MoveError = MoveError {
     distance: 0.1,
     compass: COMPASS,
     ..MoveError::NONE
+};
+
+/// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives a good metre more.
+pub(crate) const ROUGH: MoveError = MoveError {
+    distance: 0.13,
+    compass: 1.3 * ODOMETRY.compass,
+    ..ODOMETRY
 };
 
 /// A mapper of places a metre apart that all look alike.
@@ -257,4 +264,31 @@ pub(crate) fn percept(look: [f64; 4]) -> Signature {
 fn exits(robot: &AbstractRobot) -> Exits {
     let exits = robot.world().exits(robot.at());
     Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
+}
+
+/// A walk of 1500 moves, with scripts, in the corridors of a braided maze of 6 × 6 cells, with walls of so many colours; merges by
+/// looks are on.
+pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
+    let shape = Braided {
+        width: 6,
+        height: 6,
+        share: 1.0,
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let maze = shape.generate(&mut rng).unwrap();
+    let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
+    let errors = MoveError {
+        stop: 0.0175,
+        look: 0.2,
+        ..ROUGH
+    };
+    let mut config = painted();
+    config.place_radius = errors.stop;
+    config.restructuring.look_merge = Use::On;
+    let mut walk = Walk::new(world, errors, config, seed);
+    let mut planner = Scripted::new(0.3, seed);
+    for _ in 0..1500 {
+        planner.go(&mut walk);
+    }
+    walk
 }

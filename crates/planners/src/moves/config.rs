@@ -55,17 +55,11 @@ impl MoveExplorerConfig {
             ("base", self.base, self.base >= 0.0),
             ("nearness", self.nearness, self.nearness > 0.0),
         ];
-        let wrong = fields
-            .into_iter()
-            .find(|(_, value, holds)| !(*holds && value.is_finite()));
-        match wrong {
-            Some((field, value, _)) => Err(MoveExplorerConfigError { field, value }),
-            None => Ok(()),
-        }
+        MoveExplorerConfigError::check(fields)
     }
 }
 
-/// A weight out of its range.
+/// A value out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{field} is {value}: give a finite number in the range that its documentation states")]
 pub struct MoveExplorerConfigError {
@@ -73,6 +67,21 @@ pub struct MoveExplorerConfigError {
     pub field: &'static str,
     /// Its value.
     pub value: f32,
+}
+
+impl MoveExplorerConfigError {
+    /// Of fields with their values, and whether those are in range, the first that is not or is not finite.
+    pub(super) fn check(
+        fields: impl IntoIterator<Item = (&'static str, f32, bool)>,
+    ) -> Result<(), Self> {
+        let wrong = fields
+            .into_iter()
+            .find(|(_, value, holds)| !(*holds && value.is_finite()));
+        match wrong {
+            Some((field, value, _)) => Err(Self { field, value }),
+            None => Ok(()),
+        }
+    }
 }
 
 #[cfg(test)]

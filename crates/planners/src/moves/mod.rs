@@ -55,5 +55,5 @@ pub use config::{MoveExplorerConfig, MoveExplorerConfigError};
 pub use explorer::{MoveDecision, MoveExplorer};
 pub use leap::Leap;
 pub use map::{MoveMap, Way};
-pub use rollouts::{RolloutConfig, RolloutConfigError, Rollouts};
+pub use rollouts::{RolloutConfig, Rollouts};
 pub use step::{MouseStep, Turn};

@@ -1,4 +1,3 @@
-use thiserror::Error;
 use tolman_maze::{Cell, Walls};
 
 use super::chart::Chart;
@@ -6,7 +5,7 @@ use super::completion::Completions;
 use super::explorer::Task;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
-use super::{MoveDecision, MoveExplorer};
+use super::{MoveDecision, MoveExplorer, MoveExplorerConfigError};
 
 /// How [`Rollouts`] choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,32 +32,19 @@ impl RolloutConfig {
         }
     }
 
-    fn check(&self) -> Result<(), RolloutConfigError> {
-        let confident = self.confidence >= 0.0 && self.confidence.is_finite();
-        let fields = [
-            (
-                "completions",
-                f32::from(self.completions),
-                self.completions > 0,
-            ),
-            ("trial", f32::from(self.trial), self.trial > 0),
-            ("confidence", self.confidence, confident),
-        ];
-        match fields.into_iter().find(|(_, _, holds)| !holds) {
-            Some((field, value, _)) => Err(RolloutConfigError { field, value }),
-            None => Ok(()),
-        }
+    fn check(&self) -> Result<(), MoveExplorerConfigError> {
+        let Self {
+            completions,
+            trial,
+            confidence,
+            ..
+        } = *self;
+        MoveExplorerConfigError::check([
+            ("completions", f32::from(completions), completions > 0),
+            ("trial", f32::from(trial), trial > 0),
+            ("confidence", confidence, confidence >= 0.0),
+        ])
     }
-}
-
-/// A value out of its range.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("{field} is {value}: give a finite number in the range that its documentation states")]
-pub struct RolloutConfigError {
-    /// The name of the field.
-    pub field: &'static str,
-    /// Its value.
-    pub value: f32,
 }
 
 /// A [`MoveExplorer`] that plays the rest of the proof before it decides.
@@ -136,7 +122,10 @@ impl<const N: usize> Rollouts<N> {
     ///
     /// # Errors
     /// If a value is out of its range.
-    pub fn new(base: MoveExplorer<N>, config: RolloutConfig) -> Result<Self, RolloutConfigError> {
+    pub fn new(
+        base: MoveExplorer<N>,
+        config: RolloutConfig,
+    ) -> Result<Self, MoveExplorerConfigError> {
         config.check()?;
         Ok(Self {
             base,

@@ -1,7 +1,7 @@
 //! What a mouse is to the referee.
 
 use tolman_maps::wall_map::{ObserveError, TooLarge};
-use tolman_planners::moves::{MoveExplorerConfigError, RolloutConfigError};
+use tolman_planners::moves::MoveExplorerConfigError;
 
 use super::{Certificate, Order};
 
@@ -43,12 +43,9 @@ pub enum MouseError {
     /// What it sees cannot be, where it thinks it is.
     #[error("the mouse has lost its way")]
     Observe(#[from] ObserveError),
-    /// It cannot search with these weights.
+    /// It cannot search with these weights, or choose among stops with these values.
     #[error(transparent)]
     Config(#[from] MoveExplorerConfigError),
-    /// It cannot choose among stops with these values.
-    #[error(transparent)]
-    Rollouts(#[from] RolloutConfigError),
     /// No way leads to a goal.
     #[error("the mouse has found that no way leads to a goal: open a wall")]
     Stuck,
