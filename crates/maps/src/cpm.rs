@@ -45,6 +45,7 @@
 
 mod alignment;
 mod beam;
+mod bearings;
 mod config;
 mod environments;
 mod explorer;
@@ -66,6 +67,7 @@ mod unify;
 pub mod world;
 
 pub use alignment::Alignment;
+pub use bearings::{Bearings, BearingsError};
 pub use config::{Candidates, CpmConfig, Mapping, Onward};
 pub use environments::{Environments, RecallError, Recollection};
 pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};

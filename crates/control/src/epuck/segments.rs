@@ -28,6 +28,7 @@ pub const FEATURES: usize = 11;
 pub struct Segments {
     segments: Vec<Segment>,
     space_below: f64,
+    narrowest_space: u32,
     way_below: f64,
 }
 
@@ -38,6 +39,8 @@ pub struct Segment {
     pub mean: f64,
     /// Where its middle is, rad, counter-clockwise from ahead, from -π to π.
     pub bearing: f64,
+    /// How many samples it has.
+    pub samples: u32,
 }
 
 /// How a profile is segmented.
@@ -50,6 +53,9 @@ pub struct SegmentConfig {
     pub ceiling: f64,
     /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no value.
     pub space_below: f64,
+    /// Fewer samples than this are no space but the foot of a wall's edge, or a gap between walls far away. The paper says nothing of it,
+    /// which is 1.
+    pub narrowest_space: u32,
     /// Neighbouring segments whose means lie both below this, or both not, are made one, so that ways and walls alternate. The paper joins
     /// none, which is 0.
     pub way_below: f64,
@@ -64,15 +70,18 @@ impl SegmentConfig {
             window: 5,
             ceiling: f64::INFINITY,
             space_below: 12.0,
+            narrowest_space: 1,
             way_below: 0.0,
         }
     }
 
-    /// The paper's, with values above 60 cut, which are those of walls within 17 cm.
+    /// The paper's, with values above 60 cut, which are those of walls within 17 cm, and spaces of four samples of 100 at least: through less the
+    /// robot does not fit at the end of its sensors' reach.
     #[must_use]
     pub const fn cut() -> Self {
         Self {
             ceiling: 60.0,
+            narrowest_space: 4,
             ..Self::paper()
         }
     }
@@ -146,6 +155,7 @@ impl Profile {
             .map(|part| Segment {
                 mean: part.mean(),
                 bearing: self.bearing(part.start as f64 + (part.length - 1) as f64 / 2.0),
+                samples: part.length as u32,
             })
             .collect();
         // A way on that is all but hidden behind a bend is no space, but still lower than what is beside it.
@@ -161,6 +171,7 @@ impl Profile {
         Ok(Segments {
             segments,
             space_below: config.space_below,
+            narrowest_space: config.narrowest_space,
             way_below: config.way_below,
         })
     }
@@ -243,10 +254,9 @@ impl Segments {
     /// behind.
     pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
         let spaces = || {
-            let below = self
-                .segments
-                .iter()
-                .filter(|segment| segment.mean < self.space_below);
+            let below = self.segments.iter().filter(|segment| {
+                segment.mean < self.space_below && segment.samples >= self.narrowest_space
+            });
             below.map(|segment| segment.bearing)
         };
         let entry = (0..)

@@ -257,6 +257,7 @@ mod tests {
             patterns: [PatternId(pattern); 10].to_vec(),
             motion: Some(motion),
             sighting,
+            bearings: None,
         }
     }
 

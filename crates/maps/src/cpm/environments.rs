@@ -26,7 +26,7 @@ use super::similarity::Sense;
 /// let mut explorer = Explorer::new(CpmConfig::offline(), Sighting::plain(1))?;
 /// for (turn, patterns) in [(0, [0, 1, 2]), (1, [5, 4, 3]), (2, [9, 9, 11])] {
 ///     let patterns = patterns.map(PatternId).to_vec();
-///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(3) };
+///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(3), bearings: None };
 ///     explorer.arrive(Turn(turn), &walk, &dictionary)?;
 /// }
 /// let map = explorer.map();

@@ -138,6 +138,14 @@ pub enum CpmError {
         /// How many there may be.
         most: u32,
     },
+    /// The ways out were counted twice, and differently.
+    #[error("{bearings} bearings of a place of {degree} ports: give one for each, or none at all")]
+    Bearings {
+        /// How many bearings there are.
+        bearings: u32,
+        /// How many ports.
+        degree: u32,
+    },
     /// The junction has no such turn.
     #[error(transparent)]
     Turn(#[from] NoSuchTurn),
@@ -246,6 +254,7 @@ impl Explorer {
         dictionary: &Dictionary,
     ) -> Result<Arrival, CpmError> {
         check(walk.sighting)?;
+        check_bearings(walk)?;
         dictionary.check(&walk.patterns)?;
         if let Some(version) = self.map().version() {
             dictionary.check_version(version)?;
@@ -513,6 +522,17 @@ fn check(sighting: Sighting) -> Result<(), CpmError> {
         degree if degree > MOST_PORTS => Err(CpmError::TooManyPorts {
             degree,
             most: MOST_PORTS,
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn check_bearings(walk: &Traversal) -> Result<(), CpmError> {
+    let degree = walk.sighting.degree;
+    match &walk.bearings {
+        Some(bearings) if bearings.count() != degree => Err(CpmError::Bearings {
+            bearings: bearings.count(),
+            degree,
         }),
         _ => Ok(()),
     }

@@ -3,6 +3,7 @@ use core::f64::consts::{PI, TAU};
 
 use tolman_geom::{Interval, PointBox};
 
+use super::bearings::wrapped;
 use super::map::{CpMap, JunctionId, Port, Sign};
 
 /// What dead reckoning has to say of a map. Ours, not the paper's, which only suggests it: "Another good choice is to add the
@@ -98,8 +99,3 @@ const SPREAD: f64 = 0.6;
 
 /// No two ports of a junction are nearer to each other, rad.
 const LEAST_ANGLE: f64 = 0.35;
-
-/// From 0 to less than a full circle.
-fn wrapped(angle: f64) -> f64 {
-    angle - TAU * libm::floor(angle / TAU)
-}

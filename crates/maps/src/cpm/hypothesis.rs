@@ -173,6 +173,7 @@ impl Hypothesis {
                     .map
                     .add_fragment(patterns, walk.motion, exit, entry);
                 next.mapper.at = entry;
+                next.mapper.notice(walk);
                 all.push((next, Belief::NewWay));
             }
         }

@@ -3,10 +3,11 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
+use super::bearings::{Bearings, between};
 use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::similarity::Sense;
-use super::traversal::Sighting;
+use super::traversal::{Landmark, Sighting};
 use super::turn::{NoSuchTurn, Turn};
 
 /// Finds where a robot is, from one observation on: on which of several maps, in which fragment, walking which way.
@@ -28,7 +29,7 @@ use super::turn::{NoSuchTurn, Turn};
 /// for patterns in [[0, 1, 2, 3], [4, 5, 2, 7]] {
 ///     let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
 ///     let patterns = patterns.map(PatternId).to_vec();
-///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(1) };
+///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(1), bearings: None };
 ///     explorer.arrive(Turn::BACK, &walk, &dictionary)?;
 ///     maps.push(explorer.map().clone());
 /// }
@@ -117,9 +118,50 @@ struct Track {
     map: usize,
     enter: End,
     ahead: Port,
+    /// What a robot sees there that comes along the fragment.
+    place: Sighting,
+    bearings: Option<Bearings>,
     patterns: Vec<PatternId>,
     /// How likely the robot has passed so many of them: one more than there are, as it may have passed none.
     passed: Vec<f64>,
+}
+
+impl Track {
+    /// How likely a robot sees these ways in the middle of the place ahead. Where as many are not seen, that has been weighed by the sighting.
+    fn seen(&self, seen: &Bearings) -> f64 {
+        let expected = self.bearings.as_ref();
+        let apart = expected.and_then(|expected| expected.apart(seen));
+        apart.map_or(1.0, |apart| near(apart, SHARP).max(UNSEEN))
+    }
+
+    /// How likely it glimpses these ways before the place ahead. What it glimpses may be no way, and ways may be hidden.
+    fn glimpsed(&self, glimpse: &Bearings) -> f64 {
+        let dead_end = [];
+        let expected = match &self.bearings {
+            Some(bearings) => bearings.onward(),
+            None if self.place.degree == 1 => &dead_end,
+            None => return 1.0,
+        };
+        let nearest = |way: f64, ways: &[f64]| {
+            let likelihoods = ways.iter().map(|other| near(between(way, *other), BLURRED));
+            likelihoods.fold(0.0, f64::max)
+        };
+        let glimpsed = glimpse.onward().iter();
+        let seen = glimpsed.map(|way| nearest(*way, expected).max(NO_WAY));
+        let there = expected.iter();
+        let hidden = there.map(|way| nearest(*way, glimpse.onward()).max(HIDDEN));
+        seen.product::<f64>() * hidden.product::<f64>()
+    }
+}
+
+/// How likely what is there is seen as what is seen.
+const fn seen_as(is_the_same: bool) -> f64 {
+    if is_the_same { 1.0 } else { UNSEEN }
+}
+
+/// How likely directions are so far apart that are one, against no distance at all.
+fn near(apart: f64, deviation: f64) -> f64 {
+    libm::exp(-0.5 * (apart / deviation) * (apart / deviation))
 }
 
 impl LocalizerConfig {
@@ -183,10 +225,16 @@ impl<'a> Localizer<'a> {
                 for sign in Sign::BOTH {
                     let walked = Sense::entered_at(sign);
                     let patterns = walked.of_sequence(dictionary, &fragment.patterns)?;
+                    let ahead = fragment.port(sign.opposite());
+                    let Some(place) = map.junction(ahead.junction) else {
+                        continue;
+                    };
                     tracks.push(Track {
                         map: index,
                         enter: End { fragment: id, sign },
-                        ahead: fragment.port(sign.opposite()),
+                        ahead,
+                        place: place.sighting(),
+                        bearings: place.bearings_from(ahead.number),
                         passed: vec![0.0; patterns.len() + 1],
                         patterns: patterns.into_owned(),
                     });
@@ -257,8 +305,29 @@ impl<'a> Localizer<'a> {
         Ok(())
     }
 
-    /// The end of the fragment comes into sight, and it is not known yet at what. O(all sequences' lengths).
-    pub fn end_in_sight(&mut self) {
+    /// The end of the fragment comes into sight: what stands there, and where ways out seem to lead, seen from before it. O(all sequences'
+    /// lengths).
+    pub fn end_in_sight(&mut self, landmark: Option<Landmark>, glimpse: Option<&Bearings>) {
+        self.pass_all();
+        self.weigh(|track| {
+            let ways = glimpse.map_or(1.0, |glimpse| track.glimpsed(glimpse));
+            ways * seen_as(track.place.landmark == landmark)
+        });
+    }
+
+    /// The end of a fragment is reached: a junction, dead end or landmark is seen, and where its ways lead, unless the robot does not look.
+    /// O(all sequences' lengths).
+    pub fn arrive(&mut self, sighting: Sighting, bearings: Option<&Bearings>) {
+        self.pass_all();
+        self.weigh(|track| {
+            let ways = bearings.map_or(1.0, |seen| track.seen(seen));
+            ways * seen_as(track.place == sighting)
+        });
+        self.stage = Stage::AtJunction;
+    }
+
+    /// All that the map has still to come of a fragment has been passed.
+    fn pass_all(&mut self) {
         let seen = self.config.slip.max(1e-3);
         for track in &mut self.tracks {
             let count = track.patterns.len();
@@ -272,25 +341,16 @@ impl<'a> Localizer<'a> {
                 *end = here;
             }
         }
-        self.normalize();
     }
 
-    /// The end of a fragment is reached, and a junction, dead end or landmark is seen. O(all sequences' lengths).
-    pub fn arrive(&mut self, sighting: Sighting) {
-        self.end_in_sight();
+    /// Weighs each fragment by how likely that is which is seen at its end.
+    fn weigh(&mut self, likelihood: impl Fn(&Track) -> f64) {
         for track in &mut self.tracks {
-            let place = self
-                .maps
-                .get(track.map)
-                .and_then(|map| map.junction(track.ahead.junction));
-            let looks = place.is_some_and(|place| place.sighting() == sighting);
-            if let Some(end) = track.passed.last_mut()
-                && !looks
-            {
-                *end *= UNSEEN;
+            let likelihood = likelihood(track);
+            if let Some(end) = track.passed.last_mut() {
+                *end *= likelihood;
             }
         }
-        self.stage = Stage::AtJunction;
         self.normalize();
     }
 
@@ -453,3 +513,15 @@ const NEAR: f64 = 0.14;
 
 /// How likely a junction is seen as one it is not.
 const UNSEEN: f64 = 1e-3;
+
+/// How far directions of ways are off that are seen from the middle of a place, rad.
+const SHARP: f64 = 0.35;
+
+/// And of ways that are seen from before it.
+const BLURRED: f64 = 0.5;
+
+/// How likely a way is glimpsed where there is none, against one.
+const NO_WAY: f64 = 0.1;
+
+/// How likely a way is not glimpsed from before a place.
+const HIDDEN: f64 = 0.3;

@@ -2,6 +2,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::bearings::Bearings;
 use super::index::FragmentIndex;
 use super::pattern::{Dictionary, PatternId, Version};
 use super::similarity::Matching;
@@ -88,6 +89,8 @@ pub struct Junction {
     pub ports: Vec<PortState>,
     /// What stands there.
     pub landmark: Option<Landmark>,
+    /// Where the ports lead, from port 0 on; none if no robot has looked.
+    pub bearings: Option<Bearings>,
 }
 
 impl Junction {
@@ -103,6 +106,20 @@ impl Junction {
         Sighting {
             degree: self.degree(),
             landmark: self.landmark,
+        }
+    }
+
+    /// Where its ways lead, for one who enters by a port; none if no robot has looked.
+    #[must_use]
+    pub fn bearings_from(&self, port: u32) -> Option<Bearings> {
+        Some(self.bearings.as_ref()?.counted_from(port))
+    }
+
+    /// Takes in what a robot has seen that came by a port, if that was not known.
+    pub(super) fn notice(&mut self, port: u32, seen: Option<&Bearings>) {
+        let degree = self.degree().max(1);
+        if self.bearings.is_none() {
+            self.bearings = seen.map(|seen| seen.counted_from(degree - port % degree));
         }
     }
 
@@ -290,13 +307,18 @@ impl CpMap {
         })
     }
 
-    pub(super) fn add_junction(&mut self, sighting: Sighting) -> JunctionId {
+    pub(super) fn add_junction(
+        &mut self,
+        sighting: Sighting,
+        bearings: Option<Bearings>,
+    ) -> JunctionId {
         let id = JunctionId(self.next_junction);
         self.next_junction += 1;
         let open = PortState::Open { at_least: 0 };
         let junction = Junction {
             ports: vec![open; sighting.degree as usize],
             landmark: sighting.landmark,
+            bearings,
         };
         self.junctions.insert(id, junction);
         id

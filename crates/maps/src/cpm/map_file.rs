@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
+use super::bearings::{Bearings, BearingsError};
 use super::explorer::MOST_PORTS;
 use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
@@ -13,7 +14,7 @@ use super::traversal::{Landmark, Motion};
 /// What `format` says in a file of ours.
 const FORMAT: &str = "tolman-cpm";
 /// The version that is written; all versions up to it are read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
 ///
@@ -23,7 +24,7 @@ const VERSION: u32 = 1;
 /// let mut dictionary = Dictionary::new(1);
 /// let wall = dictionary.learn(&[1.0], &[1.0], 0.1)?;
 /// let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
-/// let walk = Traversal { patterns: vec![wall; 4], motion: None, sighting: Sighting::plain(3) };
+/// let walk = Traversal { patterns: vec![wall; 4], motion: None, sighting: Sighting::plain(3), bearings: None };
 /// explorer.arrive(Turn::BACK, &walk, &dictionary)?;
 ///
 /// let text = serde_json::to_string(&MapFile::of(explorer.map(), &dictionary)?)?;
@@ -89,6 +90,9 @@ struct SavedJunction {
     id: u32,
     landmark: Option<Landmark>,
     ports: Vec<SavedPort>,
+    /// Where they lead, rad, from port 0 on; version 1 has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bearings: Option<Vec<f64>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -148,6 +152,24 @@ pub enum MapFileError {
         /// Its number.
         junction: u32,
         /// How many ports it has.
+        ports: usize,
+    },
+    /// The ways of a junction lead nowhere, or not to its ports.
+    #[error("the bearings of junction {junction} are none: {source}")]
+    Bearings {
+        /// Its number.
+        junction: u32,
+        /// What is wrong with them.
+        source: BearingsError,
+    },
+    /// There are more or fewer bearings than ports.
+    #[error("junction {junction} has {bearings} bearings for {ports} ports")]
+    BearingsOfPorts {
+        /// Its number.
+        junction: u32,
+        /// How many bearings it has.
+        bearings: u32,
+        /// How many ports.
         ports: usize,
     },
     /// Two things of one number, or one beyond those that are given out.
@@ -293,7 +315,7 @@ impl MapFile {
             }
             let is_new = map
                 .junctions
-                .insert(JunctionId(id), junction(saved))
+                .insert(JunctionId(id), junction(saved)?)
                 .is_none();
             if !is_new || id >= self.map.next_junction {
                 let what = "junction";
@@ -414,10 +436,14 @@ fn saved_junction((id, junction): (JunctionId, &Junction)) -> SavedJunction {
         id: id.0,
         landmark: junction.landmark,
         ports: junction.ports.iter().map(port).collect(),
+        bearings: junction
+            .bearings
+            .as_ref()
+            .map(|bearings| bearings.radians().to_vec()),
     }
 }
 
-fn junction(saved: &SavedJunction) -> Junction {
+fn junction(saved: &SavedJunction) -> Result<Junction, MapFileError> {
     let filled = |fragment, sign| {
         PortState::Filled(End {
             fragment: FragmentId(fragment),
@@ -429,8 +455,26 @@ fn junction(saved: &SavedJunction) -> Junction {
         SavedPort::Minus(fragment) => filled(fragment, Sign::Minus),
         SavedPort::Plus(fragment) => filled(fragment, Sign::Plus),
     };
-    Junction {
+    Ok(Junction {
         ports: saved.ports.iter().map(port).collect(),
         landmark: saved.landmark,
+        bearings: bearings(saved)?,
+    })
+}
+
+fn bearings(saved: &SavedJunction) -> Result<Option<Bearings>, MapFileError> {
+    let Some(radians) = &saved.bearings else {
+        return Ok(None);
+    };
+    let junction = saved.id;
+    let bearings = Bearings::of_directions(radians)
+        .map_err(|source| MapFileError::Bearings { junction, source })?;
+    if bearings.count() as usize == saved.ports.len() {
+        return Ok(Some(bearings));
     }
+    Err(MapFileError::BearingsOfPorts {
+        junction,
+        bearings: bearings.count(),
+        ports: saved.ports.len(),
+    })
 }

@@ -30,7 +30,7 @@ pub(super) enum Walked {
 impl Mapper {
     pub(super) fn new(start: Sighting) -> Self {
         let mut map = CpMap::default();
-        let junction = map.add_junction(start);
+        let junction = map.add_junction(start, None);
         let at = Port {
             junction,
             number: 0,
@@ -67,13 +67,15 @@ impl Mapper {
     /// The robot is not where the map has it. What it has walked begins at a copy of its place that hangs on nothing, until it is
     /// recognized; the port stays as it is.
     pub(super) fn go_adrift(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
-        let sighting = self.map.junction(exit.junction).map(Junction::sighting);
+        let place = self.map.junction(exit.junction);
+        let sighting = place.map(Junction::sighting);
+        let bearings = place.and_then(|place| place.bearings_from(self.at.number));
         let degree = sighting.map_or(1, |sighting| sighting.degree);
         let turn = Turn::between(self.at.number, exit.number, degree).unwrap_or(Turn::BACK);
         let landmark = None;
         let adrift = self
             .map
-            .add_junction(sighting.unwrap_or(Sighting { degree, landmark }));
+            .add_junction(sighting.unwrap_or(Sighting { degree, landmark }), bearings);
         let exit = Port {
             junction: adrift,
             number: turn.0,
@@ -82,7 +84,7 @@ impl Mapper {
     }
 
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
-        let junction = self.map.add_junction(walk.sighting);
+        let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = Port {
             junction,
             number: 0,
@@ -91,7 +93,9 @@ impl Mapper {
             .add_fragment(walk.patterns.clone(), walk.motion, exit, self.at)
     }
 
+    /// The robot has come along a fragment to where it is now.
     pub(super) fn confirm(&mut self, end: End, walk: &Traversal) {
+        self.notice(walk);
         let Some(fragment) = self.map.fragments.get_mut(&end.fragment) else {
             return;
         };
@@ -103,6 +107,13 @@ impl Mapper {
             (Some(a), Some(b)) => a.intersection(b).or(Some(a)),
             (a, b) => a.or(b),
         };
+    }
+
+    /// The robot has come to where it is now, and has seen its ways out.
+    pub(super) fn notice(&mut self, walk: &Traversal) {
+        if let Some(place) = self.map.junctions.get_mut(&self.at.junction) {
+            place.notice(self.at.number, walk.bearings.as_ref());
+        }
     }
 
     /// The robot has turned round in a fragment and is back, after so many observations in it.

@@ -3,6 +3,7 @@ use core::f64::consts::PI;
 
 use tolman_geom::{Interval, PointBox, PoseBox};
 
+use super::bearings::Bearings;
 use super::pattern::PatternId;
 
 /// What tells a place from others that have as many ports.
@@ -47,6 +48,8 @@ pub struct Traversal {
     pub motion: Option<Motion>,
     /// The place it led to.
     pub sighting: Sighting,
+    /// Where the ways out of that place lead, counted from the one by which the robot came; none if it did not look, as the paper's.
+    pub bearings: Option<Bearings>,
 }
 
 /// What dead reckoning knows of a walk. Its axes are the same for all walks: those the robot had at its start, as far as it

@@ -192,6 +192,7 @@ impl Unification {
         let offset = (kept.number + degree - gone.number) % degree;
         let merged = (kept.junction, offset, degree);
         self.merges.junctions.insert(gone.junction, merged);
+        survivor.notice(offset, absorbed.bearings.as_ref());
         for (number, new) in (0..).zip(absorbed.ports) {
             let number: u32 = (number + offset) % degree;
             let Some(old) = survivor.ports.get_mut(number as usize) else {

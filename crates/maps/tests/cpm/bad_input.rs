@@ -7,8 +7,8 @@ use tolman_maps::cpm::world::{
     MapCheck, MazeConfig, MazeError, Noise, Reckoning, Rover, World, WorldBuilder, WorldError,
 };
 use tolman_maps::cpm::{
-    Aim, CpmConfig, CpmError, Dictionary, DictionaryError, Done, Environments, Explorer, Landmark,
-    PatternId, RecallError, Sighting, Traversal, Turn,
+    Aim, Bearings, CpmConfig, CpmError, Dictionary, DictionaryError, Done, Environments, Explorer,
+    Landmark, PatternId, RecallError, Sighting, Traversal, Turn,
 };
 
 use super::explorations::pursue;
@@ -166,6 +166,7 @@ fn walks_that_cannot_have_been() {
             patterns: patterns.iter().copied().map(PatternId).collect(),
             motion: None,
             sighting: Sighting::plain(degree),
+            bearings: None,
         };
         let refused = explorer.arrive(Turn(3), &walk(&[1, 2], 3), &dictionary);
         assert!(matches!(refused, Err(CpmError::Turn(_))));
@@ -193,11 +194,32 @@ fn walks_that_cannot_have_been() {
 }
 
 #[test]
+fn more_bearings_than_ports() {
+    let mut dictionary = Dictionary::new(1);
+    let wall = dictionary.learn(&[1.0], &[1.0], 0.1).unwrap();
+    let mut explorer = Explorer::new(CpmConfig::robust(), Sighting::plain(1)).unwrap();
+    let walk = Traversal {
+        patterns: vec![wall],
+        motion: None,
+        sighting: Sighting::plain(3),
+        bearings: Some(Bearings::of_directions(&[0.0, 1.0]).unwrap()),
+    };
+    let refused = explorer.arrive(Turn::BACK, &walk, &dictionary);
+    let expected = CpmError::Bearings {
+        bearings: 2,
+        degree: 3,
+    };
+    assert_eq!(refused, Err(expected));
+    assert_eq!(explorer.map().fragments().len(), 0);
+}
+
+#[test]
 fn dictionaries_of_another_robot_or_version() {
     let walk = |pattern: u32| Traversal {
         patterns: [pattern, pattern].map(PatternId).to_vec(),
         motion: None,
         sighting: Sighting::plain(3),
+        bearings: None,
     };
     let mut dictionary = Dictionary::new(2);
     let one = dictionary.learn(&[1.0, 0.0], &[0.0, 1.0], 0.1).unwrap();

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::world::{
-    CorridorEnd, MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort,
+    CorridorEnd, Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort,
 };
 use tolman_maps::cpm::{
     Aim, CpMap, CpmConfig, Dictionary, DictionaryError, End, Environments, Explorer, Landmark,
@@ -96,7 +96,7 @@ fn from_mid_fragment_before_the_next_junction() {
             before += u32::from(is_right);
             sure += u32::from(is_sure);
             rightly_sure += u32::from(is_sure && is_right);
-            localizer.arrive(walk.sighting);
+            localizer.arrive(walk.sighting, None);
             at += u32::from(known.is_right(localizer.location(), rover.at()));
         }
     }
@@ -110,6 +110,57 @@ fn from_mid_fragment_before_the_next_junction() {
         "{rightly_sure} of {sure} that are sure"
     );
     assert!(at >= before);
+}
+
+/// In a place entered by another way other ways lie ahead: what no sequence tells, the bearings do.
+#[test]
+fn where_ways_lead_tells_fragments_apart_that_look_alike() {
+    let noise = Noise {
+        heading: 0.1,
+        ..Noise::NONE
+    };
+    let maze = MazeConfig {
+        likeness: Likeness::Kinds(2),
+        ..MazeConfig::small()
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(9);
+    // Without bearings, by a glimpse of them, by a look, among so many starts.
+    let (mut blind, mut glimpsed, mut seen, mut starts) = (0, 0, 0, 0);
+    for _ in 0..20 {
+        let known = explored(&maze, Noise::NONE, &mut rng);
+        let mut rover = Rover::new(&known.world, noise, Reckoning::Bounded);
+        for _ in 0..20 {
+            let (enter, passed) = middle(&known.world, &mut rng);
+            let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
+            let maps = core::slice::from_ref(&known.map);
+            let mut localizer =
+                Localizer::new(maps, known.world.dictionary(), LocalizerConfig::usual()).unwrap();
+            for pattern in walk.patterns {
+                localizer.observe(pattern).unwrap();
+            }
+            let is_right = |localizer: &Localizer<'_>| {
+                u32::from(known.is_right(localizer.location(), rover.at()))
+            };
+            let mut without = localizer.clone();
+            without.arrive(walk.sighting, None);
+            blind += is_right(&without);
+            let bearings = walk.bearings.as_ref();
+            localizer.end_in_sight(walk.sighting.landmark, bearings);
+            glimpsed += is_right(&localizer);
+            localizer.arrive(walk.sighting, bearings);
+            seen += is_right(&localizer);
+            starts += 1;
+        }
+    }
+    println!("{blind} without, {glimpsed} glimpsed, {seen} seen, of {starts}");
+    assert!(
+        seen >= glimpsed && glimpsed > blind,
+        "{blind} {glimpsed} {seen}"
+    );
+    assert!(
+        10 * (starts - seen) <= 7 * (starts - blind),
+        "{blind} {seen}"
+    );
 }
 
 #[test]
@@ -143,6 +194,7 @@ fn turns_that_lead_where_no_map_has_been_are_not_known() {
         patterns: vec![PatternId(0), PatternId(1), PatternId(2)],
         motion: None,
         sighting: Sighting::plain(3),
+        bearings: None,
     };
     explorer.arrive(Turn::BACK, &walk, dictionary).unwrap();
     let maps = [explorer.map().clone()];
@@ -150,7 +202,7 @@ fn turns_that_lead_where_no_map_has_been_are_not_known() {
     for pattern in walk.patterns {
         localizer.observe(pattern).unwrap();
     }
-    localizer.arrive(walk.sighting);
+    localizer.arrive(walk.sighting, None);
     let likely = |turn| localizer.knows(turn);
     assert!(likely(Turn::BACK) > 0.9, "{}", likely(Turn::BACK));
     assert!(likely(Turn(1)) < 0.1 && likely(Turn(2)) < 0.1);
@@ -188,7 +240,7 @@ fn which_environment_and_within_one_further_fragment() {
             for pattern in walk.patterns {
                 localizer.observe(pattern).unwrap();
             }
-            localizer.arrive(walk.sighting);
+            localizer.arrive(walk.sighting, None);
             let turn = Turn(u32::from(walk.sighting.degree > 1));
             localizer.turn(turn).unwrap();
             let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
@@ -197,7 +249,7 @@ fn which_environment_and_within_one_further_fragment() {
             for pattern in walk.patterns {
                 localizer.observe(pattern).unwrap();
             }
-            localizer.arrive(walk.sighting);
+            localizer.arrive(walk.sighting, None);
             starts += 1;
             let found = localizer.location();
             places_right += u32::from(found.map == number && here.is_right(found, rover.at()));
@@ -244,7 +296,7 @@ fn bad_input_is_refused() {
     assert!(localizer.observe(PatternId(31)).is_err());
     localizer.observe(PatternId(0)).unwrap();
     // What no map has leaves it unsure, not broken.
-    localizer.arrive(Sighting::plain(7));
+    localizer.arrive(Sighting::plain(7), None);
     assert!(localizer.location().probability.is_finite());
     assert!(localizer.turn(Turn(6)).is_err());
     assert!((localizer.maps().iter().sum::<f64>() - 1.0).abs() < 1e-9);

@@ -36,6 +36,7 @@ fn walk(patterns: &[PatternId], degree: u32) -> Traversal {
         patterns: patterns.to_vec(),
         motion: None,
         sighting: Sighting::plain(degree),
+        bearings: None,
     }
 }
 

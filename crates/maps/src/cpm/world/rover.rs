@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use rand::{Rng, RngExt};
 use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
 
+use super::super::bearings::Bearings;
 use super::super::map::Sign;
 use super::super::pattern::PatternId;
 use super::super::traversal::{Motion, Sighting, Traversal};
@@ -36,12 +37,12 @@ impl Noise {
     };
 }
 
-/// Whether a rover counts its steps.
+/// Whether a rover counts its steps, and looks where ways lead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reckoning {
-    /// No dead reckoning, as in the paper.
+    /// Neither, as in the paper.
     None,
-    /// Dead reckoning with bounds that hold.
+    /// Dead reckoning with bounds that hold, and bearings.
     Bounded,
 }
 
@@ -143,6 +144,7 @@ impl<'a> Rover<'a> {
             patterns,
             motion,
             sighting,
+            bearings: self.looked(rng),
         }))
     }
 
@@ -164,7 +166,26 @@ impl<'a> Rover<'a> {
             patterns,
             motion: None,
             sighting: self.sighting(),
+            bearings: self.looked(rng),
         })
+    }
+
+    /// Where the ways out of the place lead where it is, from the one it came by, if it looks.
+    fn looked(&self, rng: &mut impl Rng) -> Option<Bearings> {
+        if self.reckoning == Reckoning::None {
+            return None;
+        }
+        let WorldPort { place, number } = self.at;
+        let degree = self.sighting().degree;
+        let ways = (0..degree).map(|by| {
+            let number = (number + by) % degree;
+            let end = self.world.end_at(WorldPort { place, number })?;
+            let corridor = self.world.corridors.get(end.corridor as usize)?;
+            let error = self.noise.heading * (2.0 * uniform(rng) - 1.0);
+            Some(corridor.bearing(end.sign).radians() + error)
+        });
+        let ways: Option<Vec<f64>> = ways.collect();
+        Bearings::of_directions(&ways?).ok()
     }
 
     /// What is to be observed of a corridor.

@@ -158,11 +158,13 @@ impl<'a, B: Body> Cpm<'a, B> {
                 Walk::Arrived {
                     observations,
                     sighting,
+                    ..
                 } => {
                     let traversal = Traversal {
                         patterns: self.patterns.patterns(observations),
                         motion: self.motion(from)?,
                         sighting: *sighting,
+                        bearings: self.walker.bearings(),
                     };
                     let dictionary = self.patterns.dictionary();
                     let arrival = self.explorer.arrive(leg.turn, &traversal, dictionary)?;

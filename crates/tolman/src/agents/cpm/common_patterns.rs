@@ -43,6 +43,7 @@ pub fn wander<B: Body>(
         if let Walk::Arrived {
             observations,
             sighting,
+            ..
         } = walker.walk(branch as usize, 0, None)?
         {
             seen.extend(observations);

@@ -61,8 +61,9 @@ pub struct PutDownRecord {
     /// How likely an ideal observer would have known maze, fragment and direction before it came to the place ahead, by how the corridor bends:
     /// 0 to 1.
     pub knowable_by_bends: f64,
-    /// The same if it also saw the ways to the sides of the places at both ends; no robot knows more on average.
-    pub knowable_by_sides: f64,
+    /// The same if it also saw what the place ahead is, and the ways to the sides of the place behind where it stands beside that; no robot
+    /// knows more on average.
+    pub knowable_by_places: f64,
     /// Whether the robot knew them then; who has observed nothing did not.
     pub is_right_under_way: bool,
     /// The same at that place.
@@ -158,7 +159,7 @@ impl PutDown<'_> {
         let knowable_by = |looks| knowable(&mazes, self.here, spot, self.approach, looks);
         Ok(Some(PutDownRecord {
             knowable_by_bends: knowable_by(Looks::AtBends),
-            knowable_by_sides: knowable_by(Looks::AtSides),
+            knowable_by_places: knowable_by(Looks::AtPlaces),
             is_right_under_way: is_right_before(ahead),
             is_right_at_first_place,
             is_right_within_one_further: if last == ahead {

@@ -279,6 +279,7 @@ mod tests {
                 patterns,
                 motion: None,
                 sighting,
+                bearings: None,
             };
             explorer.arrive(turn, &walk, &dictionary).unwrap();
             let way = score.fragments.way(from, Heading::from_degrees(heading));
@@ -328,6 +329,7 @@ mod tests {
                 patterns: vec![wall, wall, wall],
                 motion: None,
                 sighting: Sighting::plain(degree),
+                bearings: None,
             };
             let arrival = explorer.arrive(turn, &walk, &dictionary).unwrap();
             let way = score.fragments.way(from, Heading::from_degrees(heading));

@@ -42,8 +42,8 @@ struct PlaceAtEnd {
 pub(super) enum Looks {
     /// How the corridor bends, and where it begins.
     AtBends,
-    /// Also whether the places at its ends have ways to their sides.
-    AtSides,
+    /// Also what the place ahead is, and whether the one behind has ways to its sides.
+    AtPlaces,
 }
 
 /// What it sees from a spot on until the end of the fragment is in sight.
@@ -75,7 +75,7 @@ impl PlaceAtEnd {
     fn beside(&self, looks: Looks) -> Self {
         let open = match looks {
             Looks::AtBends => Vec::new(),
-            Looks::AtSides => {
+            Looks::AtPlaces => {
                 let open = self.open.iter().copied();
                 open.filter(|quarters| quarters % 2 == 1).collect()
             }
@@ -133,7 +133,10 @@ impl Spot {
     }
 
     fn view(&self, approach: Approach, looks: Looks) -> View<'_> {
-        let ahead = self.ahead.beside(looks);
+        let ahead = match looks {
+            Looks::AtBends => self.ahead.beside(looks),
+            Looks::AtPlaces => self.ahead.clone(),
+        };
         match approach {
             // Walls are seen as far as a corridor is wide: up to the middle of the cell behind.
             Approach::StraightOn => View {
@@ -156,7 +159,7 @@ impl Spot {
 /// How likely the best guess of an ideal observer is right about maze, fragment and direction, for a robot at a spot of the maze `here`: 0 to 1.
 ///
 /// It knows the mazes as they are, and how robots are put down: into each maze as often, and at each of its spots. It mistakes nothing of what
-/// it looks at, from the cell behind on. Of that cell and of the sides of places the robot sees a part, so that on average no robot knows more than
+/// it looks at, from the cell behind on. Of that cell and of the places the robot sees a part, so that on average no robot knows more than
 /// one that looks at both.
 pub(super) fn knowable(
     mazes: &[Vec<Spot>],
@@ -258,13 +261,13 @@ o---o---o---o---o---o
 ";
         let mazes = [spots(sides)];
         check(&mazes, 0, Approach::StraightOn, &[0.5; 4]);
-        let known = |spot| knowable(&mazes, 0, spot, Approach::StraightOn, Looks::AtSides);
+        let known = |spot| knowable(&mazes, 0, spot, Approach::StraightOn, Looks::AtPlaces);
         assert!(mazes[0].iter().all(|spot| known(spot) > 0.99));
     }
 
-    /// Whoever looks at the sides too is right as often at least, over all spots of each maze.
+    /// Whoever looks at places too is right as often at least, over all spots of each maze.
     #[test]
-    fn sides_tell_no_less_than_bends() {
+    fn places_tell_no_less_than_bends() {
         let texts = [
             include_str!("../../../../../mazes/cpm-1.maze"),
             include_str!("../../../../../mazes/cpm-2.maze"),
@@ -278,8 +281,8 @@ o---o---o---o---o---o
                     each.map(|spot| knowable(&mazes, here, spot, Approach::StraightOn, looks));
                 known.sum::<f64>() / mazes[here].len() as f64
             };
-            let (bends, sides) = (mean(Looks::AtBends), mean(Looks::AtSides));
-            assert!(sides >= bends, "maze {here}: {sides} and {bends}");
+            let (bends, places) = (mean(Looks::AtBends), mean(Looks::AtPlaces));
+            assert!(places >= bends, "maze {here}: {places} and {bends}");
             assert!((0.5..0.99).contains(&bends), "maze {here}: {bends}");
         }
     }

@@ -51,6 +51,7 @@ pub fn survey(
         let Walk::Arrived {
             observations,
             sighting,
+            ..
         } = walker.walk(0, 0, None)?
         else {
             return Err(WalkError::Lost.into());

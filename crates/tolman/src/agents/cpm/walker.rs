@@ -6,7 +6,7 @@ use tolman_control::epuck::{
     ProfileError, SegmentConfig, SegmentError, Segments,
 };
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::cpm::{Landmark, Sighting};
+use tolman_maps::cpm::{Bearings, Landmark, Sighting};
 
 use super::body::{Body, Reckoned};
 
@@ -73,6 +73,8 @@ pub enum Walk {
     Arrived {
         /// What was seen on the way.
         observations: Vec<Observation>,
+        /// Where ways out of the place seemed to lead when it came into sight, as of a place that it was about to enter.
+        glimpse: Option<Bearings>,
         /// What the place is.
         sighting: Sighting,
     },
@@ -89,6 +91,12 @@ struct View {
     segments: Segments,
 }
 
+/// A place, as the robot saw it.
+struct Seen {
+    glimpse: Option<Bearings>,
+    sighting: Sighting,
+}
+
 /// Where the robot looked on its way, and what it saw, if it saw the path.
 type Track = Vec<(Point, Option<Observation>)>;
 
@@ -101,6 +109,16 @@ fn filled(track: &Track) -> Vec<Observation> {
             near.flatten().find_map(seen)
         })
         .collect()
+}
+
+/// Counts ways, which come counter-clockwise, from the one nearest to a direction on.
+fn count_from(direction: f64, ways: &mut [f64]) {
+    let off = |way: &f64| Heading::from_radians(*way - direction).radians().abs();
+    let numbered = ways.iter().enumerate();
+    let nearest = numbered.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b)));
+    if let Some((first, _)) = nearest {
+        ways.rotate_left(first);
+    }
 }
 
 /// Where a robot is when it sets off.
@@ -235,9 +253,10 @@ impl<B: Body> Walker<B> {
     /// [`WalkError`].
     pub fn set_off(&mut self) -> Result<Walk, WalkError<B::Error>> {
         // It may have been carried here.
-        self.trail.clear();
-        let view = self.look()?;
         let begun = self.pose().position;
+        self.trail.clear();
+        self.trail.push(begun);
+        let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         let is_place = match view.segments.place() {
             Place::Junction => true,
@@ -246,12 +265,9 @@ impl<B: Body> Walker<B> {
         };
         let seen = self.observation(&view)?;
         if is_place || landmark.is_some() {
-            let sighting = self.settle(view, landmark)?;
-            if sighting.degree != 2 || landmark.is_some() {
-                return Ok(Walk::Arrived {
-                    observations: Vec::new(),
-                    sighting,
-                });
+            let place = self.settle(view, landmark)?;
+            if place.sighting.degree != 2 || landmark.is_some() {
+                return Ok(self.arrived(vec![(begun, seen)], place));
             }
             // A bend that looked like a junction.
             self.pilot.go_to(self.pose().inverse().transform(begun))?;
@@ -322,8 +338,8 @@ impl<B: Body> Walker<B> {
             {
                 self.enter()?;
                 let view = self.look()?;
-                let sighting = self.settle(view, Some(landmark))?;
-                return Ok(self.arrived(track, sighting));
+                let seen = self.settle(view, Some(landmark))?;
+                return Ok(self.arrived(track, seen));
             }
             // Consecutive sightings of a junction are one: a middle at the place it comes from is that place's, until it has had the
             // time to come round.
@@ -333,9 +349,9 @@ impl<B: Body> Walker<B> {
             match view.segments.place() {
                 Place::Junction if is_under_way && !is_origin(self.middle_of(&view)) => {
                     let (here, observation) = (self.pose().position, self.observation(&view)?);
-                    let sighting = self.settle(view, None)?;
-                    if sighting.degree > 2 && !is_origin(self.pose().position) {
-                        return Ok(self.arrived(track, sighting));
+                    let seen = self.settle(view, None)?;
+                    if seen.sighting.degree > 2 && !is_origin(self.pose().position) {
+                        return Ok(self.arrived(track, seen));
                     }
                     // Seen from its middle it is none: the robot goes on from where it was, so that nothing of the path is left out.
                     self.pilot.go_to(self.pose().inverse().transform(here))?;
@@ -344,9 +360,9 @@ impl<B: Body> Walker<B> {
                     }
                 }
                 Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
-                    let sighting = self.settle(view, None)?;
-                    if sighting.degree == 1 {
-                        return Ok(self.arrived(track, sighting));
+                    let seen = self.settle(view, None)?;
+                    if seen.sighting.degree == 1 {
+                        return Ok(self.arrived(track, seen));
                     }
                 }
                 Place::Junction => {}
@@ -385,7 +401,7 @@ impl<B: Body> Walker<B> {
     }
 
     /// A walk without what was seen from within the place it led to.
-    fn arrived(&self, mut track: Track, sighting: Sighting) -> Walk {
+    fn arrived(&self, mut track: Track, seen: Seen) -> Walk {
         let middle = self.pose().position;
         let trimmed = TRIMMED * self.config.corridor_width;
         while track
@@ -394,7 +410,8 @@ impl<B: Body> Walker<B> {
         {}
         Walk::Arrived {
             observations: filled(&track),
-            sighting,
+            glimpse: seen.glimpse,
+            sighting: seen.sighting,
         }
     }
 
@@ -411,7 +428,8 @@ impl<B: Body> Walker<B> {
         &mut self,
         mut view: View,
         landmark: Option<Landmark>,
-    ) -> Result<Sighting, WalkError<B::Error>> {
+    ) -> Result<Seen, WalkError<B::Error>> {
+        let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
             let middle = match view.segments.place() {
                 Place::Junction => view
@@ -429,34 +447,52 @@ impl<B: Body> Walker<B> {
             view = self.look()?;
         }
         self.branches = view.segments.spaces().collect();
-        self.count_from_entry();
+        if let Some(entry) = self.entry(self.pose().position) {
+            count_from(entry, &mut self.branches);
+        }
         if self.branches.is_empty() {
             // Whoever came in can get out.
             self.branches.push(PI);
         }
-        Ok(Sighting {
+        let sighting = Sighting {
             degree: self.branches.len() as u32,
             landmark,
-        })
+        };
+        Ok(Seen { glimpse, sighting })
     }
 
-    /// Counts the branches from the one that it came by: that which leads to where it was before it came into the place. Behind a bend
+    /// Where the ways that it sees lead from the middle of the place ahead.
+    fn glimpse(&self, view: &View) -> Option<Bearings> {
+        let middle = view
+            .profile
+            .meet_point(&self.config.pilot.curve, &self.config.meet_point);
+        let entry = self.entry(self.pose().transform(middle))?;
+        let ways = view.segments.spaces().map(|way| {
+            // A way begins at the edge of the place.
+            let begins = Heading::from_radians(way).unit() * (PLACE * self.config.corridor_width);
+            let from_middle = Point::from(begins) - middle;
+            libm::atan2(from_middle.y, from_middle.x)
+        });
+        let mut ways: Vec<f64> = ways.collect();
+        count_from(entry, &mut ways);
+        Bearings::of_directions(&ways).ok()
+    }
+
+    /// The ways out of the place where it stands, counted from the one by which it came; none before it has come to one.
+    pub fn bearings(&self) -> Option<Bearings> {
+        // Branches are found counter-clockwise.
+        Bearings::of_directions(&self.branches).ok()
+    }
+
+    /// The direction of the way by which it came to a place, rad, relative to its heading: where it was before it came into it. Behind a bend
     /// the robot may stand askew in the middle of a junction, so that another branch is nearer to behind it.
-    fn count_from_entry(&mut self) {
-        let here = self.pose();
+    fn entry(&self, place: Point) -> Option<f64> {
         let width = self.config.corridor_width;
-        let before = self.trail.iter().rev();
-        let mut outside = before.filter(|point| (**point - here.position).norm() > PLACE * width);
-        let Some(entry) = outside.next().map(|point| here.inverse().transform(*point)) else {
-            return;
-        };
-        let bearing = libm::atan2(entry.y, entry.x);
-        let off = |branch: &f64| Heading::from_radians(*branch - bearing).radians().abs();
-        let numbered = self.branches.iter().enumerate();
-        let nearest = numbered.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b)));
-        if let Some((first, _)) = nearest {
-            self.branches.rotate_left(first);
-        }
+        let mut before = self.trail.iter().rev();
+        let outside = before.find(|point| (**point - place).norm() > PLACE * width)?;
+        let here = self.pose().inverse();
+        let back = here.transform(*outside) - here.transform(place);
+        Some(libm::atan2(back.y, back.x))
     }
 
     /// Whether the only way out is the one it came by, and the wall across the path is near.

@@ -32,12 +32,18 @@ impl Approach {
 pub struct Whereabouts {
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
-    /// What it believed before each of them, when it saw that the fragment ends and not yet at what; none if it had observed nothing at all, and so does
+    /// What it believed before each of them, when it first saw it ahead; none if it had observed nothing at all, and so does
     /// not know.
     pub under_way: Vec<Option<Location>>,
     /// What it saw along each fragment it walked whole.
     pub walks: Vec<Vec<Observation>>,
 }
+
+/// Walks of this robot along one fragment differ by less than one stride in twenty.
+const CONFIG: LocalizerConfig = LocalizerConfig {
+    slip: 0.05,
+    ..LocalizerConfig::usual()
+};
 
 /// How sure a robot is that knows where it is: it looks no further.
 const SURE: f64 = 0.95;
@@ -60,7 +66,7 @@ pub fn find_out<B: Body>(
     rng: &mut impl Rng,
     mut see: impl FnMut(&Walker<B>),
 ) -> Result<Whereabouts, WhereaboutsError<B::Error>> {
-    let mut localizer = Localizer::new(maps, patterns.dictionary(), LocalizerConfig::usual())?;
+    let mut localizer = Localizer::new(maps, patterns.dictionary(), CONFIG)?;
     let mut found = Whereabouts::default();
     if approach == Approach::BackFirst {
         walker.turn_round()?;
@@ -71,23 +77,24 @@ pub fn find_out<B: Body>(
     for place in 0..=last {
         let Walk::Arrived {
             observations,
+            glimpse,
             sighting,
         } = walk
         else {
             return Err(WalkError::Lost.into());
         };
         let seen = patterns.patterns(&observations);
-        let has_seen = place > 0 || !seen.is_empty();
+        let has_seen = place > 0 || !seen.is_empty() || glimpse.is_some();
         for pattern in seen {
             localizer.observe(pattern)?;
         }
-        localizer.end_in_sight();
+        localizer.end_in_sight(sighting.landmark, glimpse.as_ref());
         let belief = has_seen.then(|| localizer.location());
         found.under_way.push(belief);
         if place > 0 {
             found.walks.push(observations);
         }
-        localizer.arrive(sighting);
+        localizer.arrive(sighting, walker.bearings().as_ref());
         let here = localizer.location();
         found.at_places.push(here);
         see(walker);

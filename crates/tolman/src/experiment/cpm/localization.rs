@@ -17,9 +17,11 @@ const MOST_PLACES: u32 = 6;
 /// Trials that are made at most to have a map of a maze.
 const ATTEMPTS: u32 = 20;
 
-/// Runs of a row: a share of 90 % is known to within 6 % then, for the maps of that seed. One map of each maze serves all runs of a seed, so that they are
-/// not independent; other seeds learn other maps. Aliased mazes have one each run.
+/// Runs of a row: a share of 90 % is known to within 6 % then.
 const RUNS: u32 = 100;
+
+/// So many maps of each maze are learned, which runs share in turn; aliased mazes have one each run.
+const MAPS: usize = 20;
 
 /// As many for a first look.
 const QUICK_RUNS: u32 = 5;
@@ -33,21 +35,21 @@ const BACK_FIRST: &str = " back first";
 /// What could be known before the place ahead: the name of the metric, and that on a page.
 const KNOWABLE: [(&str, &str); 2] = [
     ("bends_percent", "could be known by bends"),
-    ("sides_percent", "and by the sides of places"),
+    ("places_percent", "and by the places at the ends"),
 ];
 
 /// The yes or no of a run: the beginning of its metric's name, and that on a page.
 const FLAGS: [(&str, &str); 5] = [
-    ("under_way", "right before the place ahead"),
-    ("first_place", "at it"),
+    ("under_way", "right when the place ahead comes into sight"),
+    ("first_place", "in its middle"),
     ("one_further", "within one further fragment"),
     ("last_place", "at the last"),
     ("recalled", "maze recalled by SOINN-AM"),
 ];
 
-/// What the robot learned of each maze, by whoever asks first.
+/// What the robot learned of each maze, several times, by whoever asks first.
 #[derive(Debug, Default)]
-pub(super) struct Known(OnceLock<Vec<Record>>);
+pub(super) struct Known([OnceLock<Vec<Record>>; MAPS]);
 
 /// The maze of a row, and the robot's approach.
 fn cast(row: &str) -> (&str, Approach) {
@@ -63,7 +65,7 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
         .field("places", Kind::Count)
         .field("seconds", Kind::Number)
         .field("bends_percent", Kind::Number)
-        .field("sides_percent", Kind::Number)
+        .field("places_percent", Kind::Number)
         .field("under_way", Kind::Flag)
         .field("first_place", Kind::Flag)
         .field("one_further", Kind::Flag)
@@ -86,24 +88,26 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
         }
     }
     table.note(format!(
-        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, and is put down in the \
+        "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, twenty in turn, and is put down in the \
          middle of a cell amid a fragment of the row's that its map has; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on, or \
-         back to the place behind first and from there along the whole fragment. Right: maze, fragment and direction, when it sees that the fragment \
-         ends and not yet at what, and at that place; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
+         back to the place behind first and from there along the whole fragment. Right: maze, fragment and direction, when the place at its end \
+         comes into sight, and in the middle of it; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
          until it is sure, up to {MOST_PLACES} places. What could be known is how often the best guess is right of an observer that knows the mazes and sees \
-         without mistake how the corridor bends in every cell from the one behind on, and of one that sees the ways to the sides of the places at its ends too. SOINN-AM is asked with the first fragment walked whole."
+         without mistake how the corridor bends in every cell from the one behind on, and of one that sees the place ahead too, and the sides of the one behind if it stands beside it. SOINN-AM is asked with the first fragment walked whole."
     ))
 }
 
 impl Known {
-    /// A solved trial of each maze.
+    /// A solved trial of each maze, for one run of a row.
     fn records(
         &self,
         venues: &[Venue],
         patterns: &CommonPatterns,
         master_seed: u64,
+        run: u32,
     ) -> Result<&[Record], BoxError> {
-        if let Some(records) = self.0.get() {
+        let number = run as usize % MAPS;
+        if let Some(records) = self.0[number].get() {
             return Ok(records);
         }
         let mut records = Vec::new();
@@ -111,6 +115,7 @@ impl Known {
             let mut found = None;
             for attempt in 0..ATTEMPTS {
                 // Not the chance of any run of the table.
+                let attempt = number as u32 * ATTEMPTS + attempt;
                 let seed = run_seed(master_seed, "localization maps", attempt);
                 let record = trials::trial(venue, patterns, trials::faithful(), seed).play()?;
                 if record.is_solved() {
@@ -122,7 +127,7 @@ impl Known {
             records.push(found.ok_or_else(|| format!("no trial of {name} was solved"))?);
         }
         // Two threads may learn them at once; they learn the same.
-        Ok(self.0.get_or_init(|| records))
+        Ok(self.0[number].get_or_init(|| records))
     }
 
     /// One robot put down.
@@ -137,7 +142,7 @@ impl Known {
         if maze == ALIASED {
             return aliased(patterns, approach, job.seed);
         }
-        let records = self.records(venues, patterns, master_seed)?;
+        let records = self.records(venues, patterns, master_seed, job.run)?;
         let known: Vec<KnownMaze<'_>> = venues
             .iter()
             .zip(records)
@@ -203,7 +208,7 @@ fn measured(approach: Approach, record: &PutDownRecord) -> Fields {
         .count("places", places as u64)
         .number("seconds", record.seconds)
         .number("bends_percent", 100.0 * record.knowable_by_bends)
-        .number("sides_percent", 100.0 * record.knowable_by_sides)
+        .number("places_percent", 100.0 * record.knowable_by_places)
         .flag("under_way", record.is_right_under_way)
         .flag("first_place", record.is_right_at_first_place)
         .flag("one_further", record.is_right_within_one_further)
