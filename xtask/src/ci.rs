@@ -23,24 +23,27 @@ pub(crate) enum Outcome {
 
 type Step = (&'static str, fn() -> Result<Outcome>);
 
-/// Cheap and telling steps first.
+/// Cheap and telling steps first. All that is linted, tested and documented has all features on, so that none stays unseen, and is
+/// compiled but once; what only holds without them is for the plain build, bare metal and firmware.
 const STEPS: &[Step] = &[
     ("format", || passes("fmt --all --check")),
     ("layers", || passed(layers::run())),
     ("links", || passed(docs::pages())),
     ("lints", || {
-        passes("clippy --workspace --all-targets --quiet -- --deny warnings")
+        passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
     }),
     ("tests", tests),
     ("browser", || {
         if_installed("chromium", || {
-            passes("test --package tolman --test browser --quiet -- --ignored")
+            passes("test --workspace --all-features --test browser --quiet -- --ignored")
         })
     }),
-    ("doc tests", || passes("test --workspace --doc --quiet")),
+    ("doc tests", || {
+        passes("test --workspace --all-features --doc --quiet")
+    }),
     // The tests have just built the command.
     ("mazes", || passed(mazes::check_with(|| built("tolman")))),
-    // What a user builds: without the features that only the tests' dependencies switch on.
+    // What a user builds: without the features that nobody but the steps above switches on.
     ("plain build", || passes("check --workspace --quiet")),
     ("api docs", || passed(docs::api())),
     ("bare metal", bare_metal::check),
@@ -99,9 +102,9 @@ fn print_table(table: &[(&str, Duration, String)], total: Duration) {
 
 fn tests() -> Result<Outcome> {
     if installed("cargo-nextest") {
-        return passes("nextest run --workspace --status-level fail");
+        return passes("nextest run --workspace --all-features --status-level fail");
     }
-    passes("test --workspace --lib --bins --tests --quiet")
+    passes("test --workspace --all-features --lib --bins --tests --quiet")
 }
 
 /// A command of the workspace as the tests built it.

@@ -19,12 +19,12 @@ pub(crate) fn run() -> Result<()> {
     pages()
 }
 
-/// `cargo doc` of the workspace, warnings denied.
+/// `cargo doc` of the workspace with all its features, warnings denied.
 ///
 /// # Errors
 /// If rustdoc warns.
 pub(crate) fn api() -> Result<()> {
-    succeed(cargo("doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))
+    succeed(cargo("doc --workspace --all-features --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))
 }
 
 /// Every relative link of every Markdown page names a file that exists, and a heading of it.
