@@ -1,6 +1,6 @@
 //! The e-puck: its measures, what it senses, what it is told.
 
-use core::f64::consts::PI;
+use core::f64::consts::{PI, TAU};
 
 use tolman_geom::{Heading, Point, Pose, Twist};
 
@@ -16,6 +16,9 @@ pub const TRACK: f64 = 0.053;
 /// The wheels turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
 #[expect(clippy::approx_constant, reason = "the data sheet says 6.28, not 2π")]
 pub const MOST_WHEEL_SPEED: f64 = 6.28;
+
+/// What the encoders count, rad: thousandths of a turn, as the motor has 20 steps behind a gear of 50 to 1.
+pub const ENCODER_STEP: f64 = TAU / 1000.0;
 
 /// How many proximity sensors look round.
 pub const PROXIMITY_SENSORS: usize = 8;

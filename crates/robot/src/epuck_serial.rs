@@ -1,10 +1,18 @@
 //! A driver for the real e-puck, over its serial ASCII protocol, which its standard firmware speaks over Bluetooth.
 //!
-//! Each command is a letter with its arguments, each answer the same letter in lower case: `D,l,r` sets the speeds of the wheels (answer `d`), `N` asks for
-//! the proximity sensors (`n,` and eight numbers), `Q` for the encoders (`q,l,r`). Any port that reads and writes bytes will do; give it a time-out.
+//! Each command is a letter with its arguments, each answer the same letter in lower case: `D,l,r` sets the speeds of the wheels (answer `d`), `E` asks
+//! what speeds are set (`e,l,r`), `N` for the proximity sensors (`n,` and eight numbers), `Q` for the encoders (`q,l,r`). Speeds and encoders count
+//! thousandths of a turn. Any port that reads and writes bytes will do; give it a time-out.
+//!
+//! `E` is not what the wheels do, which `Q` tells, but what the firmware goes by: a command that lost a byte on its way is answered with `d` all
+//! the same, and a remote control sets other speeds behind the driver's back. So every `D` is followed by an `E`.
+//!
+//! A step is `D`, `E`, the time step, `N`, `Q`. The robot drives on while these lines go to and fro, so let `wait` return when a step has passed since it
+//! returned last, as below, rather than sleep for a whole one, and choose a step in which they have room.
 //!
 //! ```
-//! use core::time::Duration;
+//! use std::thread::sleep;
+//! use std::time::{Duration, Instant};
 //! use tolman_robot::Robot;
 //! use tolman_robot::epuck::WheelSpeeds;
 //! use tolman_robot::epuck_serial::SerialEpuck;
@@ -12,9 +20,16 @@
 //! # struct Port(std::io::Cursor<Vec<u8>>);
 //! # impl std::io::Read for Port { fn read(&mut self, b: &mut [u8]) -> std::io::Result<usize> { self.0.read(b) } }
 //! # impl std::io::Write for Port { fn write(&mut self, b: &[u8]) -> std::io::Result<usize> { Ok(b.len()) } fn flush(&mut self) -> std::io::Result<()> { Ok(()) } }
-//! # let port = Port(std::io::Cursor::new(b"n,1,2,3,4,5,6,7,8\r\nq,0,0\r\nd\r\nn,8,7,6,5,4,3,2,1\r\nq,10,10\r\n".to_vec()));
-//! // The caller owns the clock: here nothing waits.
-//! let mut robot = SerialEpuck::open(port, 64_000, |_: Duration| ())?;
+//! # let answers = b"d\r\ne,0,0\r\nn,1,2,3,4,5,6,7,8\r\nq,0,0\r\nd\r\ne,159,159\r\nn,8,7,6,5,4,3,2,1\r\nq,10,10\r\n";
+//! # let port = Port(std::io::Cursor::new(answers.to_vec()));
+//! // The caller owns the clock.
+//! let mut passed = Instant::now();
+//! let wait = |step: Duration| {
+//!     sleep((passed + step).saturating_duration_since(Instant::now()));
+//!     passed = Instant::now();
+//! };
+//! // `port` is open at 115200 baud, as the operating system's port for the paired robot.
+//! let mut robot = SerialEpuck::open(port, 64_000, wait)?;
 //! robot.step(&WheelSpeeds { left: 1.0, right: 1.0 })?;
 //! assert_eq!(robot.sensing().proximity.unwrap()[0], 8.0);
 //! assert!(robot.sensing().encoders.unwrap().left > 0.06);
@@ -25,20 +40,21 @@ use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::f64::consts::TAU;
 use core::time::Duration;
 use std::io::{ErrorKind, Read, Write};
 
 use thiserror::Error;
 
 use crate::Robot;
-use crate::epuck::{EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, WheelSpeeds, WheelTurns};
-
-/// Motor steps of a turn of a wheel: 20 of the motor behind a gear of 50 to 1.
-const STEPS_PER_TURN: f64 = 1000.0;
+use crate::epuck::{
+    ENCODER_STEP, EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, WheelSpeeds, WheelTurns,
+};
 
 /// No answer is longer, bytes.
 const LONGEST: usize = 256;
+
+/// So many lines that are no answer may come while a connection is opened: the firmware's greeting, or answers to what was asked before.
+const FOREIGN_LINES: usize = 8;
 
 /// A real e-puck behind a port.
 #[derive(Debug)]
@@ -48,11 +64,14 @@ pub struct SerialEpuck<P, W> {
     step_us: u64,
     /// The encoders' counters, which turn over at 2¹⁶.
     counters: [u16; 2],
+    /// So many lines that are no answer are passed over.
+    foreign_lines: usize,
     sensing: EpuckSensing,
 }
 
 impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
-    /// Asks the robot what it senses. Each step lasts `step_us` microseconds, for which `wait` is called.
+    /// Stops the robot, sees that it is told to stand still, and asks what it senses. Lines of before are passed over, so that opening the port of a
+    /// robot that failed is how to go on. Each step lasts `step_us` microseconds, for which `wait` is called.
     ///
     /// # Errors
     /// [`SerialError`] if it does not answer as it should.
@@ -62,11 +81,14 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
             wait,
             step_us,
             counters: [0; 2],
+            foreign_lines: FOREIGN_LINES,
             sensing: EpuckSensing::default(),
         };
+        robot.drive([0; 2])?;
         robot.sensing.proximity = Some(robot.proximity()?);
         robot.counters = robot.encoders()?;
         robot.sensing.encoders = Some(WheelTurns::default());
+        robot.foreign_lines = 0;
         Ok(robot)
     }
 
@@ -90,13 +112,18 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         Ok([numbers[0] as i64 as u16, numbers[1] as i64 as u16])
     }
 
-    fn drive(&mut self, speeds: WheelSpeeds) -> Result<(), SerialError> {
-        let steps = |speed: f64| {
-            let speed = speed.clamp(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED);
-            (speed / TAU * STEPS_PER_TURN) as i32
-        };
-        let command = format!("D,{},{}", steps(speeds.left), steps(speeds.right));
-        self.ask(&command, "d").map(|_| ())
+    /// Sets the speeds of the wheels, encoder steps a second, and sees that they are set.
+    fn drive(&mut self, told: [i32; 2]) -> Result<(), SerialError> {
+        let [left, right] = told;
+        self.ask(&format!("D,{left},{right}"), "d")?;
+        let answer = self.ask("E", "e")?;
+        let numbers = numbers(&answer, 2)?;
+        let set = [numbers[0] as i32, numbers[1] as i32];
+        if set == told {
+            Ok(())
+        } else {
+            Err(SerialError::Speeds { told, set })
+        }
     }
 
     /// Sends a command and gives the answer, which begins as it should.
@@ -105,11 +132,15 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         let sent = self.port.write_all(line.as_bytes());
         sent.and_then(|()| self.port.flush())
             .map_err(|error| SerialError::of(error.kind()))?;
-        let answer = self.line()?;
-        if answer.split(',').next() == Some(expected) {
-            Ok(answer)
-        } else {
-            Err(SerialError::Unexpected { expected, answer })
+        loop {
+            let answer = self.line()?;
+            if answer.split(',').next() == Some(expected) {
+                return Ok(answer);
+            }
+            self.foreign_lines = self
+                .foreign_lines
+                .checked_sub(1)
+                .ok_or(SerialError::Unexpected { expected, answer })?;
         }
     }
 
@@ -137,6 +168,12 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
             }
         }
     }
+}
+
+/// The speed nearest to this one, rad/s, that can be told and that the wheels can.
+fn steps_per_second(speed: f64) -> i32 {
+    let speed = speed.clamp(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED);
+    (speed / ENCODER_STEP).round() as i32
 }
 
 /// The numbers behind the letter of an answer.
@@ -169,7 +206,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
             return Err(SerialError::NotFinite);
         }
         let mut step = || {
-            self.drive(*command)?;
+            self.drive([command.left, command.right].map(steps_per_second))?;
             (self.wait)(Duration::from_micros(self.step_us));
             let proximity = self.proximity()?;
             Ok((proximity, self.encoders()?))
@@ -178,7 +215,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
             Ok((proximity, counters)) => {
                 let turned = |side: usize| {
                     let steps = counters[side].wrapping_sub(self.counters[side]) as i16;
-                    f64::from(steps) / STEPS_PER_TURN * TAU
+                    f64::from(steps) * ENCODER_STEP
                 };
                 self.sensing.encoders = Some(WheelTurns {
                     left: turned(0),
@@ -221,7 +258,7 @@ pub enum SerialError {
     Garbage,
     /// The answer is that to another command.
     #[error(
-        "the e-puck answers {answer:?} where `{expected}` should stand: switch it off and on again"
+        "the e-puck answers {answer:?} where `{expected}` should stand: open its port again; if that does not help, switch it off and on"
     )]
     Unexpected {
         /// How it should begin.
@@ -238,6 +275,16 @@ pub enum SerialError {
         expected: usize,
         /// What came.
         answer: String,
+    },
+    /// The wheels' speeds are not those that it was told.
+    #[error(
+        "the e-puck drives at {set:?} steps a second where it was told {told:?}: a byte was lost, or its remote control is in use; open its port again"
+    )]
+    Speeds {
+        /// What it was told, left and right, encoder steps a second.
+        told: [i32; 2],
+        /// What it says is set.
+        set: [i32; 2],
     },
     /// A speed is no number.
     #[error("the speed of a wheel is not finite; give finite numbers")]
@@ -263,14 +310,14 @@ mod tests {
 
     /// A port that answers each command with the next line of a script; `None` is a time-out.
     struct Script {
-        answers: VecDeque<Option<&'static [u8]>>,
+        answers: VecDeque<Answer>,
         coming: VecDeque<u8>,
         timed_out: bool,
         sent: Vec<u8>,
     }
 
     impl Script {
-        fn new(answers: &[Option<&'static [u8]>]) -> Self {
+        fn new(answers: &[Answer]) -> Self {
             Self {
                 answers: answers.iter().copied().collect(),
                 coming: VecDeque::new(),
@@ -309,16 +356,22 @@ mod tests {
         }
     }
 
-    const N: Option<&[u8]> = Some(b"n,10,20,30,40,50,60,70,80\r\n");
-    const D: Option<&[u8]> = Some(b"d\r\n");
-    const Q: Option<&[u8]> = Some(b"q,65530,-6\r\n");
+    type Answer = Option<&'static [u8]>;
+
+    const D: Answer = Some(b"d\r\n");
+    const STILL: Answer = Some(b"e,0,0\r\n");
+    /// As told by [`AHEAD`]: the right wheel as fast as it can.
+    const E: Answer = Some(b"e,100,999\r\n");
+    const N: Answer = Some(b"n,10,20,30,40,50,60,70,80\r\n");
+    const Q: Answer = Some(b"q,65530,-6\r\n");
+    const OPENED: [Answer; 4] = [D, STILL, N, Q];
     const AHEAD: WheelSpeeds = WheelSpeeds {
-        left: TAU / 10.0,
+        left: 100.0 * ENCODER_STEP,
         right: 100.0,
     };
 
-    fn after(answers: &[Option<&'static [u8]>]) -> (Result<(), SerialError>, Script) {
-        let mut script = alloc::vec![N, Q];
+    fn after(answers: &[Answer]) -> (Result<(), SerialError>, Script) {
+        let mut script = OPENED.to_vec();
         script.extend(answers);
         let mut robot = SerialEpuck::open(Script::new(&script), 100_000, |_| ()).unwrap();
         let result = robot.step(&AHEAD);
@@ -329,7 +382,7 @@ mod tests {
 
     #[test]
     fn it_speaks_the_protocol() {
-        let script = [N, Q, Some(b"d\r\n"), N, Some(b"\r\nq,4,94\r\n")];
+        let script = [D, STILL, N, Q, D, E, N, Some(b"\r\nq,4,94\r\n")];
         let mut waited = Duration::ZERO;
         let mut robot =
             SerialEpuck::open(Script::new(&script), 100_000, |time| waited += time).unwrap();
@@ -338,12 +391,17 @@ mod tests {
         assert_eq!(sensing.proximity.unwrap().map(|value| value as u32)[7], 80);
         // From 65530 over 0 to 4, and from -6 to 94.
         let turns = sensing.encoders.unwrap();
-        assert!((turns.left - 0.01 * TAU).abs() < 1e-12, "{turns:?}");
-        assert!((turns.right - 0.1 * TAU).abs() < 1e-12, "{turns:?}");
+        assert!(
+            (turns.left - 10.0 * ENCODER_STEP).abs() < 1e-12,
+            "{turns:?}"
+        );
+        assert!(
+            (turns.right - 100.0 * ENCODER_STEP).abs() < 1e-12,
+            "{turns:?}"
+        );
         assert_eq!(sensing.time_us, 100_000);
         let sent = String::from_utf8(robot.into_port().sent).unwrap();
-        // The right wheel as fast as it can.
-        assert_eq!(sent, "N\nQ\nD,100,999\nN\nQ\n");
+        assert_eq!(sent, "D,0,0\nE\nN\nQ\nD,100,999\nE\nN\nQ\n");
         assert_eq!(waited, Duration::from_millis(100));
     }
 
@@ -357,15 +415,31 @@ mod tests {
             expected,
             answer: answer.into(),
         };
-        let cases: [(&[Option<&'static [u8]>], SerialError); 8] = [
+        let speeds = |set| SerialError::Speeds {
+            told: [100, 999],
+            set,
+        };
+        let late = SerialError::Unexpected {
+            expected: "e",
+            answer: "d".into(),
+        };
+        let cases: [(&[Answer], SerialError); 13] = [
             (&[None], SerialError::TimedOut),
             (&[], SerialError::Closed),
             (&[D, None], SerialError::TimedOut),
+            (&[D, E, N, None], SerialError::TimedOut),
             (&[Some(&[0xff, 0xfe, b'\n'])], SerialError::Garbage),
             (&[Some(&[b'x'; 300])], SerialError::Garbage),
             (&[Some(b"welcome\r\n")], unexpected),
-            (&[D, Some(b"n,1,2,3\r\n")], numbers(8, "n,1,2,3")),
-            (&[D, N, Some(b"q,1,\r\n")], numbers(2, "q,1,")),
+            // The answer to a command of before came late.
+            (&[D, D], late),
+            (&[D, Some(b"e,100\r\n")], numbers(2, "e,100")),
+            // A digit was lost on the way to the robot.
+            (&[D, Some(b"e,10,999\r\n")], speeds([10, 999])),
+            // A remote control said stop.
+            (&[D, STILL], speeds([0, 0])),
+            (&[D, E, Some(b"n,1,2,3\r\n")], numbers(8, "n,1,2,3")),
+            (&[D, E, N, Some(b"q,1,\r\n")], numbers(2, "q,1,")),
         ];
         for (answers, expected) in cases {
             let (result, port) = after(answers);
@@ -375,8 +449,34 @@ mod tests {
     }
 
     #[test]
+    fn opening_passes_over_what_is_no_answer() {
+        // A greeting, and what a step that timed out left unread: its `e` and the `d` to the stop.
+        let greeting = b"\r\nWELCOME to the e-Puck\r\ne,100,999\r\nd\r\nd\r\n";
+        let script = [Some(greeting.as_slice()), STILL, N, Q, D, E, N, Q];
+        let mut robot = SerialEpuck::open(Script::new(&script), 1, |_| ()).unwrap();
+        robot.step(&AHEAD).unwrap();
+    }
+
+    #[test]
+    fn a_robot_that_does_not_stop_is_not_opened() {
+        let open = |script: &[Answer]| SerialEpuck::open(Script::new(script), 1, |_| ()).err();
+        let still_driving = SerialError::Speeds {
+            told: [0; 2],
+            set: [100, 999],
+        };
+        assert_eq!(open(&[D, E]), Some(still_driving));
+        assert_eq!(open(&[None]), Some(SerialError::TimedOut));
+        let talk = b"z,Command not found\r\n".repeat(FOREIGN_LINES + 1);
+        let unexpected = SerialError::Unexpected {
+            expected: "d",
+            answer: "z,Command not found".into(),
+        };
+        assert_eq!(open(&[Some(talk.leak())]), Some(unexpected));
+    }
+
+    #[test]
     fn speeds_that_are_none_are_refused() {
-        let mut robot = SerialEpuck::open(Script::new(&[N, Q]), 1, |_| ()).unwrap();
+        let mut robot = SerialEpuck::open(Script::new(&OPENED), 1, |_| ()).unwrap();
         let speeds = WheelSpeeds {
             left: f64::NAN,
             right: 0.0,
