@@ -14,7 +14,7 @@ use tolman_control::epuck::{
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Direction, Maze};
 use tolman_robot::Robot;
-use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
+use tolman_robot::epuck::{EpuckSensing, MOST_WHEEL_SPEED, WheelSpeeds};
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::ResponseCurve;
@@ -73,6 +73,8 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Careful> {
         step_us: STEP_US,
         samples: 100,
         sweep_speed: TAU / 100.0 / (STEP_US as f64 * 1e-6),
+        most_wheel_speed: MOST_WHEEL_SPEED,
+        turn_tolerance: 1e-9,
         curve: RangeCurve::new(
             points
                 .map(|range| (range, response.at(range).value))

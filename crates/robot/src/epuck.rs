@@ -13,7 +13,7 @@ pub const WHEEL_RADIUS: f64 = 0.0205;
 /// From wheel to wheel, m.
 pub const TRACK: f64 = 0.053;
 
-/// The wheels turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
+/// The wheels of the real robot turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
 #[expect(clippy::approx_constant, reason = "the data sheet says 6.28, not 2π")]
 pub const MOST_WHEEL_SPEED: f64 = 6.28;
 
@@ -72,24 +72,24 @@ impl WheelSpeeds {
         right: 0.0,
     };
 
-    /// The speeds at which the robot moves like this (m/s, rad/s); where a wheel cannot turn so fast both are slowed alike, so that
-    /// the path is the same.
+    /// The speeds at which the robot moves like this (m/s, rad/s); where a wheel would turn faster than `most`, rad/s, both are slowed alike, so
+    /// that the path is the same.
     ///
     /// ```
     /// use tolman_geom::Twist;
     /// use tolman_robot::epuck::{MOST_WHEEL_SPEED, WheelSpeeds};
     ///
-    /// let spin = WheelSpeeds::of_twist(Twist { linear: 0.0, angular: 100.0 });
+    /// let spin = WheelSpeeds::of_twist(Twist { linear: 0.0, angular: 100.0 }, MOST_WHEEL_SPEED);
     /// assert_eq!((spin.left, spin.right), (-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED));
     /// ```
     #[must_use]
-    pub fn of_twist(twist: Twist) -> Self {
+    pub fn of_twist(twist: Twist, most: f64) -> Self {
         let apart = twist.angular * TRACK / 2.0;
         let (left, right) = (
             (twist.linear - apart) / WHEEL_RADIUS,
             (twist.linear + apart) / WHEEL_RADIUS,
         );
-        let slow = (MOST_WHEEL_SPEED / left.abs().max(right.abs())).min(1.0);
+        let slow = (most / left.abs().max(right.abs())).min(1.0);
         Self {
             left: left * slow,
             right: right * slow,

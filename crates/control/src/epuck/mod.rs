@@ -26,7 +26,7 @@ pub use echoes::Echoes;
 pub use forward::{Forward, ForwardConfig};
 pub use keep_off::{KeepOff, KeepOffConfig};
 pub use meet_point::MeetPointConfig;
-pub use pilot::{Pilot, PilotConfig, PilotError};
+pub use pilot::{Pilot, PilotConfig, PilotError, TURN_STEP};
 pub use profile::{Alignment, Profile, ProfileError};
 pub use range_curve::{RangeCurve, RangeCurveError};
 pub use segments::{FEATURES, Place, Segment, SegmentConfig, SegmentError, Segments};

@@ -3,7 +3,7 @@ use core::f64::consts::TAU;
 use thiserror::Error;
 use tolman_geom::{Point, Twist};
 use tolman_robot::Robot;
-use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
+use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
 
 use super::{Echoes, Forward, ForwardConfig, KeepOff, KeepOffConfig, RangeCurve, Sweep};
 
@@ -16,6 +16,12 @@ pub struct Pilot<R> {
     keep_off: KeepOff,
 }
 
+/// The least turn that the real robot's encoders tell, rad: each wheel by a step, against the other.
+pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
+
+/// Encoders that count whole steps may tell nothing of so many time steps of a slow turn, or before the motors have begun.
+const PATIENCE: u32 = 10;
+
 /// What a pilot holds to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PilotConfig {
@@ -25,6 +31,11 @@ pub struct PilotConfig {
     pub samples: u32,
     /// How fast the robot turns in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real robot had 3π/5.
     pub sweep_speed: f64,
+    /// How fast the wheels are told to turn at most, rad/s: what they can, 6.28.
+    pub most_wheel_speed: f64,
+    /// How far a turn may end from where it should, rad: no less than the encoders can tell, [`TURN_STEP`] on the real robot, next to
+    /// nothing where they are exact. What is left of a sample's turn is made up for by the next.
+    pub turn_tolerance: f64,
     /// What the raw values of the proximity sensors mean.
     pub curve: RangeCurve,
     /// Layer 1.
@@ -162,8 +173,9 @@ where
     fn turn_on(&mut self, radians: f64, speed: f64) -> Result<f64, PilotError<R::Error>> {
         let step = speed * self.step_seconds();
         let mut turned = 0.0;
+        let mut still = 0;
         // Every step but the last is a whole one.
-        while (radians - turned).abs() > 1e-9 {
+        while (radians - turned).abs() > self.config.turn_tolerance {
             let left = radians - turned;
             let share = (left.abs() / step).min(1.0);
             let twist = Twist {
@@ -177,7 +189,8 @@ where
                 .encoders
                 .ok_or(PilotError::NoEncoders)?;
             let by = (encoders.right - encoders.left) * WHEEL_RADIUS / TRACK;
-            if by.abs() < 1e-12 {
+            still = if by.abs() < 1e-12 { still + 1 } else { 0 };
+            if still == PATIENCE {
                 return Err(PilotError::Stuck);
             }
             turned += by;
@@ -187,10 +200,11 @@ where
 
     /// One time step at this twist times `share`.
     fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
-        let speeds = WheelSpeeds::of_twist(Twist {
+        let part = Twist {
             linear: twist.linear * share,
             angular: twist.angular * share,
-        });
+        };
+        let speeds = WheelSpeeds::of_twist(part, self.config.most_wheel_speed);
         self.robot.step(&speeds).map_err(PilotError::Robot)
     }
 

@@ -29,6 +29,14 @@ pub struct EpuckConfig {
     pub contact: Contact,
     /// Length of a time step, µs.
     pub step_us: u64,
+    /// How fast a wheel can turn, rad/s. The real robot's limit is [`MOST_WHEEL_SPEED`], with which it turns in place at 4.9 rad/s at most; the 2π rad/s
+    /// of CPM's paper take an idealized robot of 8.2 and more.
+    #[serde(default = "real_wheels")]
+    pub most_wheel_speed: f64,
+}
+
+const fn real_wheels() -> f64 {
+    MOST_WHEEL_SPEED
 }
 
 impl EpuckConfig {
@@ -41,6 +49,7 @@ impl EpuckConfig {
             proximity: Vec::new(),
             contact: Contact::Slide,
             step_us: 10_000,
+            most_wheel_speed: MOST_WHEEL_SPEED,
         }
     }
 
@@ -73,6 +82,10 @@ impl Epuck {
     pub fn new(config: EpuckConfig) -> Result<Self, EpuckError> {
         if config.step_us == 0 {
             return Err(EpuckError::Step);
+        }
+        let most = config.most_wheel_speed;
+        if !(most.is_finite() && most > 0.0) {
+            return Err(EpuckError::WheelSpeed { most });
         }
         let faults = [("wheels", &config.wheels), ("proximity", &config.proximity)];
         for (field, faults) in faults {
@@ -123,7 +136,8 @@ impl Model for Epuck {
     /// ground what they rolled.
     fn motion(&mut self, command: &WheelSpeeds, chance: &Chance) -> Motion {
         let seconds = self.config.step_us as f64 * 1e-6;
-        let turned = |speed: f64| speed.clamp(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED) * seconds;
+        let most = self.config.most_wheel_speed;
+        let turned = |speed: f64| speed.clamp(-most, most) * seconds;
         self.turned = WheelTurns {
             left: turned(command.left),
             right: turned(command.right),
@@ -174,6 +188,12 @@ pub enum EpuckError {
     /// A time step has no length.
     #[error("`step_us` is 0; give the microseconds of a time step")]
     Step,
+    /// The wheels can turn at no speed.
+    #[error("`most_wheel_speed` is {most}; give radians a second above 0, 6.28 for the real robot")]
+    WheelSpeed {
+        /// What was given, rad/s.
+        most: f64,
+    },
     /// A fault has no sense.
     #[error("`{field}`, fault {index}: {source}")]
     Fault {

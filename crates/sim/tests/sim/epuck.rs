@@ -72,6 +72,37 @@ fn it_turns_in_place_at_nearly_five_radians_a_second() {
 }
 
 #[test]
+fn wheels_turn_as_fast_as_the_configuration_says() {
+    let ideal = EpuckConfig {
+        most_wheel_speed: 9.0,
+        ..quiet()
+    };
+    let mut robot = solo(&ideal, 0.0, 0.0);
+    let spin = WheelSpeeds {
+        left: -8.5,
+        right: 20.0,
+    };
+    robot.step(&spin).unwrap();
+    let encoders = robot.sensing().encoders.unwrap();
+    assert!((encoders.left + 0.085).abs() < 1e-12 && (encoders.right - 0.09).abs() < 1e-12);
+    for most in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let none = EpuckConfig {
+            most_wheel_speed: most,
+            ..quiet()
+        };
+        let error = Epuck::new(none).unwrap_err().to_string();
+        assert!(error.contains("most_wheel_speed"), "{error}");
+    }
+    // Configurations of before had the real robot's wheels.
+    let mut before = serde_json::to_value(quiet()).unwrap();
+    before.as_object_mut().unwrap().remove("most_wheel_speed");
+    assert_eq!(
+        serde_json::from_value::<EpuckConfig>(before).unwrap(),
+        quiet()
+    );
+}
+
+#[test]
 fn proximity_values_follow_the_curve() {
     // Number 5 looks to the left from 0.031 m beside the middle: 1 cm of air before the wall.
     let robot = solo(&quiet(), 0.5 - 0.041, -90.0);

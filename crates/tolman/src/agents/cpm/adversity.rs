@@ -83,7 +83,7 @@ fn search<B: Body>(body: B, width: f64) -> Result<(Episode, bool), AgentError<B:
     };
     let walker = WalkerConfig {
         longest_fragment: 150,
-        ..walker_config(width).unwrap()
+        ..walker_config(&epuck(), width).unwrap()
     };
     let mut agent = Cpm::begin(Walker::new(body, walker), &PATTERNS, config)?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);

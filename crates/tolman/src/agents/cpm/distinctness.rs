@@ -51,7 +51,7 @@ pub fn distinctness(
     patterns: &CommonPatterns,
     seeds: impl IntoIterator<Item = u64>,
 ) -> Result<Distinctness, TrialError> {
-    let config = walker_config(corridor_width)?;
+    let config = walker_config(&epuck(), corridor_width)?;
     let mut walks = Vec::new();
     for seed in seeds {
         let walked = survey(maze, &epuck(), &config, seed)?;

@@ -40,7 +40,7 @@ pub use fragments::{TrueFragments, Way};
 pub use layout::{Course, Fit, Layout, OpenPort};
 pub use map_file::{MapFile, MapFileError, System};
 pub use put_down::{KnownMaze, PutDown, PutDownRecord};
-pub use robot::{epuck, soinn, walker_config};
+pub use robot::{epuck, idealized_epuck, slow_epuck, soinn, walker_config};
 pub use round_trip::RoundTrip;
 pub use score::Closures;
 pub use survey::{Surveyed, survey};

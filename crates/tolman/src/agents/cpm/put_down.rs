@@ -111,7 +111,7 @@ impl PutDown<'_> {
         let (start, way) = (spot.pose(&world), spot.way);
         let robot = Epuck::new(self.robot.clone())?;
         let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, self.seed)?;
-        let mut walker = Walker::new(body, walker_config(self.corridor_width)?);
+        let mut walker = Walker::new(body, walker_config(&self.robot, self.corridor_width)?);
         let maps: Vec<CpMap> = self.known.iter().map(|known| known.map.clone()).collect();
         // The ways that it came by to each place.
         let begun = match self.approach {

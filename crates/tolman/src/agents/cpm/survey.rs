@@ -82,7 +82,7 @@ mod tests {
             include_str!("../../../../../mazes/cpm-3.maze"),
         ] {
             let maze = tolman_maze::read(text).unwrap().maze;
-            let config = walker_config(0.25).unwrap();
+            let config = walker_config(&epuck(), 0.25).unwrap();
             for walk in survey(&maze, &epuck(), &config, 4).unwrap() {
                 assert_eq!(walk.to, Some(walk.way.to), "from {:?}", walk.from);
                 let degree = maze.degree(walk.way.to) as u32;
@@ -107,7 +107,7 @@ mod tests {
             | S |               |\n\
             o---o---o---o---o---o\n";
         let maze = tolman_maze::read(text).unwrap().maze;
-        let config = walker_config(0.25).unwrap();
+        let config = walker_config(&epuck(), 0.25).unwrap();
         let world = Arc::new(world_of(&maze, 0.25).unwrap());
         let fragments = TrueFragments::of(&maze);
         for (from, out, way) in fragments.ways() {

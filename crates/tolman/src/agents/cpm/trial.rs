@@ -119,7 +119,7 @@ const OBSERVATIONS: usize = 1000;
 /// # Errors
 /// [`TrialError`].
 pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatterns, TrialError> {
-    let config = walker_config(corridor_width)?;
+    let config = walker_config(&epuck(), corridor_width)?;
     let body = placed(maze, corridor_width, epuck(), seed)?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut walker = Walker::new(body, config);
@@ -166,7 +166,7 @@ impl Trial<'_> {
 
     /// The robot at the start.
     pub(super) fn set_up(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
-        let mut config = walker_config(self.corridor_width)?;
+        let mut config = walker_config(&self.robot, self.corridor_width)?;
         if let Mode::Reckoned(_) = self.mode {
             config.heading = HeadingBy::Walls;
         }

@@ -192,7 +192,7 @@ impl EpuckRover {
     ) -> Result<Self, EpuckSurveyError> {
         let body = placed(maze, corridor_width, epuck(), seed)?;
         let ahead = body.truth().pose.heading;
-        let mut walker_config = walker_config(corridor_width)?;
+        let mut walker_config = walker_config(&epuck(), corridor_width)?;
         walker_config.heading = HeadingBy::Walls;
         let mut rover = Self {
             walker: Walker::new(body, walker_config),

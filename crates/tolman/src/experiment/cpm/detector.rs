@@ -215,7 +215,7 @@ fn sweep_all(
             None => {
                 let robot = Epuck::new(epuck())?;
                 let body = SimulatedEpuck::new(Arc::clone(&world), robot, pose, seed)?;
-                let config = walker_config(venue.corridor_width)?.pilot;
+                let config = walker_config(&epuck(), venue.corridor_width)?.pilot;
                 pilot.insert(Pilot::new(body, config))
             }
         };
@@ -230,7 +230,7 @@ fn sweep_all(
 
 /// The robot walks every fragment both ways; what is told of the place at its end counts, and a place that it does not come to is missed.
 fn walk(venue: &Venue, seed: u64, tally: &mut Tally) -> Result<(), BoxError> {
-    let config = walker_config(venue.corridor_width)?;
+    let config = walker_config(&epuck(), venue.corridor_width)?;
     for walk in survey(&venue.maze, &epuck(), &config, seed)? {
         let degree = |cell| venue.maze.degree(cell);
         tally.told(walk.sighting.degree as usize, walk.to.map_or(0, degree));
