@@ -4,7 +4,7 @@ use core::cell::Cell;
 
 use tolman_geom::{Interval, PointBox};
 
-use super::map::{End, Fragment, FragmentId, JunctionId, Port, Sign};
+use super::map::{End, Fragment, FragmentId, Junction, JunctionId, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
 use super::similarity::Sense;
@@ -126,7 +126,8 @@ impl Hypothesis {
     ) -> Option<Self> {
         let map = &self.mapper.map;
         let arrival = map.beyond(exit)?;
-        if map.junction(arrival.junction)?.sighting() != walk.sighting {
+        let place = map.junction(arrival.junction)?;
+        if place.sighting() != walk.sighting {
             return None;
         }
         let fragment = map.fragment(end.fragment)?;
@@ -135,7 +136,7 @@ impl Hypothesis {
         let gain = judge.evidence(fragment, &walk.patterns, sense)
             + self.motion_evidence(fragment.motion, motion)?;
         let mut next = self.clone();
-        next.cost -= gain;
+        next.cost += bearings_cost(place, arrival.number, walk) - gain;
         next.mapper.at = arrival;
         next.mapper.confirm(end, walk);
         Some(next)
@@ -167,7 +168,7 @@ impl Hypothesis {
                     continue;
                 };
                 let mut next = self.clone();
-                next.cost += bearing + choices - gain;
+                next.cost += bearing + choices + bearings_cost(place, number, walk) - gain;
                 let patterns = walk.patterns.clone();
                 next.mapper
                     .map
@@ -302,6 +303,12 @@ impl Comparison<'_> {
     }
 }
 
+/// What it costs to believe that ways which a robot has seen, having come by a port, are those of a place.
+fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
+    let off = place.apart(port, walk.bearings.as_ref()) / OFF;
+    (0.5 * off * off).min(MOST_EVIDENCE)
+}
+
 /// How much more likely two places are to be within a box of each other if they are one than if they are any two: the
 /// area in which one is expected, over that of the box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
@@ -311,6 +318,9 @@ fn coincidence(apart: PointBox, area: f64) -> f64 {
 
 /// No two places are nearer to each other, m: it is less than the width of any robot that could tell them apart.
 const LEAST_APART: f64 = 0.05;
+
+/// How far bearings are off that are seen from the middle of a place, rad.
+const OFF: f64 = 0.35;
 
 /// What a new place costs: a map with fewer is simpler.
 const NEW_PLACE: f64 = 1.0;

@@ -115,6 +115,14 @@ impl Junction {
         Some(self.bearings.as_ref()?.counted_from(port))
     }
 
+    /// By how much ways lead into other directions than those that a robot has seen which came by a port, rad; 0 if nobody has looked or
+    /// there are not as many.
+    pub(super) fn apart(&self, port: u32, seen: Option<&Bearings>) -> f64 {
+        let known = self.bearings_from(port);
+        let apart = known.zip(seen).and_then(|(known, seen)| known.apart(seen));
+        apart.unwrap_or(0.0)
+    }
+
     /// Takes in what a robot has seen that came by a port, if that was not known.
     pub(super) fn notice(&mut self, port: u32, seen: Option<&Bearings>) {
         let degree = self.degree().max(1);

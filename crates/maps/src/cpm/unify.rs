@@ -13,7 +13,7 @@ pub enum Conflict {
     /// A fragment is not there.
     #[error("fragment {} is not in the map", .0.0)]
     NoSuchFragment(FragmentId),
-    /// Two junctions would be one that have another number of ports or another landmark.
+    /// Two junctions would be one that have another number of ports, other bearings or another landmark.
     #[error("junctions {} and {} would be one, and differ in their ports or landmarks", .0.0, .1.0)]
     Unlike(JunctionId, JunctionId),
     /// A junction would be itself, turned.
@@ -26,6 +26,10 @@ pub enum Conflict {
     #[error("fragments {} and {} would be one, and are not similar", .0.0, .1.0)]
     Dissimilar(FragmentId, FragmentId),
 }
+
+/// Ways of one place are not seen so far apart from each other, rad: less than a quarter of a circle, by which those of a side way seen from its three
+/// ends differ.
+const MOST_APART: f64 = 1.0;
 
 /// Which fragments and junctions have become which.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -192,6 +196,9 @@ impl Unification {
         let offset = (kept.number + degree - gone.number) % degree;
         let merged = (kept.junction, offset, degree);
         self.merges.junctions.insert(gone.junction, merged);
+        if survivor.apart(offset, absorbed.bearings.as_ref()) > MOST_APART {
+            return Err(unlike);
+        }
         survivor.notice(offset, absorbed.bearings.as_ref());
         for (number, new) in (0..).zip(absorbed.ports) {
             let number: u32 = (number + offset) % degree;

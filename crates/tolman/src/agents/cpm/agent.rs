@@ -2,8 +2,8 @@ use rand::Rng;
 use thiserror::Error;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Aim, Arrival, CpMap, CpmConfig, CpmError, Decision, Done, Explorer, Junction, Landmark, Leg,
-    Motion, Plan, Port, Sighting, Traversal,
+    Aim, Arrival, Bearings, CpMap, CpmConfig, CpmError, Decision, Done, Explorer, Junction,
+    Landmark, Leg, Motion, Plan, Port, Sighting, Traversal,
 };
 
 use super::body::Body;
@@ -164,7 +164,7 @@ impl<'a, B: Body> Cpm<'a, B> {
                         patterns: self.patterns.patterns(observations),
                         motion: self.motion(from)?,
                         sighting: *sighting,
-                        bearings: self.walker.bearings(),
+                        bearings: self.bearings(),
                     };
                     let dictionary = self.patterns.dictionary();
                     let arrival = self.explorer.arrive(leg.turn, &traversal, dictionary)?;
@@ -185,6 +185,14 @@ impl<'a, B: Body> Cpm<'a, B> {
             see(self, &step);
         };
         Ok(begun.ended(done, &self.walker))
+    }
+
+    /// Where the ways lead from where the robot is; none for the paper's, which numbers them and no more.
+    fn bearings(&self) -> Option<Bearings> {
+        match self.walker.config().heading {
+            HeadingBy::Encoders => None,
+            HeadingBy::Walls => self.walker.bearings(),
+        }
     }
 
     /// What dead reckoning says of the walk from one place to where the robot is now; none if it is not trusted, as in the paper.
