@@ -247,8 +247,10 @@ pub enum SerialError {
         "the e-puck does not answer in time: check that it is switched on and the port's time-out"
     )]
     TimedOut,
-    /// The port is closed.
-    #[error("the port was closed: connect to the e-puck again")]
+    /// The port is closed, or a device file gave nothing within its time-out.
+    #[error(
+        "the port gives nothing more: check that the e-puck is switched on, and connect to it again"
+    )]
     Closed,
     /// The port failed.
     #[error("the port failed: {0:?}")]

@@ -108,6 +108,67 @@ impl Body for SimulatedEpuck {
     }
 }
 
+/// Any e-puck, and who tells whether it stands at a landmark: the real one has no sensor for that, so that a camera above the maze, a mark on the
+/// floor, or whoever watches must.
+#[derive(Clone, Debug)]
+pub struct Landmarked<R, F> {
+    robot: R,
+    landmark: F,
+}
+
+impl<R, F> Landmarked<R, F>
+where
+    R: Robot<Command = WheelSpeeds, Sensing = EpuckSensing>,
+    F: Fn(&R) -> Option<Landmark>,
+{
+    /// A robot whose landmark `landmark` tells. It is asked after every half second of path, while the robot stands.
+    pub const fn new(robot: R, landmark: F) -> Self {
+        Self { robot, landmark }
+    }
+
+    /// The robot.
+    pub const fn robot(&self) -> &R {
+        &self.robot
+    }
+
+    /// The robot, to be driven by hand.
+    pub const fn robot_mut(&mut self) -> &mut R {
+        &mut self.robot
+    }
+
+    /// Gives the robot back.
+    pub fn into_robot(self) -> R {
+        self.robot
+    }
+}
+
+impl<R, F> Robot for Landmarked<R, F>
+where
+    R: Robot<Command = WheelSpeeds, Sensing = EpuckSensing>,
+{
+    type Command = WheelSpeeds;
+    type Sensing = EpuckSensing;
+    type Error = R::Error;
+
+    fn sensing(&self) -> &EpuckSensing {
+        self.robot.sensing()
+    }
+
+    fn step(&mut self, command: &WheelSpeeds) -> Result<(), R::Error> {
+        self.robot.step(command)
+    }
+}
+
+impl<R, F> Body for Landmarked<R, F>
+where
+    R: Robot<Command = WheelSpeeds, Sensing = EpuckSensing>,
+    F: Fn(&R) -> Option<Landmark>,
+{
+    fn landmark(&self) -> Option<Landmark> {
+        (self.landmark)(&self.robot)
+    }
+}
+
 /// A body with dead reckoning by its encoders.
 #[derive(Debug)]
 pub struct Reckoned<B> {

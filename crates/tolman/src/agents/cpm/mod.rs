@@ -7,6 +7,52 @@
 //! [`TrueFragments`]. An [`Errand`] is one episode, of which a [`MapFile`] can be kept; a [`Layout`] says where the parts of a map lie.
 //! [`find_out`] is how a robot that was put down somewhere learns where it is, [`PutDown`] a trial of it; a
 //! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again.
+//!
+//! # On a real robot
+//!
+//! Layers, dictionary and map are written against [`Body`], which any e-puck is that is [`Landmarked`]: so is that behind the serial driver of
+//! `tolman-robot` (feature `epuck-serial`). What to measure first: the response curve of its sensors, from which `walker_config` makes ranges; a
+//! time step in which four lines and their answers have room, which says how fast it sweeps as well. The thresholds of
+//! [`SegmentConfig`](tolman_control::epuck::SegmentConfig) are values of sensors that see 25 cm, as the paper's simulated ones; those of other
+//! sensors, and corridors as wide as they see, are to be found out. All this was tried on a simulated firmware, never on a robot.
+//!
+//! ```no_run
+//! use std::fs::File;
+//! use std::thread::sleep;
+//! use std::time::{Duration, Instant};
+//!
+//! use rand::SeedableRng;
+//! use rand_chacha::ChaCha8Rng;
+//! use tolman::agents::cpm::{CommonPatterns, Cpm, Landmarked, Walker, slow_epuck, soinn, walker_config, wander};
+//! use tolman_control::epuck::TURN_STEP;
+//! use tolman_maps::cpm::{Aim, CpmConfig, Landmark};
+//! use tolman_robot::epuck_serial::SerialEpuck;
+//!
+//! # fn goal_is_seen() -> bool { false }
+//! // Paired and bound to a device file, with a time-out: `stty -F /dev/rfcomm0 115200 raw -echo min 0 time 10`.
+//! let port = File::options().read(true).write(true).open("/dev/rfcomm0")?;
+//! let described = slow_epuck(); // with the `response` and the `step_us` of this robot
+//! let mut config = walker_config(&described, 0.25)?;
+//! config.pilot.turn_tolerance = TURN_STEP;
+//!
+//! // A step ends so long after the one before.
+//! let mut passed = Instant::now();
+//! let wait = |step: Duration| {
+//!     sleep((passed + step).saturating_duration_since(Instant::now()));
+//!     passed = Instant::now();
+//! };
+//! let robot = SerialEpuck::open(port, described.step_us, wait)?;
+//! let body = Landmarked::new(robot, |_| goal_is_seen().then_some(Landmark::Goal));
+//! let mut walker = Walker::new(body, config);
+//!
+//! // In the learning maze; then somebody carries it to the start of another.
+//! let mut rng = ChaCha8Rng::seed_from_u64(1);
+//! let patterns = CommonPatterns::learn(&wander(&mut walker, 1000, &mut rng)?, soinn())?;
+//! let mut agent = Cpm::begin(walker, &patterns, CpmConfig::online())?;
+//! let episode = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
+//! println!("{:?} after {:.0} s", episode.done, episode.seconds);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(test)]
 mod adversity;
@@ -30,9 +76,11 @@ mod trial;
 mod venue;
 mod walker;
 mod whereabouts;
+#[cfg(test)]
+mod wire;
 
 pub use agent::{AgentError, Cpm, Episode, Step};
-pub use body::{Body, Reckoned, SimulatedEpuck};
+pub use body::{Body, Landmarked, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, wander};
 pub use distinctness::{Distinctness, Pair, distinctness};
 pub use errand::Errand;
