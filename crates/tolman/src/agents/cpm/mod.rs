@@ -66,6 +66,7 @@ mod fragments;
 mod known_map;
 mod layout;
 mod map_file;
+mod map_right;
 mod put_down;
 mod robot;
 mod round_trip;

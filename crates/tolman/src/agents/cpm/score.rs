@@ -10,6 +10,7 @@ use super::agent::{Cpm, Step};
 use super::body::SimulatedEpuck;
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
+use super::map_right::is_map_right;
 use super::walker::Walk;
 
 /// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or place that was.
@@ -225,6 +226,12 @@ impl<'a> Score<'a> {
             wrong: self.wrong.len() as u32,
             missed: open,
         }
+    }
+
+    /// Whether a map is that of what was walked: each thing once, and joined as it is.
+    pub(super) fn is_map_right(&self, map: &CpMap, maze: &Maze) -> bool {
+        let walked = self.lengths.keys().copied().collect();
+        is_map_right(map, maze, &self.fragments, &walked)
     }
 
     /// The length of the shortest way from start to goal over the fragments that were walked, by observations.

@@ -69,6 +69,9 @@ pub struct Record {
     pub is_shortest_known: bool,
     /// Whether it was as short as any over the fragments that were walked as they truly lie, which nothing need tell the robot.
     pub is_shortest_as_it_lies: bool,
+    /// Whether the map by which the second episode is planned is right: each place and fragment where the robot has been is on it once, and all are
+    /// joined as they truly are.
+    pub is_map_right: bool,
     /// How well loops were closed.
     pub closures: Closures,
     /// Fragments walked in the first episode, each as often as it was.
@@ -234,6 +237,7 @@ impl Trial<'_> {
         record.truth = score.truth.clone();
         record.first = Some(first?);
         agent.optimize()?;
+        record.is_map_right = score.is_map_right(agent.explorer().map(), self.maze);
         record.second_from = agent.walker().body().path().len();
         agent.walker_mut().body_mut().place(start)?;
         agent.placed_at_start()?;
@@ -347,6 +351,7 @@ pub(super) mod tests {
         let maze = read(include_str!("../../../../../mazes/cpm-1.maze"));
         let record = play(&maze, epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
+        assert!(record.is_map_right);
         assert!(record.reduction_percent().unwrap() > 50.0);
         assert_eq!(record.bumps, 0);
         assert_eq!(record.path, play(&maze, epuck()).path);
@@ -401,6 +406,7 @@ pub(super) mod tests {
             let closures = record.closures;
             assert_eq!((closures.right, closures.wrong), (0, 0));
             assert_eq!(closures.missed, record.fragments - record.true_fragments);
+            assert!(closures.missed == 0 || !record.is_map_right);
             missed += closures.missed;
         }
         assert!(missed > 0);

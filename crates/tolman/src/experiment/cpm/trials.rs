@@ -32,6 +32,25 @@ const LONG: f64 = 10.0;
 pub(super) struct Trials {
     pub(super) table: Table,
     settings: Vec<Setting>,
+    solution: Solution,
+}
+
+/// What makes a trial solved.
+#[derive(Clone, Copy, Debug)]
+enum Solution {
+    /// The goal was found, and found again by a way as short as any that could be known.
+    Way,
+    /// That, and the map is right.
+    WayAndMap,
+}
+
+impl Solution {
+    fn is_of(self, record: &Record) -> bool {
+        match self {
+            Self::Way => record.is_solved(),
+            Self::WayAndMap => record.is_solved() && record.is_map_right,
+        }
+    }
 }
 
 /// What a row tries.
@@ -70,6 +89,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
     ))
     .metric(Metric::percent("solved_percent", "solved"))
     .metric(as_it_lies())
+    .metric(map_right())
     .metric(
         Metric::least("reduction_min_percent", "reduction")
             .titled("least reduction")
@@ -90,6 +110,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
     .note(format!(
         "Solved: the goal was found, and found again by a way as short as any that could be known, where two visits are known to be of one \
          junction if a fragment was walked twice that ends there. As it lies: as short as any over the same fragments as they truly lie. \
+         Map right: each junction and fragment where the robot has been is on the map once, and all are joined as they truly are. \
          Reductions are of solved runs; long ones drove {LONG} times the shortest path or more in the first episode. A run without a loop has \
          precision and recall 1. The paper's robot needs no more than two episodes either."
     ));
@@ -114,6 +135,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
     Trials {
         table: with_rows(table, &settings, row),
         settings,
+        solution: Solution::Way,
     }
 }
 
@@ -146,6 +168,7 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
     Trials {
         table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
         settings,
+        solution: Solution::Way,
     }
 }
 
@@ -158,16 +181,22 @@ pub(super) fn aliased(quick: bool) -> Trials {
     }];
     let table = fields(Table::new(ALIASED, "Mazes with fragments that look alike"))
         .metric(Metric::percent("solved_percent", "solved"))
+        .metric(map_right())
         .metric(as_it_lies())
         .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
         .metric(Metric::mean("closure_recall").titled("recall"))
-        .note("One random maze a run, which the paper's robot cannot tell its way in.");
+        .note(
+            "One random maze a run, which the paper's robot cannot tell its way in. Solved: the goal was found, and found again by a way as short \
+             as any that could be known, and the map is right: each junction and fragment where the robot has been is on it once, and all are \
+             joined as they truly are. As it lies: the goal was found again by a way as short as any over the same fragments as they truly lie.",
+        );
     let mazes = if quick { ALIASED_QUICK } else { ALIASED_MAZES };
     Trials {
         table: with_rows(table, &settings, |setting| {
             Row::new(&setting.row).runs(mazes)
         }),
         settings,
+        solution: Solution::WayAndMap,
     }
 }
 
@@ -176,6 +205,11 @@ fn with_rows(mut table: Table, settings: &[Setting], row: impl Fn(&Setting) -> R
         table = table.row(row(setting));
     }
     table
+}
+
+/// Whether a thing is on the map once, and where it is.
+fn map_right() -> Metric {
+    Metric::percent("map_right_percent", "map_right").titled("map right")
 }
 
 /// The stricter yardstick.
@@ -196,6 +230,7 @@ fn fields(table: Table) -> Table {
     table
         .field("solved", Kind::Flag)
         .field("shortest_as_it_lies", Kind::Flag)
+        .field("map_right", Kind::Flag)
         .optional_field("reduction", Kind::Number)
         .field("long", Kind::Flag)
         .optional_field("reduction_long", Kind::Number)
@@ -236,7 +271,7 @@ impl Trials {
     pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (venue, mode) = self.cast(job)?;
         let record = trial(&venue, patterns, mode, job.seed).play()?;
-        measured(&venue, &record)
+        measured(&venue, &record, self.solution)
     }
 }
 
@@ -257,14 +292,16 @@ pub(super) fn trial<'a>(
     }
 }
 
-fn measured(venue: &Venue, record: &Record) -> Result<Fields, BoxError> {
+fn measured(venue: &Venue, record: &Record, solution: Solution) -> Result<Fields, BoxError> {
     let closures = record.closures;
+    let is_solved = solution.is_of(record);
     let mut fields = Fields::new()
-        .flag("solved", record.is_solved())
+        .flag("solved", is_solved)
         .flag(
             "shortest_as_it_lies",
             record.is_solved() && record.is_shortest_as_it_lies,
         )
+        .flag("map_right", record.is_map_right)
         .number("closure_precision", share(closures.right, closures.wrong))
         .number("closure_recall", share(closures.right, closures.missed))
         .count("traversals", record.traversals.into())
@@ -273,10 +310,9 @@ fn measured(venue: &Venue, record: &Record) -> Result<Fields, BoxError> {
         .count("contradictions", record.contradictions.into())
         .count("bumps", record.bumps.into());
     let shortest = venue.shortest_metres();
-    let is_long =
-        record.is_solved() && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
+    let is_long = is_solved && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
     fields = fields.flag("long", is_long);
-    if let Some(reduction) = record.reduction_percent() {
+    if let Some(reduction) = record.reduction_percent().filter(|_| is_solved) {
         fields = fields.number("reduction", reduction);
         if is_long {
             fields = fields.number("reduction_long", reduction);
@@ -394,6 +430,7 @@ mod tests {
         Fields::new()
             .flag("solved", true)
             .flag("shortest_as_it_lies", true)
+            .flag("map_right", true)
             .number("closure_precision", 1.0)
             .number("closure_recall", 0.5)
             .number("seconds_1", 200.0)
