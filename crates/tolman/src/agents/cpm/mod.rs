@@ -57,6 +57,7 @@
 #[cfg(test)]
 mod adversity;
 mod agent;
+mod bends;
 mod body;
 mod common_patterns;
 mod distinctness;
@@ -81,6 +82,7 @@ mod whereabouts;
 mod wire;
 
 pub use agent::{AgentError, Cpm, Episode, Step};
+pub use bends::Likeness;
 pub use body::{Body, Landmarked, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, wander};
 pub use distinctness::{Distinctness, Pair, distinctness};

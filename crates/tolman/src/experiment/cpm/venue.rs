@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use rand::{RngExt, SeedableRng};
+use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Direction, Perfect};
 
 use super::trials::BETTER;
-use crate::agents::cpm::Venue;
+use crate::agents::cpm::{Likeness, Venue};
 use crate::experiment::{BoxError, maze_file};
 
 /// Cells along each side of an aliased maze.
@@ -54,15 +54,24 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
 }
 
 /// A random maze whose fragments are short and alike, without rooms: a way behind every other dead end opened, start in the south-west,
-/// goal in the dead end farthest from it.
+/// goal in the dead end farthest from it. Drawn again until two fragments of it bend alike.
 pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    loop {
+        let venue = braided(&mut rng)?;
+        if Likeness::of(&venue.maze).alike_pairs > 0 {
+            return Ok(venue);
+        }
+    }
+}
+
+fn braided(rng: &mut impl Rng) -> Result<Venue, BoxError> {
     let side = ALIASED_SIDE;
     let mut maze = Perfect {
         width: side,
         height: side,
     }
-    .generate(&mut rng)?;
+    .generate(rng)?;
     let start = Cell::new(0, 0);
     let dead_ends: Vec<Cell> = maze.dead_ends().filter(|cell| *cell != start).collect();
     for cell in dead_ends.into_iter().step_by(2) {
