@@ -151,6 +151,12 @@ impl TrueFragments {
         Some(driven)
     }
 
+    /// How many there are.
+    pub(super) fn count(&self) -> u32 {
+        let forward = self.ways.values().filter(|way| way.is_forward);
+        forward.count() as u32
+    }
+
     /// All ways out of all places: the place, the direction in which one leaves it, and the way.
     pub fn ways(&self) -> impl Iterator<Item = (Cell, Direction, Way)> + '_ {
         let ways = self.ways.iter();

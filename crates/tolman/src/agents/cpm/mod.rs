@@ -5,7 +5,7 @@
 //! observations (sections 3.2 and 4.1); [`CommonPatterns`] the dictionary it learns in the learning maze (section 4.1); [`Cpm`] layer 3, which maps,
 //! reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6). A [`Trial`] plays both episodes in the maze of a [`Venue`] and scores them by its
 //! [`TrueFragments`]. An [`Errand`] is one episode, of which a [`MapFile`] can be kept; a [`Layout`] says where the parts of a map lie.
-//! [`find_out`] is how a robot that was put down somewhere learns where it is, [`PutDown`] a trial of it; a
+//! An [`Exploration`] is a maze walked to its end. [`find_out`] is how a robot that was put down somewhere learns where it is, [`PutDown`] a trial of it; a
 //! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again.
 //!
 //! # On a real robot
@@ -63,6 +63,7 @@ mod common_patterns;
 mod distinctness;
 pub mod drawing;
 mod errand;
+mod exploration;
 mod fragments;
 mod known_map;
 mod layout;
@@ -87,6 +88,7 @@ pub use body::{Body, Landmarked, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, wander};
 pub use distinctness::{Distinctness, Pair, distinctness};
 pub use errand::Errand;
+pub use exploration::Exploration;
 pub use fragments::{TrueFragments, Way};
 pub use layout::{Course, Fit, Layout, OpenPort};
 pub use map_file::{MapFile, MapFileError, System};

@@ -273,6 +273,9 @@ pub enum TrialError {
     /// The robot cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
+    /// The maze makes no graph of places.
+    #[error(transparent)]
+    Graph(#[from] tolman_maps::cpm::world::WorldError),
     /// A fragment was not walked from end to end.
     #[error(
         "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",

@@ -5,6 +5,7 @@
 mod detector;
 mod dictionary;
 mod episodes;
+mod explored;
 mod figures;
 mod localization;
 mod places;
@@ -23,6 +24,7 @@ use crate::replay::Replay;
 use detector::DETECTOR;
 use dictionary::DICTIONARY;
 use episodes::EPISODES;
+use explored::{EXPLORED, Explored};
 use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::FIGURE_11;
@@ -37,6 +39,7 @@ struct Cpm {
     /// What the robot learned in the learning maze.
     patterns: CommonPatterns,
     trials: Vec<Trials>,
+    explored: Explored,
     /// What the robot learned of the venues.
     known: Known,
     master_seed: u64,
@@ -58,6 +61,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     let patterns = learn(&learning.maze, learning.corridor_width, options.seed)?;
     let mut trials = vec![trials::figure_9(&venues, papers), trials::offline(&venues)];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
+    let explored = explored::explored(&venues, papers);
+    tables.push(explored.table.clone());
     tables.push(episodes::table(&venues));
     tables.push(places::table(&venues));
     if papers {
@@ -75,6 +80,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         learning,
         patterns,
         trials,
+        explored,
         known: Known::default(),
         master_seed: options.seed,
         tables,
@@ -148,6 +154,11 @@ impl Experiment for Cpm {
             }
             config.insert(trials.table.name.clone(), rows.into());
         }
+        let mut rows = toml::Table::new();
+        for (row, mode) in self.explored.modes() {
+            rows.insert(row.into(), format!("{mode:?}").into());
+        }
+        config.insert(EXPLORED.into(), rows.into());
         let learner = format!("{:?}", QLearningConfig::usual());
         config.insert("q_learning".into(), learner.into());
         config.insert("places".into(), places::config().into());
@@ -171,6 +182,7 @@ impl Experiment for Cpm {
                 let known = &self.known;
                 known.run(&self.venues, &self.patterns, self.master_seed, job)
             }
+            EXPLORED => self.explored.run(&self.patterns, job),
             EPISODES => episodes::run(self.venue(job.row)?, &self.patterns, job),
             PLACES => places::run(self.venue(job.row)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
@@ -185,6 +197,7 @@ impl Experiment for Cpm {
     fn check(&self, run: &Run) -> Result<(), BoxError> {
         match run.table.as_str() {
             FIGURE_11 => real::check(run),
+            EXPLORED => explored::check(run),
             EPISODES => episodes::check(run),
             LOCALIZATION => localization::check(run),
             PLACES => places::check(run),

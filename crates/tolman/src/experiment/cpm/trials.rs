@@ -55,15 +55,15 @@ impl Solution {
 
 /// What a row tries.
 #[derive(Debug)]
-struct Setting {
-    row: String,
-    place: Place,
-    mode: Mode,
+pub(super) struct Setting {
+    pub(super) row: String,
+    pub(super) place: Place,
+    pub(super) mode: Mode,
 }
 
 /// Where a row's robot runs.
 #[derive(Debug)]
-enum Place {
+pub(super) enum Place {
     /// In one maze.
     Maze(Venue),
     /// In another maze each run.
@@ -82,7 +82,7 @@ pub(super) fn better() -> Mode {
 
 /// Figure 9; `papers`: the mazes are the paper's.
 pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
-    let mut settings = Vec::new();
+    let settings = in_both_modes(venues);
     let table = fields(Table::new(
         FIGURE_9,
         "Time from the first to the second episode",
@@ -114,15 +114,6 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
          Reductions are of solved runs; long ones drove {LONG} times the shortest path or more in the first episode. A run without a loop has \
          precision and recall 1. The paper's robot needs no more than two episodes either."
     ));
-    for venue in venues {
-        for (suffix, mode) in [("", faithful()), (BETTER, better())] {
-            settings.push(Setting {
-                row: format!("{}{suffix}", venue.name),
-                place: Place::Maze(venue.clone()),
-                mode,
-            });
-        }
-    }
     let row = |setting: &Setting| {
         let row = Row::new(&setting.row);
         // The paper has no better system than its own.
@@ -136,6 +127,21 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
         table: with_rows(table, &settings, row),
         settings,
         solution: Solution::Way,
+    }
+}
+
+/// Each maze with the paper's system and with ours.
+pub(super) fn in_both_modes(venues: &[Venue]) -> Vec<Setting> {
+    let modes = [("", faithful()), (BETTER, better())];
+    let each = |venue| modes.map(|(suffix, mode)| setting_in(venue, suffix, mode));
+    venues.iter().flat_map(each).collect()
+}
+
+fn setting_in(venue: &Venue, suffix: &str, mode: Mode) -> Setting {
+    Setting {
+        row: format!("{}{suffix}", venue.name),
+        place: Place::Maze(venue.clone()),
+        mode,
     }
 }
 
@@ -268,14 +274,7 @@ impl Trials {
 
     /// The maze and the way of mapping of a run.
     pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Venue, Mode), BoxError> {
-        let mut settings = self.settings.iter();
-        let setting = settings.find(|setting| setting.row == job.row);
-        let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-        let venue = match &setting.place {
-            Place::Maze(venue) => venue.clone(),
-            Place::Aliased => venue::aliased(job.seed)?,
-        };
-        Ok((venue, setting.mode))
+        cast(&self.settings, job)
     }
 
     /// Plays a run.
@@ -292,6 +291,18 @@ impl Trials {
             .count("alike_pairs", likeness.alike_pairs.into())
             .count("symmetrical", likeness.symmetrical.into()))
     }
+}
+
+/// The maze and the way of mapping of a run in one of these rows.
+pub(super) fn cast(settings: &[Setting], job: &Job<'_>) -> Result<(Venue, Mode), BoxError> {
+    let mut settings = settings.iter();
+    let setting = settings.find(|setting| setting.row == job.row);
+    let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+    let venue = match &setting.place {
+        Place::Maze(venue) => venue.clone(),
+        Place::Aliased => venue::aliased(job.seed)?,
+    };
+    Ok((venue, setting.mode))
 }
 
 /// A trial of the paper's robot.
