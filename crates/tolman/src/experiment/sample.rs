@@ -137,24 +137,27 @@ impl Sample {
 
     /// The standard deviation of two numbers or more.
     pub(super) fn sd(&self) -> Option<f64> {
-        match self {
-            Self::Numbers { numbers, .. } => stats::standard_deviation(numbers).ok(),
-            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
-        }
+        stats::standard_deviation(self.spread()?).ok()
     }
 
     /// The mean of numbers.
     pub(super) fn mean(&self) -> Option<f64> {
-        match self {
-            Self::Numbers { numbers, .. } => stats::mean(numbers).ok(),
-            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
-        }
+        stats::mean(self.spread()?).ok()
     }
 
     /// The median of numbers.
     pub(super) fn median(&self) -> Option<f64> {
+        stats::quantile(self.spread()?, 0.5).ok()
+    }
+
+    /// The numbers whose spread says something of the value, which it does not of the least.
+    fn spread(&self) -> Option<&[f64]> {
         match self {
-            Self::Numbers { numbers, .. } => stats::quantile(numbers, 0.5).ok(),
+            Self::Numbers {
+                centre: Centre::Least,
+                ..
+            } => None,
+            Self::Numbers { numbers, .. } => Some(numbers),
             Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
         }
     }

@@ -106,19 +106,22 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
     .metric(Metric::mean("closure_recall").titled("recall"))
     .metric(Metric::mean("seconds_1").titled("episode 1").unit("s"))
     .metric(Metric::mean("seconds_2").titled("episode 2").unit("s"))
+    .metric(bumps())
     .paper_runs(10)
     .note(format!(
         "Solved: the goal was found, and found again by a way as short as any that could be known, where two visits are known to be of one \
          junction if a fragment was walked twice that ends there. As it lies: as short as any over the same fragments as they truly lie. \
          Map right: each junction and fragment where the robot has been is on the map once, and all are joined as they truly are. \
          Reductions are of solved runs; long ones drove {LONG} times the shortest path or more in the first episode. A run without a loop has \
-         precision and recall 1. The paper's robot needs no more than two episodes either."
+         precision and recall 1. In the paper the reduction is over 50 % in every trial, and up to 95 %. \
+         Its robot needs no more than two episodes either."
     ));
     let row = |setting: &Setting| {
         let row = Row::new(&setting.row);
         // The paper has no better system than its own.
         if papers && setting.mode == faithful() {
             row.paper("solved_percent", 100.0)
+                .paper("reduction_min_percent", 50.0)
         } else {
             row
         }
@@ -197,6 +200,7 @@ pub(super) fn aliased(quick: bool) -> Trials {
         .metric(as_it_lies())
         .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
         .metric(Metric::mean("closure_recall").titled("recall"))
+        .metric(bumps())
         .metric(Metric::mean("alike_pairs").titled("pairs alike"))
         .metric(Metric::mean("symmetrical"))
         .note(
@@ -227,6 +231,11 @@ fn with_rows(mut table: Table, settings: &[Setting], row: impl Fn(&Setting) -> R
 /// Whether a thing is on the map once, and where it is.
 fn map_right() -> Metric {
     Metric::percent("map_right_percent", "map_right").titled("map right")
+}
+
+/// Time steps in which the robot touched a wall.
+fn bumps() -> Metric {
+    Metric::mean("bumps").titled("steps at a wall")
 }
 
 /// The stricter yardstick.
