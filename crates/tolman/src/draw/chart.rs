@@ -26,6 +26,14 @@ pub struct Axis {
     spacing: Spacing,
     ends: Option<Interval>,
     from_zero: bool,
+    ticks: Ticks,
+}
+
+/// Where an axis may have labels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ticks {
+    Anywhere,
+    AtWholeNumbers,
 }
 
 impl Axis {
@@ -36,7 +44,15 @@ impl Axis {
             spacing: Spacing::Linear,
             ends: None,
             from_zero: false,
+            ticks: Ticks::Anywhere,
         }
+    }
+
+    /// Labels whole numbers alone, as of what is counted.
+    #[must_use]
+    pub const fn whole_numbers(mut self) -> Self {
+        self.ticks = Ticks::AtWholeNumbers;
+        self
     }
 
     /// An axis on which equal ratios are equally long, in whole powers of ten. Values that are not
@@ -71,6 +87,11 @@ impl Axis {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
                 (low.min(value), high.max(value))
             });
+        let steps = match self.ticks {
+            Ticks::Anywhere => steps,
+            // Steps of 1 or longer are whole numbers.
+            Ticks::AtWholeNumbers => steps.min((high - low).max(1.0)),
+        };
         match (self.ends, self.spacing) {
             (Some(Interval { low, high }), Spacing::Linear) => Scale::linear(low, high, steps),
             (Some(Interval { low, high }), Spacing::Log) => Scale::log(low, high),

@@ -7,6 +7,7 @@ use tolman_geom::Point;
 
 use super::Series;
 use super::number::tenths;
+use super::words;
 
 /// A graph to be drawn over a [`Plan`](super::Plan) or in a [`Chart`](super::Chart), each node at its
 /// coordinates.
@@ -38,6 +39,8 @@ pub struct Graph {
     pub edges: Vec<GraphEdge>,
     /// The radius of a node, user units.
     pub radius: f64,
+    /// Where signs of others stand, which the labels of nodes are not to cover.
+    pub signs: Vec<Point>,
 }
 
 /// One node.
@@ -101,6 +104,7 @@ impl Graph {
             nodes: Vec::new(),
             edges: Vec::new(),
             radius: 3.2,
+            signs: Vec::new(),
         }
     }
 
@@ -136,6 +140,9 @@ impl Graph {
                 @for node in self.nodes.iter().filter(|node| is_finite(node)) {
                     (self.node_markup(node, at(node.position)))
                 }
+                @for (label, (x, y)) in self.labels(at) {
+                    text class="label" x=(tenths(x)) y=(tenths(y)) { (label) }
+                }
                 @for (edge, [from, to]) in self.sound_edges().filter(|(edge, _)| !edge.label.is_empty()) {
                     @let (x, y) = beside(at(from), at(to));
                     text class="label quiet" text-anchor="middle" dominant-baseline="central"
@@ -160,10 +167,75 @@ impl Graph {
             } @else {
                 circle class=(class) cx=(tenths(x)) cy=(tenths(y)) r=(tenths(r)) { (note) }
             }
-            @if !node.label.is_empty() {
-                text class="label" x=(tenths(x + r + 2.0)) y=(tenths(y - r)) { (node.label) }
-            }
         }
+    }
+
+    /// The labels of nodes, each with where its text begins: beside its node, where it covers least of the nodes, the signs and the labels before it.
+    fn labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(&str, (f64, f64))> {
+        let labelled = self
+            .nodes
+            .iter()
+            .filter(|node| is_finite(node) && !node.label.is_empty());
+        let nodes = self.nodes.iter().filter(|node| is_finite(node));
+        let nodes = nodes.map(|node| Patch::about(at(node.position), self.radius, self.radius));
+        let signs = self
+            .signs
+            .iter()
+            .map(|sign| Patch::about(at(*sign), 5.0, 5.0));
+        // Without labels nothing is to be laid out.
+        let mut taken: Vec<Patch> = Vec::new();
+        if labelled.clone().next().is_some() {
+            taken.extend(nodes.chain(signs));
+            taken.extend(self.edge_labels(at));
+        }
+        let mut placed = Vec::new();
+        for node in labelled {
+            let width = words::width(&node.label) * LABEL;
+            let covered = |(x, y): (f64, f64)| {
+                let label = Patch::of_text(x, y, width);
+                taken.iter().map(|other| label.overlap(other)).sum::<f64>()
+            };
+            let mut best = (f64::INFINITY, (0.0, 0.0));
+            for place in self.beside_node(at(node.position), width) {
+                let covered = covered(place);
+                // Of equals the first.
+                if covered < best.0 {
+                    best = (covered, place);
+                }
+            }
+            let (_, (x, y)) = best;
+            taken.push(Patch::of_text(x, y, width));
+            placed.push((node.label.as_str(), (x, y)));
+        }
+        placed
+    }
+
+    /// Where the label of a node may begin, the best place first.
+    fn beside_node(&self, (x, y): (f64, f64), width: f64) -> [(f64, f64); 8] {
+        let gap = self.radius + 2.0;
+        let (east, west, middle) = (x + gap, x - gap - width, x - width / 2.0);
+        let (above, below) = (y - self.radius, y + self.radius + 8.0);
+        [
+            (east, above),
+            (east, below),
+            (west, above),
+            (west, below),
+            (middle, above - 3.0),
+            (middle, below + 3.0),
+            (east + 2.0, y + 3.5),
+            (west - 2.0, y + 3.5),
+        ]
+    }
+
+    fn edge_labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<Patch> {
+        let labelled = self
+            .sound_edges()
+            .filter(|(edge, _)| !edge.label.is_empty());
+        let patches = labelled.map(|(edge, [from, to])| {
+            let width = words::width(&edge.label) * LABEL;
+            Patch::about(beside(at(from), at(to)), width / 2.0, 5.0)
+        });
+        patches.collect()
     }
 
     /// One path for each class of edges, so that hundreds stay few elements.
@@ -233,6 +305,39 @@ impl Graph {
         self.edges
             .iter()
             .filter_map(move |edge| Some((edge, [place(edge.from)?, place(edge.to)?])))
+    }
+}
+
+/// The size of labels, as a share of that of other text.
+const LABEL: f64 = 0.85;
+
+/// A part of a drawing that something covers, user units.
+#[derive(Clone, Copy, Debug)]
+struct Patch {
+    x: (f64, f64),
+    y: (f64, f64),
+}
+
+impl Patch {
+    fn about((x, y): (f64, f64), half_width: f64, half_height: f64) -> Self {
+        Self {
+            x: (x - half_width, x + half_width),
+            y: (y - half_height, y + half_height),
+        }
+    }
+
+    /// A label that begins there, on its base line.
+    fn of_text(x: f64, y: f64, width: f64) -> Self {
+        Self {
+            x: (x, x + width),
+            y: (y - 8.0, y + 2.0),
+        }
+    }
+
+    /// The area that both cover.
+    fn overlap(&self, other: &Self) -> f64 {
+        let along = |a: (f64, f64), b: (f64, f64)| (a.1.min(b.1) - a.0.max(b.0)).max(0.0);
+        along(self.x, other.x) * along(self.y, other.y)
     }
 }
 
@@ -373,6 +478,28 @@ mod tests {
         }
         let svg = label(Point::new(0.0, 4.0));
         assert!(svg.contains("x=\"-9\" y=\"-20\">here"), "{svg}");
+    }
+
+    #[test]
+    fn labels_of_nodes_cover_neither_nodes_nor_signs_nor_each_other() {
+        let place = |graph: &Graph, label: &str| {
+            let at = |at: Point| (10.0 * at.x, -10.0 * at.y);
+            let labels = graph.labels(&at);
+            labels.iter().find(|placed| placed.0 == label).unwrap().1
+        };
+        let mut graph = Graph::new();
+        graph.node(GraphNode::at(Point::new(0.0, 0.0)).label("goal"));
+        assert_eq!(place(&graph, "goal"), (5.2, -3.2), "above, to the right");
+        graph.signs.push(Point::new(1.5, 0.7));
+        assert_eq!(place(&graph, "goal"), (5.2, 11.2), "below, to the right");
+        // A neighbour whose label would stand over that one.
+        graph.node(GraphNode::at(Point::new(0.2, -1.8)).label("A10"));
+        let (goal, next) = (place(&graph, "goal"), place(&graph, "A10"));
+        let patch = |(x, y)| Patch::of_text(x, y, 20.0);
+        assert!(
+            patch(goal).overlap(&patch(next)) <= 0.0,
+            "{goal:?} {next:?}"
+        );
     }
 
     #[test]

@@ -97,6 +97,7 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
             signs.push((beside(*last, *before, unit), sign_text(Sign::Plus)));
         }
     }
+    graph.signs = signs.iter().map(|(at, _)| *at).collect();
     for (id, junction) in map.junctions() {
         if let Some(cell) = layout.place(id) {
             add(

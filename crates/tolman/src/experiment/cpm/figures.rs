@@ -54,7 +54,10 @@ fn number_of(run: &Run, field: &str) -> Option<f64> {
 
 /// The paper's figure 9, panels (a) to (c): the seconds of both episodes by trial.
 fn times(row: &str, name: &str, runs: &[&Run]) -> Figure {
-    let mut chart = Chart::new(Axis::linear("trial"), Axis::linear("time, s").from_zero());
+    let mut chart = Chart::new(
+        Axis::linear("trial").whole_numbers(),
+        Axis::linear("time, s").from_zero(),
+    );
     for (series, field, label) in [(0, "seconds_1", "episode 1"), (1, "seconds_2", "episode 2")] {
         let point = |run: &&Run| {
             Some(LinePoint::new(
