@@ -1,20 +1,24 @@
+use alloc::borrow::Cow;
+
 use rand::Rng;
 use thiserror::Error;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
     Aim, Arrival, Bearings, CpMap, CpmConfig, CpmError, Decision, Done, Explorer, Junction,
-    Landmark, Leg, Motion, Plan, Port, Sighting, Traversal,
+    Landmark, Leg, Motion, PatternId, Plan, Port, Sighting, Traversal,
 };
 
 use super::body::Body;
 use super::common_patterns::CommonPatterns;
-use super::walker::{HeadingBy, Walk, WalkError, Walker};
+use super::walker::{HeadingBy, Observation, Walk, WalkError, Walker};
 
 /// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
 #[derive(Debug)]
 pub struct Cpm<'a, B: Body> {
     walker: Walker<B>,
-    patterns: &'a CommonPatterns,
+    patterns: Cow<'a, CommonPatterns>,
+    /// How far from all patterns an observation is that becomes one itself; none if all were learned before.
+    novelty: Option<f64>,
     explorer: Explorer,
 }
 
@@ -84,7 +88,27 @@ impl<'a, B: Body> Cpm<'a, B> {
         let start = walker.begin()?;
         Ok(Self {
             walker,
-            patterns,
+            patterns: Cow::Borrowed(patterns),
+            novelty: None,
+            explorer: Explorer::new(config, start)?,
+        })
+    }
+
+    /// A robot that has learned no patterns before: what it observes becomes one if it is so far from all that it knows (section 8, "the CPs
+    /// must be learned incrementally").
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn begin_unlearned(
+        mut walker: Walker<B>,
+        novelty: f64,
+        config: CpmConfig,
+    ) -> Result<Self, AgentError<B::Error>> {
+        let start = walker.begin()?;
+        Ok(Self {
+            walker,
+            patterns: Cow::Owned(CommonPatterns::none().map_err(CpmError::from)?),
+            novelty: Some(novelty),
             explorer: Explorer::new(config, start)?,
         })
     }
@@ -112,7 +136,8 @@ impl<'a, B: Body> Cpm<'a, B> {
         };
         Ok(Self {
             walker,
-            patterns,
+            patterns: Cow::Borrowed(patterns),
+            novelty: None,
             explorer: Explorer::resume(config, map, at)?,
         })
     }
@@ -125,6 +150,11 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// The lower layers, to lift the robot.
     pub const fn walker_mut(&mut self) -> &mut Walker<B> {
         &mut self.walker
+    }
+
+    /// The common patterns, those learned on the way among them.
+    pub fn patterns(&self) -> &CommonPatterns {
+        &self.patterns
     }
 
     /// The map and what decides by it.
@@ -161,7 +191,7 @@ impl<'a, B: Body> Cpm<'a, B> {
                     ..
                 } => {
                     let traversal = Traversal {
-                        patterns: self.patterns.patterns(observations),
+                        patterns: self.perceive(observations)?,
                         motion: self.motion(from)?,
                         sighting: *sighting,
                         bearings: self.bearings(),
@@ -185,6 +215,20 @@ impl<'a, B: Body> Cpm<'a, B> {
             see(self, &step);
         };
         Ok(begun.ended(done, &self.walker))
+    }
+
+    /// The patterns of what was seen on a way, some of them perhaps new.
+    fn perceive(
+        &mut self,
+        observations: &[Observation],
+    ) -> Result<Vec<PatternId>, AgentError<B::Error>> {
+        match self.novelty {
+            None => Ok(self.patterns.patterns(observations)),
+            Some(novelty) => {
+                let patterns = self.patterns.to_mut().learn_on(observations, novelty);
+                Ok(patterns.map_err(CpmError::from)?)
+            }
+        }
     }
 
     /// Where the ways lead from where the robot is; none for the paper's, which numbers them and no more.

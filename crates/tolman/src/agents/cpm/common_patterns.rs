@@ -88,9 +88,7 @@ impl CommonPatterns {
                 units.push((back, dictionary.half_turned(pattern)));
             }
         }
-        let mut landmark = [0.0; FEATURES];
-        landmark[FEATURES - 1] = LANDMARK;
-        dictionary.learn(&landmark, &landmark, 0.0)?;
+        learn_landmark(&mut dictionary)?;
         if units.is_empty() {
             return Err(LearnError::Nothing {
                 observations: observations.len(),
@@ -102,6 +100,43 @@ impl CommonPatterns {
             unit_count: network.len() as u32,
             cluster_count: network.clusters().count() as u32,
         })
+    }
+
+    /// Those of a robot that has been nowhere yet: of landmarks alone. It [learns](Self::learn_on) the others on its way.
+    ///
+    /// # Errors
+    /// As of [`Dictionary::learn`].
+    pub fn none() -> Result<Self, DictionaryError> {
+        let mut dictionary = Dictionary::new(FEATURES);
+        learn_landmark(&mut dictionary)?;
+        Ok(Self::restored(dictionary, 0, 0))
+    }
+
+    /// The patterns of observations, of which those that are farther than `tolerance` from all that are known become patterns themselves:
+    /// "the CPs must be learned incrementally" (section 8). What was written with earlier ones stays as it is.
+    ///
+    /// # Errors
+    /// If an observation or the tolerance is no number, or the tolerance is negative.
+    pub fn learn_on(
+        &mut self,
+        observations: &[Observation],
+        tolerance: f64,
+    ) -> Result<Vec<PatternId>, DictionaryError> {
+        let mut patterns = Vec::with_capacity(observations.len());
+        for Observation {
+            feature,
+            half_turned,
+        } in observations
+        {
+            let known = self.dictionary.len() as u32;
+            patterns.push(self.dictionary.learn(feature, half_turned, tolerance)?);
+            let new = (known..self.dictionary.len() as u32).map(PatternId);
+            self.units.extend(
+                new.zip([*feature, *half_turned])
+                    .map(|(id, unit)| (unit, id)),
+            );
+        }
+        Ok(patterns)
     }
 
     /// What was learned before, from its dictionary and the counts of SOINN.
@@ -161,6 +196,14 @@ impl CommonPatterns {
     pub const fn cluster_count(&self) -> u32 {
         self.cluster_count
     }
+}
+
+/// That of start and goal.
+fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
+    let mut landmark = [0.0; FEATURES];
+    landmark[FEATURES - 1] = LANDMARK;
+    dictionary.learn(&landmark, &landmark, 0.0)?;
+    Ok(())
 }
 
 /// Why no patterns were learned.

@@ -7,7 +7,6 @@ use tolman_maps::cpm::world::{WorldBuilder, WorldError};
 use tolman_maps::cpm::{Aim, Dictionary, Done, theorem_1};
 use tolman_maze::{Cell, Maze};
 
-use super::agent::Cpm;
 use super::fragments::{TrueFragments, along};
 use super::score::Score;
 use super::trial::{Trial, TrialError};
@@ -48,7 +47,7 @@ impl Trial<'_> {
             best: shortest_covering_walk(self.maze)?,
             ..Exploration::default()
         };
-        let mut agent = match Cpm::begin(walker, self.patterns, self.mode.config()) {
+        let mut agent = match self.begin(walker) {
             Ok(agent) => agent,
             Err(error) => {
                 found.trouble = Some(error.to_string());

@@ -30,7 +30,7 @@ pub struct Trial<'a> {
     pub maze: &'a Maze,
     /// From wall to wall, m.
     pub corridor_width: f64,
-    /// What the robot learned before.
+    /// What the robot learned before, if its mode has that.
     pub patterns: &'a CommonPatterns,
     /// The robot.
     pub robot: EpuckConfig,
@@ -47,12 +47,17 @@ pub enum Mode {
     Paper(CpmConfig),
     /// With dead reckoning.
     Reckoned(CpmConfig),
+    /// With dead reckoning, and without any patterns but those that it learns on its way.
+    Unlearned(CpmConfig),
 }
+
+/// How far from all patterns an observation is that becomes one on the way.
+const NOVELTY: f64 = 30.0;
 
 impl Mode {
     pub(super) const fn config(self) -> CpmConfig {
         match self {
-            Self::Paper(config) | Self::Reckoned(config) => config,
+            Self::Paper(config) | Self::Reckoned(config) | Self::Unlearned(config) => config,
         }
     }
 }
@@ -78,6 +83,8 @@ pub struct Record {
     pub traversals: u32,
     /// Fragments of the map at the end of it.
     pub fragments: u32,
+    /// Common patterns that it knows at the end.
+    pub patterns: u32,
     /// Fragments that were truly walked.
     pub true_fragments: u32,
     /// How often the map was not what the robot found.
@@ -170,12 +177,26 @@ impl Trial<'_> {
     /// The robot at the start.
     pub(super) fn set_up(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
         let mut config = walker_config(&self.robot, self.corridor_width)?;
-        if let Mode::Reckoned(_) = self.mode {
-            config.heading = HeadingBy::Walls;
-        }
+        config.heading = match self.mode {
+            Mode::Paper(_) => HeadingBy::Encoders,
+            Mode::Reckoned(_) | Mode::Unlearned(_) => HeadingBy::Walls,
+        };
         let robot = self.robot.clone();
         let body = placed(self.maze, self.corridor_width, robot, self.seed)?;
         Ok(Walker::new(body, config))
+    }
+
+    /// The robot looks where it is and begins its map there.
+    pub(super) fn begin(
+        &self,
+        walker: Walker<SimulatedEpuck>,
+    ) -> Result<Cpm<'_, SimulatedEpuck>, AgentError<StepError>> {
+        match self.mode {
+            Mode::Unlearned(config) => Cpm::begin_unlearned(walker, NOVELTY, config),
+            Mode::Paper(config) | Mode::Reckoned(config) => {
+                Cpm::begin(walker, self.patterns, config)
+            }
+        }
     }
 
     /// Plays both episodes. What goes wrong on the way is a result.
@@ -198,7 +219,7 @@ impl Trial<'_> {
         let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
         let mut record = Record::default();
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut agent = match Cpm::begin(walker, self.patterns, self.mode.config()) {
+        let mut agent = match self.begin(walker) {
             Ok(agent) => agent,
             Err(error) => {
                 record.trouble = Some(error.to_string());
@@ -208,6 +229,7 @@ impl Trial<'_> {
         if let Err(error) = self.episodes(&mut agent, start, &mut rng, &mut record, see) {
             record.trouble = Some(error.to_string());
         }
+        record.patterns = agent.patterns().dictionary().len() as u32;
         let body = agent.walker().body();
         record.bumps = body.bumps();
         record.path = body.path().to_vec();
@@ -358,6 +380,28 @@ pub(super) mod tests {
         assert!(record.reduction_percent().unwrap() > 50.0);
         assert_eq!(record.bumps, 0);
         assert_eq!(record.path, play(&maze, epuck()).path);
+    }
+
+    #[test]
+    fn patterns_learned_on_the_way_do() {
+        let maze = read(include_str!("../../../../../mazes/cpm-2.maze"));
+        let unlearned = Trial {
+            mode: Mode::Unlearned(CpmConfig::robust()),
+            ..trial(&maze, epuck())
+        };
+        let mut versions = Vec::new();
+        let record = unlearned.watch(|agent, _| {
+            versions.push(agent.patterns().dictionary().version());
+        });
+        let record = record.unwrap();
+        assert!(
+            record.is_solved() && record.is_map_right,
+            "{:?}",
+            record.trouble
+        );
+        // It has learned something on the first fragment already, and more on others.
+        assert!((5..PATTERNS.dictionary().len() as u32).contains(&record.patterns));
+        assert!(versions.windows(2).any(|pair| pair[0] != pair[1]));
     }
 
     #[test]

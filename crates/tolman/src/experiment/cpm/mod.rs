@@ -59,7 +59,11 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     };
     let (learning, real) = (venue::learning()?, venue::real()?);
     let patterns = learn(&learning.maze, learning.corridor_width, options.seed)?;
-    let mut trials = vec![trials::figure_9(&venues, papers), trials::offline(&venues)];
+    let mut trials = vec![
+        trials::figure_9(&venues, papers),
+        trials::offline(&venues),
+        trials::unlearned(&venues),
+    ];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
     let explored = explored::explored(&venues, papers);
     tables.push(explored.table.clone());

@@ -181,6 +181,41 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
     }
 }
 
+/// The table of robots without a learning maze.
+const UNLEARNED: &str = "unlearned";
+
+/// "The CPs must be learned incrementally" (section 8).
+pub(super) fn unlearned(venues: &[Venue]) -> Trials {
+    let places = venues
+        .iter()
+        .map(|venue| (venue.name.as_str(), Place::Maze(venue.clone())));
+    let rows = places.chain([("Aliased", Place::Aliased)]);
+    let settings: Vec<Setting> = rows
+        .map(|(row, place)| Setting {
+            row: row.into(),
+            place,
+            mode: Mode::Unlearned(CpmConfig::robust()),
+        })
+        .collect();
+    let table = fields(Table::new(UNLEARNED, "Patterns learned on the way"))
+        .field("patterns", Kind::Count)
+        .metric(Metric::percent("solved_percent", "solved"))
+        .metric(map_right())
+        .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
+        .metric(Metric::mean("closure_recall").titled("recall"))
+        .metric(named("reduction_percent", "reduction").titled("reduction").unit("%"))
+        .metric(Metric::mean("patterns"))
+        .note(
+            "The better robot, which has been in no learning maze: what it observes that is like no pattern it has becomes one, and what was \
+             written before stays readable. Aliased: one random maze a run.",
+        );
+    Trials {
+        table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
+        settings,
+        solution: Solution::Way,
+    }
+}
+
 /// What the paper excludes. `quick`: for a first look.
 pub(super) fn aliased(quick: bool) -> Trials {
     let rows = [("Better", better()), ("Faithful", faithful())];
@@ -291,6 +326,9 @@ impl Trials {
         let (venue, mode) = self.cast(job)?;
         let record = trial(&venue, patterns, mode, job.seed).play()?;
         let fields = measured(&venue, &record, self.solution)?;
+        if job.table == UNLEARNED {
+            return Ok(fields.count("patterns", record.patterns.into()));
+        }
         if job.table != ALIASED {
             return Ok(fields);
         }
