@@ -22,19 +22,36 @@ pub struct CommonPatterns {
 /// it makes d_max, and so says how alike fragments have to be. The paper gives no value.
 const LANDMARK: f64 = 100.0;
 
-/// Lets a robot wander through a learning maze, at junctions by a branch at random, until it has made so many observations
+/// How long a robot wanders to learn its common patterns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lesson {
+    /// Until it has so many observations; the paper's simulated robot had 1000 (section 5).
+    Observations(usize),
+    /// So many seconds, and to the end of the fragment that it is on then; the paper's real robot had 5400 (section 7).
+    Seconds(f64),
+}
+
+/// Lets a robot wander through a learning maze, at junctions by a branch at random, until its lesson is over
 /// ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
 ///
 /// # Errors
 /// [`WalkError`].
 pub fn wander<B: Body>(
     walker: &mut Walker<B>,
-    observations: usize,
+    lesson: Lesson,
     rng: &mut impl Rng,
 ) -> Result<Vec<Observation>, WalkError<B::Error>> {
-    let mut seen = Vec::with_capacity(observations);
+    let mut seen = Vec::new();
+    let begun = walker.time_us();
     let mut degree = walker.begin()?.degree;
-    while seen.len() < observations {
+    loop {
+        let is_over = match lesson {
+            Lesson::Observations(count) => seen.len() >= count,
+            Lesson::Seconds(seconds) => (walker.time_us() - begun) as f64 * 1e-6 >= seconds,
+        };
+        if is_over {
+            break;
+        }
         let branch = if degree == 1 {
             0
         } else {
@@ -50,7 +67,9 @@ pub fn wander<B: Body>(
             degree = sighting.degree;
         }
     }
-    seen.truncate(observations);
+    if let Lesson::Observations(count) = lesson {
+        seen.truncate(count);
+    }
     Ok(seen)
 }
 

@@ -23,7 +23,9 @@
 //!
 //! use rand::SeedableRng;
 //! use rand_chacha::ChaCha8Rng;
-//! use tolman::agents::cpm::{CommonPatterns, Cpm, Landmarked, Walker, slow_epuck, soinn, walker_config, wander};
+//! use tolman::agents::cpm::{
+//!     CommonPatterns, Cpm, Landmarked, Lesson, Walker, slow_epuck, soinn, walker_config, wander,
+//! };
 //! use tolman_control::epuck::TURN_STEP;
 //! use tolman_maps::cpm::{Aim, CpmConfig, Landmark};
 //! use tolman_robot::epuck_serial::SerialEpuck;
@@ -47,7 +49,7 @@
 //!
 //! // In the learning maze; then somebody carries it to the start of another.
 //! let mut rng = ChaCha8Rng::seed_from_u64(1);
-//! let patterns = CommonPatterns::learn(&wander(&mut walker, 1000, &mut rng)?, soinn())?;
+//! let patterns = CommonPatterns::learn(&wander(&mut walker, Lesson::Observations(1000), &mut rng)?, soinn())?;
 //! let mut agent = Cpm::begin(walker, &patterns, CpmConfig::online())?;
 //! let episode = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
 //! println!("{:?} after {:.0} s", episode.done, episode.seconds);
@@ -85,7 +87,7 @@ mod wire;
 pub use agent::{AgentError, Cpm, Episode, Step};
 pub use bends::Likeness;
 pub use body::{Body, Landmarked, Reckoned, SimulatedEpuck};
-pub use common_patterns::{CommonPatterns, LearnError, wander};
+pub use common_patterns::{CommonPatterns, LearnError, Lesson, wander};
 pub use distinctness::{Distinctness, Pair, distinctness};
 pub use errand::Errand;
 pub use exploration::Exploration;
@@ -98,7 +100,7 @@ pub use round_trip::RoundTrip;
 pub use score::Closures;
 pub use survey::{Surveyed, survey};
 pub(crate) use trial::placed;
-pub use trial::{Mode, Record, Trial, TrialError, learn};
+pub use trial::{Mode, Record, Trial, TrialError, learn, learn_by};
 pub use venue::Venue;
 pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};
 pub use whereabouts::{Approach, Whereabouts, WhereaboutsError, find_out};

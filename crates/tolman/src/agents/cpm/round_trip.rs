@@ -1,12 +1,13 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Aim, CpMap, Landmark};
+use tolman_maps::cpm::{Aim, CpMap, CpmConfig, Landmark};
 
 use super::agent::{Cpm, Episode, Step};
 use super::body::SimulatedEpuck;
+use super::common_patterns::CommonPatterns;
 use super::trial::{Trial, TrialError};
-use super::walker::Walk;
+use super::walker::{Walk, Walker};
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
 /// path-fragment" as long as it may be shorter than the known way.
@@ -45,21 +46,27 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`].
     pub fn round_trip(&self) -> Result<RoundTrip, TrialError> {
-        self.watch_round_trip(|_, _| {})
+        let config = self.mode.config();
+        RoundTrip::watch(self.set_up()?, self.patterns, config, self.seed, |_, _| {})
     }
+}
 
-    /// [Plays](Self::round_trip) all three ways. `see` is told of every fragment of the first two.
+impl RoundTrip {
+    /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told of every fragment of the first two.
     ///
     /// # Errors
     /// [`TrialError`].
-    pub fn watch_round_trip(
-        &self,
+    pub fn watch(
+        walker: Walker<SimulatedEpuck>,
+        patterns: &CommonPatterns,
+        config: CpmConfig,
+        seed: u64,
         mut see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
-    ) -> Result<RoundTrip, TrialError> {
-        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut agent = Cpm::begin(self.set_up()?, self.patterns, self.mode.config())?;
+    ) -> Result<Self, TrialError> {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut agent = Cpm::begin(walker, patterns, config)?;
         let there = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, &mut see)?;
-        let mut trip = RoundTrip {
+        let mut trip = Self {
             there,
             back: None,
             again: None,

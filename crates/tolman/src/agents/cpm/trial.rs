@@ -15,11 +15,11 @@ use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
 
 use super::agent::{AgentError, Cpm, Episode, Step};
 use super::body::SimulatedEpuck;
-use super::common_patterns::{CommonPatterns, LearnError, wander};
+use super::common_patterns::{CommonPatterns, LearnError, Lesson, wander};
 use super::fragments::Way;
 use super::robot::{epuck, soinn, walker_config};
 use super::score::{Closures, Score};
-use super::walker::{HeadingBy, WalkError, Walker};
+use super::walker::{HeadingBy, WalkError, Walker, WalkerConfig};
 use super::whereabouts::WhereaboutsError;
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
@@ -121,19 +121,30 @@ impl Record {
     }
 }
 
-/// The learning maze: 1000 observations (section 5).
-const OBSERVATIONS: usize = 1000;
-
-/// Learns the common patterns in a maze.
+/// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations (section 5).
 ///
 /// # Errors
 /// [`TrialError`].
 pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatterns, TrialError> {
     let config = walker_config(&epuck(), corridor_width)?;
-    let body = placed(maze, corridor_width, epuck(), seed)?;
+    learn_by(maze, epuck(), config, Lesson::Observations(1000), seed)
+}
+
+/// Learns the common patterns in a maze as any other robot that observes like this.
+///
+/// # Errors
+/// [`TrialError`].
+pub fn learn_by(
+    maze: &Maze,
+    robot: EpuckConfig,
+    config: WalkerConfig,
+    lesson: Lesson,
+    seed: u64,
+) -> Result<CommonPatterns, TrialError> {
+    let body = placed(maze, config.corridor_width, robot, seed)?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut walker = Walker::new(body, config);
-    let observations = wander(&mut walker, OBSERVATIONS, &mut rng)?;
+    let observations = wander(&mut walker, lesson, &mut rng)?;
     Ok(CommonPatterns::learn(&observations, soinn())?)
 }
 

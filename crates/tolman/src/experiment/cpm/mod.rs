@@ -27,14 +27,14 @@ use episodes::EPISODES;
 use explored::{EXPLORED, Explored};
 use localization::{Known, LOCALIZATION};
 use places::PLACES;
-use real::FIGURE_11;
+use real::{FIGURE_11, Real};
 use trials::Trials;
 
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Cpm {
     venues: Vec<Venue>,
-    real: Venue,
+    real: Real,
     learning: Venue,
     /// What the robot learned in the learning maze.
     patterns: CommonPatterns,
@@ -57,7 +57,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     } else {
         venue::from_files(&options.mazes)?
     };
-    let (learning, real) = (venue::learning()?, venue::real()?);
+    let (learning, real) = (venue::learning()?, Real::new(options.seed)?);
     let patterns = learn(&learning.maze, learning.corridor_width, options.seed)?;
     let mut trials = vec![
         trials::figure_9(&venues, papers),
@@ -73,7 +73,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         let aliased = trials::aliased(options.quick);
         tables.push(aliased.table.clone());
         trials.push(aliased);
-        tables.push(real::table(&real));
+        tables.push(real.table());
         tables.push(localization::table(&venues, options.quick));
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
@@ -151,6 +151,7 @@ impl Experiment for Cpm {
     fn config(&self) -> Result<toml::Table, BoxError> {
         let mut config = toml::Table::new();
         config.insert("robot".into(), toml::Value::try_from(epuck())?);
+        config.insert("real".into(), real::config()?);
         for trials in &self.trials {
             let mut rows = toml::Table::new();
             for (row, mode) in trials.modes() {
@@ -172,7 +173,7 @@ impl Experiment for Cpm {
         dictionary.insert("clusters".into(), self.patterns.cluster_count().into());
         config.insert("dictionary".into(), dictionary.into());
         let mut mazes = toml::Table::new();
-        for venue in self.venues.iter().chain([&self.learning, &self.real]) {
+        for venue in self.venues.iter().chain([&self.learning, &self.real.venue]) {
             mazes.insert(venue.name.clone(), venue.maze.to_string().into());
         }
         config.insert("mazes".into(), mazes.into());
@@ -181,7 +182,7 @@ impl Experiment for Cpm {
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match job.table {
-            FIGURE_11 => real::run(&self.real, &self.patterns, job),
+            FIGURE_11 => self.real.run(job),
             LOCALIZATION => {
                 let known = &self.known;
                 known.run(&self.venues, &self.patterns, self.master_seed, job)
@@ -217,9 +218,7 @@ impl Experiment for Cpm {
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
         if job.table == FIGURE_11 {
-            let mode = trials::faithful();
-            let trial = trials::trial(&self.real, &self.patterns, mode, job.seed);
-            return replay::of_round_trip(&self.real, &trial, job).map(Some);
+            return replay::of_round_trip(&self.real, job).map(Some);
         }
         // Those are as those of figure 9.
         if job.table == EPISODES {

@@ -1,15 +1,98 @@
 //! The pair of figure 11: the maze of the real robot, walked to the goal and back, and driven again.
 
-use tolman_maps::cpm::Done;
+use tolman_maps::cpm::{CpmConfig, Done};
 
-use super::trials;
-use crate::agents::cpm::{CommonPatterns, Episode, Venue};
+use std::sync::OnceLock;
+
+use super::venue;
+use crate::agents::cpm::{
+    CommonPatterns, Cpm, Episode, Lesson, RoundTrip, SimulatedEpuck, Step, Venue, Walker,
+    WalkerConfig, learn_by, placed, slow_epuck, walker_config,
+};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.
 pub(super) const FIGURE_11: &str = "11";
 
-pub(super) fn table(venue: &Venue) -> Table {
+/// "The learning time of 90 min (5400 s) is provided" (section 7).
+const LESSON: Lesson = Lesson::Seconds(5400.0);
+
+/// How long the robot drives from one observation to the next, s: "20 CPs (*ca.* 121 s)" are 6 s each, of which a sweep takes 3.3.
+const STRIDE_S: f64 = 2.7;
+
+/// The real robot's maze, and what such a robot learned before.
+#[derive(Debug)]
+pub(super) struct Real {
+    pub(super) venue: Venue,
+    learning: Venue,
+    seed: u64,
+    patterns: OnceLock<CommonPatterns>,
+}
+
+pub(super) fn config() -> Result<toml::Value, BoxError> {
+    let mut config = toml::Table::new();
+    config.insert("robot".into(), toml::Value::try_from(slow_epuck())?);
+    config.insert("lesson".into(), format!("{LESSON:?}").into());
+    config.insert("stride_s".into(), STRIDE_S.into());
+    Ok(config.into())
+}
+
+/// How it observes in the corridors of a venue.
+fn walker(venue: &Venue) -> Result<WalkerConfig, BoxError> {
+    Ok(WalkerConfig {
+        stride_s: STRIDE_S,
+        ..walker_config(&slow_epuck(), venue.corridor_width)?
+    })
+}
+
+impl Real {
+    pub(super) fn new(seed: u64) -> Result<Self, BoxError> {
+        Ok(Self {
+            venue: venue::real()?,
+            learning: venue::learning()?,
+            seed,
+            patterns: OnceLock::new(),
+        })
+    }
+
+    /// What it learned, which takes a second; two threads that ask at once learn the same.
+    fn patterns(&self) -> Result<&CommonPatterns, BoxError> {
+        if let Some(patterns) = self.patterns.get() {
+            return Ok(patterns);
+        }
+        let (maze, config) = (&self.learning.maze, walker(&self.learning)?);
+        let patterns = learn_by(maze, slow_epuck(), config, LESSON, self.seed)?;
+        Ok(self.patterns.get_or_init(|| patterns))
+    }
+
+    /// There, back and there again. `see` is told of every fragment of the first two ways.
+    pub(super) fn play(
+        &self,
+        job: &Job<'_>,
+        see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+    ) -> Result<RoundTrip, BoxError> {
+        let Venue {
+            maze,
+            corridor_width,
+            ..
+        } = &self.venue;
+        let body = placed(maze, *corridor_width, slow_epuck(), job.seed)?;
+        let walker = Walker::new(body, walker(&self.venue)?);
+        let (patterns, config) = (self.patterns()?, CpmConfig::online());
+        Ok(RoundTrip::watch(walker, patterns, config, job.seed, see)?)
+    }
+
+    /// Measures a run.
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        measured(&self.play(job, |_, _| {})?)
+    }
+
+    pub(super) fn table(&self) -> Table {
+        table(&self.venue)
+    }
+}
+
+fn table(venue: &Venue) -> Table {
     Table::new(FIGURE_11, "The maze of the real robot")
         .field("solved", Kind::Flag)
         .optional_field("observations_1", Kind::Count)
@@ -65,18 +148,12 @@ pub(super) fn table(venue: &Venue) -> Table {
         )
         .note(
             "Figure 11's maze drawn anew: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
-             goal again by the map. The paper's robot made one trial and looked every 6 s; ours looks every 2 cm of a larger maze, so only the \
-             reductions can be compared. Solved: goal, start and goal again were reached; whether the last way is the shortest is not asked.",
+             goal again by the map. The robot sweeps at 3π/5 rad/s, looks every 6 s and has learned for 5400 s, as the paper's, which made one trial; \
+             the maze is larger than the paper's, so only the reductions can be compared. Solved: goal, start and goal again were reached; whether the last way is the shortest is not asked.",
         )
 }
 
-/// There, back and there again.
-pub(super) fn run(
-    venue: &Venue,
-    patterns: &CommonPatterns,
-    job: &Job<'_>,
-) -> Result<Fields, BoxError> {
-    let trip = trials::trial(venue, patterns, trials::faithful(), job.seed).round_trip()?;
+fn measured(trip: &RoundTrip) -> Result<Fields, BoxError> {
     let reached = |episode: Option<Episode>| episode.filter(|one| one.done == Done::Reached);
     let (there, back) = (reached(Some(trip.there)), reached(trip.back));
     let again = reached(trip.again);
@@ -140,21 +217,18 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::venue;
     use super::*;
-    use crate::agents::cpm::learn;
 
     #[test]
     fn a_round_trip_is_measured() {
-        let (venue, learning) = (venue::real().unwrap(), venue::learning().unwrap());
-        let patterns = learn(&learning.maze, learning.corridor_width, 1).unwrap();
+        let real = Real::new(1).unwrap();
         let job = Job {
             table: FIGURE_11,
-            row: &venue.name,
+            row: &real.venue.name,
             run: 0,
             seed: 1,
         };
-        let fields = run(&venue, &patterns, &job).unwrap();
+        let fields = real.run(&job).unwrap();
         assert_eq!(fields.get("solved"), Some(&Field::Flag(true)), "{fields:?}");
         let run = Run {
             table: job.table.into(),

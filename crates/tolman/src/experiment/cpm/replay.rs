@@ -9,8 +9,9 @@ use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
 use tolman_sim::World;
 
+use super::real::Real;
 use crate::agents::cpm::drawing::{fragment_name, junction_name, middle_of};
-use crate::agents::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, epuck};
+use crate::agents::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, slow_epuck};
 use crate::experiment::{BoxError, Job};
 use crate::replay::{
     Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,
@@ -37,20 +38,17 @@ pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Repl
         "not solved"
     };
     Ok(watch
-        .replay(venue, job, track)
+        .replay(venue, trial.robot.step_us, job, track)
         .fact("outcome", outcome)
         .fact("fragments walked", record.traversals.to_string()))
 }
 
 /// Plays a round trip again and watches it: to the goal, back, and to the goal again.
-pub(super) fn of_round_trip(
-    venue: &Venue,
-    trial: &Trial<'_>,
-    job: &Job<'_>,
-) -> Result<Replay, BoxError> {
+pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxError> {
+    let venue = &real.venue;
     let world = venue.world()?;
     let mut watch = Watch::new(&venue.maze, &world);
-    let trip = trial.watch_round_trip(|agent, step| watch.see(agent, step))?;
+    let trip = real.play(job, |agent, step| watch.see(agent, step))?;
     let mut track = track(&trip.path);
     for (episode, begun, name) in [
         (trip.back, trip.back_from, "way back"),
@@ -63,7 +61,7 @@ pub(super) fn of_round_trip(
         }
     }
     Ok(watch
-        .replay(venue, job, track)
+        .replay(venue, slow_epuck().step_us, job, track)
         .fact("tried on the way", trip.tried.to_string())
         .fact("given up", trip.given_up.to_string()))
 }
@@ -115,12 +113,12 @@ impl<'a> Watch<'a> {
     }
 
     /// The replay of a track, with what was seen on it.
-    fn replay(self, venue: &Venue, job: &Job<'_>, mut track: Track) -> Replay {
+    fn replay(self, venue: &Venue, step_us: u64, job: &Job<'_>, mut track: Track) -> Replay {
         let scenery = Scenery::of_world(self.world);
         track.maps = vec![self.growth()];
         track.notes = vec![self.arrivals];
         track.series = vec![self.fragments];
-        let step_s = epuck().step_us as f64 * 1e-6;
+        let step_s = step_us as f64 * 1e-6;
         let title = format!("{}, run {}", job.row, job.run);
         Replay::new(title, step_s, scenery, vec![track])
             .fact("maze", &venue.name)
