@@ -7,6 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use tolman_control::epuck::{Alignment, Pilot, Place, Profile, SegmentConfig};
 use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
+use tolman_robot::Robot as _;
+use tolman_robot::epuck::WheelSpeeds;
 use tolman_sim::robots::Epuck;
 
 use crate::agents::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
@@ -97,8 +99,7 @@ pub(super) fn table() -> Table {
     }
     table = table.row(Row::new(ON_THE_WAY));
     table.note(format!(
-        "One sweep in every cell that the robot can come to, up to {:.0} cm off its middle and {ASKEW} rad askew; a bend seen from there easily \
-         counts as a junction. Literal: the eight vectors are averaged as they come, aligned: each turned by its sensor's mounting angle \
+        "One sweep in every cell that the robot can come to, up to {:.0} cm off its middle and {ASKEW} rad askew. Literal: the eight vectors are averaged as they come, aligned: each turned by its sensor's mounting angle \
          first; both cut by the paper's rule. Ours: values above 60 are cut before steps are taken. On the way: every \
          fragment is walked both ways by a robot that drives to the middle of what looks like a place and looks again.",
         100.0 * OFF
@@ -219,7 +220,10 @@ fn sweep_all(
                 pilot.insert(Pilot::new(body, config))
             }
         };
-        pilot.robot_mut().place(pose)?;
+        let body = pilot.robot_mut();
+        body.place(pose)?;
+        // What it senses is of its last step, before it was lifted.
+        body.step(&WheelSpeeds::default())?;
         let sweep = pilot.sweep()?;
         let profile = Profile::of(&sweep, setting.alignment)?;
         let segments = profile.segments(&setting.segments)?;
