@@ -153,8 +153,8 @@ fn spoiled_files_say_what_is_wrong() {
             },
             "1001 ports",
         ),
-        (|file| bearings(file)[0] = json!(7.0), "counter-clockwise"),
-        (|file| bearings(file).push(json!(6.28)), "bearings for"),
+        (|file| bearings(file)[0] = json!(2.0), "counter-clockwise"),
+        (|file| bearings(file).push(json!(6.2)), "bearings for"),
     ];
     for (spoil, why) in cases {
         let found = spoiled(spoil);
