@@ -14,7 +14,8 @@ pub struct CpmConfig {
     pub candidates: Candidates,
     /// What to do at a junction without unknown ports.
     pub onward: Onward,
-    /// The end of all patience: after so many fragments the explorer gives up and says so.
+    /// The end of all patience: after so many fragments the explorer gives up and says so. Where it knows nothing again that it has
+    /// walked, each of them lengthens its map, and nothing else ends the exploration.
     pub most_traversals: u32,
 }
 
@@ -82,7 +83,8 @@ impl CpmConfig {
         }
     }
 
-    /// Section 6, online CPM: positions compared with μ = 0.9; gives up after 10 000 fragments, of which the paper says nothing.
+    /// Section 6, online CPM: positions compared with μ = 0.9. Gives up after 1000 fragments, of which the paper says nothing: by Theorem 1 a
+    /// maze of 44 fragments takes at most 990, and in practice one of 500 that many.
     #[must_use]
     pub const fn online() -> Self {
         Self {
@@ -90,7 +92,7 @@ impl CpmConfig {
             matching: Matching::Positions(Similarity::paper()),
             candidates: Candidates::All,
             onward: Onward::ShortestKnownWay,
-            most_traversals: 10_000,
+            most_traversals: 1000,
         }
     }
 

@@ -1,5 +1,6 @@
 use alloc::vec::Vec;
 use core::f64::consts::PI;
+use core::fmt;
 
 use tolman_geom::{Interval, PointBox, PoseBox};
 
@@ -35,6 +36,24 @@ impl Sighting {
         Self {
             degree,
             landmark: None,
+        }
+    }
+}
+
+/// In words: `a dead end`, `a junction of 3 ways, the start`.
+impl fmt::Display for Sighting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.degree {
+            0 => f.write_str("a place without ways")?,
+            1 => f.write_str("a dead end")?,
+            2 => f.write_str("a corridor")?,
+            ways => write!(f, "a junction of {ways} ways")?,
+        }
+        match self.landmark {
+            None => Ok(()),
+            Some(Landmark::Start) => f.write_str(", the start"),
+            Some(Landmark::Goal) => f.write_str(", the goal"),
+            Some(Landmark::Numbered(number)) => write!(f, ", landmark {number}"),
         }
     }
 }

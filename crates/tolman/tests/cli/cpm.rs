@@ -68,9 +68,9 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     fs::write(folder.join("none.json"), "{}").unwrap();
     let none = ["none.json is no learned map", "tolman cpm learn"];
     tolman_in(&folder, &["map", "show", "none.json"]).refused(2, &none);
-    let later = text.replace("\"version\":1", "\"version\":2");
+    let later = text.replace("\"version\":2", "\"version\":3");
     fs::write(folder.join("later.json"), later).unwrap();
-    let refused = ["version is 2", "update tolman"];
+    let refused = ["version is 3", "update tolman"];
     tolman_in(&folder, &["map", "show", "later.json"]).refused(2, &refused);
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let elsewhere = solve("corridor.maze", "fork.maze");
@@ -119,6 +119,82 @@ fn a_maze_without_junctions_is_learned_and_driven() {
     tolman_in(&folder, &learn("corridor.maze")).done();
     let told = tolman_in(&folder, &solve("map.json", "corridor.maze")).done();
     assert!(told.contains("reached the goal"), "{told}");
+    // By this map the first fragment leads to the goal; there it leads to a junction.
+    let junction = "name = Junction\nstart = 0 0 north\n\no---o---o\n|   | G |\no   o   o\n|       |\no   o   o\n| S |   |\no---o---o\n";
+    fs::write(folder.join("junction.maze"), junction).unwrap();
+    let elsewhere = tolman_in(&folder, &solve("map.json", "junction.maze"));
+    elsewhere.refused(1, &["did not arrive in Junction", "corridor.maze"]);
+    let json = [&solve("map.json", "junction.maze")[..], &["--json"]].concat();
+    let told = tolman_in(&folder, &json);
+    assert_eq!(told.code, Some(1), "{}", told.err);
+    let told: serde_json::Value = serde_json::from_str(&told.out).unwrap();
+    assert_eq!(told["reached"], false, "{told}");
+    let show = [
+        "map",
+        "show",
+        "map.json",
+        "--maze",
+        "junction.maze",
+        "--svg",
+        "map.svg",
+    ];
+    let of_another = [
+        "map.json is a map of corridor.maze",
+        "junction.maze says that it is Junction",
+    ];
+    tolman_in(&folder, &show).refused(2, &of_another);
+    assert!(!folder.join("map.svg").exists());
+}
+
+#[test]
+fn corridors_of_a_width_that_the_robot_cannot_tell_are_told() {
+    for width in ["0.19", "0.31", "0.4", "1.2"] {
+        let wide = MAZE.replace(
+            "corridor_width = 0.25",
+            &format!("corridor_width = {width}"),
+        );
+        let told = format!("corridors of {width} m");
+        refused_maze(
+            "cpm-width",
+            &wide,
+            &[&told, "sensors reach 0.25 m", "corridor_width"],
+        );
+    }
+    let folder = folder("cpm-width-enough");
+    let wide = MAZE.replace("corridor_width = 0.25", "corridor_width = 0.3");
+    fs::write(folder.join("maze.maze"), wide).unwrap();
+    tolman_in(&folder, &learn("maze.maze")).done();
+}
+
+/// A grid of alike fragments, which the paper excludes.
+const GRID: &str = "\
+name = Grid
+start = 0 0 east
+
+o---o---o---o---o---o
+|       |       | G |
+o   o   o   o   o   o
+|                   |
+o   o---o---o---o   o
+|   |           |   |
+o   o   o   o   o   o
+|                   |
+o---o   o---o   o---o
+| S                 |
+o---o---o---o---o---o
+";
+
+#[test]
+fn a_map_with_more_fragments_than_there_are_is_told() {
+    let folder = folder("cpm-alike");
+    fs::write(folder.join("grid.maze"), GRID).unwrap();
+    let explore = [&learn("grid.maze")[..], &["--until", "explored"]].concat();
+    let told = [
+        "the map in map.json is wrong",
+        "fragments and Grid has",
+        "--system better",
+    ];
+    tolman_in(&folder, &explore).refused(1, &told);
 }
 
 #[test]
@@ -135,10 +211,16 @@ fn a_map_of_another_robot_or_maze_is_refused_or_fails_as_it_is_said() {
     let other = format!("{}{}{}", &text[..at], "0123456789abcdef", &text[at + 16..]);
     fs::write(folder.join("other.json"), other).unwrap();
     solve("other.json", "fork.maze").refused(2, &["other.json", "fingerprint", "changed"]);
-    let later = text.replace("\"version\":1", "\"version\":2");
+    let later = text.replace("\"version\":2", "\"version\":3");
     fs::write(folder.join("later.json"), later).unwrap();
-    solve("later.json", "fork.maze").refused(2, &["version is 2", "update tolman"]);
+    solve("later.json", "fork.maze").refused(2, &["version is 3", "update tolman"]);
     let crossing = "start = 1 1 north\n\no---o---o---o\n|   | G |   |\no---o   o---o\n|     S     |\no---o   o---o\n|   |   |   |\no---o---o---o\n";
     fs::write(folder.join("crossing.maze"), crossing).unwrap();
-    solve("map.json", "crossing.maze").refused(2, &["does not begin at a place of 4 ways"]);
+    solve("map.json", "crossing.maze").refused(
+        2,
+        &[
+            "stands at a junction of 4 ways, the start",
+            "does not begin",
+        ],
+    );
 }

@@ -1,4 +1,5 @@
 use alloc::borrow::Cow;
+use core::ops::ControlFlow;
 
 use rand::Rng;
 use thiserror::Error;
@@ -40,20 +41,20 @@ pub struct Episode {
 }
 
 /// When an episode began.
-struct Begun {
+pub(super) struct Begun {
     time_us: u64,
     observations: u32,
 }
 
 impl Begun {
-    fn now<B: Body>(walker: &Walker<B>) -> Self {
+    pub(super) fn now<B: Body>(walker: &Walker<B>) -> Self {
         Self {
             time_us: walker.time_us(),
             observations: walker.observations(),
         }
     }
 
-    fn ended<B: Body>(&self, done: Done, walker: &Walker<B>) -> Episode {
+    pub(super) fn ended<B: Body>(&self, done: Done, walker: &Walker<B>) -> Episode {
         Episode {
             done,
             seconds: (walker.time_us() - self.time_us) as f64 * 1e-6,
@@ -173,48 +174,61 @@ impl<'a, B: Body> Cpm<'a, B> {
         mut see: impl FnMut(&Self, &Step),
     ) -> Result<Episode, AgentError<B::Error>> {
         let begun = Begun::now(&self.walker);
-        let done = loop {
-            // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
-            let leg = match self.explorer.decide(aim, rng) {
-                Decision::Done(done) => break done,
-                Decision::Go(leg) => leg,
-            };
-            // "… then it lets the lower layers regain the control of the robot."
-            let from = self.walker.pose();
-            let walk = self
-                .walker
-                .walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
-            let (arrival, sighting) = match &walk {
-                Walk::Arrived {
-                    observations,
-                    sighting,
-                    ..
-                } => {
-                    let traversal = Traversal {
-                        patterns: self.perceive(observations)?,
-                        motion: self.motion(from)?,
-                        sighting: *sighting,
-                        bearings: self.bearings(),
-                    };
-                    let dictionary = self.patterns.dictionary();
-                    let arrival = self.explorer.arrive(leg.turn, &traversal, dictionary)?;
-                    (Some(arrival), Some(*sighting))
-                }
-                Walk::TurnedBack { observations } => {
-                    let count = observations.len() as u32;
-                    self.explorer.turned_back(leg.turn, count)?;
-                    (None, None)
-                }
-            };
-            let step = Step {
-                leg,
-                arrival,
-                sighting,
-                walk,
-            };
-            see(self, &step);
+        loop {
+            match self.advance(aim, rng)? {
+                ControlFlow::Continue(step) => see(self, &step),
+                ControlFlow::Break(done) => return Ok(begun.ended(done, &self.walker)),
+            }
+        }
+    }
+
+    /// Walks one fragment towards the aim, or says why there is none to walk.
+    ///
+    /// # Errors
+    /// [`AgentError`].
+    pub fn advance(
+        &mut self,
+        aim: Aim,
+        rng: &mut impl Rng,
+    ) -> Result<ControlFlow<Done, Step>, AgentError<B::Error>> {
+        // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
+        let leg = match self.explorer.decide(aim, rng) {
+            Decision::Done(done) => return Ok(ControlFlow::Break(done)),
+            Decision::Go(leg) => leg,
         };
-        Ok(begun.ended(done, &self.walker))
+        // "… then it lets the lower layers regain the control of the robot."
+        let from = self.walker.pose();
+        let walk = self
+            .walker
+            .walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
+        let (arrival, sighting) = match &walk {
+            Walk::Arrived {
+                observations,
+                sighting,
+                ..
+            } => {
+                let traversal = Traversal {
+                    patterns: self.perceive(observations)?,
+                    motion: self.motion(from)?,
+                    sighting: *sighting,
+                    bearings: self.bearings(),
+                };
+                let dictionary = self.patterns.dictionary();
+                let arrival = self.explorer.arrive(leg.turn, &traversal, dictionary)?;
+                (Some(arrival), Some(*sighting))
+            }
+            Walk::TurnedBack { observations } => {
+                let count = observations.len() as u32;
+                self.explorer.turned_back(leg.turn, count)?;
+                (None, None)
+            }
+        };
+        Ok(ControlFlow::Continue(Step {
+            leg,
+            arrival,
+            sighting,
+            walk,
+        }))
     }
 
     /// The patterns of what was seen on a way, some of them perhaps new.
@@ -331,8 +345,7 @@ pub enum AgentError<E> {
     NoStart,
     /// The robot stands elsewhere than where its map begins.
     #[error(
-        "the map does not begin at a place of {} ways with the landmark {:?}; put the robot to the start of the maze it was learned in",
-        .found.degree, .found.landmark
+        "the robot stands at {found}, where its map does not begin; put it to the start of the maze that the map was learned in"
     )]
     NotTheStart {
         /// What it sees.

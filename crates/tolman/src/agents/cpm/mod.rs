@@ -89,7 +89,7 @@ pub use bends::Likeness;
 pub use body::{Body, Landmarked, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, Lesson, wander};
 pub use distinctness::{Distinctness, Pair, distinctness};
-pub use errand::Errand;
+pub use errand::{Errand, Learned, Progress};
 pub use exploration::Exploration;
 pub use fragments::{TrueFragments, Way};
 pub use layout::{Course, Fit, Layout, OpenPort};

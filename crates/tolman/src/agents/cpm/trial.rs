@@ -300,6 +300,27 @@ pub enum TrialError {
     /// The maze marks no start.
     #[error("the maze marks no start: mark a cell with S")]
     NoStart,
+    /// In such corridors the robot does not see what they are.
+    #[error(
+        "corridors of {width} m: an e-puck, whose sensors reach {reach} m, tells junctions in corridors of {least} to {most} m alone; set \
+         corridor_width to 0.25"
+    )]
+    Width {
+        /// From wall to wall, m.
+        width: f64,
+        /// How narrow they may be, m.
+        least: f64,
+        /// How wide they may be, m.
+        most: f64,
+        /// How far its sensors reach, m.
+        reach: f64,
+    },
+    /// Who watched a robot learn broke off.
+    #[error("broken off after {walks} fragments")]
+    BrokenOff {
+        /// How many were walked.
+        walks: u32,
+    },
     /// The maze makes no world.
     #[error(transparent)]
     World(#[from] WorldError),
@@ -342,6 +363,31 @@ pub enum TrialError {
     /// An episode broke off.
     #[error(transparent)]
     Agent(#[from] AgentError<StepError>),
+}
+
+impl TrialError {
+    /// Whether maze or map did not serve; else what the robot did came to nothing.
+    #[must_use]
+    pub const fn is_bad_input(&self) -> bool {
+        match self {
+            Self::NoStart
+            | Self::Width { .. }
+            | Self::World(_)
+            | Self::Epuck(_)
+            | Self::NoPlan
+            | Self::Place(_)
+            | Self::Agent(AgentError::NoStart | AgentError::NotTheStart { .. }) => true,
+            Self::BrokenOff { .. }
+            | Self::Unwalked { .. }
+            | Self::Curve(_)
+            | Self::Graph(_)
+            | Self::Wander(_)
+            | Self::Learn(_)
+            | Self::Whereabouts(_)
+            | Self::Recall(_)
+            | Self::Agent(_) => false,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Where the e-puck runs.
 
-use tolman_maze::{Maze, MazeFile};
+use tolman_maze::{Cell, Maze, MazeFile};
 use tolman_sim::World;
 
+use super::robot::epuck;
 use super::trial::{TrialError, world_of};
 
 /// A maze with a start, and how wide its corridors are for an e-puck.
@@ -20,19 +21,41 @@ impl Venue {
     /// Where nothing else is said, m.
     pub const CORRIDOR_WIDTH: f64 = 0.25;
 
+    /// The narrowest and the widest corridors, m, in which Mazes 1 to 3 are learned rightly: in others the robot takes bends for junctions and
+    /// overlooks others.
+    pub const WIDTHS: (f64, f64) = (0.20, 0.30);
+
     /// That of a maze file; `name` is for one that has none.
     ///
     /// # Errors
-    /// [`TrialError::NoStart`].
+    /// [`TrialError::NoStart`], [`TrialError::Width`].
     pub fn new(name: &str, file: MazeFile) -> Result<Self, TrialError> {
         if file.maze.start().is_none() {
             return Err(TrialError::NoStart);
         }
+        let width = file.corridor_width.unwrap_or(Self::CORRIDOR_WIDTH);
+        let (least, most) = Self::WIDTHS;
+        if !(least..=most).contains(&width) {
+            return Err(TrialError::Width {
+                width,
+                least,
+                most,
+                reach: epuck().response.reach(),
+            });
+        }
         Ok(Self {
             name: file.name.unwrap_or_else(|| name.to_owned()),
             maze: file.maze,
-            corridor_width: file.corridor_width.unwrap_or(Self::CORRIDOR_WIDTH),
+            corridor_width: width,
         })
+    }
+
+    /// The first of four cells without a wall between them, if there are any: in rooms the robot, which follows corridors, may go round for ever
+    /// and take one way out for another.
+    #[must_use]
+    pub fn room(&self) -> Option<Cell> {
+        let mut cells = self.maze.grid().cells();
+        cells.find(|cell| self.maze.is_room(*cell))
     }
 
     /// Its thin walls.

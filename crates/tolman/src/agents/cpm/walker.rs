@@ -384,6 +384,7 @@ impl<B: Body> Walker<B> {
         }
         Err(WalkError::Endless {
             strides: self.config.longest_fragment,
+            metres: self.pilot.robot().driven() - begun,
         })
     }
 
@@ -583,11 +584,14 @@ pub enum WalkError<E> {
     },
     /// No junction, dead end or landmark came.
     #[error(
-        "no junction, dead end or landmark within {strides} strides: check the sensors, or the maze has none"
+        "no junction, dead end or landmark within {strides} strides, {metres:.0} m: the way goes round where the robot sees none, as in an open \
+         room, or is longer, or the sensors fail"
     )]
     Endless {
         /// How many strides were driven.
         strides: u32,
+        /// How far that was, m.
+        metres: f64,
     },
     /// The robot turned back where it should not.
     #[error("the robot does not know where it is; start it at a junction")]

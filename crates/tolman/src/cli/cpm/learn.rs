@@ -1,20 +1,26 @@
 //! `tolman cpm learn`: a dictionary of common patterns, and a map written in it.
 
-use std::io::Write;
+use core::ops::ControlFlow;
+use core::sync::atomic::Ordering;
+use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::ValueEnum;
-use tolman::agents::cpm::{MapFile, System, Trial, Venue, epuck, learn};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tolman::agents::cpm::{Learned, MapFile, Progress, System, Trial, Venue, epuck, learn};
 use tolman_maps::cpm::{Aim, Done, Landmark};
+use tolman_maze::Cell;
 
-use super::venue;
-use crate::cli::failure::OrBadInput;
-use crate::cli::{Failure, file};
+use super::{classify, venue};
+use crate::cli::{Failure, file, interrupt};
 
 /// Lets an e-puck learn common patterns in the learning maze, then a map of a maze, and writes both down
 #[derive(clap::Args)]
 #[command(after_help = "\
+The robot gives up after eight walks for each fragment that the maze has: exit code 1, and no map. A map until explored
+that has not as many fragments as the maze is written, and ends in exit code 1 too.
+
 Examples:
   tolman cpm learn --maze mazes/cpm-3.maze --out map.json
   tolman map show map.json --maze mazes/cpm-3.maze --svg map.svg
@@ -53,6 +59,18 @@ enum Until {
     Explored,
 }
 
+impl Choice {
+    /// What may help where the robot lost itself.
+    const fn remedy(self) -> &'static str {
+        match self {
+            Self::Faithful => {
+                "try --system better, which tells fragments apart that look alike, or another --seed"
+            }
+            Self::Better => "try another --seed",
+        }
+    }
+}
+
 /// Where the common patterns are learned.
 pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
 
@@ -76,26 +94,41 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         Until::Goal => Aim::Find(Landmark::Goal),
         Until::Explored => Aim::Explore,
     };
-    let errand = trial
-        .learn(aim)
-        .with_context(|| format!("no map of {} was learned", venue.name))
-        .or_bad_input()?;
-    match errand.episode.done {
-        Done::Reached => {}
-        Done::NotThere => {
-            let error = anyhow!(
-                "the robot found no goal in {}: is it walled off?",
-                venue.name
-            );
-            return Err(error).or_bad_input();
+    let stop = interrupt::flag()?;
+    let line = line(&trial);
+    let learned = trial.learn(aim, |progress| {
+        line.set_position(u64::from(progress.walks));
+        line.set_message(format!(
+            "{} on the map, {:.0} s",
+            progress.fragments, progress.seconds
+        ));
+        match stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
         }
-        Done::OutOfPatience => {
-            let error = anyhow!("the robot gave up in {}: try another --seed", venue.name);
-            return Err(error).or_bad_input();
-        }
+    });
+    line.finish_and_clear();
+    let name = &venue.name;
+    let context = match venue.room() {
+        Some(Cell { x, y }) => format!(
+            "no map of {name} was learned, which has an open room at cell {x}, {y}, where the robot finds no corridors"
+        ),
+        None => format!("no map of {name} was learned"),
+    };
+    let Learned { errand, progress } = match learned {
+        Ok(learned) => learned,
+        Err(error) => return Err(classify(error, context)),
+    };
+    if errand.episode.done != Done::Reached {
+        let came = came_to_nothing(errand.episode.done, &progress);
+        let remedy = arguments.system.remedy();
+        return Err(Failure::Failed(anyhow!(
+            "{context}: the robot {came}; {remedy}"
+        )));
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
     let (fragments, junctions) = (errand.map.fragments().len(), errand.map.junctions().len());
+    let there_are = trial.true_fragments();
     let file = MapFile {
         maze: venue.name,
         seed: arguments.seed,
@@ -104,10 +137,50 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         map: errand.map,
     };
     file::write(&arguments.out, &file.to_json()?)?;
+    if aim == Aim::Explore && fragments != there_are as usize {
+        return Err(Failure::Failed(anyhow!(
+            "the map in {} is wrong: it has {fragments} fragments and {} has {there_are}, as the robot took some for others; {}",
+            arguments.out.display(),
+            file.maze,
+            arguments.system.remedy()
+        )));
+    }
     writeln!(
         out,
         "a dictionary of {units} units in {clusters} clusters; a map of {fragments} fragments and {junctions} junctions, learned in {:.0} s",
         errand.episode.seconds
     )?;
     Ok(())
+}
+
+/// How a walk ended that taught no map.
+fn came_to_nothing(done: Done, progress: &Progress) -> String {
+    let Progress {
+        walks,
+        untried,
+        recognized,
+        fragments,
+        seconds,
+    } = progress;
+    let gave_up = match done {
+        Done::OutOfPatience => "gave up",
+        Done::NotThere => "took a place for another, and found no goal where its map ends,",
+        Done::Reached => "came to its end",
+    };
+    format!(
+        "{gave_up} after {seconds:.0} s: {walks} fragments walked, {fragments} on the map, {recognized} of {untried} untried ways recognized"
+    )
+}
+
+/// What shows on a terminal how far it has come.
+fn line(trial: &Trial<'_>) -> ProgressBar {
+    let target = if io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    let template = "{bar:30} {pos} fragments walked, of {len} at most, {msg}";
+    let style =
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::with_draw_target(Some(u64::from(trial.patience())), target).with_style(style)
 }

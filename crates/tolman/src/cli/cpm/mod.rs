@@ -7,9 +7,9 @@ mod solve;
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::Context;
+use anyhow::{Context, Error};
 use clap::Subcommand;
-use tolman::agents::cpm::{MapFile, Venue};
+use tolman::agents::cpm::{MapFile, TrialError, Venue};
 
 use super::failure::OrBadInput;
 use super::{Failure, maze};
@@ -29,6 +29,17 @@ impl Verb {
             Self::Learn(arguments) => learn::carry_out(&arguments, out),
             Self::Solve(arguments) => solve::carry_out(&arguments, out),
         }
+    }
+}
+
+/// A maze or a map that does not serve is the caller's to mend; that a robot came to nothing is not.
+fn classify(error: TrialError, context: String) -> Failure {
+    let is_bad_input = error.is_bad_input();
+    let error = Error::from(error).context(context);
+    if is_bad_input {
+        Failure::BadInput(error)
+    } else {
+        Failure::Failed(error)
     }
 }
 

@@ -3,17 +3,17 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::Context;
+use anyhow::anyhow;
 use serde_json::json;
 use tolman::agents::cpm::{Errand, Trial, drawing, epuck};
 use tolman::draw::Figure;
 use tolman_maps::cpm::Done;
 
-use super::{parse, venue};
+use super::{classify, parse, venue};
 use crate::cli::failure::OrBadInput;
 use crate::cli::{Failure, file, map};
 
-/// Drives an e-puck from the start to the goal by a learned map
+/// Drives an e-puck from the start to the goal by a learned map, and exits 1 if it does not arrive
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -50,8 +50,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let errand = trial
         .drive(file.map)
-        .with_context(|| format!("no drive through {}", venue.name))
-        .or_bad_input()?;
+        .map_err(|error| classify(error, format!("no drive through {}", venue.name)))?;
     let Errand { episode, bumps, .. } = &errand;
     let reached = episode.done == Done::Reached;
     if let Some(path) = &arguments.svg {
@@ -72,17 +71,25 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             "bumps": bumps,
         });
         writeln!(out, "{json:#}")?;
+    } else if reached {
+        writeln!(
+            out,
+            "the e-puck reached the goal: {:.0} s, {} observations, {bumps} bumps",
+            episode.seconds, episode.observations
+        )?;
+    }
+    if reached {
         return Ok(());
     }
-    let came = if reached {
-        "reached the goal"
+    let elsewhere = if file.maze == venue.name {
+        String::new()
     } else {
-        "did not arrive"
+        format!(", of {}", file.maze)
     };
-    writeln!(
-        out,
-        "the e-puck {came}: {:.0} s, {} observations, {bumps} bumps",
-        episode.seconds, episode.observations
-    )?;
-    Ok(())
+    Err(Failure::Failed(anyhow!(
+        "the e-puck did not arrive in {}: after {:.0} s it was at another place than its map{elsewhere} has there; try another --seed, or learn \
+         the map anew",
+        venue.name,
+        episode.seconds
+    )))
 }

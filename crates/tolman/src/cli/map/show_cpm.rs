@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use anyhow::anyhow;
 use serde_json::json;
 use tolman::agents::cpm::{MapFile, drawing};
 use tolman::draw::Figure;
@@ -9,6 +10,7 @@ use tolman_maps::cpm::{Landmark, Port};
 
 use super::show::Arguments;
 use crate::cli::failure::OrBadInput;
+use crate::cli::maze::name as maze_name;
 use crate::cli::{Failure, cpm, file};
 
 pub(super) fn carry_out(
@@ -26,6 +28,15 @@ pub(super) fn carry_out(
     } = &read;
     if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
         let venue = cpm::venue(maze)?;
+        let learned_in = &read.maze;
+        if venue.name != *learned_in && venue.name != maze_name(maze) {
+            return Err(Failure::BadInput(anyhow!(
+                "{} is a map of {learned_in}, and {} says that it is {}: name the maze that the map was learned in",
+                arguments.file.display(),
+                maze.display(),
+                venue.name
+            )));
+        }
         let world = venue.world().or_bad_input()?;
         let drawing = drawing::over_maze(map, &venue.maze, &world);
         file::write(path, &Figure::new("map", &venue.name, drawing).standalone())?;
