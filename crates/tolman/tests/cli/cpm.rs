@@ -58,6 +58,12 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     let told: serde_json::Value = serde_json::from_str(&told).unwrap();
     assert_eq!(told["reached"], true, "{told}");
 
+    // The same without a learning maze.
+    let unlearned = [&learn[..4], &["--system", "unlearned", "--out", "own.json"]].concat();
+    let told = tolman_in(&folder, &unlearned).done();
+    assert!(told.contains("patterns; a map of"), "{told}");
+    tolman_in(&folder, &solve("own.json", "fork.maze")).done();
+
     // The file is cut off, of another time, of another maze.
     let text = String::from_utf8(first).unwrap();
     fs::write(folder.join("cut.json"), &text[..text.len() / 2]).unwrap();

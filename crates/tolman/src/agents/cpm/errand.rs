@@ -7,6 +7,7 @@ use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Landmark};
 
 use super::agent::{Begun, Cpm, Episode, Step};
 use super::body::SimulatedEpuck;
+use super::common_patterns::CommonPatterns;
 use super::fragments::TrueFragments;
 use super::trial::{Trial, TrialError};
 
@@ -17,6 +18,8 @@ pub struct Errand {
     pub episode: Episode,
     /// The map at its end.
     pub map: CpMap,
+    /// The common patterns that it is written in.
+    pub patterns: CommonPatterns,
     /// Where the robot was after every step.
     pub path: Vec<Pose>,
     /// Time steps in which its body touched a wall.
@@ -96,7 +99,7 @@ impl Trial<'_> {
             most_traversals: self.patience(),
             ..self.mode.config()
         };
-        let mut agent = Cpm::begin(self.set_up()?, self.patterns, config)?;
+        let mut agent = self.begin(self.set_up()?, config)?;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let (begun, mut progress) = (Begun::now(agent.walker()), Progress::default());
         let done = loop {
@@ -135,6 +138,7 @@ impl Errand {
         Self {
             episode,
             map: agent.explorer().map().clone(),
+            patterns: agent.patterns().clone(),
             path: body.path().to_vec(),
             bumps: body.bumps(),
         }

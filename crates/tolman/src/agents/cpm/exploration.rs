@@ -47,7 +47,7 @@ impl Trial<'_> {
             best: shortest_covering_walk(self.maze)?,
             ..Exploration::default()
         };
-        let mut agent = match self.begin(walker) {
+        let mut agent = match self.begin(walker, self.mode.config()) {
             Ok(agent) => agent,
             Err(error) => {
                 found.trouble = Some(error.to_string());

@@ -29,6 +29,8 @@ pub enum System {
     Faithful,
     /// Ours: with dead reckoning, for fragments that look alike too.
     Better,
+    /// The same without a learning maze.
+    Unlearned,
 }
 
 impl System {
@@ -38,6 +40,7 @@ impl System {
         match self {
             Self::Faithful => Mode::Paper(CpmConfig::online()),
             Self::Better => Mode::Reckoned(CpmConfig::robust()),
+            Self::Unlearned => Mode::Unlearned(CpmConfig::robust()),
         }
     }
 }

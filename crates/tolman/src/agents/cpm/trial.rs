@@ -197,16 +197,15 @@ impl Trial<'_> {
         Ok(Walker::new(body, config))
     }
 
-    /// The robot looks where it is and begins its map there.
+    /// The robot looks where it is and begins its map there, as its mode has it but for the configuration.
     pub(super) fn begin(
         &self,
         walker: Walker<SimulatedEpuck>,
+        config: CpmConfig,
     ) -> Result<Cpm<'_, SimulatedEpuck>, AgentError<StepError>> {
         match self.mode {
-            Mode::Unlearned(config) => Cpm::begin_unlearned(walker, NOVELTY, config),
-            Mode::Paper(config) | Mode::Reckoned(config) => {
-                Cpm::begin(walker, self.patterns, config)
-            }
+            Mode::Unlearned(_) => Cpm::begin_unlearned(walker, NOVELTY, config),
+            Mode::Paper(_) | Mode::Reckoned(_) => Cpm::begin(walker, self.patterns, config),
         }
     }
 
@@ -230,7 +229,7 @@ impl Trial<'_> {
         let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
         let mut record = Record::default();
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut agent = match self.begin(walker) {
+        let mut agent = match self.begin(walker, self.mode.config()) {
             Ok(agent) => agent,
             Err(error) => {
                 record.trouble = Some(error.to_string());

@@ -8,7 +8,9 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tolman::agents::cpm::{Learned, MapFile, Progress, System, Trial, Venue, epuck, learn};
+use tolman::agents::cpm::{
+    CommonPatterns, Learned, MapFile, Progress, System, Trial, Venue, epuck, learn,
+};
 use tolman_maps::cpm::{Aim, Done, Landmark};
 use tolman_maze::Cell;
 
@@ -49,6 +51,8 @@ enum Choice {
     Faithful,
     /// By dead reckoning too, for fragments that look alike
     Better,
+    /// The same without a learning maze: patterns are learned on the way
+    Unlearned,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -66,7 +70,7 @@ impl Choice {
             Self::Faithful => {
                 "try --system better, which tells fragments apart that look alike, or another --seed"
             }
-            Self::Better => "try another --seed",
+            Self::Better | Self::Unlearned => "try another --seed",
         }
     }
 }
@@ -76,11 +80,17 @@ pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-le
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let venue = venue(&arguments.maze)?;
-    let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
-    let patterns = learn(&learning.maze, learning.corridor_width, arguments.seed)?;
     let system = match arguments.system {
         Choice::Faithful => System::Faithful,
         Choice::Better => System::Better,
+        Choice::Unlearned => System::Unlearned,
+    };
+    let patterns = match system {
+        System::Faithful | System::Better => {
+            let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
+            learn(&learning.maze, learning.corridor_width, arguments.seed)?
+        }
+        System::Unlearned => CommonPatterns::none()?,
     };
     let trial = Trial {
         maze: &venue.maze,
@@ -126,14 +136,23 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             "{context}: the robot {came}; {remedy}"
         )));
     }
-    let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
+    let dictionary = match system {
+        System::Faithful | System::Better => {
+            let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
+            format!("a dictionary of {units} units in {clusters} clusters")
+        }
+        System::Unlearned => format!(
+            "a dictionary of {} patterns",
+            errand.patterns.dictionary().len()
+        ),
+    };
     let (fragments, junctions) = (errand.map.fragments().len(), errand.map.junctions().len());
     let there_are = trial.true_fragments();
     let file = MapFile {
         maze: venue.name,
         seed: arguments.seed,
         system,
-        patterns,
+        patterns: errand.patterns,
         map: errand.map,
     };
     file::write(&arguments.out, &file.to_json()?)?;
@@ -147,7 +166,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
     writeln!(
         out,
-        "a dictionary of {units} units in {clusters} clusters; a map of {fragments} fragments and {junctions} junctions, learned in {:.0} s",
+        "{dictionary}; a map of {fragments} fragments and {junctions} junctions, learned in {:.0} s",
         errand.episode.seconds
     )?;
     Ok(())
