@@ -585,7 +585,7 @@ pub enum WalkError<E> {
     /// No junction, dead end or landmark came.
     #[error(
         "no junction, dead end or landmark within {strides} strides, {metres:.0} m: the way goes round where the robot sees none, as in an open \
-         room, or is longer, or the sensors fail"
+         room, or is longer, or the sensors fail: check the sensors and the maze"
     )]
     Endless {
         /// How many strides were driven.
