@@ -113,6 +113,9 @@ impl Bearings {
     }
 }
 
+/// How far directions of ways are off that are seen from the middle of a place, rad.
+pub(super) const SHARP: f64 = 0.35;
+
 /// The angle between two directions, rad, 0 to π.
 pub(super) fn between(a: f64, b: f64) -> f64 {
     let angle = wrapped(a - b);

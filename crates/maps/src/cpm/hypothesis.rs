@@ -4,6 +4,7 @@ use core::cell::Cell;
 
 use tolman_geom::{Interval, PointBox};
 
+use super::bearings::SHARP;
 use super::map::{End, Fragment, FragmentId, Junction, JunctionId, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
@@ -305,7 +306,7 @@ impl Comparison<'_> {
 
 /// What it costs to believe that ways which a robot has seen, having come by a port, are those of a place.
 fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
-    let off = place.apart(port, walk.bearings.as_ref()) / OFF;
+    let off = place.apart(port, walk.bearings.as_ref()) / SHARP;
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
@@ -318,9 +319,6 @@ fn coincidence(apart: PointBox, area: f64) -> f64 {
 
 /// No two places are nearer to each other, m: it is less than the width of any robot that could tell them apart.
 const LEAST_APART: f64 = 0.05;
-
-/// How far bearings are off that are seen from the middle of a place, rad.
-const OFF: f64 = 0.35;
 
 /// What a new place costs: a map with fewer is simpler.
 const NEW_PLACE: f64 = 1.0;

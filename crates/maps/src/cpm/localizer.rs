@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-use super::bearings::{Bearings, between};
+use super::bearings::{Bearings, SHARP, between};
 use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::similarity::Sense;
@@ -514,10 +514,7 @@ const NEAR: f64 = 0.14;
 /// How likely a junction is seen as one it is not.
 const UNSEEN: f64 = 1e-3;
 
-/// How far directions of ways are off that are seen from the middle of a place, rad.
-const SHARP: f64 = 0.35;
-
-/// And of ways that are seen from before it.
+/// How far directions of ways are off that are seen from before a place, rad.
 const BLURRED: f64 = 0.5;
 
 /// How likely a way is glimpsed where there is none, against one.

@@ -48,6 +48,17 @@ impl Known {
             WorldPort { number, ..*first } == truth
         })
     }
+
+    /// A robot that knows this maze alone, and has observed this.
+    fn localizer_after(&self, walk: &Traversal) -> Localizer<'_> {
+        let maps = core::slice::from_ref(&self.map);
+        let dictionary = self.world.dictionary();
+        let mut localizer = Localizer::new(maps, dictionary, LocalizerConfig::usual()).unwrap();
+        for pattern in &walk.patterns {
+            localizer.observe(*pattern).unwrap();
+        }
+        localizer
+    }
 }
 
 /// A place in the midst of a corridor: at least half of it, and two observations, to come.
@@ -84,12 +95,7 @@ fn from_mid_fragment_before_the_next_junction() {
         for _ in 0..20 {
             let (enter, passed) = middle(&known.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
-            let maps = core::slice::from_ref(&known.map);
-            let mut localizer =
-                Localizer::new(maps, known.world.dictionary(), LocalizerConfig::usual()).unwrap();
-            for pattern in walk.patterns {
-                localizer.observe(pattern).unwrap();
-            }
+            let mut localizer = known.localizer_after(&walk);
             starts += 1;
             let is_right = known.is_right(localizer.location(), rover.at());
             let is_sure = localizer.location().probability > 0.9;
@@ -132,12 +138,7 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
         for _ in 0..20 {
             let (enter, passed) = middle(&known.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
-            let maps = core::slice::from_ref(&known.map);
-            let mut localizer =
-                Localizer::new(maps, known.world.dictionary(), LocalizerConfig::usual()).unwrap();
-            for pattern in walk.patterns {
-                localizer.observe(pattern).unwrap();
-            }
+            let mut localizer = known.localizer_after(&walk);
             let is_right = |localizer: &Localizer<'_>| {
                 u32::from(known.is_right(localizer.location(), rover.at()))
             };

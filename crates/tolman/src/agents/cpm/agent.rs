@@ -82,17 +82,11 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// # Errors
     /// [`AgentError`].
     pub fn begin(
-        mut walker: Walker<B>,
+        walker: Walker<B>,
         patterns: &'a CommonPatterns,
         config: CpmConfig,
     ) -> Result<Self, AgentError<B::Error>> {
-        let start = walker.begin()?;
-        Ok(Self {
-            walker,
-            patterns: Cow::Borrowed(patterns),
-            novelty: None,
-            explorer: Explorer::new(config, start)?,
-        })
+        Self::begin_with(walker, Cow::Borrowed(patterns), None, config)
     }
 
     /// A robot that has learned no patterns before: what it observes becomes one if it is so far from all that it knows (section 8, "the CPs
@@ -101,15 +95,25 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// # Errors
     /// [`AgentError`].
     pub fn begin_unlearned(
-        mut walker: Walker<B>,
+        walker: Walker<B>,
         novelty: f64,
+        config: CpmConfig,
+    ) -> Result<Self, AgentError<B::Error>> {
+        let none = CommonPatterns::none().map_err(CpmError::from)?;
+        Self::begin_with(walker, Cow::Owned(none), Some(novelty), config)
+    }
+
+    fn begin_with(
+        mut walker: Walker<B>,
+        patterns: Cow<'a, CommonPatterns>,
+        novelty: Option<f64>,
         config: CpmConfig,
     ) -> Result<Self, AgentError<B::Error>> {
         let start = walker.begin()?;
         Ok(Self {
             walker,
-            patterns: Cow::Owned(CommonPatterns::none().map_err(CpmError::from)?),
-            novelty: Some(novelty),
+            patterns,
+            novelty,
             explorer: Explorer::new(config, start)?,
         })
     }

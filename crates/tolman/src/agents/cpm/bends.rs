@@ -1,6 +1,6 @@
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::Maze;
 
-use super::fragments::{DIRECTIONS, TrueFragments, along};
+use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 
 /// How many fragments of a maze look like others, by how they bend.
 ///
@@ -40,8 +40,9 @@ impl Likeness {
     pub fn of(maze: &Maze) -> Self {
         let fragments = TrueFragments::of(maze);
         let forward = fragments.ways().filter(|(_, _, way)| way.is_forward);
-        let bends = forward.filter_map(|(from, out, _)| bends_along(maze, from, out));
-        let bends: Vec<Vec<usize>> = bends.filter(|bends| !bends.is_empty()).collect();
+        let ways = forward.filter_map(|(from, out, _)| along(maze, from, out));
+        let bends = ways.map(|(cells, _)| bends(&headings(maze, &cells)));
+        let bends: Vec<Vec<Quarters>> = bends.filter(|bends| !bends.is_empty()).collect();
         let mut found = Self {
             alike_pairs: 0,
             symmetrical: 0,
@@ -57,22 +58,8 @@ impl Likeness {
     }
 }
 
-/// Quarter turns to the left in each cell between both ends of a fragment.
-fn bends_along(maze: &Maze, from: Cell, out: Direction) -> Option<Vec<usize>> {
-    let (cells, _) = along(maze, from, out)?;
-    let steps: Option<Vec<usize>> = cells
-        .windows(2)
-        .map(|pair| {
-            let is_way = |way: &Direction| maze.beside(pair[0], *way) == Some(pair[1]);
-            DIRECTIONS.iter().position(is_way)
-        })
-        .collect();
-    let quarters = |pair: &[usize]| (pair[1] + 4 - pair[0]) % 4;
-    Some(steps?.windows(2).map(quarters).collect())
-}
-
 /// The bends of the same fragment from its other end.
-fn inverted(bends: &[usize]) -> Vec<usize> {
+fn inverted(bends: &[Quarters]) -> Vec<Quarters> {
     bends.iter().rev().map(|bend| (4 - bend) % 4).collect()
 }
 

@@ -114,6 +114,7 @@ fn shortest_covering_walk(maze: &Maze) -> Result<Option<u32>, WorldError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fragments::tests::THREE_WAYS;
     use super::*;
 
     #[test]
@@ -133,18 +134,7 @@ o---o   o---o
 o---o---o---o
 ";
         assert_eq!(best(fork), Some(4));
-        // Three ways between two crossings: all of them on the way to the goal, none twice.
-        let crossings = "\
-start = 0 1 east
-
-o---o---o---o---o---o
-|   |           |   |
-o---o   o---o   o---o
-| S               G |
-o---o   o---o   o---o
-|   |           |   |
-o---o---o---o---o---o
-";
-        assert_eq!(best(crossings), Some(5));
+        // All three on the way to the goal, none twice.
+        assert_eq!(best(THREE_WAYS), Some(5));
     }
 }

@@ -2,6 +2,7 @@ use alloc::collections::BTreeMap;
 use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::{Heading, Vector};
+use tolman_maps::cpm::Landmark;
 use tolman_maze::{Cell, Direction, Maze};
 
 /// The fragments that a maze really has, for scoring; no robot knows them.
@@ -23,10 +24,17 @@ pub struct Way {
     pub cells: u32,
 }
 
+/// What the robot sees to stand in a cell.
+pub(super) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
+    if maze.start().is_some_and(|(start, _)| start == cell) {
+        return Some(Landmark::Start);
+    }
+    maze.goals().contains(&cell).then_some(Landmark::Goal)
+}
+
 /// Whether a cell is a junction, a dead end, the start or a goal.
 fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
-    let is_start = maze.start().is_some_and(|(start, _)| start == cell);
-    maze.degree(cell) != 2 || maze.goals().contains(&cell) || is_start
+    maze.degree(cell) != 2 || landmark_at(maze, cell).is_some()
 }
 
 /// The cells of a way that leads `out` of a place to `next` and on to the next place, and the direction in which one comes there.
@@ -55,6 +63,35 @@ pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell
     let (mut cells, came) = follow(maze, out, next, |cell| ends_fragments(maze, cell));
     cells.insert(0, from);
     Some((cells, came))
+}
+
+/// The directions in which one who goes over these cells leaves each but the last.
+pub(super) fn headings(maze: &Maze, cells: &[Cell]) -> Vec<Direction> {
+    let steps = cells.windows(2);
+    steps
+        .filter_map(|pair| {
+            let (from, to) = (pair.first()?, pair.last()?);
+            let mut ways = maze.neighbours(*from);
+            ways.find(|(_, next)| next == to).map(|(way, _)| way)
+        })
+        .collect()
+}
+
+/// Quarters of a turn, clockwise.
+pub(super) type Quarters = usize;
+
+/// The turn from one direction to another.
+pub(super) const fn quarters(from: Direction, to: Direction) -> Quarters {
+    (to.index() + 4 - from.index()) % 4
+}
+
+/// The turns between these headings.
+pub(super) fn bends(headings: &[Direction]) -> Vec<Quarters> {
+    let bend = |pair: &[Direction]| match pair {
+        [came, on] => quarters(*came, *on),
+        _ => 0,
+    };
+    headings.windows(2).map(bend).collect()
 }
 
 /// Where one looks who goes from one cell to another.
@@ -165,8 +202,21 @@ impl TrueFragments {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// Three ways between two crossings.
+    pub(in crate::agents::cpm) const THREE_WAYS: &str = "\
+start = 0 1 east
+
+o---o---o---o---o---o
+|   |           |   |
+o---o   o---o   o---o
+| S               G |
+o---o   o---o   o---o
+|   |           |   |
+o---o---o---o---o---o
+";
 
     /// One crossing: the start to its west, the goal to its east, and a loop from its north to its south.
     const LOOP: &str = "\

@@ -3,7 +3,7 @@ use alloc::collections::BTreeMap;
 use tolman_maze::{Cell, Maze};
 use tolman_planners::{Arcs, costs_from};
 
-use super::fragments::Way;
+use super::fragments::{Way, landmark_at};
 
 /// What a perfect reasoner of the paper's kind would know of where a robot has walked: the yardstick of a trial.
 ///
@@ -92,8 +92,7 @@ impl<'a> KnownMap<'a> {
     }
 
     fn visit(&mut self, cell: Cell) -> u32 {
-        let is_start = self.maze.start().is_some_and(|(start, _)| start == cell);
-        let is_landmark = is_start || self.maze.goals().contains(&cell);
+        let is_landmark = landmark_at(self.maze, cell).is_some();
         let before = self.place_of(cell).filter(|_| is_landmark);
         let visit = self.visits.len() as u32;
         let same = before.unwrap_or(visit);
@@ -126,6 +125,7 @@ impl<'a> KnownMap<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::fragments::TrueFragments;
+    use super::super::fragments::tests::THREE_WAYS;
     use super::*;
     use Direction::{East, North, South, West};
     use tolman_control::heading_of;
@@ -144,19 +144,6 @@ mod tests {
         }
         known.shortest()
     }
-
-    /// Three ways between two crossings.
-    const THREE_WAYS: &str = "\
-start = 0 1 east
-
-o---o---o---o---o---o
-|   |           |   |
-o---o   o---o   o---o
-| S               G |
-o---o   o---o   o---o
-|   |           |   |
-o---o---o---o---o---o
-";
 
     #[test]
     fn a_junction_is_known_to_be_one_by_a_fragment_that_was_walked_twice() {

@@ -1,9 +1,9 @@
 use alloc::collections::BTreeSet;
 
-use tolman_maps::cpm::{CpMap, Junction, Landmark};
+use tolman_maps::cpm::{CpMap, Junction};
 use tolman_maze::{Cell, Maze};
 
-use super::fragments::TrueFragments;
+use super::fragments::{TrueFragments, landmark_at};
 use super::layout::{Fit, Layout};
 
 /// Whether a map is that of a maze, as far as the robot has been. Laid over the maze from the start on, port by port, each of its places has
@@ -35,34 +35,16 @@ pub(super) fn is_map_right(
 
 /// Whether a place of a map could be a cell, by what is seen there.
 fn is_like(junction: &Junction, maze: &Maze, cell: Cell) -> bool {
-    let is_start = maze.start().is_some_and(|(start, _)| start == cell);
-    let landmark = if is_start {
-        Some(Landmark::Start)
-    } else {
-        maze.goals().contains(&cell).then_some(Landmark::Goal)
-    };
-    maze.degree(cell) == junction.ports.len() && junction.landmark == landmark
+    maze.degree(cell) == junction.ports.len() && junction.landmark == landmark_at(maze, cell)
 }
 
 #[cfg(test)]
 mod tests {
     use serde_json::{Value, json};
-    use tolman_maps::cpm::{Dictionary, MapFile};
+    use tolman_maps::cpm::{Dictionary, Landmark, MapFile};
 
+    use super::super::fragments::tests::THREE_WAYS;
     use super::*;
-
-    /// Three ways between two crossings.
-    const MAZE: &str = "\
-start = 0 1 east
-
-o---o---o---o---o---o
-|   |           |   |
-o---o   o---o   o---o
-| S               G |
-o---o   o---o   o---o
-|   |           |   |
-o---o---o---o---o---o
-";
 
     /// Start, both crossings, goal: each with its landmark and as many ports.
     const PLACES: [(Option<Landmark>, usize); 4] = [
@@ -112,7 +94,7 @@ o---o---o---o---o---o
 
     /// Whether a map is right on which all fragments were walked but those between these cells.
     fn is_right(map: &CpMap, unwalked: &[u32]) -> bool {
-        let maze = tolman_maze::read(MAZE).unwrap().maze;
+        let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;
         let fragments = TrueFragments::of(&maze);
         let walked = fragments.ways().map(|(_, _, way)| way.fragment);
         let walked = walked.filter(|fragment| !unwalked.contains(fragment));
@@ -121,7 +103,7 @@ o---o---o---o---o---o
 
     /// The number of the true fragment by which one leaves a cell.
     fn leaving(x: u16, y: u16, degrees: f64) -> u32 {
-        let maze = tolman_maze::read(MAZE).unwrap().maze;
+        let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;
         let heading = tolman_geom::Heading::from_degrees(degrees);
         let way = TrueFragments::of(&maze).way(Cell::new(x, y), heading);
         way.unwrap().fragment

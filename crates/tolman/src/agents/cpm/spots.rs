@@ -6,7 +6,9 @@ use tolman_maps::cpm::Landmark;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::World;
 
-use super::fragments::{TrueFragments, Way, along};
+use super::fragments::{
+    Quarters, TrueFragments, Way, along, bends, headings, landmark_at, quarters,
+};
 use super::whereabouts::Approach;
 
 /// Where a robot may be put down: in the middle of a cell between the places at the ends of a fragment, looking along it.
@@ -25,9 +27,6 @@ pub(super) struct Spot {
     /// The place ahead.
     ahead: PlaceAtEnd,
 }
-
-/// Quarters of a turn, clockwise.
-type Quarters = usize;
 
 /// A place at an end of a fragment, for one who goes along it.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,15 +58,12 @@ struct View<'a> {
 
 impl PlaceAtEnd {
     fn of(maze: &Maze, cell: Cell, heading: Direction) -> Self {
-        let is_start = maze.start().is_some_and(|(start, _)| start == cell);
-        let is_goal = maze.goals().contains(&cell);
-        let start = is_start.then_some(Landmark::Start);
         let ways = maze.neighbours(cell);
         let mut open: Vec<Quarters> = ways.map(|(way, _)| quarters(heading, way)).collect();
         open.sort_unstable();
         Self {
             open,
-            landmark: if is_goal { Some(Landmark::Goal) } else { start },
+            landmark: landmark_at(maze, cell),
         }
     }
 
@@ -87,10 +83,6 @@ impl PlaceAtEnd {
     }
 }
 
-const fn quarters(from: Direction, to: Direction) -> Quarters {
-    (to.index() + 4 - from.index()) % 4
-}
-
 impl Spot {
     /// The spots of a maze, on the ways that count.
     pub(super) fn all(maze: &Maze, counts: impl Fn(&Way) -> bool) -> Vec<Self> {
@@ -100,19 +92,8 @@ impl Spot {
             let Some((cells, came)) = along(maze, from, out) else {
                 continue;
             };
-            let headings: Vec<Direction> = cells
-                .windows(2)
-                .filter_map(|pair| {
-                    let (from, to) = (pair.first()?, pair.last()?);
-                    let mut ways = maze.neighbours(*from);
-                    ways.find(|(_, next)| next == to).map(|(way, _)| way)
-                })
-                .collect();
-            let bend = |pair: &[Direction]| match pair {
-                [came, on] => quarters(*came, *on),
-                _ => 0,
-            };
-            let bends: Vec<Quarters> = headings.windows(2).map(bend).collect();
+            let headings = headings(maze, &cells);
+            let bends = bends(&headings);
             // The places at both ends are no part of the fragment.
             let amid = cells.iter().zip(&headings).skip(1).enumerate();
             spots.extend(amid.map(|(passed, (cell, heading))| Self {

@@ -347,7 +347,9 @@ impl<B: Body> Walker<B> {
                 |middle: Point| driven < ROUND * width && (middle - origin).norm() < APART * width;
             let is_under_way = driven > PLACE * width;
             match view.segments.place() {
-                Place::Junction if is_under_way && !is_origin(self.middle_of(&view)) => {
+                Place::Junction
+                    if is_under_way && !is_origin(self.pose().transform(self.middle_of(&view))) =>
+                {
                     let (here, observation) = (self.pose().position, self.observation(&view)?);
                     let seen = self.settle(view, None)?;
                     if seen.sighting.degree > 2 && !is_origin(self.pose().position) {
@@ -416,12 +418,10 @@ impl<B: Body> Walker<B> {
         }
     }
 
-    /// Where the middle of the junction that it sees seems to be, in the frame in which it began.
+    /// Where the middle of the junction that it sees seems to be, in its own frame.
     fn middle_of(&self, view: &View) -> Point {
-        let middle = view
-            .profile
-            .meet_point(&self.config.pilot.curve, &self.config.meet_point);
-        self.pose().transform(middle)
+        view.profile
+            .meet_point(&self.config.pilot.curve, &self.config.meet_point)
     }
 
     /// Drives to the middle of the place that it has seen, and looks what it is.
@@ -433,9 +433,7 @@ impl<B: Body> Walker<B> {
         let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
             let middle = match view.segments.place() {
-                Place::Junction => view
-                    .profile
-                    .meet_point(&self.config.pilot.curve, &self.config.meet_point),
+                Place::Junction => self.middle_of(&view),
                 Place::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => {
                     self.before_the_wall()
                 }
@@ -464,9 +462,7 @@ impl<B: Body> Walker<B> {
 
     /// Where the ways that it sees lead from the middle of the place ahead.
     fn glimpse(&self, view: &View) -> Option<Bearings> {
-        let middle = view
-            .profile
-            .meet_point(&self.config.pilot.curve, &self.config.meet_point);
+        let middle = self.middle_of(view);
         let entry = self.entry(self.pose().transform(middle))?;
         let ways = view.segments.spaces().map(|way| {
             // A way begins at the edge of the place.
