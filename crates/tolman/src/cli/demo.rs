@@ -63,15 +63,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     replay.facts.insert(1, Fact::new("brain", AGENT.name()));
     let replay = replay.fact("made by", called::command());
     replay_file::write(&path, &replay, overwrite)?;
-    let found = if episode.reached {
-        "found"
-    } else {
-        "did not find"
-    };
+    let steps = episode.steps;
+    if !episode.reached {
+        return Err(Failure::Failed(anyhow!(
+            "the robot did not find the destination of the Large maze in {steps} steps"
+        )));
+    }
     writeln!(
         out,
-        "A robot that keeps to the wall on its right {found} the destination of the Large maze in {} steps.",
-        episode.steps
+        "A robot that keeps to the wall on its right found the destination of the Large maze in {steps} steps."
     )?;
     Ok(writeln!(out, "replay: {}", replay_file::address(&path))?)
 }

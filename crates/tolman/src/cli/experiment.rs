@@ -151,11 +151,12 @@ impl Arguments {
 }
 
 fn classify(error: Error) -> Failure {
-    if error.is_bad_input() {
-        Failure::BadInput(error.into())
-    } else {
-        Failure::Failed(error.into())
-    }
+    let failure = match error {
+        Error::Interrupted { .. } => Failure::Interrupted,
+        _ if error.is_bad_input() => Failure::BadInput,
+        _ => Failure::Failed,
+    };
+    failure(error.into())
 }
 
 fn told(disagreement: &Disagreement) -> String {

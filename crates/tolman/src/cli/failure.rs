@@ -1,19 +1,27 @@
 //! What a verb can end with, and how it is told.
+//!
+//! One rule for all verbs: 0 where all was done that was asked for, robots that were sent to a place arrived, mice that
+//! were to solve a maze solved it; else the code of the [`Failure`], and a message on stderr. What was found is written either
+//! way.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Style};
 
+use super::interrupt::INTERRUPTED;
+
 /// Why a verb did not do what it was asked for.
 #[derive(Debug)]
 pub(super) enum Failure {
     /// Whoever called is to give something else.
     BadInput(anyhow::Error),
-    /// The input was sound, the machine or the work on it was not.
+    /// The input was sound, but the machine was not, or the work came to nothing: a robot did not arrive, no way is known.
     Failed(anyhow::Error),
     /// All was done, but `--check` found a table to disagree with the paper.
     Disagrees(anyhow::Error),
+    /// Ctrl-C was heard before all was done.
+    Interrupted(anyhow::Error),
 }
 
 impl Failure {
@@ -22,6 +30,7 @@ impl Failure {
             Self::Failed(_) => 1,
             Self::BadInput(_) => 2,
             Self::Disagrees(_) => 3,
+            Self::Interrupted(_) => INTERRUPTED,
         })
     }
 
@@ -41,7 +50,10 @@ impl Failure {
 
     fn error(&self) -> &anyhow::Error {
         match self {
-            Self::BadInput(error) | Self::Failed(error) | Self::Disagrees(error) => error,
+            Self::BadInput(error)
+            | Self::Failed(error)
+            | Self::Disagrees(error)
+            | Self::Interrupted(error) => error,
         }
     }
 }

@@ -9,7 +9,7 @@ use signal_hook::flag::{register, register_conditional_shutdown};
 use super::Failure;
 
 /// The exit code by which shells know a program that Ctrl-C ended.
-pub(super) const INTERRUPTED: i32 = 130;
+pub(super) const INTERRUPTED: u8 = 130;
 
 /// A flag that the first Ctrl-C raises, as `kill` does; the second ends the program, and so does the first when
 /// the flag is up already.
@@ -17,7 +17,7 @@ pub(super) fn flag() -> Result<Arc<AtomicBool>, Failure> {
     let asked = Arc::new(AtomicBool::new(false));
     for (signal, code) in [(SIGINT, INTERRUPTED), (SIGTERM, 143)] {
         // In this order: a signal must not find the flag that it raises itself.
-        register_conditional_shutdown(signal, code, Arc::clone(&asked))?;
+        register_conditional_shutdown(signal, code.into(), Arc::clone(&asked))?;
         register(signal, Arc::clone(&asked))?;
     }
     Ok(asked)

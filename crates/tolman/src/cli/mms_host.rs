@@ -76,7 +76,13 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
     // What was hosted stands before what could not be, wherever the two streams end up.
     out.flush()?;
-    unsound.complain(mazes.len())
+    unsound.complain(mazes.len())?;
+    let unsolved = mazes
+        .iter()
+        .zip(&hosted)
+        .filter(|(_, hosted)| !hosted.solved);
+    let unsolved: Vec<&Path> = unsolved.map(|((file, _), _)| file.as_path()).collect();
+    maze::all_solved(&unsolved, hosted.len())
 }
 
 impl Arguments {

@@ -53,8 +53,9 @@ Examples:
   tolman mouse mazes/classic --worst 3
   tolman experiment baselines --quick
 
-Exit codes: 0 done, 1 failed, 2 bad input, 3 a table disagrees with the paper (only with
-`experiment --check`). Results are written to stdout, progress and errors to stderr.";
+Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, or an
+error; 2 bad input; 3 a table disagrees with the paper (only with `experiment --check`); 130 interrupted.
+Results are written to stdout, progress and errors to stderr.";
 
 #[derive(Subcommand)]
 enum Verb {
@@ -81,10 +82,10 @@ enum Verb {
 pub(crate) fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let mut out = Stdout::lock();
-    let done = arguments
-        .verb
-        .carry_out(&mut out)
-        .and_then(|()| Ok(out.flush()?));
+    let done = arguments.verb.carry_out(&mut out);
+    // What was found stands before what failed, wherever the two streams end up.
+    let written = out.flush();
+    let done = done.and_then(|()| Ok(written?));
     match done {
         Ok(()) => ExitCode::SUCCESS,
         // Whoever reads has seen enough, as in `tolman maze show … | head -1`.

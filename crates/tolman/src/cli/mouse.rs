@@ -97,7 +97,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         file::write(path, &steps(&tried.trial)?)?;
     }
     out.flush()?;
-    unsound.complain(tried.len())
+    unsound.complain(tried.len())?;
+    let unsolved = tried.iter().filter(|tried| tried.judgement.score.is_none());
+    let unsolved: Vec<&Path> = unsolved.map(|tried| tried.file.as_path()).collect();
+    maze::all_solved(&unsolved, tried.len())
 }
 
 impl Arguments {

@@ -48,6 +48,12 @@ fn folder(name: &str) -> PathBuf {
 /// Lets `tolman` do what `words` say, in the workspace's folder; asks for success and returns what it wrote.
 #[track_caller]
 fn tolman(words: &[&str]) -> String {
+    ended(words, 0)
+}
+
+/// [`tolman`], asking for another exit code.
+#[track_caller]
+fn ended(words: &[&str], code: i32) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_tolman"))
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .args(words)
@@ -55,6 +61,10 @@ fn tolman(words: &[&str]) -> String {
         .output()
         .unwrap();
     let complaint = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "tolman {words:?}: {complaint}");
+    assert_eq!(
+        output.status.code(),
+        Some(code),
+        "tolman {words:?}: {complaint}"
+    );
     String::from_utf8(output.stdout).unwrap()
 }

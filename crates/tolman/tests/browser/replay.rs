@@ -4,7 +4,7 @@ use core::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::tab::{Scheme, Tab};
-use crate::{folder, tab, tell, tolman};
+use crate::{ended, folder, tab, tell, tolman};
 
 /// A folder with the demo in it, and the demo.
 fn demo(name: &str) -> (PathBuf, PathBuf) {
@@ -22,9 +22,10 @@ fn long_run(folder: &Path, size: &str, steps: u32) -> PathBuf {
     let text = tolman(&[&generate[..], &["--seed", "3"]].concat());
     std::fs::write(&maze, text).unwrap();
     let steps = steps.to_string();
-    tolman(&[
+    let run = [
         "run", "random", "--maze", &maze, "--steps", &steps, "--replay", &page,
-    ]);
+    ];
+    ended(&run, 1);
     page.into()
 }
 
@@ -197,6 +198,8 @@ fn two_traces_play_side_by_side_and_part_where_they_are_said_to() {
             "mazes/large.maze",
             "--seed",
             "7",
+            "--steps",
+            "5000",
             "--trace",
             trace,
         ]);

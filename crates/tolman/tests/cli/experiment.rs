@@ -1,9 +1,17 @@
+#[cfg(unix)]
+use core::time::Duration;
 use std::fs;
 use std::path::Path;
+#[cfg(unix)]
+use std::process::{Command, Stdio};
+#[cfg(unix)]
+use std::thread::sleep;
 
 use serde_json::Value;
 
 use crate::{CORRIDOR, folder, tolman, tolman_in};
+#[cfg(unix)]
+use crate::{Ended, command_in};
 
 /// Two runs of each row of the baselines in the corridor, results in `out`.
 fn baselines(folder: &Path, out: &str, more: &[&str]) -> crate::Ended {
@@ -78,6 +86,31 @@ fn a_broken_line_is_reported_and_its_run_made_again() {
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert!(ended.err.contains("played again"), "{}", ended.err);
     assert_eq!(fs::read_to_string(&file).unwrap(), whole);
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_experiment_says_how_it_goes_on() {
+    let folder = folder("interrupted");
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let experiment = "experiment baselines --maze corridor.maze --runs 100000 --out out";
+    let experiment: Vec<&str> = experiment.split(' ').collect();
+    let mut child = command_in(&folder, &experiment)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let runs = folder.join("out/runs.jsonl");
+    while !fs::metadata(&runs).is_ok_and(|runs| runs.len() > 0) {
+        assert_eq!(child.try_wait().unwrap(), None, "it ended by itself");
+        sleep(Duration::from_millis(10));
+    }
+    let id = child.id().to_string();
+    let killed = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(killed.success());
+    let told = Ended::from(child.wait_with_output().unwrap());
+    told.refused(130, &["stopped after", "the same command goes on"]);
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

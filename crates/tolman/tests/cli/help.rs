@@ -11,6 +11,8 @@ fn help_names_every_verb_and_the_exit_codes() {
         "man",
         "Examples:",
         "Exit codes:",
+        "did not arrive",
+        "130 interrupted",
     ] {
         assert!(help.contains(part), "no `{part}` in:\n{help}");
     }

@@ -19,7 +19,7 @@ mod survey;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 /// How the command ended.
 #[derive(Debug)]
@@ -27,6 +27,16 @@ struct Ended {
     code: Option<i32>,
     out: String,
     err: String,
+}
+
+impl From<Output> for Ended {
+    fn from(output: Output) -> Self {
+        Self {
+            code: output.status.code(),
+            out: String::from_utf8(output.stdout).unwrap(),
+            err: String::from_utf8(output.stderr).unwrap(),
+        }
+    }
 }
 
 impl Ended {
@@ -45,15 +55,17 @@ impl Ended {
     /// Asks for this exit code and a message with all these parts, and nothing on stdout.
     #[track_caller]
     fn refused(self, code: i32, parts: &[&str]) {
-        assert_eq!(
-            (self.code, self.out.as_str()),
-            (Some(code), ""),
-            "{}",
-            self.err
-        );
+        assert_eq!(self.failed(code, parts), "");
+    }
+
+    /// Asks for this exit code and a message with all these parts; returns what was written.
+    #[track_caller]
+    fn failed(self, code: i32, parts: &[&str]) -> String {
+        assert_eq!(self.code, Some(code), "{}", self.err);
         for part in parts {
             assert!(self.err.contains(part), "no `{part}` in: {}", self.err);
         }
+        self.out
     }
 }
 
@@ -68,12 +80,7 @@ fn command_in(folder: &Path, arguments: &[&str]) -> Command {
 }
 
 fn tolman_in(folder: &Path, arguments: &[&str]) -> Ended {
-    let output = command_in(folder, arguments).output().unwrap();
-    Ended {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
+    command_in(folder, arguments).output().unwrap().into()
 }
 
 fn tolman(arguments: &[&str]) -> Ended {
@@ -90,12 +97,7 @@ fn tolman_fed(text: &str, arguments: &[&str]) -> Ended {
         .unwrap();
     // A command that refuses its arguments ends without reading.
     let _ = child.stdin.take().unwrap().write_all(text.as_bytes());
-    let output = child.wait_with_output().unwrap();
-    Ended {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
+    child.wait_with_output().unwrap().into()
 }
 
 /// An empty folder of this name, by itself for each test.

@@ -67,6 +67,16 @@ fn a_folder_of_mazes_ends_in_a_summary() {
 }
 
 #[test]
+fn a_mouse_that_solves_some_mazes_fails_with_their_number() {
+    // To the north of the start, and no farther: that is the goal of the smaller maze alone.
+    let script = "echo moveForward; read -r reply";
+    let mazes = [("a.maze", SQUARE), ("b.maze", MIDDLE)];
+    let told = host_in("one-of-two", script, &mazes, &["--time-limit", "5"]);
+    let told = told.failed(1, &["the mouse did not solve 1 of 2 mazes"]);
+    assert!(told.contains("1 of 2 solved"), "{told}");
+}
+
+#[test]
 fn a_mouse_that_does_nothing_is_stopped() {
     for (name, script, ended) in [
         ("sleeper", "sleep 60", "out_of_time"),
@@ -91,7 +101,8 @@ fn a_mouse_that_does_nothing_is_stopped() {
         ("idle", "echo hello", "done"),
     ] {
         let limits = ["--json", "--time-limit", "1", "--move-limit", "50"];
-        let told = host_in(name, script, &[("middle.maze", MIDDLE)], &limits).done();
+        let told = host_in(name, script, &[("middle.maze", MIDDLE)], &limits);
+        let told = told.failed(1, &["did not solve mazes/middle.maze"]);
         let told: serde_json::Value = serde_json::from_str(&told).unwrap();
         assert_eq!(told["ended"], ended, "{name}");
         assert_eq!(told["solved"], false, "{name}");

@@ -120,6 +120,21 @@ fn a_folder_ends_in_a_drawing_and_a_summary() {
 }
 
 #[test]
+fn a_maze_that_the_mouse_does_not_solve_is_a_failure() {
+    let folder = folder("mouse-unsolved");
+    let generate = "maze generate perfect --size 32x32 --out large.maze";
+    let generate: Vec<&str> = generate.split(' ').collect();
+    tolman_in(&folder, &generate).done();
+    let told = tolman_in(&folder, &["mouse", "large.maze", "--search", "random"]);
+    let told = told.failed(1, &["the mouse did not solve large.maze"]);
+    assert!(told.contains("large.maze: not done after"), "{told}");
+    std::fs::write(folder.join("a.maze"), MAZE).unwrap();
+    let told = tolman_in(&folder, &["mouse", ".", "--search", "random"]);
+    let told = told.failed(1, &["the mouse did not solve 1 of 2 mazes"]);
+    assert!(told.contains("2 mazes: 1 finished"), "{told}");
+}
+
+#[test]
 fn what_no_mouse_can_run_in_is_refused() {
     let folder = with_maze("mouse-refused");
     let large = tolman_maze::Maze::open(tolman_maze::Grid::new(40, 3));

@@ -15,14 +15,14 @@ fn data(file: &Path) -> serde_json::Value {
 fn traces(name: &str) -> std::path::PathBuf {
     let folder = folder(&format!("replay-{name}"));
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
-    for (brain, steps, trace) in [
-        ("avoid", "3", "short.jsonl"),
-        ("avoid", "60", "avoid.jsonl"),
-        ("random", "60", "random.jsonl"),
+    for (brain, steps, trace, code) in [
+        ("avoid", "3", "short.jsonl", 1),
+        ("avoid", "60", "avoid.jsonl", 0),
+        ("random", "60", "random.jsonl", 0),
     ] {
         let run = ["run", brain, "--maze", "corridor.maze", "--seed", "6"];
         let options = ["--steps", steps, "--trace", trace];
-        tolman_in(&folder, &[&run[..], &options].concat()).done();
+        tolman_in(&folder, &[&run[..], &options].concat()).failed(code, &[]);
     }
     folder
 }

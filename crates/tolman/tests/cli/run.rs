@@ -32,8 +32,11 @@ fn the_same_seed_makes_the_same_run() {
 }
 
 #[test]
-fn a_run_out_of_time_is_an_outcome() {
-    let told = run(&["--start", "marked", "--steps", "1", "--json"]).done();
+fn a_run_out_of_time_fails_and_is_told() {
+    let early = ["--start", "marked", "--steps", "1"];
+    let parts = ["oracle did not arrive", "--steps"];
+    run(&early).refused(1, &parts);
+    let told = run(&[&early[..], &["--json"]].concat()).failed(1, &parts);
     let told: serde_json::Value = serde_json::from_str(&told).unwrap();
     assert_eq!(
         (&told["reached"], &told["steps"]),

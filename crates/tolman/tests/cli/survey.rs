@@ -79,6 +79,22 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
 }
 
 #[test]
+fn a_plan_to_where_no_way_is_known_is_a_failure() {
+    let folder = folder("no plan");
+    fs::write(folder.join("ring.maze"), RING).unwrap();
+    let survey = "survey --maze ring.maze --moves 1 --out ring.json";
+    let survey: Vec<&str> = survey.split(' ').collect();
+    tolman_in(&folder, &survey).done();
+    let back = "map plan ring.json --from 1 --to 0";
+    let back: Vec<&str> = back.split(' ').collect();
+    let told = [
+        "no way is known from place 1 to place 0",
+        "survey --from ring.json",
+    ];
+    tolman_in(&folder, &back).refused(1, &told);
+}
+
+#[test]
 fn a_file_that_is_no_sound_survey_is_refused() {
     let folder = folder("no survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();

@@ -34,13 +34,12 @@ impl Verb {
 
 /// A maze or a map that does not serve is the caller's to mend; that a robot came to nothing is not.
 fn classify(error: TrialError, context: String) -> Failure {
-    let is_bad_input = error.is_bad_input();
-    let error = Error::from(error).context(context);
-    if is_bad_input {
-        Failure::BadInput(error)
-    } else {
-        Failure::Failed(error)
-    }
+    let failure = match error {
+        TrialError::BrokenOff { .. } => Failure::Interrupted,
+        _ if error.is_bad_input() => Failure::BadInput,
+        _ => Failure::Failed,
+    };
+    failure(Error::from(error).context(context))
 }
 
 /// Reads a maze file with a start.

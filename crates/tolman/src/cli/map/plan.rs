@@ -41,12 +41,12 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let from = arguments.from.map_or(Ok(observer.place()), place)?;
     let to = place(arguments.to)?;
     let Some(plan) = observer.plan(from, to) else {
-        writeln!(
-            out,
-            "no way is known from place {} to place {}",
-            from.0, to.0
-        )?;
-        return Ok(());
+        return Err(Failure::Failed(anyhow!(
+            "no way is known from place {} to place {}; let the robot go on with `tolman survey --from {}`",
+            from.0,
+            to.0,
+            arguments.file.display()
+        )));
     };
     if from == to {
         writeln!(out, "that is place {}, where the plan begins", from.0)?;

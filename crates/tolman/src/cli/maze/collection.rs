@@ -64,6 +64,19 @@ pub(in crate::cli) fn each<T: Send>(
     })
 }
 
+/// Fails if the mouse did not solve some of `all` mazes. A single maze is named.
+///
+/// # Errors
+/// A failure.
+pub(in crate::cli) fn all_solved(unsolved: &[&Path], all: usize) -> Result<(), Failure> {
+    let which = match unsolved {
+        [] => return Ok(()),
+        [only] if all == 1 => input::name(only),
+        _ => format!("{} of {all} mazes", unsolved.len()),
+    };
+    Err(Failure::Failed(anyhow!("the mouse did not solve {which}")))
+}
+
 /// What went wrong with the mazes that cannot be used.
 #[derive(Default)]
 pub(in crate::cli) struct Unsound(Vec<Failure>);

@@ -14,7 +14,7 @@ use std::io::Write;
 use clap::Subcommand;
 
 use super::failure::Failure;
-pub(super) use collection::{Collection, each};
+pub(super) use collection::{Collection, all_solved, each};
 pub(super) use input::{name, read};
 
 /// Looks at mazes, checks, converts and makes them

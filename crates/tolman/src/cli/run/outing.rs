@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use serde_json::json;
 use tolman::agents::Mind;
 use tolman::course::Course;
@@ -88,7 +88,7 @@ pub(in crate::cli) fn course(path: &Path) -> Result<Course, Failure> {
 /// Sends the mind that `mind` makes out, and tells what became of it.
 ///
 /// # Errors
-/// Bad input if maze, start or files do not serve; what the mind's maker says.
+/// Bad input if maze, start or files do not serve; what the mind's maker says; a failure if the robot did not arrive.
 pub(in crate::cli) fn carry_out(
     arguments: &Outing,
     name: Name<'_>,
@@ -160,13 +160,20 @@ pub(in crate::cli) fn carry_out(
             "bumps": episode.bumps,
         });
         writeln!(out, "{json:#}")?;
+    } else {
+        if episode.reached {
+            writeln!(out, "{told}")?;
+        }
+        if let Some(path) = &arguments.replay {
+            writeln!(out, "replay: {}", replay_file::address(path))?;
+        }
+    }
+    if episode.reached {
         return Ok(());
     }
-    writeln!(out, "{told}")?;
-    if let Some(path) = &arguments.replay {
-        writeln!(out, "replay: {}", replay_file::address(path))?;
-    }
-    Ok(())
+    Err(Failure::Failed(anyhow!(
+        "{told}; give it more --steps, or another --seed"
+    )))
 }
 
 /// The outcome in words.

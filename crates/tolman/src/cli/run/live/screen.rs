@@ -124,7 +124,7 @@ impl<'a> Screen<'a> {
             Wish::Beams => self.view.show_or_hide_beams(),
             Wish::Interrupt => {
                 give_back();
-                std::process::exit(INTERRUPTED);
+                std::process::exit(INTERRUPTED.into());
             }
             Wish::Step | Wish::Close => {}
         }
