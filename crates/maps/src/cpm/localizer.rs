@@ -326,6 +326,26 @@ impl<'a> Localizer<'a> {
         self.stage = Stage::AtJunction;
     }
 
+    /// The robot turns round amid a fragment, or before the place at its end, and goes back along it. O(all sequences' lengths).
+    pub fn turn_round(&mut self) {
+        let back: Vec<Vec<f64>> = self
+            .tracks
+            .iter()
+            .map(|track| {
+                let End { fragment, sign } = track.enter;
+                let sign = sign.opposite();
+                let other = self.index(track.map, End { fragment, sign });
+                let other = other.and_then(|other| self.tracks.get(other));
+                let passed = other.map_or(&track.passed, |other| &other.passed);
+                // What it has passed comes next, the last first.
+                passed.iter().rev().copied().collect()
+            })
+            .collect();
+        for (track, passed) in self.tracks.iter_mut().zip(back) {
+            track.passed = passed;
+        }
+    }
+
     /// All that the map has still to come of a fragment has been passed.
     fn pass_all(&mut self) {
         let seen = self.config.slip.max(1e-3);

@@ -367,3 +367,49 @@ fn one_sequence_recalls_its_path_and_environment() {
     }
     assert!(100 * right >= 95 * all, "{right} of {all}");
 }
+
+/// Two corridors that end alike and begin differently: what lies behind tells which of them it is, and which way the robot goes then.
+#[test]
+fn who_turns_round_knows_by_the_other_end() {
+    let mut dictionary = Dictionary::new(1);
+    for pattern in 0..8 {
+        let prototype = [f64::from(pattern)];
+        dictionary.learn(&prototype, &prototype, 0.1).unwrap();
+    }
+    let corridor = |patterns: [u32; 4]| {
+        let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
+        let walk = Traversal {
+            patterns: patterns.map(PatternId).to_vec(),
+            motion: None,
+            sighting: Sighting::plain(1),
+            bearings: None,
+        };
+        explorer.arrive(Turn::BACK, &walk, &dictionary).unwrap();
+        explorer.map().clone()
+    };
+    let maps = [corridor([0, 3, 5, 4]), corridor([7, 3, 5, 4])];
+    let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();
+    for pattern in [5, 4] {
+        localizer.observe(PatternId(pattern)).unwrap();
+    }
+    localizer.end_in_sight(None, None);
+    let ahead = localizer.location();
+    assert!(ahead.probability < 0.51, "{ahead:?}");
+
+    let before = localizer.clone();
+    localizer.turn_round();
+    let back = localizer.location();
+    assert_eq!(back.enter.fragment, ahead.enter.fragment);
+    assert_eq!(back.enter.sign, ahead.enter.sign.opposite());
+    let mut again = localizer.clone();
+    again.turn_round();
+    assert_eq!(again.location(), before.location());
+
+    for pattern in [4, 5, 3, 7] {
+        localizer.observe(PatternId(pattern)).unwrap();
+    }
+    localizer.end_in_sight(None, None);
+    let found = localizer.location();
+    assert_eq!((found.map, found.enter.sign), (1, Sign::Plus));
+    assert!(found.probability > 0.95, "{found:?}");
+}

@@ -34,7 +34,7 @@ pub struct PutDown<'a> {
     pub patterns: &'a CommonPatterns,
     /// The robot.
     pub robot: EpuckConfig,
-    /// Which way it goes first.
+    /// How it goes to the first place.
     pub approach: Approach,
     /// After so many places from the one ahead on it has to know; at least 1.
     pub most_places: u32,
@@ -58,7 +58,7 @@ pub struct KnownMaze<'a> {
 pub struct PutDownRecord {
     /// What the robot believed.
     pub whereabouts: Whereabouts,
-    /// How likely an ideal observer would have known maze, fragment and direction before it came to the place ahead, by how the corridor bends:
+    /// How likely an ideal observer would have known maze, fragment and direction before it entered the first place, by how the corridor bends:
     /// 0 to 1.
     pub knowable_by_bends: f64,
     /// The same if it also saw what the place ahead is, and the ways to the sides of the place behind where it stands beside that; no robot
@@ -108,20 +108,13 @@ impl PutDown<'_> {
             return Ok(None);
         }
         let spot = &spots[rng.random_range(0..spots.len() as u32) as usize];
-        let (start, way) = (spot.pose(&world), spot.way);
+        let start = spot.pose(&world);
         let robot = Epuck::new(self.robot.clone())?;
         let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, self.seed)?;
         let mut walker = Walker::new(body, walker_config(&self.robot, self.corridor_width)?);
         let maps: Vec<CpMap> = self.known.iter().map(|known| known.map.clone()).collect();
-        // The ways that it came by to each place.
-        let begun = match self.approach {
-            Approach::StraightOn => way,
-            Approach::BackFirst => Way {
-                is_forward: !way.is_forward,
-                ..way
-            },
-        };
-        let mut ways = Vec::new();
+        // The ways that it came by to each place; to the first, from amid one, it is not told.
+        let mut onward = Vec::new();
         let whereabouts = find_out(
             &mut walker,
             &maps,
@@ -131,15 +124,22 @@ impl PutDown<'_> {
             &mut rng,
             |walker| {
                 let from = walker.departed_at(walker.body().path());
-                let walked = from.and_then(|from| {
+                onward.push(from.and_then(|from| {
                     let cell = world.cell_at(from.position)?;
                     fragments.way(cell, from.heading)
-                });
-                ways.push(if ways.is_empty() { Some(begun) } else { walked });
+                }));
             },
         )?;
+        let begun = Way {
+            is_forward: spot.way.is_forward != whereabouts.has_turned_round,
+            ..spot.way
+        };
+        let way_to = |place: usize| match place {
+            0 => Some(begun),
+            place => onward.get(place).copied().flatten(),
+        };
         let is_right = |location: Option<Location>, place: usize| {
-            let (Some(location), Some(&Some(way))) = (location, ways.get(place)) else {
+            let (Some(location), Some(way)) = (location, way_to(place)) else {
                 return false;
             };
             let truth = known.truth.get(&location.enter.fragment);
@@ -150,22 +150,21 @@ impl PutDown<'_> {
                         && is_along == (location.enter.sign == Sign::Minus)
                 })
         };
-        let ahead = self.approach.places_before();
         let is_right_at = |place: usize| is_right(whereabouts.at_places.get(place).copied(), place);
         let is_right_before =
             |place: usize| is_right(whereabouts.under_way.get(place).copied().flatten(), place);
-        let is_right_at_first_place = is_right_at(ahead);
+        let is_right_at_first_place = is_right_at(0);
         let last = whereabouts.at_places.len().saturating_sub(1);
         let knowable_by = |looks| knowable(&mazes, self.here, spot, self.approach, looks);
         Ok(Some(PutDownRecord {
             knowable_by_bends: knowable_by(Looks::AtBends),
             knowable_by_places: knowable_by(Looks::AtPlaces),
-            is_right_under_way: is_right_before(ahead),
+            is_right_under_way: is_right_before(0),
             is_right_at_first_place,
-            is_right_within_one_further: if last == ahead {
+            is_right_within_one_further: if last == 0 {
                 is_right_at_first_place
             } else {
-                is_right_before(ahead + 1)
+                is_right_before(1)
             },
             is_right_at_last: is_right_at(last),
             is_recalled: self.recalled(&whereabouts)?,

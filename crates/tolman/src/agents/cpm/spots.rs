@@ -128,7 +128,7 @@ impl Spot {
                     .unwrap_or_default(),
                 ahead,
             },
-            Approach::BackFirst => View {
+            Approach::ToAndFro => View {
                 behind: Some(self.behind.clone()),
                 bends: &self.bends,
                 ahead,
@@ -212,7 +212,7 @@ mod tests {
     fn a_symmetrical_corridor_is_known_by_what_is_behind() {
         let mazes = [straight(2)];
         check(&mazes, 0, Approach::StraightOn, &[0.5; 4]);
-        check(&mazes, 0, Approach::BackFirst, &[1.0; 4]);
+        check(&mazes, 0, Approach::ToAndFro, &[1.0; 4]);
     }
 
     #[test]

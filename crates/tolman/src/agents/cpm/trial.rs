@@ -564,9 +564,9 @@ pub(super) mod tests {
             truth: &record.truth,
         }];
         let straight_on = (0..4).map(|seed| (Approach::StraightOn, seed));
-        let back_first = (0..4).map(|seed| (Approach::BackFirst, seed));
-        let mut under_way = 0;
-        for (approach, seed) in straight_on.chain(back_first) {
+        let to_and_fro = (0..8).map(|seed| (Approach::ToAndFro, seed));
+        let (mut under_way, mut turned) = (0, 0);
+        for (approach, seed) in straight_on.chain(to_and_fro) {
             let put_down = PutDown {
                 known: &known,
                 here: 0,
@@ -579,19 +579,23 @@ pub(super) mod tests {
             };
             let found = put_down.play().unwrap().unwrap();
             assert!(found.is_right_at_last, "{:?}", found.whereabouts);
-            // It was sure at the last place and at none before, from the one ahead on.
-            let beliefs = &found.whereabouts.at_places[approach.places_before()..];
+            // It was sure at the last place and at none before.
+            let beliefs = &found.whereabouts.at_places;
             let places_unsure = beliefs
                 .iter()
                 .take_while(|belief| belief.probability <= 0.95);
             assert_eq!(places_unsure.count(), beliefs.len() - 1);
-            if approach == Approach::BackFirst {
+            if approach == Approach::ToAndFro {
                 // No two fragments of this maze bend alike.
                 assert!(found.knowable_by_bends > 0.99);
                 under_way += u32::from(found.is_right_under_way);
+                turned += u32::from(found.whereabouts.has_turned_round);
+            } else {
+                assert!(!found.whereabouts.has_turned_round);
             }
         }
-        assert!(under_way >= 3, "{under_way} of 4");
+        assert!(under_way >= 7, "{under_way} of 8");
+        assert!((1..8).contains(&turned), "{turned} of 8");
     }
 
     #[test]

@@ -85,6 +85,47 @@ pub enum Walk {
     },
 }
 
+/// What a robot knows of a fragment when the place at its end comes into sight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prospect {
+    /// What was seen on the way.
+    pub observations: Vec<Observation>,
+    /// Where ways out of the place seem to lead, as of a place that the robot is about to enter.
+    pub glimpse: Option<Bearings>,
+    /// The landmark that stands there.
+    pub landmark: Option<Landmark>,
+}
+
+/// What to do when a place comes into sight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BeforePlace {
+    /// To go into it.
+    Enter,
+    /// To turn round, and go to the place at the other end of the fragment.
+    TurnRound,
+}
+
+/// A fragment under way.
+struct Course {
+    /// The middle of the place it leads from, or where the robot began amid it.
+    origin: Point,
+    /// How far the robot had driven at that place, m; amid a fragment that is long left.
+    begun: f64,
+    /// The landmark it comes from, until that is seen no longer.
+    left: Option<Landmark>,
+    track: Track,
+    strides: u32,
+    /// So many of them are driven without looking.
+    skip: u32,
+}
+
+/// What comes into sight ahead.
+enum Ahead {
+    Landmark(Landmark),
+    Junction(View),
+    DeadEnd(View),
+}
+
 /// What is seen from one place.
 struct View {
     profile: Profile,
@@ -119,15 +160,6 @@ fn count_from(direction: f64, ways: &mut [f64]) {
     if let Some((first, _)) = nearest {
         ways.rotate_left(first);
     }
-}
-
-/// Where a robot is when it sets off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Origin {
-    /// In the middle of a junction, dead end or landmark.
-    Place,
-    /// Amid a fragment.
-    Path,
 }
 
 /// Rounds of looking for a junction's middle.
@@ -241,7 +273,7 @@ impl<B: Body> Walker<B> {
     /// # Errors
     /// [`WalkError`].
     pub fn begin(&mut self) -> Result<Sighting, WalkError<B::Error>> {
-        match self.set_off()? {
+        match self.set_off(|_| BeforePlace::Enter)? {
             Walk::Arrived { sighting, .. } => Ok(sighting),
             Walk::TurnedBack { .. } => Err(WalkError::Lost),
         }
@@ -249,9 +281,14 @@ impl<B: Body> Walker<B> {
 
     /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on; nothing where it stands at a place.
     ///
+    /// When the place ahead comes into sight, `choose` is asked what to do. Once turned round, the robot tells what it saw since.
+    ///
     /// # Errors
     /// [`WalkError`].
-    pub fn set_off(&mut self) -> Result<Walk, WalkError<B::Error>> {
+    pub fn set_off(
+        &mut self,
+        mut choose: impl FnMut(&Prospect) -> BeforePlace,
+    ) -> Result<Walk, WalkError<B::Error>> {
         // It may have been carried here.
         let begun = self.pose().position;
         self.trail.clear();
@@ -272,16 +309,28 @@ impl<B: Body> Walker<B> {
             // A bend that looked like a junction.
             self.pilot.go_to(self.pose().inverse().transform(begun))?;
         }
-        (self.departed_us, self.departed) = (self.time_us(), self.pose());
-        self.follow(Origin::Path, vec![(begun, seen)], 0, None)
-    }
-
-    /// Turns half round where it stands.
-    ///
-    /// # Errors
-    /// [`WalkError`].
-    pub fn turn_round(&mut self) -> Result<(), WalkError<B::Error>> {
-        Ok(self.pilot.turn(PI)?)
+        self.depart();
+        let mut course = self.amid();
+        course.track.push((begun, seen));
+        loop {
+            let Some(ahead) = self.stride(&mut course)? else {
+                continue;
+            };
+            let middle = self.middle_ahead(&ahead);
+            match choose(&self.prospect(&course, &ahead, middle)) {
+                BeforePlace::Enter => {
+                    if let Some(seen) = self.enter(&mut course, ahead)? {
+                        return Ok(self.arrived(course.track, seen));
+                    }
+                }
+                BeforePlace::TurnRound => {
+                    self.pilot.turn(PI)?;
+                    self.depart();
+                    let back = self.leaving(middle, 0);
+                    return self.follow(back, None);
+                }
+            }
+        }
     }
 
     /// Leaves by branch `number`, counted counter-clockwise from the port of entry, and follows the path to its end. The first `skip`
@@ -300,98 +349,169 @@ impl<B: Body> Walker<B> {
             branches: self.branches.len(),
         })?;
         self.pilot.turn(branch)?;
-        self.departed_us = self.time_us();
-        self.departed = self.pose();
-        self.follow(Origin::Place, Track::new(), skip, give_up_after)
+        self.depart();
+        let course = self.leaving(self.pose().position, skip);
+        self.follow(course, give_up_after)
+    }
+
+    fn depart(&mut self) {
+        (self.departed_us, self.departed) = (self.time_us(), self.pose());
+    }
+
+    /// A course from a place with its middle there.
+    fn leaving(&mut self, origin: Point, skip: u32) -> Course {
+        let here = self.pose().position;
+        self.trail.clear();
+        self.trail.push(here);
+        Course {
+            origin,
+            begun: self.driven() - (here - origin).norm(),
+            left: self.pilot.robot().landmark(),
+            track: Track::new(),
+            strides: 0,
+            skip,
+        }
+    }
+
+    /// A course from amid a fragment, of which the place behind is long left.
+    fn amid(&mut self) -> Course {
+        let course = self.leaving(self.pose().position, 0);
+        Course {
+            begun: course.begun - ROUND * self.config.corridor_width,
+            ..course
+        }
     }
 
     fn follow(
         &mut self,
-        from: Origin,
-        mut track: Track,
-        skip: u32,
+        mut course: Course,
         give_up_after: Option<u32>,
     ) -> Result<Walk, WalkError<B::Error>> {
-        let (begun, origin) = (self.pilot.robot().driven(), self.pose().position);
-        let width = self.config.corridor_width;
-        // From amid a fragment the last place is long left.
-        let ahead = match from {
-            Origin::Place => 0.0,
-            Origin::Path => ROUND * width,
-        };
-        let mut left = self.pilot.robot().landmark();
-        self.trail.clear();
-        self.trail.push(origin);
-        for stride in 0..self.config.longest_fragment {
-            self.pilot.follow(self.config.stride_s)?;
-            self.trail.push(self.pose().position);
-            if stride < skip {
-                continue;
-            }
-            let driven = ahead + self.pilot.robot().driven() - begun;
-            let view = self.look()?;
-            let landmark = self.pilot.robot().landmark();
-            // The landmark it comes from is left when it is seen no longer.
-            left = left.filter(|left| landmark == Some(*left));
-            if let Some(landmark) = landmark
-                && left.is_none()
-            {
-                self.enter()?;
-                let view = self.look()?;
-                let seen = self.settle(view, Some(landmark))?;
-                return Ok(self.arrived(track, seen));
-            }
-            // Consecutive sightings of a junction are one: a middle at the place it comes from is that place's, until it has had the
-            // time to come round.
-            let is_origin =
-                |middle: Point| driven < ROUND * width && (middle - origin).norm() < APART * width;
-            let is_under_way = driven > PLACE * width;
-            match view.segments.place() {
-                Place::Junction
-                    if is_under_way && !is_origin(self.pose().transform(self.middle_of(&view))) =>
-                {
-                    let (here, observation) = (self.pose().position, self.observation(&view)?);
-                    let seen = self.settle(view, None)?;
-                    if seen.sighting.degree > 2 && !is_origin(self.pose().position) {
-                        return Ok(self.arrived(track, seen));
-                    }
-                    // Seen from its middle it is none: the robot goes on from where it was, so that nothing of the path is left out.
-                    self.pilot.go_to(self.pose().inverse().transform(here))?;
-                    if driven > TRIMMED * width {
-                        track.push((here, observation));
-                    }
+        loop {
+            if let Some(ahead) = self.stride(&mut course)? {
+                if let Some(seen) = self.enter(&mut course, ahead)? {
+                    return Ok(self.arrived(course.track, seen));
                 }
-                Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
-                    let seen = self.settle(view, None)?;
-                    if seen.sighting.degree == 1 {
-                        return Ok(self.arrived(track, seen));
-                    }
-                }
-                Place::Junction => {}
-                // A way on may be hidden for a moment.
-                Place::DeadEnd | Place::Closed | Place::Path => {
-                    if driven > TRIMMED * width {
-                        let position = self.pose().position;
-                        track.push((position, self.observation(&view)?));
-                    }
-                    if give_up_after.is_some_and(|most| track.len() >= most as usize) {
-                        self.pilot.turn(PI)?;
-                        self.follow(Origin::Path, Track::new(), 0, None)?;
-                        return Ok(Walk::TurnedBack {
-                            observations: filled(&track),
-                        });
-                    }
-                }
+            } else if give_up_after.is_some_and(|most| course.track.len() >= most as usize) {
+                self.pilot.turn(PI)?;
+                let back = self.amid();
+                self.follow(back, None)?;
+                return Ok(Walk::TurnedBack {
+                    observations: filled(&course.track),
+                });
             }
         }
-        Err(WalkError::Endless {
-            strides: self.config.longest_fragment,
-            metres: self.pilot.robot().driven() - begun,
+    }
+
+    /// One stride along a fragment, and a look, unless it is one to skip: at what comes into sight, or at the path.
+    fn stride(&mut self, course: &mut Course) -> Result<Option<Ahead>, WalkError<B::Error>> {
+        if course.strides >= self.config.longest_fragment {
+            return Err(WalkError::Endless {
+                strides: course.strides,
+                metres: self.driven() - course.begun,
+            });
+        }
+        let width = self.config.corridor_width;
+        self.pilot.follow(self.config.stride_s)?;
+        self.trail.push(self.pose().position);
+        course.strides += 1;
+        if course.strides <= course.skip {
+            return Ok(None);
+        }
+        let driven = self.driven() - course.begun;
+        let view = self.look()?;
+        let landmark = self.pilot.robot().landmark();
+        course.left = course.left.filter(|left| landmark == Some(*left));
+        if let Some(landmark) = landmark
+            && course.left.is_none()
+        {
+            return Ok(Some(Ahead::Landmark(landmark)));
+        }
+        let is_under_way = driven > PLACE * width;
+        match view.segments.place() {
+            Place::Junction => {
+                let middle = self.pose().transform(self.middle_of(&view));
+                let is_next = is_under_way && !self.is_origin(course, driven, middle);
+                return Ok(is_next.then_some(Ahead::Junction(view)));
+            }
+            Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
+                return Ok(Some(Ahead::DeadEnd(view)));
+            }
+            // A way on may be hidden for a moment.
+            Place::DeadEnd | Place::Closed | Place::Path => {}
+        }
+        if driven > TRIMMED * width {
+            let seen = self.observation(&view)?;
+            course.track.push((self.pose().position, seen));
+        }
+        Ok(None)
+    }
+
+    /// Consecutive sightings of a junction are one: a middle at the place that a course leads from is that place's, until the robot has had the
+    /// time to come round.
+    fn is_origin(&self, course: &Course, driven: f64, middle: Point) -> bool {
+        let width = self.config.corridor_width;
+        driven < ROUND * width && (middle - course.origin).norm() < APART * width
+    }
+
+    /// Goes into what is in sight; none if it is no place, seen from its middle.
+    fn enter(
+        &mut self,
+        course: &mut Course,
+        ahead: Ahead,
+    ) -> Result<Option<Seen>, WalkError<B::Error>> {
+        match ahead {
+            Ahead::Landmark(landmark) => {
+                self.drive_to_landmark()?;
+                let view = self.look()?;
+                self.settle(view, Some(landmark)).map(Some)
+            }
+            Ahead::Junction(view) => {
+                let driven = self.driven() - course.begun;
+                let (here, observation) = (self.pose().position, self.observation(&view)?);
+                let seen = self.settle(view, None)?;
+                if seen.sighting.degree > 2 && !self.is_origin(course, driven, self.pose().position)
+                {
+                    return Ok(Some(seen));
+                }
+                // The robot goes on from where it was, so that nothing of the path is left out.
+                self.pilot.go_to(self.pose().inverse().transform(here))?;
+                if driven > TRIMMED * self.config.corridor_width {
+                    course.track.push((here, observation));
+                }
+                Ok(None)
+            }
+            Ahead::DeadEnd(view) => {
+                let seen = self.settle(view, None)?;
+                Ok((seen.sighting.degree == 1).then_some(seen))
+            }
+        }
+    }
+
+    /// What is known of a fragment before the place at its end, which has its middle there.
+    fn prospect(&self, course: &Course, ahead: &Ahead, middle: Point) -> Prospect {
+        let (glimpse, landmark) = match ahead {
+            Ahead::Landmark(landmark) => (None, Some(*landmark)),
+            Ahead::Junction(view) | Ahead::DeadEnd(view) => (self.glimpse(view), None),
+        };
+        Prospect {
+            observations: self.up_to(course.track.clone(), middle),
+            glimpse,
+            landmark,
+        }
+    }
+
+    /// Where the middle of what is in sight seems to be, in the frame in which the robot began.
+    fn middle_ahead(&self, ahead: &Ahead) -> Point {
+        self.pose().transform(match ahead {
+            Ahead::Landmark(_) => Point::new(TO_LANDMARK * self.config.corridor_width, 0.0),
+            Ahead::Junction(view) => self.middle_of(view),
+            Ahead::DeadEnd(_) => self.before_the_wall(),
         })
     }
 
     /// Drives on from where a landmark is first seen to near its middle.
-    fn enter(&mut self) -> Result<(), WalkError<B::Error>> {
+    fn drive_to_landmark(&mut self) -> Result<(), WalkError<B::Error>> {
         let width = self.config.corridor_width;
         let begun = self.pilot.robot().driven();
         let step_s = self.config.pilot.step_us as f64 * 1e-6;
@@ -403,19 +523,22 @@ impl<B: Body> Walker<B> {
         Ok(())
     }
 
-    /// A walk without what was seen from within the place it led to.
-    fn arrived(&self, mut track: Track, seen: Seen) -> Walk {
-        let middle = self.pose().position;
+    fn arrived(&self, track: Track, seen: Seen) -> Walk {
+        Walk::Arrived {
+            observations: self.up_to(track, self.pose().position),
+            glimpse: seen.glimpse,
+            sighting: seen.sighting,
+        }
+    }
+
+    /// What was seen before the robot came to the place with this middle.
+    fn up_to(&self, mut track: Track, middle: Point) -> Vec<Observation> {
         let trimmed = TRIMMED * self.config.corridor_width;
         while track
             .pop_if(|(position, _)| (*position - middle).norm() < trimmed)
             .is_some()
         {}
-        Walk::Arrived {
-            observations: filled(&track),
-            glimpse: seen.glimpse,
-            sighting: seen.sighting,
-        }
+        filled(&track)
     }
 
     /// Where the middle of the junction that it sees seems to be, in its own frame.

@@ -4,38 +4,29 @@ use tolman_maps::cpm::{CpMap, LocalizeError, Localizer, LocalizerConfig, Locatio
 
 use super::body::Body;
 use super::common_patterns::CommonPatterns;
-use super::walker::{Observation, Walk, WalkError, Walker};
+use super::walker::{BeforePlace, Observation, Prospect, Walk, WalkError, Walker};
 
-/// Which way a robot goes first that was put down amid a fragment.
+/// How a robot goes to the first place that was put down amid a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Approach {
-    /// To the place ahead: it "continues moving forward until the first junction is found" (section 8).
+    /// To the one ahead: it "continues moving forward until the first junction is found" (section 8).
     StraightOn,
-    /// Back to the place behind, and from there along the whole fragment to the place ahead. Ours: what it has seen of the fragment before
-    /// it leaves it is all of it.
-    BackFirst,
-}
-
-impl Approach {
-    /// How many places it comes to before the one that was ahead where it was put down.
-    #[must_use]
-    pub const fn places_before(self) -> usize {
-        match self {
-            Self::StraightOn => 0,
-            Self::BackFirst => 1,
-        }
-    }
+    /// To the one ahead; but if it is not sure where it is when that comes into sight, it turns round and goes to the one at the other end.
+    /// Ours: before it enters any place it has seen the whole fragment, and both ends.
+    ToAndFro,
 }
 
 /// What a robot that was put down somewhere found out about where it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Whereabouts {
+    /// Whether it turned round before the first place.
+    pub has_turned_round: bool,
     /// What it believed at each place it came to: the fragment it came by, and the port behind it.
     pub at_places: Vec<Location>,
     /// What it believed before each of them, when it first saw it ahead; none if it had observed nothing at all, and so does
     /// not know.
     pub under_way: Vec<Option<Location>>,
-    /// What it saw along each fragment it walked whole.
+    /// What it saw along each fragment it walked whole, from end to end.
     pub walks: Vec<Vec<Observation>>,
 }
 
@@ -67,13 +58,26 @@ pub fn find_out<B: Body>(
     mut see: impl FnMut(&Walker<B>),
 ) -> Result<Whereabouts, WhereaboutsError<B::Error>> {
     let mut localizer = Localizer::new(maps, patterns.dictionary(), CONFIG)?;
-    let mut found = Whereabouts::default();
-    if approach == Approach::BackFirst {
-        walker.turn_round()?;
-    }
-    let first_ahead = approach.places_before();
-    let mut walk = walker.set_off()?;
-    let last = first_ahead + most_places.saturating_sub(1) as usize;
+    let mut has_turned_round = false;
+    let mut walk = walker.set_off(|prospect| {
+        if approach == Approach::StraightOn {
+            return BeforePlace::Enter;
+        }
+        let mut ahead = localizer.clone();
+        // What cannot be taken in here cannot be at the place either, and is told of there.
+        if take_in(&mut ahead, prospect, patterns).is_err() || is_sure(&ahead) {
+            return BeforePlace::Enter;
+        }
+        ahead.turn_round();
+        localizer = ahead;
+        has_turned_round = true;
+        BeforePlace::TurnRound
+    })?;
+    let mut found = Whereabouts {
+        has_turned_round,
+        ..Whereabouts::default()
+    };
+    let last = most_places.saturating_sub(1) as usize;
     for place in 0..=last {
         let Walk::Arrived {
             observations,
@@ -83,33 +87,47 @@ pub fn find_out<B: Body>(
         else {
             return Err(WalkError::Lost.into());
         };
-        let seen = patterns.patterns(&observations);
-        let has_seen = place > 0 || !seen.is_empty() || glimpse.is_some();
-        for pattern in seen {
-            localizer.observe(pattern)?;
-        }
-        localizer.end_in_sight(sighting.landmark, glimpse.as_ref());
+        let prospect = Prospect {
+            observations,
+            glimpse,
+            landmark: sighting.landmark,
+        };
+        let is_whole = place > 0 || has_turned_round;
+        let has_seen = is_whole || prospect.glimpse.is_some() || !prospect.observations.is_empty();
+        take_in(&mut localizer, &prospect, patterns)?;
         let belief = has_seen.then(|| localizer.location());
         found.under_way.push(belief);
-        if place > 0 {
-            found.walks.push(observations);
+        if is_whole {
+            found.walks.push(prospect.observations);
         }
         localizer.arrive(sighting, walker.bearings().as_ref());
-        let here = localizer.location();
-        found.at_places.push(here);
+        found.at_places.push(localizer.location());
         see(walker);
-        if place == last || place >= first_ahead && here.probability > SURE {
+        if place == last || is_sure(&localizer) {
             break;
         }
-        let turn = if place < first_ahead {
-            Turn::BACK
-        } else {
-            onward(&localizer, sighting.degree, rng)
-        };
+        let turn = onward(&localizer, sighting.degree, rng);
         localizer.turn(turn)?;
         walk = walker.walk(turn.0 as usize, 0, None)?;
     }
     Ok(found)
+}
+
+/// What is known when a place comes into sight.
+fn take_in(
+    localizer: &mut Localizer<'_>,
+    prospect: &Prospect,
+    patterns: &CommonPatterns,
+) -> Result<(), LocalizeError> {
+    for pattern in patterns.patterns(&prospect.observations) {
+        localizer.observe(pattern)?;
+    }
+    localizer.end_in_sight(prospect.landmark, prospect.glimpse.as_ref());
+    Ok(())
+}
+
+fn is_sure(localizer: &Localizer<'_>) -> bool {
+    localizer.location().probability > SURE
 }
 
 /// A turn at random among those that its maps most likely know: by others it would learn nothing.

@@ -245,7 +245,7 @@ fn what_is_lost_on_the_wire_stops_it_and_it_can_be_opened_again() {
     walker.begin().unwrap();
     // `D,-994,994` without its first digit.
     line.0.borrow_mut().lost = Some(3);
-    let error = walker.turn_round().unwrap_err();
+    let error = walker.look_around().unwrap_err();
     let told = error.to_string();
     assert!(
         told.contains("-94, 994") && told.contains("-994, 994"),

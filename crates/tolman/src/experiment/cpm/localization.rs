@@ -29,19 +29,20 @@ const QUICK_RUNS: u32 = 5;
 /// The row of mazes with fragments that look alike, another one each run, of which the robot knows that one alone.
 const ALIASED: &str = "Aliased";
 
-/// What follows the name of a maze in a row of robots that go back first.
-const BACK_FIRST: &str = " back first";
+/// What follows the name of a maze in a row of robots that turn round where they are not sure.
+const TO_AND_FRO: &str = " to and fro";
 
-/// What could be known before the place ahead: the name of the metric, and that on a page.
+/// What could be known before the first place: the name of the metric, and that on a page.
 const KNOWABLE: [(&str, &str); 2] = [
     ("bends_percent", "could be known by bends"),
     ("places_percent", "and by the places at the ends"),
 ];
 
 /// The yes or no of a run: the beginning of its metric's name, and that on a page.
-const FLAGS: [(&str, &str); 5] = [
-    ("under_way", "right when the place ahead comes into sight"),
-    ("first_place", "in its middle"),
+const FLAGS: [(&str, &str); 6] = [
+    ("turned_round", "turned round"),
+    ("under_way", "right before it enters a place"),
+    ("first_place", "in the middle of the first"),
     ("one_further", "within one further fragment"),
     ("last_place", "at the last"),
     ("recalled", "maze recalled by SOINN-AM"),
@@ -53,8 +54,8 @@ pub(super) struct Known([OnceLock<Vec<Record>>; MAPS]);
 
 /// The maze of a row, and the robot's approach.
 fn cast(row: &str) -> (&str, Approach) {
-    match row.strip_suffix(BACK_FIRST) {
-        Some(maze) => (maze, Approach::BackFirst),
+    match row.strip_suffix(TO_AND_FRO) {
+        Some(maze) => (maze, Approach::ToAndFro),
         None => (row, Approach::StraightOn),
     }
 }
@@ -66,6 +67,7 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
         .field("seconds", Kind::Number)
         .field("bends_percent", Kind::Number)
         .field("places_percent", Kind::Number)
+        .field("turned_round", Kind::Flag)
         .field("under_way", Kind::Flag)
         .field("first_place", Kind::Flag)
         .field("one_further", Kind::Flag)
@@ -83,15 +85,15 @@ pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
     let runs = if quick { QUICK_RUNS } else { RUNS };
     let mazes = venues.iter().map(|venue| venue.name.as_str());
     for maze in mazes.chain([ALIASED]) {
-        for suffix in ["", BACK_FIRST] {
+        for suffix in ["", TO_AND_FRO] {
             table = table.row(Row::new(format!("{maze}{suffix}")).runs(runs));
         }
     }
     table.note(format!(
         "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, twenty in turn, and is put down in the \
-         middle of a cell amid a fragment of the row's that its map has; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on, or \
-         back to the place behind first and from there along the whole fragment. Right: maze, fragment and direction, when the place at its end \
-         comes into sight, and in the middle of it; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
+         middle of a cell amid a fragment of the row's that its map has; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on to \
+         the place ahead, or to and fro: if it is not sure when that place comes into sight, it turns round and goes to the other end. Right: maze, fragment and direction, when the place that it \
+         is about to enter is in sight, and in the middle of it; within one further fragment: at that place if it was sure there, else before the next one. It goes on \
          until it is sure, up to {MOST_PLACES} places. What could be known is how often the best guess is right of an observer that knows the mazes and sees \
          without mistake how the corridor bends in every cell from the one behind on, and of one that sees the place ahead too, and the sides of the one behind if it stands beside it. SOINN-AM is asked with the first fragment walked whole."
     ))
@@ -163,7 +165,7 @@ impl Known {
         let record = put_down
             .play()?
             .ok_or("no fragment is long enough to stand amid")?;
-        Ok(measured(approach, &record))
+        Ok(measured(&record))
     }
 }
 
@@ -188,7 +190,7 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
             seed: seed("localization"),
         };
         if let Some(record) = put_down.play()? {
-            return Ok(measured(approach, &record));
+            return Ok(measured(&record));
         }
     }
     Err("no maze was solved that has a fragment to stand amid".into())
@@ -202,13 +204,14 @@ fn known<'a>(venue: &'a Venue, record: &'a Record) -> KnownMaze<'a> {
     }
 }
 
-fn measured(approach: Approach, record: &PutDownRecord) -> Fields {
-    let places = record.whereabouts.at_places.len() - approach.places_before();
+fn measured(record: &PutDownRecord) -> Fields {
+    let places = record.whereabouts.at_places.len();
     let mut fields = Fields::new()
         .count("places", places as u64)
         .number("seconds", record.seconds)
         .number("bends_percent", 100.0 * record.knowable_by_bends)
         .number("places_percent", 100.0 * record.knowable_by_places)
+        .flag("turned_round", record.whereabouts.has_turned_round)
         .flag("under_way", record.is_right_under_way)
         .flag("first_place", record.is_right_at_first_place)
         .flag("one_further", record.is_right_within_one_further)
@@ -238,7 +241,11 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
         }
     }
     let (_, approach) = cast(&run.row);
-    let has_walked = places > 1.5 || approach == Approach::BackFirst;
+    let has_turned = flag("turned_round") == Some(true);
+    if has_turned && approach == Approach::StraightOn {
+        return Err("a robot that goes straight on has turned round".into());
+    }
+    let has_walked = places > 1.5 || has_turned;
     if flag("recalled").is_some() && !has_walked {
         return Err("a maze is recalled, and no fragment was walked whole".into());
     }
