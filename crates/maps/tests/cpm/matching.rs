@@ -55,6 +55,9 @@ fn auc(matching: &Matching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
     won / (same.len() * other.len()) as f64
 }
 
+/// So many that one maze in which the paper's similarity is as good does not decide.
+const MAZES: u32 = 40;
+
 #[test]
 fn alignment_tells_fragments_apart_better_than_positions() {
     let matchings = [
@@ -62,7 +65,9 @@ fn alignment_tells_fragments_apart_better_than_positions() {
         Matching::Positions(Similarity::paper()),
         Matching::Alignment(Alignment::tuned()),
     ];
-    for (substitution, gaps) in [(0.05, 0.0), (0.1, 0.05), (0.3, 0.1)] {
+    // By how much alignment is to be better than the paper's similarity: about half of what it is.
+    for (substitution, gaps, margin) in [(0.05, 0.0, 0.0005), (0.1, 0.05, 0.006), (0.3, 0.1, 0.02)]
+    {
         let noise = Noise {
             substitution,
             insertion: gaps,
@@ -77,16 +82,18 @@ fn alignment_tells_fragments_apart_better_than_positions() {
             ..MazeConfig::small()
         };
         let mut areas = [0.0; 3];
-        for _ in 0..4 {
+        for _ in 0..MAZES {
             let world = World::random(&maze, &mut rng).unwrap();
             let seen = sightings(&world, noise, &mut rng);
             for (area, matching) in areas.iter_mut().zip(&matchings) {
-                *area += auc(matching, world.dictionary(), &seen) / 4.0;
+                *area += auc(matching, world.dictionary(), &seen) / f64::from(MAZES);
             }
         }
         println!("{noise:?}: {areas:.4?}");
-        assert!(areas.is_sorted(), "{areas:?}");
-        assert!(areas[2] > 0.8, "{areas:?}");
+        let [literal, paper, alignment] = areas;
+        assert!(paper > literal + 0.2, "{areas:?}");
+        assert!(alignment > paper + margin, "{areas:?}");
+        assert!(alignment > 0.8, "{areas:?}");
     }
 }
 
