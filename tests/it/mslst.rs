@@ -39,9 +39,9 @@ fn a_saved_map_is_the_same_map_and_makes_the_same_run() {
         config: config(),
         learned: learned(),
     };
-    let text = file.to_json();
+    let text = file.to_json().unwrap();
     let read = MapFile::from_json(&text).unwrap();
-    assert_eq!(read.to_json(), text);
+    assert_eq!(read.to_json().unwrap(), text);
     assert_eq!(read.learned.map.graph, file.learned.map.graph);
     assert_eq!(read.learned.survey, file.learned.survey);
     // The very bits, which equal texts of rounded numbers would not prove.
@@ -99,7 +99,8 @@ fn files_that_hold_no_map_say_why() {
         config: config(),
         learned: learned(),
     }
-    .to_json();
+    .to_json()
+    .unwrap();
     let damaged = |from: &str, to: &str| {
         assert!(good.contains(from), "{from}");
         let error = MapFile::from_json(&good.replacen(from, to, 1)).unwrap_err();

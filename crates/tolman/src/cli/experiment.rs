@@ -82,7 +82,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         let progress = Terminal::new(Arc::clone(&stop));
         let outcome = execute(&*experiment, &options, &build, &progress).map_err(classify)?;
         if arguments.json {
-            out.write_all(outcome.summary.to_json().as_bytes())?;
+            let summary = outcome.summary.to_json().map_err(classify)?;
+            out.write_all(summary.as_bytes())?;
         } else {
             let tables = tables_as_text(&outcome.analysis, ink());
             let report = outcome.folder.join("report.html");

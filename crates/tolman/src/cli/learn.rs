@@ -60,7 +60,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         config,
         learned,
     };
-    file::write(&arguments.out, &map.to_json())?;
+    file::write(&arguments.out, &map.to_json()?)?;
     writeln!(out, "{states} states, a graph of {nodes} nodes")?;
     Ok(())
 }

@@ -94,6 +94,14 @@ pub enum Error {
         /// Why.
         source: BoxError,
     },
+    /// The summary cannot be written as JSON.
+    #[error("the summary of experiment {name} cannot be written as JSON")]
+    Summary {
+        /// The experiment.
+        name: String,
+        /// Why.
+        source: serde_json::Error,
+    },
     /// The threads cannot be started.
     #[error("cannot start {jobs} threads; give fewer with --jobs")]
     Threads {

@@ -123,7 +123,7 @@ pub fn execute(
     folder.write_runs(&runs)?;
     let analysis = Analysis::of(experiment, &runs, options.seed);
     let summary = Summary::of(experiment.name(), options.seed, &analysis);
-    folder.write("summary.json", &summary.to_json())?;
+    folder.write("summary.json", &summary.to_json()?)?;
     let mut figures = plots::box_plots(experiment, &runs);
     figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
         name: experiment.name().to_owned(),

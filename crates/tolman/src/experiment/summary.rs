@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Analysis, Reached};
+use super::{Analysis, Error, Reached};
 
 /// The table of all p-values of rows compared each with each.
 pub(super) const P_TABLE: &str = "p";
@@ -88,10 +88,15 @@ impl Summary {
     }
 
     /// The text of `summary.json`, with a line end.
-    pub fn to_json(&self) -> String {
-        // A value of plain fields and string keys always has a JSON form.
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+    ///
+    /// # Errors
+    /// [`Error::Summary`].
+    pub fn to_json(&self) -> Result<String, Error> {
+        serde_json::to_string_pretty(self)
+            .map(|text| text + "\n")
+            .map_err(|source| Error::Summary {
+                name: self.experiment.clone(),
+                source,
+            })
     }
 }

@@ -84,8 +84,10 @@ impl MapFile {
     }
 
     /// The text of the file, with a line end.
-    #[must_use]
-    pub fn to_json(&self) -> String {
+    ///
+    /// # Errors
+    /// [`MapFileError::File`] if it cannot be written.
+    pub fn to_json(&self) -> Result<String, MapFileError> {
         let Learned { map, survey } = &self.learned;
         let surveyed = survey.positions.iter().zip(&survey.made_by);
         let nodes = map.graph.nodes().iter().zip(surveyed);
@@ -105,10 +107,7 @@ impl MapFile {
                 })
                 .collect(),
         };
-        // Plain fields and finite numbers always have a JSON form.
-        let mut text = serde_json::to_string(&body).unwrap_or_default();
-        text.push('\n');
-        text
+        Ok(KIND.write(&body)?)
     }
 
     /// Reads the text of a file.
