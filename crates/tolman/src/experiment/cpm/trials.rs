@@ -9,12 +9,6 @@ use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Ta
 /// The table of figure 9.
 pub(super) const FIGURE_9: &str = "9";
 
-/// The table of when the map is looked at.
-const OFFLINE: &str = "offline";
-
-/// The table of mazes with fragments that look alike.
-const ALIASED: &str = "aliased";
-
 /// Runs of the table of aliased mazes: one maze each.
 const ALIASED_MAZES: u32 = 200;
 
@@ -36,6 +30,8 @@ pub(super) struct Trials {
     pub(super) table: Table,
     settings: Vec<Setting>,
     solution: Solution,
+    /// Adds what this table measures beside what every trial does.
+    own: fn(Fields, &Venue, &Record) -> Fields,
 }
 
 /// What makes a trial solved.
@@ -133,6 +129,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
         table: with_rows(table, &settings, row),
         settings,
         solution: Solution::Way,
+        own: |fields, _, _| fields,
     }
 }
 
@@ -167,7 +164,7 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
             });
         }
     }
-    let table = fields(Table::new(OFFLINE, "Offline against online CPM"))
+    let table = fields(Table::new("offline", "Offline against online CPM"))
         .metric(Metric::percent("solved_percent", "solved"))
         .metric(Metric::mean("traversals").titled("fragments walked"))
         .metric(Metric::mean("true_fragments").titled("different ones"))
@@ -181,11 +178,9 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
         table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
         settings,
         solution: Solution::Way,
+        own: |fields, _, _| fields,
     }
 }
-
-/// The table of robots without a learning maze.
-const UNLEARNED: &str = "unlearned";
 
 /// "The CPs must be learned incrementally" (section 8).
 pub(super) fn unlearned(venues: &[Venue]) -> Trials {
@@ -200,7 +195,7 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
             mode: Mode::Unlearned(CpmConfig::robust()),
         })
         .collect();
-    let table = fields(Table::new(UNLEARNED, "Patterns learned on the way"))
+    let table = fields(Table::new("unlearned", "Patterns learned on the way"))
         .field("patterns", Kind::Count)
         .metric(Metric::percent("solved_percent", "solved"))
         .metric(map_right())
@@ -216,6 +211,7 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
         table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
         settings,
         solution: Solution::Way,
+        own: |fields, _, record| fields.count("patterns", record.patterns.into()),
     }
 }
 
@@ -232,7 +228,7 @@ pub(super) fn aliased(quick: bool) -> Trials {
         mode,
     });
     let settings = Vec::from(settings);
-    let table = fields(Table::new(ALIASED, "Mazes with fragments that look alike"))
+    let table = fields(Table::new("aliased", "Mazes with fragments that look alike"))
         .field("shortest_known", Kind::Flag)
         .field("alike_pairs", Kind::Count)
         .field("symmetrical", Kind::Count)
@@ -259,6 +255,13 @@ pub(super) fn aliased(quick: bool) -> Trials {
         }),
         settings,
         solution: Solution::WayAndMap,
+        own: |fields, venue, record| {
+            let likeness = Likeness::of(&venue.maze);
+            fields
+                .flag("shortest_known", record.is_solved())
+                .count("alike_pairs", likeness.alike_pairs.into())
+                .count("symmetrical", likeness.symmetrical.into())
+        },
     }
 }
 
@@ -332,17 +335,7 @@ impl Trials {
         let (venue, mode) = self.cast(job)?;
         let record = trial(&venue, patterns, mode, job.seed).play()?;
         let fields = measured(&venue, &record, self.solution)?;
-        if job.table == UNLEARNED {
-            return Ok(fields.count("patterns", record.patterns.into()));
-        }
-        if job.table != ALIASED {
-            return Ok(fields);
-        }
-        let likeness = Likeness::of(&venue.maze);
-        Ok(fields
-            .flag("shortest_known", record.is_solved())
-            .count("alike_pairs", likeness.alike_pairs.into())
-            .count("symmetrical", likeness.symmetrical.into()))
+        Ok((self.own)(fields, &venue, &record))
     }
 }
 
@@ -484,7 +477,7 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
     if of_long.is_some() != is_long || of_long.is_some_and(|found| !is_that(found)) {
         return Err("the reduction of a long run, and of no other, is its reduction".into());
     }
-    if run.table == ALIASED && number("alike_pairs") < Some(1.0) {
+    if number("alike_pairs").is_some_and(|pairs| pairs < 1.0) {
         return Err("no two fragments of this maze are alike".into());
     }
     if solved && run.fields.get("trouble").is_some() {
