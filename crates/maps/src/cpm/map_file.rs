@@ -10,11 +10,7 @@ use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::traversal::{Landmark, Motion};
-
-/// What `format` says in a file of ours.
-const FORMAT: &str = "tolman-cpm";
-/// The version that is written; all versions up to it are read.
-const VERSION: u32 = 2;
+use crate::file_header::{self, HeaderError};
 
 /// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
 ///
@@ -110,18 +106,9 @@ enum SavedPort {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is another kind of file.
-    #[error("its format is {found:?}, expected {FORMAT:?}")]
-    Format {
-        /// What it says.
-        found: String,
-    },
-    /// It is of a later time.
-    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
-    Version {
-        /// What it says.
-        found: u32,
-    },
+    /// It is another kind of file, or of a later time.
+    #[error(transparent)]
+    Header(#[from] HeaderError),
     /// Something is missing.
     #[error("it was cut off: {found} of {expected} {what} are there")]
     Truncated {
@@ -205,10 +192,10 @@ fn hexadecimal(fingerprint: u64) -> String {
 
 impl MapFile {
     /// What `format` says in a file of this kind.
-    pub const FORMAT: &str = FORMAT;
+    pub const FORMAT: &str = "tolman-cpm";
 
     /// The version that is written; all versions up to it are read.
-    pub const VERSION: u32 = VERSION;
+    pub const VERSION: u32 = 2;
 
     /// What is to be written of a map.
     ///
@@ -234,8 +221,8 @@ impl MapFile {
             junctions: map.junctions().map(saved_junction).collect(),
         };
         Ok(Self {
-            format: FORMAT.into(),
-            version: VERSION,
+            format: Self::FORMAT.into(),
+            version: Self::VERSION,
             counts: Counts {
                 patterns: dictionary.len(),
                 fragments: saved.fragments.len(),
@@ -340,16 +327,7 @@ impl MapFile {
     }
 
     fn check(&self) -> Result<(), MapFileError> {
-        if self.format != FORMAT {
-            return Err(MapFileError::Format {
-                found: self.format.clone(),
-            });
-        }
-        if self.version == 0 || self.version > VERSION {
-            return Err(MapFileError::Version {
-                found: self.version,
-            });
-        }
+        file_header::check(&self.format, self.version, Self::FORMAT, Self::VERSION)?;
         let counts = &self.counts;
         let parts = [
             ("patterns", counts.patterns, self.dictionary.patterns.len()),

@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::config::Config;
 use super::journal::{Journal, ReplayError};
 use super::observer::Observer;
+use crate::file_header::{self, HeaderError};
 
 /// What `format` says in a file of ours.
 const FORMAT: &str = "tolman-diktiometry";
@@ -29,18 +30,9 @@ pub enum MapFileError {
     /// The observer kept no journal.
     #[error("no journal was kept; set `journal` of the configuration to `All`")]
     NoJournal,
-    /// It is another kind of file.
-    #[error("its format is {found:?}, expected {FORMAT:?}")]
-    Format {
-        /// What it says.
-        found: String,
-    },
-    /// It is of a later time.
-    #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
-    Version {
-        /// What it says.
-        found: u32,
-    },
+    /// It is another kind of file, or of a later time.
+    #[error(transparent)]
+    Header(#[from] HeaderError),
     /// Moves are missing.
     #[error("the journal was cut off: {found} of {expected} moves are there")]
     Truncated {
@@ -75,16 +67,7 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] if it is another kind of file, of a later version, cut off, or of moves that are none.
     pub fn observer(&self) -> Result<Observer, MapFileError> {
-        if self.format != FORMAT {
-            return Err(MapFileError::Format {
-                found: self.format.clone(),
-            });
-        }
-        if self.version == 0 || self.version > VERSION {
-            return Err(MapFileError::Version {
-                found: self.version,
-            });
-        }
+        file_header::check(&self.format, self.version, FORMAT, VERSION)?;
         let found = self.journal.moves.len();
         if found != self.moves {
             return Err(MapFileError::Truncated {

@@ -1,6 +1,7 @@
 //! Diktiometries in files, whole and spoiled.
 
 use serde_json::{Value, json};
+use tolman_maps::HeaderError;
 use tolman_maps::diktiometry::{Config, JournalLength, MapFile, MapFileError};
 
 use super::walk::{ODOMETRY, Walk, open, painted};
@@ -58,13 +59,22 @@ fn spoiled_files_say_what_is_wrong() {
         file.observer().unwrap_err()
     };
     let version = spoiled(|file| file["version"] = json!(3));
-    assert_eq!(version, MapFileError::Version { found: 3 });
+    assert_eq!(
+        version,
+        HeaderError::Version {
+            found: 3,
+            latest: 2
+        }
+        .into()
+    );
     let format = spoiled(|file| file["format"] = json!("other"));
     assert_eq!(
         format,
-        MapFileError::Format {
-            found: "other".into()
+        HeaderError::Format {
+            found: "other".into(),
+            expected: "tolman-diktiometry"
         }
+        .into()
     );
     let cut = spoiled(|file| {
         file["journal"]["moves"]
