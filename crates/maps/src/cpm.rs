@@ -57,6 +57,7 @@ mod map;
 #[cfg(feature = "serde")]
 mod map_file;
 mod mapper;
+mod nodes;
 mod pattern;
 mod plan;
 mod similarity;

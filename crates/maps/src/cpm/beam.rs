@@ -1,3 +1,4 @@
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use super::hypothesis::{Belief, Hypothesis};
@@ -197,16 +198,14 @@ fn children(
     }
     all.sort_by(|a, b| a.hypothesis.cost.total_cmp(&b.hypothesis.cost));
     let least = all.first().map_or(0.0, |best| best.hypothesis.cost);
-    let mut signatures = Vec::new();
+    let mut signatures = BTreeSet::new();
     let mut kept = Vec::new();
     for mut child in all {
         child.hypothesis.cost -= least;
         if kept.len() >= width || child.hypothesis.cost >= HOPELESS {
             break;
         }
-        let signature = child.hypothesis.signature();
-        if !signatures.contains(&signature) {
-            signatures.push(signature);
+        if signatures.insert(child.hypothesis.signature()) {
             kept.push(child);
         }
     }
@@ -299,10 +298,8 @@ mod tests {
         assert_eq!(map.port(open), Some(PortState::Open { at_least: 0 }));
         assert_eq!(map.fragments().len(), 2);
         assert_ne!(at.junction, start.junction);
-        assert!(
-            !map.positions_from(start.junction)
-                .contains_key(&at.junction)
-        );
+        let rank = map.junctions.rank(at.junction).unwrap();
+        assert_eq!(map.positions_from(start.junction)[rank], None);
         // The copy of the junction has the fragment at the same turn.
         let port = map.beyond(*at).unwrap();
         assert_ne!(port.junction, open.junction);

@@ -1,49 +1,64 @@
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BinaryHeap;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
 use core::f64::consts::{PI, TAU};
+use core::mem::replace;
 
 use tolman_geom::{Interval, PointBox};
 
 use super::bearings::wrapped;
-use super::map::{CpMap, JunctionId, Port, Sign};
+use super::map::{CpMap, JunctionId, Port, PortState, Sign};
 
 /// What dead reckoning has to say of a map. Ours, not the paper's, which only suggests it: "Another good choice is to add the
 /// odometry data".
 impl CpMap {
-    /// Where junctions lie, seen from one of them: along the way on which the bounds grow least. Those that no reckoned way leads
-    /// to are missing. O(fragments · junctions).
-    pub(super) fn positions_from(&self, origin: JunctionId) -> BTreeMap<JunctionId, PointBox> {
-        let mut reached = BTreeMap::from([(origin, PointBox::ORIGIN)]);
-        let mut settled = BTreeSet::new();
-        loop {
-            let left = reached.iter().filter(|(id, _)| !settled.contains(*id));
-            let next = left.min_by(|(_, a), (_, b)| a.width().total_cmp(&b.width()));
-            let Some((&junction, &position)) = next else {
-                return reached;
+    /// Where each of the junctions, by id, lies, seen from one of them: along the way on which the bounds grow least (Dijkstra 1959);
+    /// none where no reckoned way leads. O(ports · log junctions).
+    pub(super) fn positions_from(&self, origin: JunctionId) -> Vec<Option<PointBox>> {
+        let mut positions = vec![None; self.junctions.len()];
+        let mut settled = vec![false; self.junctions.len()];
+        let mut open = BinaryHeap::new();
+        // Widths are not negative, so that their bits are in their order.
+        let nearest_first = |rank, position: PointBox| Reverse((position.width().to_bits(), rank));
+        if let Some(rank) = self.junctions.rank(origin) {
+            positions[rank] = Some(PointBox::ORIGIN);
+            open.push(nearest_first(rank, PointBox::ORIGIN));
+        }
+        while let Some(Reverse((_, rank))) = open.pop() {
+            let Some(position) = positions[rank] else {
+                continue;
             };
-            settled.insert(junction);
-            for number in 0..self.degree(junction) {
-                let exit = Port { junction, number };
-                let Some((head, step)) = self.step(exit) else {
+            if replace(&mut settled[rank], true) {
+                continue;
+            }
+            for port in self.ports_at(rank) {
+                let Some((head, step)) = self.step(*port) else {
                     continue;
                 };
                 let position = position + step;
-                let best = reached.entry(head).or_insert(position);
-                if position.width() < best.width() {
-                    *best = position;
+                if positions[head].is_none_or(|best| position.width() < best.width()) {
+                    positions[head] = Some(position);
+                    open.push(nearest_first(head, position));
                 }
             }
         }
+        positions
     }
 
-    /// Where the junction beyond a port lies, seen from the port's.
-    fn step(&self, exit: Port) -> Option<(JunctionId, PointBox)> {
-        let end = self.end_at(exit)?;
-        let displacement = self.fragment(end.fragment)?.motion?.displacement;
+    /// The rank of the junction beyond such a port, and where it lies, seen from the port's.
+    fn step(&self, port: PortState) -> Option<(usize, PointBox)> {
+        let PortState::Filled(end) = port else {
+            return None;
+        };
+        let fragment = self.fragment(end.fragment)?;
+        let displacement = fragment.motion?.displacement;
+        let head = fragment.port(end.sign.opposite()).junction;
         let step = match end.sign {
             Sign::Minus => displacement,
             Sign::Plus => -displacement,
         };
-        Some((self.beyond(exit)?.junction, step))
+        Some((self.junctions.rank(head)?, step))
     }
 
     /// The direction in which one leaves by a port, if a fragment is known there and was reckoned.

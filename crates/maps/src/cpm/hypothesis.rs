@@ -1,11 +1,11 @@
-use alloc::collections::BTreeMap;
+use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
 use tolman_geom::{Interval, PointBox};
 
 use super::bearings::SHARP;
-use super::map::{End, Fragment, FragmentId, Junction, JunctionId, Port, Sign};
+use super::map::{End, Fragment, FragmentId, Junction, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
 use super::similarity::Sense;
@@ -22,6 +22,9 @@ pub(super) struct Hypothesis {
     pub(super) cost: f64,
 }
 
+/// Where the junctions of a map, by id, lie, seen from where a walk began; none where that is not known.
+type Positions = [Option<PointBox>];
+
 /// What a hypothesis makes of a walk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Belief {
@@ -33,13 +36,6 @@ pub(super) enum Belief {
     Duplicate,
     /// A fragment of the map.
     Known,
-}
-
-/// What dead reckoning says of a walk.
-struct Reckoned {
-    motion: Motion,
-    /// Where the places of the map lie, seen from where the walk began.
-    positions: BTreeMap<JunctionId, PointBox>,
 }
 
 impl Belief {
@@ -76,21 +72,18 @@ impl Hypothesis {
             cost: self.cost + departure,
             ..self.clone()
         };
-        let reckoned = walk.motion.map(|motion| Reckoned {
-            motion,
-            positions: self.mapper.map.positions_from(exit.junction),
-        });
+        let positions = self.mapper.map.positions_from(exit.junction);
         // Without bounds no way leads to known places but over fragments that are known.
-        let (mut all, is_known_place) = match &reckoned {
-            Some(reckoned) => (
-                base.to_places(exit, walk, reckoned),
-                self.is_known_place(walk, reckoned),
+        let (mut all, is_known_place) = match walk.motion {
+            Some(motion) => (
+                base.to_places(exit, walk, motion, &positions),
+                self.is_known_place(walk, motion, &positions),
             ),
             None => (Vec::new(), false),
         };
         let mut new = base;
         let fragment = new.mapper.append(exit, walk);
-        all.extend(new.duplicates(fragment, judge));
+        all.extend(new.duplicates(fragment, &positions, judge));
         if !is_known_place {
             new.cost += NEW_PLACE;
             all.push((new, Belief::NewPlace));
@@ -100,20 +93,14 @@ impl Hypothesis {
 
     /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is known where that lies from here, or where one
     /// like it is and two do not fit.
-    fn is_known_place(&self, walk: &Traversal, reckoned: &Reckoned) -> bool {
-        let Reckoned { motion, positions } = reckoned;
-        let map = &self.mapper.map;
-        let is_alike = |id: JunctionId| {
-            let place = map.junction(id);
-            place.is_some_and(|place| place.sighting() == walk.sighting)
-        };
+    fn is_known_place(&self, walk: &Traversal, motion: Motion, positions: &Positions) -> bool {
         let is_start = walk.sighting.landmark == Some(Landmark::Start);
-        let mut starts = map.landmarks(Landmark::Start);
-        if is_start && starts.any(|id| positions.contains_key(&id) && is_alike(id)) {
-            return true;
-        }
-        positions.iter().any(|(id, position)| {
-            is_alike(*id) && position.distance(motion.displacement).high() < LEAST_APART
+        let mut places = self.mapper.map.junctions().zip(positions);
+        places.any(|((_, place), position)| {
+            position.is_some_and(|position| {
+                let apart = || position.distance(motion.displacement).high();
+                place.sighting() == walk.sighting && (is_start || apart() < LEAST_APART)
+            })
         })
     }
 
@@ -144,13 +131,18 @@ impl Hypothesis {
     }
 
     /// The walk was a new fragment that led to a known place, through a port nobody has been through.
-    fn to_places(&self, exit: Port, walk: &Traversal, reckoned: &Reckoned) -> Vec<(Self, Belief)> {
-        let Reckoned { motion, positions } = reckoned;
+    fn to_places(
+        &self,
+        exit: Port,
+        walk: &Traversal,
+        motion: Motion,
+        positions: &Positions,
+    ) -> Vec<(Self, Belief)> {
         let map = &self.mapper.map;
         let area = self.area();
         let mut all = Vec::new();
-        for (id, place) in map.junctions() {
-            let Some(position) = positions.get(&id) else {
+        for ((id, place), position) in map.junctions().zip(positions) {
+            let Some(position) = position else {
                 continue;
             };
             if place.sighting() != walk.sighting || !position.meets(motion.displacement) {
@@ -183,19 +175,24 @@ impl Hypothesis {
     }
 
     /// The fragment just added is one that the map has already.
-    fn duplicates(&self, new: FragmentId, judge: &Comparison<'_>) -> Vec<(Self, Belief)> {
+    fn duplicates(
+        &self,
+        new: FragmentId,
+        positions: &Positions,
+        judge: &Comparison<'_>,
+    ) -> Vec<(Self, Belief)> {
         let map = &self.mapper.map;
         let Some(fragment) = map.fragment(new) else {
             return Vec::new();
         };
-        let positions = map.positions_from(fragment.minus.junction);
         let area = self.area();
         let mut all = Vec::new();
         for (id, other) in judge.others(map, new) {
             for sense in [Sense::Same, Sense::Inverted] {
                 // Where both fragments begin has to be one place.
                 let begin = other.port(sense.of(Sign::Minus)).junction;
-                let apart = positions.get(&begin);
+                let rank = map.junctions.rank(begin);
+                let apart = rank.and_then(|rank| *positions.get(rank)?);
                 if apart.is_some_and(|apart| !apart.meets(PointBox::ORIGIN)) {
                     continue;
                 }
@@ -203,7 +200,7 @@ impl Hypothesis {
                 if evidence <= 0.0 {
                     continue;
                 }
-                let coincide = apart.map_or(0.0, |apart| coincidence(*apart, area));
+                let coincide = apart.map_or(0.0, |apart| coincidence(apart, area));
                 let gain = Cell::new(evidence + coincide);
                 let agree = |a: &Fragment, b: &Fragment, sense: Sense| {
                     let evidence = judge.evidence(a, &b.patterns, sense);
@@ -260,32 +257,34 @@ impl Hypothesis {
 
     /// Two hypotheses that say the same look the same: all that can be reached from the robot's place, in order.
     pub(super) fn signature(&self) -> Vec<u32> {
-        let map = &self.mapper.map;
-        let mut order = Vec::from([self.mapper.at]);
+        let Mapper { map, at } = &self.mapper;
+        // Junctions by rank, with the port by which each is entered first; and the place of each in this order, by rank.
+        let mut order = Vec::new();
+        let mut places = vec![None; map.junctions.len()];
+        if let Some(rank) = map.junctions.rank(at.junction) {
+            order.push((rank, at.number));
+            places[rank] = Some(0);
+        }
         let mut signature = Vec::new();
         let mut next = 0;
-        while let Some(&entry) = order.get(next) {
+        while let Some(&(rank, entry)) = order.get(next) {
             next += 1;
-            let degree = map.degree(entry.junction);
-            signature.push(degree);
-            for offset in 0..degree {
-                let number = (entry.number + offset) % degree;
-                let port = Port { number, ..entry };
-                let Some(beyond) = map.beyond(port) else {
+            let ports = map.ports_at(rank);
+            signature.push(ports.len() as u32);
+            let (before, onward) = ports.split_at(ports.len().min(entry as usize));
+            for port in onward.iter().chain(before) {
+                let Some((rank, number)) = map.led_to(*port) else {
                     signature.push(u32::MAX);
                     continue;
                 };
-                let known = order
-                    .iter()
-                    .position(|seen| seen.junction == beyond.junction);
-                let index = known.unwrap_or(order.len());
-                if known.is_none() {
-                    order.push(beyond);
-                }
-                let there = order.get(index).map_or(0, |seen| seen.number);
-                let degree = map.degree(beyond.junction).max(1);
-                signature.push(index as u32);
-                signature.push((beyond.number + degree - there) % degree);
+                let place = *places[rank].get_or_insert_with(|| {
+                    order.push((rank, number));
+                    order.len() - 1
+                });
+                let (_, first) = order[place];
+                let degree = (map.ports_at(rank).len() as u32).max(1);
+                signature.push(place as u32);
+                signature.push((number + degree - first) % degree);
             }
         }
         signature

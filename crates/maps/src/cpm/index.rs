@@ -1,94 +1,102 @@
 use alloc::collections::BTreeMap;
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::map::FragmentId;
+use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId};
 
-/// Which fragments of a large map are worth comparing: an inverted index, as of text. "One can use the 'term frequency-inverse
+/// Which fragments of a large map are worth comparing: a ranking, as of texts. "One can use the 'term frequency-inverse
 /// document frequency', *tf-idf*, for path-fragment matching in more complex environment" (section 8).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FragmentIndex {
-    /// How often a pattern is in each fragment that has it.
-    postings: BTreeMap<PatternId, BTreeMap<FragmentId, u32>>,
-    lengths: BTreeMap<FragmentId, usize>,
+    bags: Nodes<FragmentId, Bag>,
+}
+
+/// What is in a sequence, whatever its order.
+#[derive(Clone, Debug, PartialEq)]
+struct Bag {
+    /// How often each pattern is in it, by pattern.
+    counts: Vec<(PatternId, u32)>,
+    length: usize,
+}
+
+impl Bag {
+    fn of(sequence: &[PatternId]) -> Self {
+        let mut counts: BTreeMap<PatternId, u32> = BTreeMap::new();
+        for pattern in sequence {
+            *counts.entry(*pattern).or_default() += 1;
+        }
+        Self {
+            counts: counts.into_iter().collect(),
+            length: sequence.len(),
+        }
+    }
 }
 
 impl FragmentIndex {
     pub(super) fn insert(&mut self, id: FragmentId, patterns: &[PatternId]) {
-        self.lengths.insert(id, patterns.len());
-        for pattern in patterns {
-            let posting = self.postings.entry(*pattern).or_default();
-            *posting.entry(id).or_default() += 1;
-        }
+        self.bags.insert(id, Bag::of(patterns));
     }
 
-    pub(super) fn remove(&mut self, id: FragmentId, patterns: &[PatternId]) {
-        self.lengths.remove(&id);
-        for pattern in patterns {
-            if let Some(posting) = self.postings.get_mut(pattern) {
-                posting.remove(&id);
-            }
-        }
+    pub(super) fn remove(&mut self, id: FragmentId) {
+        self.bags.remove(id);
     }
 
     /// At most so many fragments that have the most in common with a sequence or its inverse, best first, ties by id. All
-    /// if there are no more than that. O(fragments that share a pattern · length).
+    /// if there are no more than that. O(fragments · patterns of each).
     pub(super) fn candidates(
         &self,
         dictionary: &Dictionary,
         sequence: &[PatternId],
         most: usize,
     ) -> Option<Vec<FragmentId>> {
-        if self.lengths.len() <= most {
+        if self.bags.len() <= most {
             return None;
         }
         let inverse = dictionary.inverse(sequence).unwrap_or_default();
-        let mut best: BTreeMap<FragmentId, f64> = BTreeMap::new();
-        for sequence in [sequence, &inverse] {
-            for (id, common) in self.in_common(sequence) {
-                let score = best.entry(id).or_default();
-                *score = score.max(common);
-            }
-        }
-        let mut ranked: Vec<(FragmentId, f64)> = best.into_iter().collect();
+        let [same, inverted] = [sequence, &inverse].map(|sequence| self.in_common(sequence));
+        let scores = same.into_iter().zip(inverted).map(|(a, b)| a.max(b));
+        let ids = self.bags.iter().map(|(id, _)| id);
+        let mut ranked: Vec<(FragmentId, f64)> =
+            ids.zip(scores).filter(|(_, score)| *score > 0.0).collect();
         ranked.sort_by(|(_, a), (_, b)| b.total_cmp(a));
         ranked.truncate(most);
         Some(ranked.into_iter().map(|(id, _)| id).collect())
     }
 
-    /// For each fragment, the occurrences of patterns it shares with a sequence, the rarer the more, as a part of the longer of the
-    /// two: else long fragments would have something in common with all.
-    fn in_common(&self, sequence: &[PatternId]) -> BTreeMap<FragmentId, f64> {
-        let mut counts: BTreeMap<PatternId, u32> = BTreeMap::new();
-        for pattern in sequence {
-            *counts.entry(*pattern).or_default() += 1;
+    /// For each fragment, by id, the occurrences of patterns it shares with a sequence, the rarer the more, as a part of the longer of
+    /// the two: else long fragments would have something in common with all.
+    fn in_common(&self, sequence: &[PatternId]) -> Vec<f64> {
+        let seen = Bag::of(sequence);
+        let bags = || self.bags.iter().map(|(_, bag)| bag).chain([&seen]);
+        let last = bags().filter_map(|bag| bag.counts.last()).max();
+        let patterns = last.map_or(0, |(pattern, _)| pattern.0 as usize + 1);
+        let mut fragments = vec![0_u32; patterns];
+        for (pattern, _) in self.bags.iter().flat_map(|(_, bag)| &bag.counts) {
+            fragments[pattern.0 as usize] += 1;
         }
-        let mut common: BTreeMap<FragmentId, f64> = BTreeMap::new();
-        for (pattern, count) in counts {
-            let Some(posting) = self
-                .postings
-                .get(&pattern)
-                .filter(|posting| !posting.is_empty())
-            else {
-                continue;
-            };
-            let rarity = libm::log(1.0 + self.lengths.len() as f64 / posting.len() as f64);
-            for (id, there) in posting {
-                *common.entry(*id).or_default() += rarity * f64::from(count.min(*there));
-            }
+        // By pattern, how often it is in the sequence, and what each time is worth.
+        let mut worth = vec![(0, 0.0); patterns];
+        for (pattern, count) in &seen.counts {
+            let pattern = pattern.0 as usize;
+            let fragments = fragments[pattern].max(1);
+            let rarity = libm::log(1.0 + self.bags.len() as f64 / f64::from(fragments));
+            worth[pattern] = (*count, rarity);
         }
-        for (id, common) in &mut common {
-            let length = self.lengths.get(id).copied().unwrap_or(0);
-            *common /= length.max(sequence.len()).max(1) as f64;
-        }
-        common
+        let shares = self.bags.iter().map(|(_, bag)| {
+            let common = bag.counts.iter().map(|(pattern, there)| {
+                let (count, rarity) = worth[pattern.0 as usize];
+                rarity * f64::from(count.min(*there))
+            });
+            common.sum::<f64>() / bag.length.max(sequence.len()).max(1) as f64
+        });
+        shares.collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use alloc::vec;
-
     use super::*;
 
     /// Long fragments share some patterns with all; the one that is the same, or nearly or inverted, comes first all the same.
@@ -121,7 +129,7 @@ mod tests {
             }
         }
         assert_eq!(index.candidates(&dictionary, &sequence(0), 50), None);
-        index.remove(FragmentId(7), &sequence(7));
+        index.remove(FragmentId(7));
         let found = index.candidates(&dictionary, &sequence(7), 49);
         assert_eq!(found, None);
         let found = index

@@ -1,9 +1,9 @@
-use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::bearings::Bearings;
 use super::index::FragmentIndex;
+use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId, Version};
 use super::similarity::Matching;
 use super::traversal::{Landmark, Motion, Sighting};
@@ -178,8 +178,8 @@ impl Fragment {
 /// Every fragment has each of its ends at a port that says so. Ids ascend in the order of making and are not used again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CpMap {
-    pub(super) fragments: BTreeMap<FragmentId, Fragment>,
-    pub(super) junctions: BTreeMap<JunctionId, Junction>,
+    pub(super) fragments: Nodes<FragmentId, Fragment>,
+    pub(super) junctions: Nodes<JunctionId, Junction>,
     pub(super) next_fragment: u32,
     pub(super) next_junction: u32,
     pub(super) version: Option<Version>,
@@ -189,30 +189,30 @@ pub struct CpMap {
 impl CpMap {
     /// The fragments by id.
     pub fn fragments(&self) -> impl ExactSizeIterator<Item = (FragmentId, &Fragment)> {
-        self.fragments.iter().map(|(id, fragment)| (*id, fragment))
+        self.fragments.iter()
     }
 
     /// The junctions by id.
     pub fn junctions(&self) -> impl ExactSizeIterator<Item = (JunctionId, &Junction)> {
-        self.junctions.iter().map(|(id, junction)| (*id, junction))
+        self.junctions.iter()
     }
 
     /// A fragment; none where it was merged into another.
     #[must_use]
     pub fn fragment(&self, id: FragmentId) -> Option<&Fragment> {
-        self.fragments.get(&id)
+        self.fragments.get(id)
     }
 
     /// A junction; none where it was unified with another.
     #[must_use]
     pub fn junction(&self, id: JunctionId) -> Option<&Junction> {
-        self.junctions.get(&id)
+        self.junctions.get(id)
     }
 
     /// How many ports a junction has; 0 if it is not there.
     #[must_use]
     pub fn degree(&self, junction: JunctionId) -> u32 {
-        self.junctions.get(&junction).map_or(0, Junction::degree)
+        self.junctions.get(junction).map_or(0, Junction::degree)
     }
 
     /// The newest version of the dictionary that its sequences need; none of an empty map.
@@ -224,7 +224,7 @@ impl CpMap {
     /// What is known of a port; none if it is not there.
     #[must_use]
     pub fn port(&self, port: Port) -> Option<PortState> {
-        let junction = self.junctions.get(&port.junction)?;
+        let junction = self.junctions.get(port.junction)?;
         junction.ports.get(port.number as usize).copied()
     }
 
@@ -242,6 +242,21 @@ impl CpMap {
     pub fn beyond(&self, port: Port) -> Option<Port> {
         let end = self.end_at(port)?.opposite();
         Some(self.fragment(end.fragment)?.port(end.sign))
+    }
+
+    /// The ports of a junction by its rank.
+    pub(super) fn ports_at(&self, rank: usize) -> &[PortState] {
+        let junction = self.junctions.at(rank);
+        junction.map_or(&[][..], |junction| &junction.ports)
+    }
+
+    /// Where one arrives who leaves by such a port: the junction's rank, and the number of its port.
+    pub(super) fn led_to(&self, port: PortState) -> Option<(usize, u32)> {
+        let PortState::Filled(end) = port else {
+            return None;
+        };
+        let there = self.fragment(end.fragment)?.port(end.sign.opposite());
+        Some((self.junctions.rank(there.junction)?, there.number))
     }
 
     /// Λ2(X, Y) = Δ_{X→Y}, equation (6): the turn of a robot that comes out of a fragment at one end and shall enter
@@ -279,9 +294,9 @@ impl CpMap {
     /// O(fragments²) comparisons.
     #[must_use]
     pub fn is_optimized(&self, matching: &Matching, dictionary: &Dictionary) -> bool {
-        let mut pairs = self.fragments.values().enumerate().flat_map(|(i, first)| {
-            let others = self.fragments.values().skip(i + 1);
-            others.map(move |second| (first, second))
+        let mut pairs = self.fragments().enumerate().flat_map(|(i, (_, first))| {
+            let others = self.fragments().skip(i + 1);
+            others.map(move |(_, second)| (first, second))
         });
         pairs.all(|(first, second)| {
             matching
@@ -306,8 +321,8 @@ impl CpMap {
     /// Definition 3, 2): a fragment leads to the goal.
     #[must_use]
     pub fn has_goal(&self) -> bool {
-        let mut ends = self.fragments.values();
-        ends.any(|fragment| {
+        let mut fragments = self.fragments();
+        fragments.any(|(_, fragment)| {
             [fragment.minus, fragment.plus].iter().any(|port| {
                 let place = self.junction(port.junction);
                 place.is_some_and(|place| place.landmark == Some(Landmark::Goal))
@@ -375,7 +390,7 @@ impl CpMap {
     }
 
     pub(super) fn port_state_mut(&mut self, port: Port) -> Option<&mut PortState> {
-        let junction = self.junctions.get_mut(&port.junction)?;
+        let junction = self.junctions.get_mut(port.junction)?;
         junction.ports.get_mut(port.number as usize)
     }
 }

@@ -300,10 +300,7 @@ impl MapFile {
                     ports: saved.ports.len(),
                 });
             }
-            let is_new = map
-                .junctions
-                .insert(JunctionId(id), junction(saved)?)
-                .is_none();
+            let is_new = map.junctions.insert(JunctionId(id), junction(saved)?);
             if !is_new || id >= self.map.next_junction {
                 let what = "junction";
                 return Err(MapFileError::BadId { what, id });
@@ -315,7 +312,7 @@ impl MapFile {
             let fragment = fragment(saved);
             own.check(&fragment.patterns)?;
             index.insert(FragmentId(id), &fragment.patterns);
-            let is_new = map.fragments.insert(FragmentId(id), fragment).is_none();
+            let is_new = map.fragments.insert(FragmentId(id), fragment);
             if !is_new || id >= self.map.next_fragment {
                 let what = "fragment";
                 return Err(MapFileError::BadId { what, id });

@@ -96,7 +96,7 @@ impl Mapper {
     /// The robot has come along a fragment to where it is now.
     pub(super) fn confirm(&mut self, end: End, walk: &Traversal) {
         self.notice(walk);
-        let Some(fragment) = self.map.fragments.get_mut(&end.fragment) else {
+        let Some(fragment) = self.map.fragments.get_mut(end.fragment) else {
             return;
         };
         fragment.traversals = fragment.traversals.saturating_add(1);
@@ -111,7 +111,7 @@ impl Mapper {
 
     /// The robot has come to where it is now, and has seen its ways out.
     pub(super) fn notice(&mut self, walk: &Traversal) {
-        if let Some(place) = self.map.junctions.get_mut(&self.at.junction) {
+        if let Some(place) = self.map.junctions.get_mut(self.at.junction) {
             place.notice(self.at.number, walk.bearings.as_ref());
         }
     }
@@ -167,7 +167,7 @@ impl Mapper {
     /// pattern remains." Returns how many were found to be duplicates.
     pub(super) fn optimize(&mut self, comparison: &Comparison<'_>) -> usize {
         let before = self.map.fragments.len();
-        let ids: Vec<FragmentId> = self.map.fragments.keys().copied().collect();
+        let ids: Vec<FragmentId> = self.map.fragments().map(|(id, _)| id).collect();
         for id in ids {
             while self.unify_with_similar(id, comparison).is_some() {}
         }

@@ -1,4 +1,5 @@
 use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use thiserror::Error;
@@ -51,6 +52,11 @@ impl Merges {
             };
         }
         end
+    }
+
+    /// Whether a fragment has become another.
+    fn is_gone(&self, fragment: FragmentId) -> bool {
+        self.fragments.contains_key(&fragment)
     }
 
     /// What has become of a port.
@@ -158,15 +164,16 @@ impl Unification {
             },
             (a, b) => a.or(b),
         };
-        self.map.fragments.remove(&gone);
-        self.map.index.remove(gone, &absorbed.patterns);
-        self.merges.fragments.insert(gone, (kept, sense));
-        if let Some(fragment) = self.map.fragments.get_mut(&kept) {
-            fragment.motion = motion;
-            fragment.traversals = fragment.traversals.saturating_add(absorbed.traversals);
-        }
+        // Most that cannot be is found here, before anything is changed.
         for sign in Sign::BOTH {
             self.meet(survivor.port(sense.of(sign)), absorbed.port(sign))?;
+        }
+        self.map.fragments.remove(gone);
+        self.map.index.remove(gone);
+        self.merges.fragments.insert(gone, (kept, sense));
+        if let Some(fragment) = self.map.fragments.get_mut(kept) {
+            fragment.motion = motion;
+            fragment.traversals = fragment.traversals.saturating_add(absorbed.traversals);
         }
         Ok(())
     }
@@ -187,18 +194,21 @@ impl Unification {
             };
         }
         let unlike = Conflict::Unlike(kept.junction, gone.junction);
-        let absorbed = self.map.junctions.remove(&gone.junction).ok_or(unlike)?;
-        let survivor = self.map.junctions.get_mut(&kept.junction).ok_or(unlike)?;
+        let junctions = &mut self.map.junctions;
+        let survivor = junctions.get(kept.junction).ok_or(unlike)?;
+        let absorbed = junctions.get(gone.junction).ok_or(unlike)?;
         if survivor.sighting() != absorbed.sighting() {
             return Err(unlike);
         }
         let degree = survivor.degree();
         let offset = (kept.number + degree - gone.number) % degree;
-        let merged = (kept.junction, offset, degree);
-        self.merges.junctions.insert(gone.junction, merged);
         if survivor.apart(offset, absorbed.bearings.as_ref()) > MOST_APART {
             return Err(unlike);
         }
+        let merged = (kept.junction, offset, degree);
+        self.merges.junctions.insert(gone.junction, merged);
+        let absorbed = junctions.remove(gone.junction).ok_or(unlike)?;
+        let survivor = junctions.get_mut(kept.junction).ok_or(unlike)?;
         survivor.notice(offset, absorbed.bearings.as_ref());
         for (number, new) in (0..).zip(absorbed.ports) {
             let number: u32 = (number + offset) % degree;
@@ -221,14 +231,23 @@ impl Unification {
 
     /// Brings all ends and ports to the names that have stayed.
     fn settle(&mut self) {
-        for fragment in self.map.fragments.values_mut() {
-            fragment.minus = self.merges.port(fragment.minus);
-            fragment.plus = self.merges.port(fragment.plus);
+        for fragment in self.map.fragments.iter_mut() {
+            let ends = [fragment.minus, fragment.plus];
+            let [minus, plus] = ends.map(|port| self.merges.port(port));
+            if ends != [minus, plus] {
+                let fragment = Arc::make_mut(fragment);
+                (fragment.minus, fragment.plus) = (minus, plus);
+            }
         }
-        let ports = self.map.junctions.values_mut();
-        for port in ports.flat_map(|junction| &mut junction.ports) {
-            if let PortState::Filled(end) = port {
-                *end = self.merges.end(*end);
+        for junction in self.map.junctions.iter_mut() {
+            let gone = |port: &PortState| matches!(port, PortState::Filled(end) if self.merges.is_gone(end.fragment));
+            if !junction.ports.iter().any(gone) {
+                continue;
+            }
+            for port in &mut Arc::make_mut(junction).ports {
+                if let PortState::Filled(end) = port {
+                    *end = self.merges.end(*end);
+                }
             }
         }
     }

@@ -1,0 +1,78 @@
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+/// The nodes of a map by id. Copies of the map share all nodes until one of them changes some, and then all others: a copy costs
+/// nothing, the first change to it a count for each node, whatever is in it.
+#[derive(Debug, PartialEq)]
+pub(super) struct Nodes<I, T>(Arc<Vec<(I, Arc<T>)>>);
+
+impl<I, T> Clone for Nodes<I, T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<I, T> Default for Nodes<I, T> {
+    fn default() -> Self {
+        Self(Arc::default())
+    }
+}
+
+impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// By id.
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = (I, &T)> {
+        self.0.iter().map(|(id, node)| (*id, &**node))
+    }
+
+    /// By id, to be changed with [`Arc::make_mut`] where they have to be.
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Arc<T>> {
+        Arc::make_mut(&mut self.0).iter_mut().map(|(_, node)| node)
+    }
+
+    /// How many nodes have lower ids; none if it is not there. O(log nodes).
+    pub(super) fn rank(&self, id: I) -> Option<usize> {
+        self.search(id).ok()
+    }
+
+    /// The node with so many before it.
+    pub(super) fn at(&self, rank: usize) -> Option<&T> {
+        let (_, node) = self.0.get(rank)?;
+        Some(node)
+    }
+
+    pub(super) fn get(&self, id: I) -> Option<&T> {
+        self.at(self.rank(id)?)
+    }
+
+    pub(super) fn get_mut(&mut self, id: I) -> Option<&mut T> {
+        let rank = self.rank(id)?;
+        let (_, node) = Arc::make_mut(&mut self.0).get_mut(rank)?;
+        Some(Arc::make_mut(node))
+    }
+
+    /// Returns whether there was none of this id; else the new one takes its place. The last id is the cheapest.
+    pub(super) fn insert(&mut self, id: I, node: T) -> bool {
+        let place = self.search(id);
+        let nodes = Arc::make_mut(&mut self.0);
+        let node = (id, Arc::new(node));
+        match place {
+            Ok(rank) => nodes[rank] = node,
+            Err(rank) => nodes.insert(rank, node),
+        }
+        place.is_err()
+    }
+
+    pub(super) fn remove(&mut self, id: I) -> Option<T> {
+        let rank = self.rank(id)?;
+        let (_, node) = Arc::make_mut(&mut self.0).remove(rank);
+        Some(Arc::unwrap_or_clone(node))
+    }
+
+    fn search(&self, id: I) -> Result<usize, usize> {
+        self.0.binary_search_by_key(&id, |(id, _)| *id)
+    }
+}
