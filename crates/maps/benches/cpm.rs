@@ -3,11 +3,12 @@
 
 use core::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+use tolman_maps::cpm::world::{Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World};
 use tolman_maps::cpm::{
-    Aim, Alignment, CpmConfig, Decision, Explorer, Localizer, LocalizerConfig, Matching, Similarity,
+    Aim, Alignment, CpmConfig, Decision, Explorer, Localizer, LocalizerConfig, Matching,
+    Similarity, Turn,
 };
 
 fn world(columns: u32, rows: u32) -> World {
@@ -30,6 +31,52 @@ fn explored(world: &World, config: CpmConfig, reckoning: Reckoning) -> Explorer 
             explorer
                 .arrive(leg.turn, &walk, world.dictionary())
                 .unwrap();
+        }
+    }
+    explorer
+}
+
+/// A maze of many loops and corridors of four kinds, as long as an e-puck sees them.
+fn confusing(side: u32) -> World {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let maze = MazeConfig {
+        columns: side,
+        rows: side,
+        patterns: 100,
+        observations_per_cell: 8.0,
+        likeness: Likeness::Kinds(4),
+        ..MazeConfig::small()
+    };
+    World::random(&maze, &mut rng).unwrap()
+}
+
+/// A robot that sees a way too many at one place of thirty, as in an open room, so that no map explains all that it meets.
+fn miscounted(world: &World, walks: u32) -> Explorer {
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    let noise = Noise {
+        substitution: 0.1,
+        insertion: 0.03,
+        deletion: 0.03,
+        slip: 0.1,
+        heading: 0.1,
+    };
+    let mut rover = Rover::new(world, noise, Reckoning::Bounded);
+    let config = CpmConfig {
+        most_traversals: walks,
+        ..CpmConfig::robust()
+    };
+    let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
+    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+        // A way that is not there leads back.
+        let is_there = leg.turn.0 < rover.sighting().degree;
+        let turn = if is_there { leg.turn } else { Turn::BACK };
+        if let Outcome::Arrived(mut walk) = rover.go(turn, None, &mut rng).unwrap() {
+            if rng.random_range(0..30_u32) == 0 {
+                walk.sighting.degree += 1;
+                walk.bearings = None;
+            }
+            let dictionary = world.dictionary();
+            explorer.arrive(leg.turn, &walk, dictionary).unwrap();
         }
     }
     explorer
@@ -81,6 +128,10 @@ fn cpm(criterion: &mut Criterion) {
             bench.iter(|| explored(world, config, reckoning));
         });
     }
+    let rooms = confusing(12);
+    exploring.bench_function("12×12, robust, ways miscounted, 200 walks", |bench| {
+        bench.iter(|| miscounted(&rooms, 200));
+    });
     exploring.finish();
 
     let map = explored(&large, CpmConfig::online(), Reckoning::None)

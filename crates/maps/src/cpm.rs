@@ -60,6 +60,7 @@ mod mapper;
 mod nodes;
 mod pattern;
 mod plan;
+mod scores;
 mod similarity;
 mod theorem;
 mod traversal;

@@ -43,6 +43,15 @@ pub(super) enum Understood {
     Not,
 }
 
+/// Why a beam explains nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lost {
+    /// It was full once, so a wider one may have kept the truth.
+    InNarrowness,
+    /// It was never full: a wider one would have kept the same.
+    ForGood,
+}
+
 /// What a walk makes of one of the hypotheses before it.
 struct Child {
     hypothesis: Hypothesis,
@@ -88,8 +97,9 @@ impl Beam {
         }
     }
 
-    /// Takes in a walk. O(width · fragments) comparisons. Where the beam has to be wider all walks since the beginning are gone through again with each
-    /// width tried: O(sum of these widths · walks · fragments), the sum less than twice the widest.
+    /// Takes in a walk. O(width · fragments · log fragments), and a comparison for each pair of sequences. Where the beam has to be
+    /// wider all walks since the beginning are gone through again with each width tried, as long as it is full at some time: the
+    /// sum of these widths, in place of the width, is less than twice the widest.
     ///
     /// # Errors
     /// If the place where the robot is has no such turn; nothing is changed then.
@@ -114,8 +124,10 @@ impl Beam {
         self.understood = 0;
         while self.width < self.narrow.saturating_mul(WIDEST) {
             self.width = self.width.saturating_mul(2);
-            if let Some(belief) = self.look_again(judge) {
-                return Ok(Understood::Anew(belief));
+            match self.look_again(judge) {
+                Ok(belief) => return Ok(Understood::Anew(belief)),
+                Err(Lost::InNarrowness) => {}
+                Err(Lost::ForGood) => break,
             }
         }
         // It goes on with what it has found, apart from the rest.
@@ -137,22 +149,26 @@ impl Beam {
         }
     }
 
-    /// Goes through all that was met. Returns what was believed of the last walk; nothing, and the beam is as before, if nothing explains all.
-    fn look_again(&mut self, judge: &Comparison<'_>) -> Option<Belief> {
+    /// Goes through all that was met. Returns what was believed of the last walk. Where nothing explains all, the beam is as before.
+    fn look_again(&mut self, judge: &Comparison<'_>) -> Result<Belief, Lost> {
         let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
-        let mut belief = None;
+        let (mut belief, mut lost) = (None, Lost::ForGood);
         for event in &self.met {
             match event {
                 Event::Walked(turn, walk) => {
-                    let children = children(&now, *turn, walk, judge, self.width).ok()?;
-                    belief = Some(children.first()?.belief);
+                    let children = children(&now, *turn, walk, judge, self.width);
+                    let children = children.map_err(|_| lost)?;
+                    belief = Some(children.first().ok_or(lost)?.belief);
                     now = hypotheses(children);
+                    if now.len() >= self.width {
+                        lost = Lost::InNarrowness;
+                    }
                 }
                 Event::TurnedBack(turn, observations) => turn_back(&mut now, *turn, *observations),
             }
         }
         self.hypotheses = now;
-        belief
+        belief.ok_or(lost)
     }
 
     /// The robot has turned round in an unknown fragment after so many observations.

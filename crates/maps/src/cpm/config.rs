@@ -1,6 +1,7 @@
 use super::alignment::Alignment;
 use super::mapper::Comparison;
 use super::pattern::Dictionary;
+use super::scores::Scores;
 use super::similarity::{Matching, Similarity};
 
 /// How an [`Explorer`](super::Explorer) maps and decides.
@@ -75,11 +76,12 @@ pub enum Onward {
 }
 
 impl CpmConfig {
-    pub(super) const fn comparison<'a>(&'a self, dictionary: &'a Dictionary) -> Comparison<'a> {
+    pub(super) fn comparison<'a>(&'a self, dictionary: &'a Dictionary) -> Comparison<'a> {
         Comparison {
             matching: &self.matching,
             candidates: self.candidates,
             dictionary,
+            scores: Scores::default(),
         }
     }
 

@@ -294,9 +294,7 @@ impl Hypothesis {
 impl Comparison<'_> {
     /// What the observations say for two walks being along one fragment, a logarithm of odds.
     fn evidence(&self, known: &Fragment, patterns: &[PatternId], sense: Sense) -> f64 {
-        let score = self
-            .matching
-            .score_as(self.dictionary, patterns, &known.patterns, sense);
+        let score = self.score(patterns, &known.patterns, sense);
         let length = known.patterns.len().min(patterns.len()).max(1) as f64;
         let evidence = EVIDENCE * length * (score - self.matching.threshold());
         evidence.clamp(-MOST_EVIDENCE, MOST_EVIDENCE)

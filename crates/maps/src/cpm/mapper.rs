@@ -2,7 +2,8 @@ use alloc::vec::Vec;
 
 use super::config::{Candidates, CpmConfig};
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, Port, PortState};
-use super::pattern::Dictionary;
+use super::pattern::{Dictionary, PatternId};
+use super::scores::Scores;
 use super::similarity::{Matching, Sense};
 use super::traversal::{Sighting, Traversal};
 use super::turn::{NoSuchTurn, Turn};
@@ -142,7 +143,7 @@ impl Mapper {
             matching,
             dictionary,
             ..
-        } = *comparison;
+        } = comparison;
         let fragment = self.map.fragment(new)?;
         let mut similar: Vec<(f64, FragmentId, Sense)> = Vec::new();
         for (id, other) in comparison.others(&self.map, new) {
@@ -175,15 +176,22 @@ impl Mapper {
     }
 }
 
-/// What fragments are compared by.
-#[derive(Clone, Copy, Debug)]
+/// What fragments are compared by, and what came of it.
+#[derive(Clone, Debug)]
 pub(super) struct Comparison<'a> {
     pub(super) matching: &'a Matching,
     pub(super) candidates: Candidates,
     pub(super) dictionary: &'a Dictionary,
+    pub(super) scores: Scores,
 }
 
 impl Comparison<'_> {
+    /// How similar two sequences are, the second walked as the sense says.
+    pub(super) fn score(&self, one: &[PatternId], other: &[PatternId], sense: Sense) -> f64 {
+        let compute = || self.matching.score_as(self.dictionary, one, other, sense);
+        self.scores.of(one, other, sense, compute)
+    }
+
     /// The fragments to compare one of the map with.
     pub(super) fn others<'m>(
         &self,

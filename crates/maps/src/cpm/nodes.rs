@@ -1,8 +1,8 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// The nodes of a map by id. Copies of the map share all nodes until one of them changes some, and then all others: a copy costs
-/// nothing, the first change to it a count for each node, whatever is in it.
+/// The nodes of a map by id. Copies of the map share them all, and still the others once one of them has changed some: a copy
+/// costs nothing, the first change to it a count for each node, whatever is in it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Nodes<I, T>(Arc<Vec<(I, Arc<T>)>>);
 
@@ -74,5 +74,35 @@ impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
 
     fn search(&self, id: I) -> Result<usize, usize> {
         self.0.binary_search_by_key(&id, |(id, _)| *id)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_keeps_what_it_was_and_shares_what_is_not_changed() {
+        let mut nodes = Nodes::default();
+        for id in [3, 9, 4] {
+            assert!(nodes.insert(id, id * 10));
+        }
+        assert!(!nodes.insert(9, 91));
+        let copy = nodes.clone();
+        *nodes.get_mut(3).unwrap() = 31;
+        assert_eq!(nodes.remove(4), Some(40));
+        assert_eq!(nodes.remove(4), None);
+        let of = |nodes: &Nodes<i32, i32>| -> Vec<(i32, i32)> {
+            nodes.iter().map(|(id, node)| (id, *node)).collect()
+        };
+        assert_eq!(of(&nodes), [(3, 31), (9, 91)]);
+        assert_eq!(of(&copy), [(3, 30), (4, 40), (9, 91)]);
+        assert_eq!((nodes.rank(9), copy.rank(9)), (Some(1), Some(2)));
+        assert_eq!(
+            (nodes.rank(4), nodes.get(4), nodes.at(2)),
+            (None, None, None)
+        );
+        assert!(core::ptr::eq(nodes.get(9).unwrap(), copy.get(9).unwrap()));
+        assert!(!core::ptr::eq(nodes.get(3).unwrap(), copy.get(3).unwrap()));
     }
 }

@@ -16,7 +16,7 @@ pub enum Matching {
 }
 
 /// Which way round two sequences are similar.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sense {
     /// 𝔸₁ ≅ 𝔸₂: − belongs to −.
     Same,
