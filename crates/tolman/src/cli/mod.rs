@@ -22,6 +22,7 @@ mod replay_file;
 mod run;
 mod share;
 mod solve;
+mod start;
 mod stdout;
 mod survey;
 

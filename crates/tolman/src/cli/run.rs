@@ -4,7 +4,6 @@ mod brain;
 mod live;
 mod outing;
 mod picture;
-mod start;
 mod trace;
 
 use std::io::Write;

@@ -17,6 +17,19 @@ o   o   o   o
 o---o---o---o
 ";
 
+/// One way to the goal, without a junction.
+const HOOK: &str = "\
+name = Hook
+corridor_width = 0.25
+start = 0 0 north
+
+o---o---o---o---o
+|               |
+o   o---o---o   o
+| S | G         |
+o---o---o---o---o
+";
+
 /// Learns a map of a maze, `map.json`.
 const fn learn(maze: &str) -> [&str; 6] {
     ["cpm", "learn", "--maze", maze, "--out", "map.json"]
@@ -81,6 +94,46 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let elsewhere = solve("corridor.maze", "fork.maze");
     tolman_in(&folder, &elsewhere).refused(2, &["corridor.maze", "tolman cpm learn"]);
+}
+
+#[test]
+fn a_robot_that_knows_two_mazes_is_put_down_anywhere_in_one() {
+    let folder = folder("cpm-anywhere");
+    fs::write(folder.join("fork.maze"), MAZE).unwrap();
+    fs::write(folder.join("hook.maze"), HOOK).unwrap();
+    let learned = [
+        ("fork.maze", "1", "fork.json"),
+        ("hook.maze", "1", "hook.json"),
+        ("hook.maze", "2", "other.json"),
+    ];
+    for (maze, seed, out) in learned {
+        let learn = ["cpm", "learn", "--until", "explored", "--system", "better"];
+        let of = ["--maze", maze, "--seed", seed, "--out", out];
+        tolman_in(&folder, &[&learn[..], &of[..]].concat()).done();
+    }
+    let solve = |more: &[&str]| {
+        let solve = ["cpm", "solve", "--maze", "fork.maze", "--map", "fork.json"];
+        tolman_in(&folder, &[&solve[..], more].concat())
+    };
+    let both = ["--map", "hook.json"];
+    for seed in ["1", "2", "3"] {
+        let random = ["--start", "random", "--seed", seed, "--json"];
+        let told = solve(&[&both[..], &random[..]].concat()).done();
+        let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+        assert_eq!(told["reached"], true, "{told}");
+        assert_eq!(told["found"]["map"], "fork.json", "{told}");
+        assert_eq!(told["found"]["maze"], "Fork", "{told}");
+    }
+    // From the start, which it is not told of; amid a corridor, askew.
+    let told = solve(&both).done();
+    assert!(told.contains("sure that this is Fork"), "{told}");
+    let told = solve(&["--start", "0.125,0.375,80"]).done();
+    assert!(told.contains("reached the goal"), "{told}");
+
+    solve(&["--map", "other.json"]).refused(2, &["other.json", "other patterns", "--seed"]);
+    solve(&["--start", "0.25,0.3"]).refused(2, &["does not fit"]);
+    solve(&["--start", "9,9"]).refused(2, &["outside the world"]);
+    solve(&["--start", "somewhere"]).refused(2, &["expected random, marked"]);
 }
 
 /// What `tolman cpm learn` says of a maze, which it refuses.
@@ -196,7 +249,7 @@ fn a_map_with_more_fragments_than_there_are_is_told() {
     let explore = [&learn("grid.maze")[..], &["--until", "explored"]].concat();
     let told = [
         "the map in map.json is wrong",
-        "fragments and Grid has",
+        "are in Grid",
         "--system better",
     ];
     tolman_in(&folder, &explore).refused(1, &told);

@@ -139,6 +139,20 @@ impl<'a, B: Body> Cpm<'a, B> {
             junction,
             number: 0,
         };
+        Self::resume_at(walker, patterns, config, map, at)
+    }
+
+    /// A robot that stands at a place of its map, with this port behind it.
+    ///
+    /// # Errors
+    /// [`AgentError`] if the map has no such port.
+    pub fn resume_at(
+        walker: Walker<B>,
+        patterns: &'a CommonPatterns,
+        config: CpmConfig,
+        map: CpMap,
+        at: Port,
+    ) -> Result<Self, AgentError<B::Error>> {
         Ok(Self {
             walker,
             patterns: Cow::Borrowed(patterns),
@@ -150,6 +164,11 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// The lower layers.
     pub const fn walker(&self) -> &Walker<B> {
         &self.walker
+    }
+
+    /// The lower layers, where the robot is to forget its map.
+    pub fn into_walker(self) -> Walker<B> {
+        self.walker
     }
 
     /// The lower layers, to lift the robot.
@@ -279,8 +298,16 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// [`AgentError`].
     pub fn drive_plan(&mut self, plan: &Plan) -> Result<Episode, AgentError<B::Error>> {
         let begun = Begun::now(&self.walker);
-        let mut sighting = None;
+        let here = self.explorer.map().junction(self.explorer.at().junction);
+        // It may stand at the goal already; or elsewhere than it believes, where there are other ways.
+        let ways = self.walker.branches().len() as u32;
+        let mut sighting = here
+            .map(Junction::sighting)
+            .filter(|here| here.degree == ways);
         for leg in &plan.legs {
+            if sighting.is_none() {
+                break;
+            }
             // "The length of the fragments is used to estimate how many observation the robot can skip."
             let skip = self.walker.strides(leg.observations);
             match self.walker.walk(leg.turn.0 as usize, skip, None)? {

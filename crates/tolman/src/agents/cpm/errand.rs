@@ -3,13 +3,14 @@ use core::ops::ControlFlow;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Landmark};
+use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, Landmark, Location};
 
 use super::agent::{Begun, Cpm, Episode, Step};
 use super::body::SimulatedEpuck;
 use super::common_patterns::CommonPatterns;
 use super::fragments::TrueFragments;
-use super::trial::{Trial, TrialError};
+use super::trial::{Trial, TrialError, world_of};
+use super::whereabouts::{Approach, Whereabouts, find_out};
 
 /// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.
 #[derive(Clone, Debug)]
@@ -65,6 +66,23 @@ pub struct Learned {
     /// How far it had come in the end.
     pub progress: Progress,
 }
+
+/// What came of a drive from anywhere.
+#[derive(Clone, Debug)]
+pub struct DriveFrom {
+    /// What the robot found out; again each time that it came to another place than its map has there.
+    pub found: Vec<Whereabouts>,
+    /// Where it believed to be when it began its last drive.
+    pub believed: Location,
+    /// The drive from where it was put down on, and the map that it went by.
+    pub errand: Errand,
+}
+
+/// After so many places it drives where it most likely is right.
+const MOST_PLACES: u32 = 12;
+
+/// So often it may find itself at another place than its map has there.
+const SEARCHES: usize = 3;
 
 /// After so many walks for each fragment of the maze a robot gives up. A way through all fragments takes at most two for each, there and back,
 /// and robots that find it by themselves walked 1.3 times as many as the best: whoever walks four times as many no longer knows again where
@@ -129,6 +147,49 @@ impl Trial<'_> {
         let plan = plan.ok_or(TrialError::NoPlan)?;
         let episode = agent.drive_plan(&plan)?;
         Ok(Errand::of(&agent, episode))
+    }
+
+    /// Put down anywhere in the maze, also amid a fragment, finds out which of some maps is that of the maze and where on it the robot is, and
+    /// drives to the goal from there (section 8). Where it comes to another place than that map has, it looks again where it is, twice at most.
+    ///
+    /// # Errors
+    /// [`TrialError`], also if the maps have no way to a goal, or are other patterns', or the robot cannot stand there.
+    pub fn drive_from(&self, maps: &[CpMap], start: Pose) -> Result<DriveFrom, TrialError> {
+        let world = world_of(self.maze, self.corridor_width)?;
+        let mut walker = self.set_up_at(world, start)?;
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let begun = Begun::now(&walker);
+        let mut found = Vec::new();
+        loop {
+            let (patterns, approach) = (self.patterns, Approach::ToAndFro);
+            let whereabouts = find_out(
+                &mut walker,
+                maps,
+                patterns,
+                approach,
+                MOST_PLACES,
+                &mut rng,
+                |_| {},
+            )?;
+            let believed = whereabouts.here().ok_or(TrialError::NoPlan)?;
+            found.push(whereabouts);
+            let map = maps.get(believed.map).ok_or(TrialError::NoPlan)?.clone();
+            let config = self.mode.config();
+            let mut agent = Cpm::resume_at(walker, patterns, config, map, believed.ahead)?;
+            let plan = agent.explorer().plan(Landmark::Goal);
+            let plan = plan.ok_or(TrialError::NoPlan)?;
+            let done = agent.drive_plan(&plan)?.done;
+            if done == Done::Reached || found.len() == SEARCHES {
+                let episode = begun.ended(done, agent.walker());
+                let errand = Errand::of(&agent, episode);
+                return Ok(DriveFrom {
+                    found,
+                    believed,
+                    errand,
+                });
+            }
+            walker = agent.into_walker();
+        }
     }
 }
 

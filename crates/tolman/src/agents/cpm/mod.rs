@@ -89,7 +89,7 @@ pub use bends::Likeness;
 pub use body::{Body, Landmarked, Reckoned, SimulatedEpuck};
 pub use common_patterns::{CommonPatterns, LearnError, Lesson, wander};
 pub use distinctness::{Distinctness, Pair, distinctness};
-pub use errand::{Errand, Learned, Progress};
+pub use errand::{DriveFrom, Errand, Learned, Progress};
 pub use exploration::Exploration;
 pub use fragments::{TrueFragments, Way};
 pub use layout::{Course, Fit, Layout, OpenPort};
@@ -102,5 +102,7 @@ pub use survey::{Surveyed, survey};
 pub(crate) use trial::placed;
 pub use trial::{Mode, Record, Trial, TrialError, learn, learn_by};
 pub use venue::Venue;
-pub use walker::{HeadingBy, Observation, Walk, WalkError, Walker, WalkerConfig};
+pub use walker::{
+    BeforePlace, HeadingBy, Observation, Prospect, Walk, WalkError, Walker, WalkerConfig,
+};
 pub use whereabouts::{Approach, Whereabouts, WhereaboutsError, find_out};

@@ -170,7 +170,7 @@ pub(super) fn world_of(maze: &Maze, corridor_width: f64) -> Result<World, TrialE
     Ok(World::from_maze(maze, &size)?)
 }
 
-fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
+pub(super) fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
     let (cell, direction) = maze.start().ok_or(TrialError::NoStart)?;
     Ok(Pose::new(world.cell_centre(cell), heading_of(direction)))
 }
@@ -187,13 +187,24 @@ impl Trial<'_> {
 
     /// The robot at the start.
     pub(super) fn set_up(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
+        let world = world_of(self.maze, self.corridor_width)?;
+        let start = start_of(self.maze, &world)?;
+        self.set_up_at(world, start)
+    }
+
+    /// The robot anywhere in its world.
+    pub(super) fn set_up_at(
+        &self,
+        world: World,
+        start: Pose,
+    ) -> Result<Walker<SimulatedEpuck>, TrialError> {
         let mut config = walker_config(&self.robot, self.corridor_width)?;
         config.heading = match self.mode {
             Mode::Paper(_) => HeadingBy::Encoders,
             Mode::Reckoned(_) | Mode::Unlearned(_) => HeadingBy::Walls,
         };
-        let robot = self.robot.clone();
-        let body = placed(self.maze, self.corridor_width, robot, self.seed)?;
+        let robot = Epuck::new(self.robot.clone())?;
+        let body = SimulatedEpuck::new(Arc::new(world), robot, start, self.seed)?;
         Ok(Walker::new(body, config))
     }
 

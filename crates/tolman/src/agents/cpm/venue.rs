@@ -1,10 +1,14 @@
 //! Where the e-puck runs.
 
-use tolman_maze::{Cell, Maze, MazeFile};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_control::heading_of;
+use tolman_geom::Pose;
+use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_sim::World;
 
 use super::robot::epuck;
-use super::trial::{TrialError, world_of};
+use super::trial::{TrialError, start_of, world_of};
 
 /// A maze with a start, and how wide its corridors are for an e-puck.
 #[derive(Clone, Debug)]
@@ -56,6 +60,30 @@ impl Venue {
     pub fn room(&self) -> Option<Cell> {
         let mut cells = self.maze.grid().cells();
         cells.find(|cell| self.maze.is_room(*cell))
+    }
+
+    /// In the middle of the cell that the maze marks as its start, looking as it says.
+    ///
+    /// # Errors
+    /// [`TrialError::NoStart`].
+    pub fn start(&self, world: &World) -> Result<Pose, TrialError> {
+        start_of(&self.maze, world)
+    }
+
+    /// In the middle of any cell from which the goal can be reached, looking along a way out of it; none if there are none.
+    #[must_use]
+    pub fn anywhere(&self, world: &World, seed: u64) -> Option<Pose> {
+        let out_of = |cell| {
+            let neighbours = self.maze.neighbours(cell);
+            neighbours.map(move |(direction, _)| (cell, direction))
+        };
+        let ways: Vec<(Cell, Direction)> = self.maze.reachable().flat_map(out_of).collect();
+        if ways.is_empty() {
+            return None;
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let (cell, direction) = ways[rng.random_range(0..ways.len() as u32) as usize];
+        Some(Pose::new(world.cell_centre(cell), heading_of(direction)))
     }
 
     /// Its thin walls.

@@ -30,6 +30,14 @@ pub struct Whereabouts {
     pub walks: Vec<Vec<Observation>>,
 }
 
+impl Whereabouts {
+    /// Where it believes to be in the end: at the place to which that fragment has led it.
+    #[must_use]
+    pub fn here(&self) -> Option<Location> {
+        self.at_places.last().copied()
+    }
+}
+
 /// Walks of this robot along one fragment differ by less than one stride in twenty.
 const CONFIG: LocalizerConfig = LocalizerConfig {
     slip: 0.05,

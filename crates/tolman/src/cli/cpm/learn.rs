@@ -119,12 +119,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     });
     line.finish_and_clear();
     let name = &venue.name;
-    let context = match venue.room() {
-        Some(Cell { x, y }) => format!(
-            "no map of {name} was learned, which has an open room at cell {x}, {y}, where the robot finds no corridors"
-        ),
-        None => format!("no map of {name} was learned"),
-    };
+    let room = venue.room().map(|Cell { x, y }| {
+        format!(", which has an open room at cell {x}, {y}, where the robot finds no corridors")
+    });
+    let room = room.unwrap_or_default();
+    let context = format!("no map of {name} was learned{room}");
     let Learned { errand, progress } = match learned {
         Ok(learned) => learned,
         Err(error) => return Err(classify(error, context)),
@@ -158,7 +157,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     file::write(&arguments.out, &file.to_json()?)?;
     if aim == Aim::Explore && fragments != there_are as usize {
         return Err(Failure::Failed(anyhow!(
-            "the map in {} is wrong: it has {fragments} fragments and {} has {there_are}, as the robot took some for others; {}",
+            "the map in {} is wrong: it has {fragments} fragments, and {there_are} are in {}{room}: the robot took some for others, or overlooked \
+             them; {}",
             arguments.out.display(),
             file.maze,
             arguments.system.remedy()

@@ -14,10 +14,10 @@ use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::live::Live;
-use super::start::Start;
 use super::{picture, trace};
 use crate::cli::failure::OrBadInput;
 use crate::cli::replay_file::{self, Overwrite};
+use crate::cli::start::Start;
 use crate::cli::{Failure, called, file, maze};
 
 /// Where and how a robot runs, and what is kept of it.

@@ -9,6 +9,12 @@ use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Ta
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
 
+/// Runs of a row: of a walk that is half as long again as the best one, the mean is known to within a thirtieth then.
+const RUNS: u32 = 40;
+
+/// As many for a first look.
+const QUICK_RUNS: u32 = 3;
+
 /// The table, and what is tried in each of its rows.
 #[derive(Debug)]
 pub(super) struct Explored {
@@ -16,8 +22,8 @@ pub(super) struct Explored {
     settings: Vec<Setting>,
 }
 
-/// `papers`: the mazes are the paper's, and others are drawn beside them.
-pub(super) fn explored(venues: &[Venue], papers: bool) -> Explored {
+/// `papers`: the mazes are the paper's, and others are drawn beside them; `quick`: for a first look.
+pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Explored {
     let mut settings = in_both_modes(venues);
     if papers {
         settings.push(Setting {
@@ -52,8 +58,9 @@ pub(super) fn explored(venues: &[Venue], papers: bool) -> Explored {
              for who knows the maze. Theorem 1 bounds the time until the last fragment is walked, whether the robot knows it or not: \
              from the times that it took for the fragments before the first it had walked before, and the longest that it took for any.",
         );
+    let runs = if quick { QUICK_RUNS } else { RUNS };
     for setting in &settings {
-        table = table.row(Row::new(&setting.row));
+        table = table.row(Row::new(&setting.row).runs(runs));
     }
     Explored { table, settings }
 }

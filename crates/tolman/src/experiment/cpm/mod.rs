@@ -65,7 +65,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         trials::unlearned(&venues),
     ];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
-    let explored = explored::explored(&venues, papers);
+    let explored = explored::explored(&venues, papers, options.quick);
     tables.push(explored.table.clone());
     tables.push(episodes::table(&venues));
     tables.push(places::table(&venues));

@@ -1,4 +1,4 @@
-//! Where a run starts.
+//! Where a robot starts.
 
 use core::str::FromStr;
 
@@ -8,7 +8,7 @@ use tolman::episode::random_start;
 use tolman::pioneer::body;
 use tolman_geom::{Heading, Point, Pose, Vector};
 
-use crate::cli::failure::Failure;
+use super::Failure;
 
 /// What `--start` can say.
 #[derive(Clone, Copy, Debug, PartialEq)]
