@@ -156,22 +156,12 @@ impl Observer {
             }
             let id = TrackId(self.born);
             self.born += 1;
-            let frame = self.map.paths.places[place.index()].frame;
-            let robot = self.map.paths.places[place.index()].position;
-            let supposed = Track {
-                id,
-                place,
-                confidence: SUPPOSED,
-                link: None,
-                astray: 0.0,
-                history: Vec::from([Match {
-                    place,
-                    action: None,
-                    doubts: Vec::new(),
-                    since: PointBox::ORIGIN,
-                }]),
-                active: Vec::from([ActiveFrame { frame, robot }]),
+            let there = &self.map.paths.places[place.index()];
+            let at = ActiveFrame {
+                frame: there.frame,
+                robot: there.position,
             };
+            let supposed = Track::begun(id, place, SUPPOSED, at);
             let line = TrackReport {
                 track: id,
                 from: track.place,

@@ -17,7 +17,7 @@ use super::path_graph::Link;
 use super::report::{Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
 use super::restructuring::{Hints, deposit, restructure};
 use super::signature::Signature;
-use super::track::{Match, Track};
+use super::track::Track;
 use super::updater::block;
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
@@ -63,24 +63,11 @@ impl Observer {
         }
         first.exits = start.exits;
         first.visits = 1;
-        let frame = first.frame;
-        let track = Track {
-            id: TrackId(0),
-            place,
-            confidence: 1.0,
-            link: None,
-            astray: 0.0,
-            history: Vec::from([Match {
-                place,
-                action: None,
-                doubts: Vec::new(),
-                since: PointBox::ORIGIN,
-            }]),
-            active: Vec::from([ActiveFrame {
-                frame,
-                robot: PointBox::ORIGIN,
-            }]),
+        let at = ActiveFrame {
+            frame: first.frame,
+            robot: PointBox::ORIGIN,
         };
+        let track = Track::begun(TrackId(0), place, 1.0, at);
         Ok(Self {
             config,
             map,

@@ -40,6 +40,24 @@ pub struct Match {
 }
 
 impl Track {
+    /// A track that begins at a place, with the robot there in the place's frame.
+    pub(super) fn begun(id: TrackId, place: PlaceId, confidence: f64, at: ActiveFrame) -> Self {
+        Self {
+            id,
+            place,
+            confidence,
+            link: None,
+            astray: 0.0,
+            history: Vec::from([Match {
+                place,
+                action: None,
+                doubts: Vec::new(),
+                since: PointBox::ORIGIN,
+            }]),
+            active: Vec::from([at]),
+        }
+    }
+
     /// Adds a match; all before it lie a displacement further back.
     pub(super) fn remember(&mut self, entry: Match, moved: PointBox, length: usize) {
         for before in &mut self.history {
