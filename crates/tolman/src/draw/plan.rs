@@ -4,7 +4,7 @@ use core::fmt::Write;
 
 use maud::{Markup, html};
 use tolman_geom::{Point, Vector};
-use tolman_sim::{Area, Bounds};
+use tolman_sim::{Area, Bounds, World};
 
 use crate::course::Course;
 
@@ -96,16 +96,18 @@ impl Plan {
         plan
     }
 
+    /// A plan of a world that is `width` user units wide, with its walls and nothing else.
+    pub fn of_world(world: &World, width: f64) -> Self {
+        let walls = world.walls().iter();
+        let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
+        Self::of_walls(&walls, width)
+    }
+
     /// A plan of a course that is `width` user units wide, with its walls and its destination; what is
     /// walled off is solid.
     pub fn of_course(course: &Course, width: f64) -> Self {
         let world = &course.world;
-        let walls: Vec<[Point; 2]> = world
-            .walls()
-            .iter()
-            .map(|wall| [wall.start, wall.end])
-            .collect();
-        let mut plan = Self::of_walls(&walls, width);
+        let mut plan = Self::of_world(world, width);
         for cell in course.maze.grid().cells() {
             let centre = world.cell_centre(cell);
             if !course.leads_on(centre) {

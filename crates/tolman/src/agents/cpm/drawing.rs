@@ -116,12 +116,7 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
 /// The plan of a maze; what the robot cannot come to is solid.
 #[must_use]
 pub fn plan_of(maze: &Maze, world: &World) -> Plan {
-    let walls: Vec<[Point; 2]> = world
-        .walls()
-        .iter()
-        .map(|wall| [wall.start, wall.end])
-        .collect();
-    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let mut plan = Plan::of_world(world, WIDTH);
     // Cell (0, 0) begins at the origin.
     let half = world.cell_centre(Cell::new(0, 0)).x;
     for cell in maze.sealed() {

@@ -17,9 +17,7 @@ const MOST_BOXES: usize = 100;
 /// than a hundred places are drawn without boxes.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
-    let walls = office.world().walls().iter();
-    let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
-    let mut plan = Plan::of_walls(&walls, WIDTH);
+    let mut plan = Plan::of_world(office.world(), WIDTH);
     let drawn = survey.drawn();
     let boxes = if drawn.len() > MOST_BOXES {
         &[]
