@@ -364,6 +364,17 @@ fn unit(direction: Direction) -> Vector {
     Vector::new(f64::from(east), f64::from(north))
 }
 
+/// Raises a painted wall along each stretch of an outline.
+fn raise(outline: &[Point], paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+    for ends in outline.windows(2) {
+        walls.push(Wall {
+            start: ends[0],
+            end: ends[1],
+            material: paint(),
+        });
+    }
+}
+
 /// Where an office's parts are and how they look.
 #[derive(Clone, Copy)]
 struct Scale<'a>(&'a OfficeConfig);
@@ -406,14 +417,7 @@ impl Scale<'_> {
             (-1.0, 1.0),
             (-1.0, -1.0),
         ];
-        let outline = outline.map(|(x, y)| corner(x, y));
-        for ends in outline.windows(2) {
-            walls.push(Wall {
-                start: ends[0],
-                end: ends[1],
-                material: paint(),
-            });
-        }
+        raise(&outline.map(|(x, y)| corner(x, y)), paint, walls);
     }
 
     /// What narrows a passage to a doorway: on both sides the outline of a post.
@@ -436,13 +440,7 @@ impl Scale<'_> {
                 corner(self.0.doorway_width(), 1.0),
                 corner(width, 1.0),
             ];
-            for ends in outline.windows(2) {
-                walls.push(Wall {
-                    start: ends[0],
-                    end: ends[1],
-                    material: paint(),
-                });
-            }
+            raise(&outline, paint, walls);
         }
     }
 
