@@ -2,8 +2,8 @@
 
 use tolman_maps::cpm::Done;
 
-use super::trials::{Place, Setting, better, cast, in_both_modes, trial};
-use crate::agents::cpm::{CommonPatterns, Mode, Venue};
+use super::trials::{Place, Setting, better, cast, in_both_modes, modes, trial};
+use crate::agents::cpm::{CommonPatterns, Venue};
 use crate::experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.
@@ -67,9 +67,8 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Explored 
 
 impl Explored {
     /// Every row with the way it maps, for the configuration.
-    pub(super) fn modes(&self) -> impl Iterator<Item = (&str, Mode)> {
-        let settings = self.settings.iter();
-        settings.map(|setting| (setting.row.as_str(), setting.mode))
+    pub(super) fn modes(&self) -> toml::Table {
+        modes(&self.settings)
     }
 
     /// Explores one maze.

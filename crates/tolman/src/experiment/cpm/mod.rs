@@ -153,17 +153,9 @@ impl Experiment for Cpm {
         config.insert("robot".into(), toml::Value::try_from(epuck())?);
         config.insert("real".into(), real::config()?);
         for trials in &self.trials {
-            let mut rows = toml::Table::new();
-            for (row, mode) in trials.modes() {
-                rows.insert(row.into(), format!("{mode:?}").into());
-            }
-            config.insert(trials.table.name.clone(), rows.into());
+            config.insert(trials.table.name.clone(), trials.modes().into());
         }
-        let mut rows = toml::Table::new();
-        for (row, mode) in self.explored.modes() {
-            rows.insert(row.into(), format!("{mode:?}").into());
-        }
-        config.insert(EXPLORED.into(), rows.into());
+        config.insert(EXPLORED.into(), self.explored.modes().into());
         let learner = format!("{:?}", QLearningConfig::usual());
         config.insert("q_learning".into(), learner.into());
         config.insert("places".into(), places::config().into());

@@ -320,9 +320,8 @@ fn fields(table: Table) -> Table {
 
 impl Trials {
     /// Every row with the way it maps, for the configuration.
-    pub(super) fn modes(&self) -> impl Iterator<Item = (&str, Mode)> {
-        let settings = self.settings.iter();
-        settings.map(|setting| (setting.row.as_str(), setting.mode))
+    pub(super) fn modes(&self) -> toml::Table {
+        modes(&self.settings)
     }
 
     /// The maze and the way of mapping of a run.
@@ -337,6 +336,13 @@ impl Trials {
         let fields = measured(&venue, &record, self.solution)?;
         Ok((self.own)(fields, &venue, &record))
     }
+}
+
+/// Every row with the way it maps, for the configuration.
+pub(super) fn modes(settings: &[Setting]) -> toml::Table {
+    let settings = settings.iter();
+    let modes = settings.map(|Setting { row, mode, .. }| (row.clone(), format!("{mode:?}").into()));
+    modes.collect()
 }
 
 /// The maze and the way of mapping of a run in one of these rows.
