@@ -4,7 +4,7 @@ use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
 use crate::agents::mslst;
 use crate::course::Course;
-use crate::experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table, Tolerance};
+use crate::experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table, Tolerance, venue};
 use crate::pioneer;
 
 /// The table's name in `summary.json`.
@@ -78,16 +78,9 @@ pub(super) struct Mazes {
 
 impl Mazes {
     pub(super) fn new() -> Result<Self, BoxError> {
-        let course = |name: &str, text: &str| -> Result<Course, BoxError> {
-            Ok(Course::new(
-                name,
-                &tolman_maze::read(text)?,
-                &pioneer::body(),
-            )?)
-        };
         Ok(Self {
-            j: course("J", include_str!("../../../../../mazes/j.maze"))?,
-            large: course("Large", include_str!("../../../../../mazes/large.maze"))?,
+            j: venue::j_maze()?,
+            large: venue::large_maze()?,
         })
     }
 

@@ -37,14 +37,11 @@ pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
         Venue {
             table: "2 (J)".into(),
             title: "The J maze".into(),
-            course: built_in("J", include_str!("../../../../../mazes/j.maze"))?,
+            course: j_maze()?,
             step_limit: paper::J_STEPS,
             paper: paper::TABLE_2,
         },
-        large_like(built_in(
-            "Large",
-            include_str!("../../../../../mazes/large.maze"),
-        )?),
+        large_like(large_maze()?),
     ])
 }
 
@@ -57,6 +54,16 @@ pub(super) fn large_like(course: Course) -> Venue {
         step_limit: paper::LARGE_STEPS,
         paper: paper::TABLE_3,
     }
+}
+
+/// The paper's J maze.
+pub(super) fn j_maze() -> Result<Course, BoxError> {
+    built_in("J", include_str!("../../../../../mazes/j.maze"))
+}
+
+/// The paper's Large maze.
+pub(super) fn large_maze() -> Result<Course, BoxError> {
+    built_in("Large", include_str!("../../../../../mazes/large.maze"))
 }
 
 fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
