@@ -1,8 +1,8 @@
 //! Effect size.
 
+use super::SampleError;
+use super::mann_whitney::u_statistic;
 use super::moments::count;
-use super::ranks::ranks;
-use super::{SampleError, error::check};
 
 /// Vargha and Delaney's A₁₂ ("A critique and improvement of the CL common language effect size
 /// statistics", 2000): the probability that a value of `a` is greater than one of `b`, ties counted
@@ -17,10 +17,6 @@ use super::{SampleError, error::check};
 /// # Errors
 /// If a sample is empty or not finite.
 pub fn a12(a: &[f64], b: &[f64]) -> Result<f64, SampleError> {
-    check(a, 1)?;
-    check(b, 1)?;
-    let pooled = ranks(&[a, b].concat());
-    let (n, m) = (count(a), count(b));
-    let u = pooled.ranks[..a.len()].iter().sum::<f64>() - n * (n + 1.0) / 2.0;
-    Ok(u / (n * m))
+    let (u, _) = u_statistic(a, b)?;
+    Ok(u / (count(a) * count(b)))
 }

@@ -2,7 +2,7 @@
 
 use super::moments::count;
 use super::normal::ln_upper_tail;
-use super::ranks::ranks;
+use super::ranks::{Ranks, ranks};
 use super::{Method, PValue, SampleError, error::check};
 
 /// The outcome of a Mann–Whitney test.
@@ -35,13 +35,10 @@ pub struct MannWhitney {
 /// # Errors
 /// If a sample is empty or not finite, or an exact test is asked for samples with ties.
 pub fn mann_whitney(a: &[f64], b: &[f64], method: Method) -> Result<MannWhitney, SampleError> {
-    check(a, 1)?;
-    check(b, 1)?;
-    let pooled = ranks(&[a, b].concat());
+    let (u, ties) = u_statistic(a, b)?;
     let (n, m) = (count(a), count(b));
-    let u = pooled.ranks[..a.len()].iter().sum::<f64>() - n * (n + 1.0) / 2.0;
     let greater = u.max(n * m - u);
-    let tied = pooled.ties > 0.0;
+    let tied = ties > 0.0;
     let exact = match method {
         Method::Exact if tied => return Err(SampleError::Ties),
         Method::Exact => true,
@@ -52,7 +49,7 @@ pub fn mann_whitney(a: &[f64], b: &[f64], method: Method) -> Result<MannWhitney,
         PValue::two_sided(libm::log(exact_tail(a.len(), b.len(), greater)))
     } else {
         let total = n + m;
-        let variance = n * m / 12.0 * (total + 1.0 - pooled.ties / (total * (total - 1.0)));
+        let variance = n * m / 12.0 * (total + 1.0 - ties / (total * (total - 1.0)));
         if variance > 0.0 {
             PValue::two_sided(ln_upper_tail(
                 (greater - n * m / 2.0 - 0.5) / variance.sqrt(),
@@ -70,6 +67,16 @@ pub fn mann_whitney(a: &[f64], b: &[f64], method: Method) -> Result<MannWhitney,
             Method::Asymptotic
         },
     })
+}
+
+/// U of the first sample, as in [`MannWhitney`], and how much the values of both are tied, as in `Ranks`.
+pub(super) fn u_statistic(a: &[f64], b: &[f64]) -> Result<(f64, f64), SampleError> {
+    check(a, 1)?;
+    check(b, 1)?;
+    let Ranks { ranks, ties } = ranks(&[a, b].concat());
+    let n = count(a);
+    let u = ranks[..a.len()].iter().sum::<f64>() - n * (n + 1.0) / 2.0;
+    Ok((u, ties))
 }
 
 /// The probability that U is `u` or more under the hypothesis, for samples of `n` and `m` values
