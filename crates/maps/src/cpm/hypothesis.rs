@@ -174,7 +174,7 @@ impl Hypothesis {
         all
     }
 
-    /// The fragment just added is one that the map has already.
+    /// The fragment just added is one that the map has already. The place it led to is the last, and has no position yet.
     fn duplicates(
         &self,
         new: FragmentId,
