@@ -12,7 +12,7 @@ use tolman_control::epuck::{
     RangeCurve, SegmentConfig, Segments,
 };
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maze::{Direction, Maze};
+use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Robot;
 use tolman_robot::epuck::{EpuckSensing, MOST_WHEEL_SPEED, WheelSpeeds};
 use tolman_sim::noise::{Fault, Slip};
@@ -191,6 +191,47 @@ fn it_follows_every_path_without_touching_a_wall() {
     for maze in mazes() {
         for seed in 0..2 {
             drive(&maze, 0.1, seed, 100);
+        }
+    }
+}
+
+/// From a fork with a way to the south to the next, a cell on, with one to the north. The robot stands off the middle, towards the way to the
+/// south, where a fork has the most room.
+#[test]
+fn between_neighbouring_forks_it_keeps_its_way() {
+    let text = "\
+start = 1 1 east
+
+o---o---o---o---o
+|       |   |   |
+o---o---o   o---o
+|     S       G |
+o---o   o---o---o
+|   |   |       |
+o---o---o---o---o
+";
+    let maze = tolman_maze::read(text).unwrap().maze;
+    for seed in 0..4 {
+        for (aside, turned) in [(-0.045, 0.1), (-0.04, 0.0), (-0.03, 0.15), (0.0, 0.0)] {
+            let mut pilot = pilot(&maze, 0.1, seed);
+            pilot.turn(-PI / 2.0).unwrap();
+            pilot.go_to(Point::new(-aside, 0.0)).unwrap();
+            pilot.turn(PI / 2.0 + turned).unwrap();
+            pilot.follow(WIDTH / pilot.config().forward.speed).unwrap();
+            let pose = pilot.robot().solo.truth().pose;
+            let off = pose.position
+                - pilot
+                    .robot()
+                    .solo
+                    .simulation()
+                    .world()
+                    .cell_centre(Cell::new(2, 1));
+            assert!(
+                pose.heading.radians().abs() < 0.5 && off.norm() < 0.1,
+                "{aside} m aside, turned by {turned}: at {off}, {}",
+                pose.heading.radians()
+            );
+            assert_eq!(pilot.robot().bumps, 0);
         }
     }
 }

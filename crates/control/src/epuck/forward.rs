@@ -1,12 +1,14 @@
+use core::f64::consts::FRAC_PI_4;
+
 use tolman_geom::{Point, Twist};
 
 use super::Echoes;
 
 /// Layer 1: drives forward along the path (section 3.2), in the middle of the corridor and round its bends.
 ///
-/// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it sees. Where a wall stands across the
-/// way, it turns on the spot to the side with more room, and keeps to that side until the way ahead is free. It knows no
-/// junctions: those are layer 3's.
+/// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it sees; where it does not see along a wall, as
+/// beside a fork, it hardly turns. Where a wall stands across the way, it turns on the spot to the side with more room, and keeps to that side
+/// until the way ahead is free. It knows no junctions: those are layer 3's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forward {
     config: ForwardConfig,
@@ -121,8 +123,15 @@ impl Forward {
             .into_iter()
             .flatten()
             .fold((0.0, 0.0), |(sum, count), angle| (sum + angle, count + 1.0));
-        let angle = if count > 0.0 { sum / count } else { 0.0 };
-        let turn = self.config.to_middle * off.clamp(-0.03, 0.03) + self.config.along * angle;
+        let off = off.clamp(-0.03, 0.03);
+        let turn = if count > 0.0 {
+            self.config.to_middle * off + self.config.along * (sum / count)
+        } else {
+            // A wall that ends ahead says how far off the middle the robot is, but not where it heads: what is turned by that alone swings, and
+            // turned robots into the ways of forks. So gently that it comes to the middle a corridor's width on.
+            let swing = FRAC_PI_4 / half;
+            self.config.speed * swing * swing * off
+        };
         Twist {
             linear: self.config.speed,
             angular: turn.clamp(-self.config.turn, self.config.turn),
@@ -140,5 +149,43 @@ impl Forward {
             .filter(|angle| angle.abs() < 0.6);
         let distance = aside.y.abs() * libm::cos(angle.unwrap_or(0.0));
         Some(Beside { distance, angle })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::epuck::RangeCurve;
+    use tolman_robot::epuck::proximity_mounts;
+
+    /// What it does 3 cm off the middle to the right, where the wall on the left ends so far ahead.
+    fn beside_a_wall_that_ends(ahead: f64) -> Twist {
+        const WIDTH: f64 = 0.25;
+        let curve = RangeCurve::new(alloc::vec![(0.0, 1.0), (0.25, 0.0)]).unwrap();
+        let to_wall = WIDTH / 2.0 + 0.03;
+        let mut values = [0.0; 8];
+        for (mount, value) in proximity_mounts().iter().zip(&mut values) {
+            let (position, way) = (mount.position, mount.heading.unit());
+            let range = (to_wall - position.y) / way.y;
+            if range > 0.0 && position.x + range * way.x < ahead {
+                *value = (1.0 - range / curve.reach()).max(0.0);
+            }
+        }
+        Forward::new(ForwardConfig::for_width(WIDTH)).propose(&Echoes::of(&values, &curve))
+    }
+
+    #[test]
+    fn along_a_wall_it_turns_to_the_middle() {
+        let twist = beside_a_wall_that_ends(1.0);
+        assert!(twist.linear > 0.0 && twist.angular > 0.5, "{twist:?}");
+    }
+
+    #[test]
+    fn where_the_wall_ends_it_hardly_turns() {
+        let twist = beside_a_wall_that_ends(0.05);
+        assert!(
+            twist.linear > 0.0 && (0.0..0.1).contains(&twist.angular),
+            "{twist:?}"
+        );
     }
 }

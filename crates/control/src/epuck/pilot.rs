@@ -130,6 +130,15 @@ where
         Ok(())
     }
 
+    /// Stands still for a time step, so that the sensors tell what is round the robot now: when it was carried elsewhere, they still tell of
+    /// where it stood before.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn stand(&mut self) -> Result<(), PilotError<R::Error>> {
+        self.drive(Twist::ZERO, 1.0)
+    }
+
     /// Turns on the spot by so many radians, counter-clockwise.
     ///
     /// # Errors

@@ -70,8 +70,61 @@ pub fn survey(
 
 #[cfg(test)]
 mod tests {
+    use tolman_maps::cpm::Landmark;
+    use tolman_robot::Robot;
+    use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
+    use tolman_sim::StepError;
+
     use super::*;
-    use crate::agents::cpm::{epuck, walker_config};
+    use crate::agents::cpm::{Body, epuck, walker_config};
+
+    /// An e-puck whose sensors still tell of the hand that carried it, until its next time step.
+    struct Carried {
+        body: SimulatedEpuck,
+        sensed: Option<EpuckSensing>,
+    }
+
+    impl Robot for Carried {
+        type Command = WheelSpeeds;
+        type Sensing = EpuckSensing;
+        type Error = StepError;
+
+        fn sensing(&self) -> &EpuckSensing {
+            self.sensed.as_ref().unwrap_or_else(|| self.body.sensing())
+        }
+
+        fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
+            self.sensed = None;
+            self.body.step(command)
+        }
+    }
+
+    impl Body for Carried {
+        fn landmark(&self) -> Option<Landmark> {
+            self.body.landmark()
+        }
+    }
+
+    #[test]
+    fn what_it_sensed_before_it_was_put_down_is_no_part_of_what_it_sees() {
+        let maze = include_str!("../../../../../mazes/cpm-1.maze");
+        let maze = tolman_maze::read(maze).unwrap().maze;
+        let world = Arc::new(world_of(&maze, 0.25).unwrap());
+        let config = walker_config(&epuck(), 0.25).unwrap();
+        for (from, out, _) in TrueFragments::of(&maze).ways() {
+            let start = Pose::new(world.cell_centre(from), heading_of(out.opposite()));
+            let robot = Epuck::new(epuck()).unwrap();
+            let carried = Carried {
+                body: SimulatedEpuck::new(Arc::clone(&world), robot, start, 1).unwrap(),
+                sensed: Some(EpuckSensing {
+                    proximity: Some([3800.0; PROXIMITY_SENSORS]),
+                    ..EpuckSensing::default()
+                }),
+            };
+            let seen = Walker::new(carried, config.clone()).begin().unwrap();
+            assert_eq!(seen.degree, maze.degree(from) as u32, "at {from:?}");
+        }
+    }
 
     /// Consecutive sightings of a junction are one, none is passed unseen, and each has as many branches as there are.
     #[test]

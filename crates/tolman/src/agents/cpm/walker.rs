@@ -290,6 +290,7 @@ impl<B: Body> Walker<B> {
         mut choose: impl FnMut(&Prospect) -> BeforePlace,
     ) -> Result<Walk, WalkError<B::Error>> {
         // It may have been carried here.
+        self.pilot.stand()?;
         let begun = self.pose().position;
         self.trail.clear();
         self.trail.push(begun);
