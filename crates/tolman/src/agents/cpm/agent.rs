@@ -298,16 +298,10 @@ impl<'a, B: Body> Cpm<'a, B> {
     /// [`AgentError`].
     pub fn drive_plan(&mut self, plan: &Plan) -> Result<Episode, AgentError<B::Error>> {
         let begun = Begun::now(&self.walker);
+        // It may stand at the goal already.
         let here = self.explorer.map().junction(self.explorer.at().junction);
-        // It may stand at the goal already; or elsewhere than it believes, where there are other ways.
-        let ways = self.walker.branches().len() as u32;
-        let mut sighting = here
-            .map(Junction::sighting)
-            .filter(|here| here.degree == ways);
+        let mut sighting = here.map(Junction::sighting);
         for leg in &plan.legs {
-            if sighting.is_none() {
-                break;
-            }
             // "The length of the fragments is used to estimate how many observation the robot can skip."
             let skip = self.walker.strides(leg.observations);
             match self.walker.walk(leg.turn.0 as usize, skip, None)? {

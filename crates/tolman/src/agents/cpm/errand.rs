@@ -174,11 +174,17 @@ impl Trial<'_> {
             let believed = whereabouts.here().ok_or(TrialError::NoPlan)?;
             found.push(whereabouts);
             let map = maps.get(believed.map).ok_or(TrialError::NoPlan)?.clone();
+            let has_these_ways =
+                map.degree(believed.ahead.junction) as usize == walker.branches().len();
             let config = self.mode.config();
             let mut agent = Cpm::resume_at(walker, patterns, config, map, believed.ahead)?;
             let plan = agent.explorer().plan(Landmark::Goal);
             let plan = plan.ok_or(TrialError::NoPlan)?;
-            let done = agent.drive_plan(&plan)?.done;
+            let done = if has_these_ways {
+                agent.drive_plan(&plan)?.done
+            } else {
+                Done::NotThere
+            };
             if done == Done::Reached || found.len() == SEARCHES {
                 let episode = begun.ended(done, agent.walker());
                 let errand = Errand::of(&agent, episode);
