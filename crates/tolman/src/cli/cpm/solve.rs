@@ -146,7 +146,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let elsewhere = if by == venue.name {
         String::new()
     } else {
-        format!(", of {by}")
+        format!(", of {by},")
     };
     Err(Failure::Failed(anyhow!(
         "the e-puck did not arrive in {}: after {:.0} s it was at another place than its map{elsewhere} has there; try another --seed, or learn \
