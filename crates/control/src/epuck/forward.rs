@@ -1,5 +1,3 @@
-use core::f64::consts::FRAC_PI_4;
-
 use tolman_geom::{Point, Twist};
 
 use super::Echoes;
@@ -7,13 +5,15 @@ use super::Echoes;
 /// Layer 1: drives forward along the path (section 3.2), in the middle of the corridor and round its bends.
 ///
 /// It keeps to the middle of the walls beside it, or at half a corridor's width from the one it sees; where it does not see along a wall, as
-/// beside a fork, it hardly turns. Where a wall stands across the way, it turns on the spot to the side with more room, and keeps to that side
+/// beside a fork, it goes by how far it has turned since it did. Where a wall stands across the way, it turns on the spot to the side with more room, and keeps to that side
 /// until the way ahead is free. It knows no junctions: those are layer 3's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forward {
     config: ForwardConfig,
     /// The side of the bend it is turning in.
     bend: Option<Side>,
+    /// The direction of the way in the robot's frame, rad: that of the walls when it last saw along one, turned as the robot has turned since.
+    along: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +64,21 @@ impl Forward {
     /// A layer 1 at rest.
     #[must_use]
     pub const fn new(config: ForwardConfig) -> Self {
-        Self { config, bend: None }
+        Self {
+            config,
+            bend: None,
+            along: 0.0,
+        }
+    }
+
+    /// The robot has been turned to look along a way.
+    pub const fn look_along(&mut self) {
+        self.along = 0.0;
+    }
+
+    /// The robot has turned by so many radians, counter-clockwise, since the last [proposal](Self::propose).
+    pub const fn turned(&mut self, radians: f64) {
+        self.along -= radians;
     }
 
     /// What it would do now.
@@ -96,6 +110,10 @@ impl Forward {
             }
             None => None,
         };
+        if self.bend.is_some() {
+            // A bend ends where the robot looks along the way again.
+            self.look_along();
+        }
         match self.bend {
             Some(Side::Left) => Twist {
                 linear: 0.0,
@@ -109,7 +127,7 @@ impl Forward {
         }
     }
 
-    fn keep_to_the_middle(&self, left: Option<Beside>, right: Option<Beside>) -> Twist {
+    fn keep_to_the_middle(&mut self, left: Option<Beside>, right: Option<Beside>) -> Twist {
         let half = self.config.half_width;
         // Positive: there is more room on the left.
         let off = match (left, right) {
@@ -123,15 +141,12 @@ impl Forward {
             .into_iter()
             .flatten()
             .fold((0.0, 0.0), |(sum, count), angle| (sum + angle, count + 1.0));
-        let off = off.clamp(-0.03, 0.03);
-        let turn = if count > 0.0 {
-            self.config.to_middle * off + self.config.along * (sum / count)
-        } else {
-            // A wall that ends ahead says how far off the middle the robot is, but not where it heads: what is turned by that alone swings, and
-            // turned robots into the ways of forks. So gently that it comes to the middle a corridor's width on.
-            let swing = FRAC_PI_4 / half;
-            self.config.speed * swing * swing * off
-        };
+        // A wall that ends ahead says how far off the middle the robot is, but not where it heads. What is turned by that alone swings, and
+        // turned robots into the ways of forks.
+        if count > 0.0 {
+            self.along = sum / count;
+        }
+        let turn = self.config.to_middle * off.clamp(-0.03, 0.03) + self.config.along * self.along;
         Twist {
             linear: self.config.speed,
             angular: turn.clamp(-self.config.turn, self.config.turn),
@@ -158,9 +173,10 @@ mod tests {
     use crate::epuck::RangeCurve;
     use tolman_robot::epuck::proximity_mounts;
 
-    /// What it does 3 cm off the middle to the right, where the wall on the left ends so far ahead.
-    fn beside_a_wall_that_ends(ahead: f64) -> Twist {
-        const WIDTH: f64 = 0.25;
+    const WIDTH: f64 = 0.25;
+
+    /// What it senses 3 cm off the middle to the right, where the wall on the left ends so far ahead.
+    fn beside_a_wall(ahead: f64) -> Echoes {
         let curve = RangeCurve::new(alloc::vec![(0.0, 1.0), (0.25, 0.0)]).unwrap();
         let to_wall = WIDTH / 2.0 + 0.03;
         let mut values = [0.0; 8];
@@ -171,21 +187,33 @@ mod tests {
                 *value = (1.0 - range / curve.reach()).max(0.0);
             }
         }
-        Forward::new(ForwardConfig::for_width(WIDTH)).propose(&Echoes::of(&values, &curve))
+        Echoes::of(&values, &curve)
     }
 
     #[test]
     fn along_a_wall_it_turns_to_the_middle() {
-        let twist = beside_a_wall_that_ends(1.0);
+        let mut forward = Forward::new(ForwardConfig::for_width(WIDTH));
+        let twist = forward.propose(&beside_a_wall(1.0));
         assert!(twist.linear > 0.0 && twist.angular > 0.5, "{twist:?}");
     }
 
     #[test]
-    fn where_the_wall_ends_it_hardly_turns() {
-        let twist = beside_a_wall_that_ends(0.05);
-        assert!(
-            twist.linear > 0.0 && (0.0..0.1).contains(&twist.angular),
-            "{twist:?}"
-        );
+    fn where_the_wall_ends_it_does_not_swing() {
+        const STEP_S: f64 = 0.01;
+        let config = ForwardConfig::for_width(WIDTH);
+        let mut forward = Forward::new(config);
+        let echoes = beside_a_wall(0.05);
+        let mut heading = 0.0;
+        for _ in 0..300 {
+            let twist = forward.propose(&echoes);
+            assert!(twist.linear > 0.0);
+            heading += twist.angular * STEP_S;
+            forward.turned(twist.angular * STEP_S);
+        }
+        // Three centimetres are as much as it goes by.
+        let most = config.to_middle * 0.03 / config.along;
+        assert!((0.9 * most..=most).contains(&heading), "{heading}");
+        forward.look_along();
+        assert!(forward.propose(&echoes).angular > 0.5);
     }
 }

@@ -125,7 +125,9 @@ where
             let echoes = self.echoes()?;
             let proposal = self.forward.propose(&echoes);
             forward += u64::from(proposal.linear > 0.0);
-            self.drive(self.keep_off.correct(proposal, &echoes), 1.0)?;
+            let twist = self.keep_off.correct(proposal, &echoes);
+            self.drive(twist, 1.0)?;
+            self.forward.turned(twist.angular * self.step_seconds());
         }
         Ok(())
     }
@@ -144,6 +146,7 @@ where
     /// # Errors
     /// If the robot fails, or its wheels do not say how far they turned.
     pub fn turn(&mut self, radians: f64) -> Result<(), PilotError<R::Error>> {
+        self.forward.look_along();
         self.turn_on(radians, self.config.sweep_speed).map(|_| ())
     }
 
