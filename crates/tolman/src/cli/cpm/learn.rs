@@ -157,7 +157,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     file::write(&arguments.out, &file.to_json()?)?;
     if aim == Aim::Explore && fragments != there_are as usize {
         return Err(Failure::Failed(anyhow!(
-            "the map in {} is wrong: it has {fragments} fragments, and {there_are} are in {}{room}: the robot took some for others, or overlooked \
+            "the map in {} is wrong, with {fragments} for the {there_are} fragments of {}{room}: the robot took some for others, or overlooked \
              them; {}",
             arguments.out.display(),
             file.maze,
