@@ -13,7 +13,7 @@ pub struct Forward {
     /// The side of the bend it is turning in.
     bend: Option<Side>,
     /// The direction of the way in the robot's frame, rad: that of the walls when it last saw along one, turned as the robot has turned since.
-    along: f64,
+    way: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,18 +67,18 @@ impl Forward {
         Self {
             config,
             bend: None,
-            along: 0.0,
+            way: 0.0,
         }
     }
 
     /// The robot has been turned to look along a way.
     pub const fn look_along(&mut self) {
-        self.along = 0.0;
+        self.way = 0.0;
     }
 
     /// The robot has turned by so many radians, counter-clockwise, since the last [proposal](Self::propose).
     pub const fn turned(&mut self, radians: f64) {
-        self.along -= radians;
+        self.way -= radians;
     }
 
     /// What it would do now.
@@ -144,9 +144,9 @@ impl Forward {
         // A wall that ends ahead says how far off the middle the robot is, but not where it heads. What is turned by that alone swings, and
         // turned robots into the ways of forks.
         if count > 0.0 {
-            self.along = sum / count;
+            self.way = sum / count;
         }
-        let turn = self.config.to_middle * off.clamp(-0.03, 0.03) + self.config.along * self.along;
+        let turn = self.config.to_middle * off.clamp(-0.03, 0.03) + self.config.along * self.way;
         Twist {
             linear: self.config.speed,
             angular: turn.clamp(-self.config.turn, self.config.turn),

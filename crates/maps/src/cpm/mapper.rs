@@ -177,7 +177,7 @@ impl Mapper {
 }
 
 /// What fragments are compared by, and what came of it.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Comparison<'a> {
     pub(super) matching: &'a Matching,
     pub(super) candidates: Candidates,

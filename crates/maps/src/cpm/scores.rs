@@ -6,7 +6,7 @@ use super::pattern::PatternId;
 use super::similarity::Sense;
 
 /// How similar sequences are: of all pairs that were asked for. The hypotheses of a walk ask for the same ones again and again.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Scores(RefCell<BTreeMap<Vec<PatternId>, Row>>);
 
 /// Of one sequence and others, as they are and inverted.

@@ -107,9 +107,9 @@ pub enum BeforePlace {
 
 /// A fragment under way.
 struct Course {
-    /// The middle of the place it leads from, or where the robot began amid it.
-    origin: Point,
-    /// How far the robot had driven at that place, m; amid a fragment that is long left.
+    /// The middle of the place it leads from; none from amid the fragment, where that is long left.
+    origin: Option<Point>,
+    /// How far the robot had driven there, m.
     begun: f64,
     /// The landmark it comes from, until that is seen no longer.
     left: Option<Landmark>,
@@ -311,7 +311,7 @@ impl<B: Body> Walker<B> {
             self.pilot.go_to(self.pose().inverse().transform(begun))?;
         }
         self.depart();
-        let mut course = self.amid();
+        let mut course = self.course(None, 0);
         course.track.push((begun, seen));
         loop {
             let Some(ahead) = self.stride(&mut course)? else {
@@ -327,7 +327,7 @@ impl<B: Body> Walker<B> {
                 BeforePlace::TurnRound => {
                     self.pilot.turn(PI)?;
                     self.depart();
-                    let back = self.leaving(middle, 0);
+                    let back = self.course(Some(middle), 0);
                     return self.follow(back, None);
                 }
             }
@@ -351,7 +351,7 @@ impl<B: Body> Walker<B> {
         })?;
         self.pilot.turn(branch)?;
         self.depart();
-        let course = self.leaving(self.pose().position, skip);
+        let course = self.course(Some(self.pose().position), skip);
         self.follow(course, give_up_after)
     }
 
@@ -359,27 +359,18 @@ impl<B: Body> Walker<B> {
         (self.departed_us, self.departed) = (self.time_us(), self.pose());
     }
 
-    /// A course from a place with its middle there.
-    fn leaving(&mut self, origin: Point, skip: u32) -> Course {
+    /// A course from a place with its middle there, or from amid a fragment.
+    fn course(&mut self, origin: Option<Point>, skip: u32) -> Course {
         let here = self.pose().position;
         self.trail.clear();
         self.trail.push(here);
         Course {
             origin,
-            begun: self.driven() - (here - origin).norm(),
+            begun: self.driven() - origin.map_or(0.0, |origin| (here - origin).norm()),
             left: self.pilot.robot().landmark(),
             track: Track::new(),
             strides: 0,
             skip,
-        }
-    }
-
-    /// A course from amid a fragment, of which the place behind is long left.
-    fn amid(&mut self) -> Course {
-        let course = self.leaving(self.pose().position, 0);
-        Course {
-            begun: course.begun - ROUND * self.config.corridor_width,
-            ..course
         }
     }
 
@@ -395,7 +386,7 @@ impl<B: Body> Walker<B> {
                 }
             } else if give_up_after.is_some_and(|most| course.track.len() >= most as usize) {
                 self.pilot.turn(PI)?;
-                let back = self.amid();
+                let back = self.course(None, 0);
                 self.follow(back, None)?;
                 return Ok(Walk::TurnedBack {
                     observations: filled(&course.track),
@@ -412,14 +403,13 @@ impl<B: Body> Walker<B> {
                 metres: self.driven() - course.begun,
             });
         }
-        let width = self.config.corridor_width;
         self.pilot.follow(self.config.stride_s)?;
         self.trail.push(self.pose().position);
         course.strides += 1;
         if course.strides <= course.skip {
             return Ok(None);
         }
-        let driven = self.driven() - course.begun;
+        let driven = self.driven();
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         course.left = course.left.filter(|left| landmark == Some(*left));
@@ -428,7 +418,7 @@ impl<B: Body> Walker<B> {
         {
             return Ok(Some(Ahead::Landmark(landmark)));
         }
-        let is_under_way = driven > PLACE * width;
+        let is_under_way = self.is_beyond(course, driven, PLACE);
         match view.segments.place() {
             Place::Junction => {
                 let middle = self.pose().transform(self.middle_of(&view));
@@ -441,18 +431,25 @@ impl<B: Body> Walker<B> {
             // A way on may be hidden for a moment.
             Place::DeadEnd | Place::Closed | Place::Path => {}
         }
-        if driven > TRIMMED * width {
+        if self.is_beyond(course, driven, TRIMMED) {
             let seen = self.observation(&view)?;
             course.track.push((self.pose().position, seen));
         }
         Ok(None)
     }
 
+    /// Whether the place that a course leads from lies more than so many corridors' widths back, where the robot has driven so far, m.
+    fn is_beyond(&self, course: &Course, driven: f64, widths: f64) -> bool {
+        course.origin.is_none() || driven - course.begun > widths * self.config.corridor_width
+    }
+
     /// Consecutive sightings of a junction are one: a middle at the place that a course leads from is that place's, until the robot has had the
     /// time to come round.
     fn is_origin(&self, course: &Course, driven: f64, middle: Point) -> bool {
         let width = self.config.corridor_width;
-        driven < ROUND * width && (middle - course.origin).norm() < APART * width
+        course.origin.is_some_and(|origin| {
+            driven - course.begun < ROUND * width && (middle - origin).norm() < APART * width
+        })
     }
 
     /// Goes into what is in sight; none if it is no place, seen from its middle.
@@ -468,7 +465,7 @@ impl<B: Body> Walker<B> {
                 self.settle(view, Some(landmark)).map(Some)
             }
             Ahead::Junction(view) => {
-                let driven = self.driven() - course.begun;
+                let driven = self.driven();
                 let (here, observation) = (self.pose().position, self.observation(&view)?);
                 let seen = self.settle(view, None)?;
                 if seen.sighting.degree > 2 && !self.is_origin(course, driven, self.pose().position)
@@ -477,7 +474,7 @@ impl<B: Body> Walker<B> {
                 }
                 // The robot goes on from where it was, so that nothing of the path is left out.
                 self.pilot.go_to(self.pose().inverse().transform(here))?;
-                if driven > TRIMMED * self.config.corridor_width {
+                if self.is_beyond(course, driven, TRIMMED) {
                     course.track.push((here, observation));
                 }
                 Ok(None)

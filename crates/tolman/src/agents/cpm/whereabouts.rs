@@ -52,7 +52,7 @@ const SURE: f64 = 0.95;
 /// (section 8, "the start point is changed"). The paper's robot begins to observe at that junction; ours does at once. `see` is told of
 /// every place it comes to.
 ///
-/// Where it is then, `at_places.last()` says: [`Location::ahead`] is the port behind it.
+/// Where it is then, [`Whereabouts::here`] says: [`Location::ahead`] is the port behind it.
 ///
 /// # Errors
 /// [`WhereaboutsError`].
