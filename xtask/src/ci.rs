@@ -5,14 +5,13 @@ mod firmware;
 mod msrv;
 
 use core::time::Duration;
-use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 
 use crate::workspace::{self, cargo, installed, succeed};
-use crate::{docs, layers, mazes};
+use crate::{docs, golden, layers, mazes};
 
 /// How a step went when it did not fail.
 pub(crate) enum Outcome {
@@ -46,6 +45,7 @@ const STEPS: &[Step] = &[
     // What a user builds: without the features that nobody but the steps above switches on.
     ("plain build", || passes("check --workspace --quiet")),
     ("api docs", || passed(docs::api())),
+    ("golden", || passed(golden::run(false))),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
     ("fuzz", fuzz_targets),
@@ -109,11 +109,7 @@ fn tests() -> Result<Outcome> {
 
 /// A command of the workspace as the tests built it.
 fn built(name: &str) -> Result<Command> {
-    let metadata = workspace::metadata()?;
-    let folder = metadata["target_directory"]
-        .as_str()
-        .context("cargo names no target folder")?;
-    let mut command = Command::new(Path::new(folder).join("debug").join(name));
+    let mut command = Command::new(workspace::target_folder()?.join("debug").join(name));
     command.current_dir(workspace::root());
     Ok(command)
 }

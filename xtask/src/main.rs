@@ -8,6 +8,7 @@ mod bench;
 mod ci;
 mod docs;
 mod experiment;
+mod golden;
 mod layers;
 mod mazes;
 mod workspace;
@@ -40,6 +41,12 @@ enum Verb {
         #[arg(long)]
         keep_going: bool,
     },
+    /// Plays a few runs of every experiment and compares them, to the bit, with those in tests/golden
+    Golden {
+        /// Put the runs into tests/golden instead
+        #[arg(long)]
+        bless: bool,
+    },
     /// Holds the dependencies between the crates to the tables of docs/architecture.md
     Layers,
     /// Reads every maze in mazes/ and checks that it can be solved, and that the fragments of Mazes 1 to 3 of CPM are distinctive
@@ -57,6 +64,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().verb {
         Verb::Experiment { arguments } => return experiment::run(&arguments),
         Verb::Ci { keep_going } => ci::run(keep_going),
+        Verb::Golden { bless } => golden::run(bless),
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),

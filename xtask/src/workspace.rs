@@ -36,6 +36,18 @@ pub(crate) fn metadata() -> Result<Value> {
     serde_json::from_str(&text).context("`cargo metadata` is not JSON")
 }
 
+/// The folder that cargo builds into.
+///
+/// # Errors
+/// As [`metadata`].
+pub(crate) fn target_folder() -> Result<PathBuf> {
+    let metadata = metadata()?;
+    let folder = metadata["target_directory"].as_str();
+    folder
+        .map(PathBuf::from)
+        .context("cargo names no target folder")
+}
+
 /// Runs a command to its end and asks for success.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use tolman::experiment::{
-    Build, Disagreement, Error, Options, Program, Terminal, catalogue, execute, open,
+    Build, Disagreement, Error, Options, Program, Terminal, catalogue, compare, execute, open,
     tables_as_text, write_replay,
 };
 
@@ -23,7 +23,8 @@ Examples:
   tolman experiment baselines --quick --out /tmp/look
   tolman experiment baselines --maze taiwan2016f.txt --maze mine.maze --runs 100
   tolman experiment diktiometry --table 3b --runs 100
-  tolman experiment baselines --replay '2 (J)' Avoid 137")]
+  tolman experiment baselines --replay '2 (J)' Avoid 137
+  tolman experiment --compare results/baselines /tmp/look")]
 pub(super) struct Arguments {
     /// The experiment; all of them one after the other when left out
     name: Option<String>,
@@ -55,6 +56,9 @@ pub(super) struct Arguments {
     #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
     replay: Vec<String>,
+    /// Say which runs of two folders of results differ and in what, and nothing else; exit with 1 if any do
+    #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
+    compare: Vec<PathBuf>,
     /// Exit with 3 if a table disagrees with the paper
     #[arg(long)]
     check: bool,
@@ -69,6 +73,14 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             writeln!(out, "{:<12} {}", entry.name, entry.title)?;
         }
         return Ok(());
+    }
+    if let [first, second] = &arguments.compare[..] {
+        let differences = compare(first, second).map_err(classify)?;
+        if differences.is_empty() {
+            writeln!(out, "{differences}")?;
+            return Ok(());
+        }
+        return Err(Failure::Failed(anyhow!("{differences}")));
     }
     if let [table, row, run] = &arguments.replay[..] {
         return replay(arguments, table, row, run, out);

@@ -140,6 +140,16 @@ pub enum Error {
         /// The table.
         table: String,
     },
+    /// A file of runs holds something else.
+    #[error("{}, line {line}: {what}; compare folders that `tolman experiment` wrote", path.display())]
+    NoRuns {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong with it.
+        what: String,
+    },
     /// The pictures could not be made.
     #[error("the figures of experiment {name} could not be drawn")]
     Figures {
@@ -192,6 +202,7 @@ impl Error {
                 | Self::Busy { .. }
                 | Self::NoRow { .. }
                 | Self::NoReplay { .. }
+                | Self::NoRuns { .. }
         )
     }
 }

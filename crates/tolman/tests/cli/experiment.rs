@@ -53,6 +53,22 @@ fn a_folder_of_results_is_written() {
 }
 
 #[test]
+fn two_folders_are_compared() {
+    let folder = folder("compare");
+    baselines(&folder, "one", &[]).done();
+    baselines(&folder, "two", &["--jobs", "1"]).done();
+    baselines(&folder, "three", &["--seed", "2"]).done();
+    let compare = |a, b| tolman_in(&folder, &["experiment", "--compare", a, b]);
+    assert!(
+        compare("one", "two")
+            .done()
+            .contains("one and two agree in all")
+    );
+    compare("one", "three").refused(1, &["one and three differ", "row Avoid: seed is"]);
+    compare("one", "four").refused(1, &["four/runs.jsonl"]);
+}
+
+#[test]
 fn json_is_the_summary() {
     let folder = folder("json");
     let shown = baselines(&folder, "out", &["--json"]).done();
