@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use tolman::experiment::{Build, Options, Silent, execute, open};
+use tolman_experiment::{Build, Options, Silent, execute, open};
 
 use crate::support::root;
 
@@ -23,7 +23,7 @@ fn runs(jobs: u32) -> String {
         out: Some(out.clone()),
         ..Options::default()
     };
-    let experiment = open("baselines", &options).unwrap();
+    let experiment = open(tolman_papers::catalogue(), "baselines", &options).unwrap();
     if out.exists() {
         fs::remove_dir_all(&out).unwrap();
     }

@@ -13,5 +13,6 @@ mod mazes;
 mod mslst;
 mod physics;
 mod replay;
+mod report;
 mod support;
 mod yardsticks;

@@ -1,12 +1,12 @@
 //! Maze files as worlds for the robot.
 
-use tolman::course::Course;
-use tolman::episode::{self, Trial, random_start};
-use tolman::pioneer::body;
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, Trial, random_start};
+use tolman_arena::pioneer::body;
 use tolman_geom::{Heading, Pose};
 use tolman_robot::{Body, epuck};
 
-use tolman::agents::{Agent, Cast};
+use tolman_arena::agents::{Agent, Cast};
 
 use crate::support::{course, course_for, data_of_others, files, mind, root, trial};
 

@@ -2,12 +2,13 @@
 
 use alloc::sync::Arc;
 
-use tolman::agents::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
-use tolman::agents::{Guess, Mind, Place};
-use tolman::episode::{self, Episode};
-use tolman::pioneer::calibrated;
-use tolman::replay::{Recorder, Shape};
+use tolman_arena::agents::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
+use tolman_arena::agents::{Guess, Mind, Place};
+use tolman_arena::episode::{self, Episode};
+use tolman_arena::pioneer::calibrated;
 use tolman_maps::mslst_graph::DUMMY;
+use tolman_papers::Recorder;
+use tolman_replay::Shape;
 
 use crate::support::{own_course, trial};
 

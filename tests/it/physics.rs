@@ -1,13 +1,13 @@
 //! What a run may do, whoever drives: held to the walls themselves, not to the simulator's own idea of
 //! them.
 
-use tolman::course::Course;
-use tolman::episode;
-use tolman::pioneer::{body, calibrated, without_noise};
+use tolman_arena::course::Course;
+use tolman_arena::episode;
+use tolman_arena::pioneer::{body, calibrated, without_noise};
 use tolman_geom::{Point, Pose, Vector};
 use tolman_robot::Robot;
 
-use tolman::agents::{Agent, Cast};
+use tolman_arena::agents::{Agent, Cast};
 
 use crate::support::{mind, own_course, trial, trial_of};
 

@@ -1,12 +1,12 @@
 //! The same seed gives the same bits.
 
-use tolman::episode;
-use tolman::pioneer::calibrated;
+use tolman_arena::episode;
+use tolman_arena::pioneer::calibrated;
 use tolman_robot::Robot;
 use tolman_sim::Solo;
 use tolman_sim::robots::LaserPioneer;
 
-use tolman::agents::{Agent, Cast};
+use tolman_arena::agents::{Agent, Cast};
 
 use crate::support::{mind, own_course, trial};
 

@@ -5,10 +5,10 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use tolman::agents::{Agent, Cast, Mind};
-use tolman::course::Course;
-use tolman::episode::{Trial, random_start};
-use tolman::pioneer::{body, calibrated};
+use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::course::Course;
+use tolman_arena::episode::{Trial, random_start};
+use tolman_arena::pioneer::{body, calibrated};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 

@@ -1,9 +1,9 @@
 //! The floor and the ceiling are what they are called.
 
-use tolman::course::Course;
-use tolman::episode;
+use tolman_arena::course::Course;
+use tolman_arena::episode;
 
-use tolman::agents::{Agent, Cast};
+use tolman_arena::agents::{Agent, Cast};
 
 use crate::support::{mind, own_course, trial};
 

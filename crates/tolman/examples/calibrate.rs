@@ -7,10 +7,10 @@
 use std::io::{self, Write};
 
 use rayon::prelude::*;
-use tolman::agents::{Agent, Cast};
-use tolman::course::Course;
-use tolman::episode::{self, Trial};
-use tolman::pioneer;
+use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, Trial};
+use tolman_arena::pioneer;
 use tolman_sim::robots::LaserPioneerConfig;
 
 type BoxError = Box<dyn core::error::Error + Send + Sync>;

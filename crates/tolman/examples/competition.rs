@@ -8,7 +8,7 @@ use std::path::Path;
 use std::{env, fs};
 
 use rayon::prelude::*;
-use tolman::competition::{self, Exploration};
+use tolman_arena::competition::{self, Exploration};
 use tolman_planners::speed_run::SpeedRunConfig;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,6 +1,6 @@
 //! How the command was called.
 
-use tolman::shell::quoted;
+use tolman_experiment::shell::quoted;
 
 /// The command line as it can be pasted again.
 pub(super) fn command() -> String {

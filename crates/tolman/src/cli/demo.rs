@@ -4,11 +4,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman::agents::{Agent, Cast};
-use tolman::course::Course;
-use tolman::episode::{self, Trial, random_start};
-use tolman::pioneer::{body, calibrated};
-use tolman::replay::{Fact, Recorder};
+use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, Trial, random_start};
+use tolman_arena::pioneer::{body, calibrated};
+use tolman_papers::Recorder;
+use tolman_replay::Fact;
 
 use super::replay_file::{self, Overwrite};
 use super::{Failure, called};

@@ -5,9 +5,10 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use tolman::experiment::{
-    Build, Disagreement, Error, Options, Program, Terminal, catalogue, compare, execute, open,
-    tables_as_text, write_replay,
+use tolman::catalogue;
+use tolman_experiment::{
+    Build, Disagreement, Error, Options, Program, Terminal, compare, execute, open, tables_as_text,
+    write_replay,
 };
 
 use super::{Failure, ink, interrupt};
@@ -90,7 +91,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();
     for (name, options) in arguments.chosen() {
-        let experiment = open(name, &options).map_err(classify)?;
+        let experiment = open(catalogue(), name, &options).map_err(classify)?;
         let progress = Terminal::new(Arc::clone(&stop));
         let outcome = execute(&*experiment, &options, &build, &progress).map_err(classify)?;
         if arguments.json {
@@ -126,7 +127,7 @@ fn replay(
         ))
     })?;
     for (name, options) in arguments.chosen() {
-        let experiment = open(name, &options).map_err(classify)?;
+        let experiment = open(catalogue(), name, &options).map_err(classify)?;
         let file = write_replay(&*experiment, &options, table, row, run).map_err(classify)?;
         writeln!(out, "The replay: {}", file.display())?;
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Context;
-use tolman::files;
+use tolman_experiment::files;
 
 use super::Failure;
 

@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use tolman::agents::mslst::{MapFile, MslstConfig, learn};
-use tolman::pioneer::calibrated;
+use tolman_arena::agents::mslst::{MapFile, MslstConfig, learn};
+use tolman_arena::pioneer::calibrated;
 
 use super::failure::OrBadInput;
 use super::{Failure, file, run};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman::mms::{Ended, Hosted, Limits, Log, host};
+use tolman_arena::mms::{Ended, Hosted, Limits, Log, host};
 
 use super::failure::OrBadInput;
 use super::maze::Collection;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
-use tolman::micromouse::{Judgement, Searcher, Trial};
+use tolman_arena::micromouse::{Judgement, Searcher, Trial};
 use tolman_maze::Maze;
 
 use super::failure::OrBadInput;

@@ -5,7 +5,7 @@ use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman::replay::{Replay, Trace};
+use tolman_replay::{Replay, Trace};
 use tolman_sim::robots::LaserPioneer;
 
 use super::failure::OrBadInput;

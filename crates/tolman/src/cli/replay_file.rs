@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use anyhow::{Context, anyhow};
-use tolman::replay::{Replay, is_replay, page};
+use tolman_replay::{Replay, is_replay, page};
 
 use super::failure::OrBadInput;
 use super::{Failure, file};

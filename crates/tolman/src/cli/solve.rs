@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use alloc::sync::Arc;
 
-use tolman::agents::Mind;
-use tolman::agents::mslst::Mslst;
+use tolman_arena::agents::Mind;
+use tolman_arena::agents::mslst::Mslst;
 
 use super::run::{self, Name, Outing};
 use super::{Failure, map};

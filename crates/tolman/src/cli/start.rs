@@ -3,9 +3,9 @@
 use core::str::FromStr;
 
 use anyhow::anyhow;
-use tolman::course::Course;
-use tolman::episode::random_start;
-use tolman::pioneer::body;
+use tolman_arena::course::Course;
+use tolman_arena::episode::random_start;
+use tolman_arena::pioneer::body;
 use tolman_geom::{Heading, Point, Pose, Vector};
 
 use super::Failure;

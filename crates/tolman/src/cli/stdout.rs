@@ -2,7 +2,7 @@
 
 use std::io::{self, BufWriter, StdoutLock, Write};
 
-use tolman::experiment::Ink;
+use tolman_experiment::Ink;
 
 /// Where results go. Unlike `println!` it does not panic when nobody reads on.
 pub(super) struct Stdout(BufWriter<StdoutLock<'static>>);

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman::agents::cpm::{DriveFrom, Errand, MapFile, Trial, Venue, drawing, epuck};
-use tolman::draw::Figure;
+use tolman_arena::agents::cpm::{DriveFrom, Errand, MapFile, Trial, Venue, epuck};
+use tolman_draw::Figure;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, Done};
+use tolman_papers::cpm::drawing;
 use tolman_sim::World;
 
 use super::{classify, parse, venue};

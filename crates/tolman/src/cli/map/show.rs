@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman::agents::cpm;
-use tolman::agents::diktiometry::SurveyFile;
-use tolman::agents::mslst::{MapFile, drawing};
-use tolman::draw::Figure;
+use tolman_arena::agents::cpm;
+use tolman_arena::agents::diktiometry::SurveyFile;
+use tolman_arena::agents::mslst::MapFile;
+use tolman_draw::Figure;
+use tolman_papers::mslst::drawing;
 
 use super::{Failure, show_cpm, show_survey};
 use crate::cli::{file, run};

@@ -4,9 +4,10 @@ use std::io::Write;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman::agents::cpm::{MapFile, drawing};
-use tolman::draw::Figure;
+use tolman_arena::agents::cpm::MapFile;
+use tolman_draw::Figure;
 use tolman_maps::cpm::{Landmark, Port};
+use tolman_papers::cpm::drawing;
 
 use super::show::Arguments;
 use crate::cli::failure::OrBadInput;

@@ -4,9 +4,9 @@ use std::io::Write;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman::agents::diktiometry::map_over_world;
-use tolman::draw::Figure;
+use tolman_draw::Figure;
 use tolman_maps::diktiometry::{Link, PlaceId};
+use tolman_papers::diktiometry::drawing::map_over_world;
 
 use super::show::Arguments;
 use crate::cli::failure::OrBadInput;

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman::files::files_in;
+use tolman_experiment::files::files_in;
 use tolman_maze::MazeFile;
 
 use super::Failure;

@@ -1,6 +1,6 @@
 //! A maze with the stops of both runs.
 
-use tolman::micromouse::{Event, Trial};
+use tolman_arena::micromouse::{Event, Trial};
 use tolman_maze::{Cell, Maze};
 
 /// The maze as it draws itself, with a dot on every stop of the first run and a star on those of the second; marks
@@ -34,7 +34,7 @@ fn put(lines: &mut [Vec<char>], maze: &Maze, cell: Cell, mark: char) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tolman::micromouse::Searcher;
+    use tolman_arena::micromouse::Searcher;
 
     #[test]
     fn stops_are_marked() {

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use tolman::mms::{PlayError, Until, play};
+use tolman_arena::mms::{PlayError, Until, play};
 
 use crate::cli::Failure;
 use crate::cli::failure::OrBadInput;

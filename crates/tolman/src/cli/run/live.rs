@@ -16,7 +16,7 @@ use std::io::{self, IsTerminal};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ratatui::crossterm::terminal;
 use screen::{Attention, Screen};
-use tolman::episode::{Step, Trial};
+use tolman_arena::episode::{Step, Trial};
 use view::{LEAST_COLUMNS, LEAST_ROWS, View};
 
 use crate::cli::{Failure, ink, interrupt};

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
-use tolman::agents::Mind;
-use tolman::course::Course;
-use tolman::episode::{self, Episode, EpisodeError, Trial};
-use tolman::pioneer::{body, calibrated};
-use tolman::replay::{Fact, Recorder};
+use tolman_arena::agents::Mind;
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
+use tolman_arena::pioneer::{body, calibrated};
 use tolman_geom::Point;
+use tolman_papers::Recorder;
+use tolman_replay::Fact;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::live::Live;

@@ -1,6 +1,6 @@
 //! A run written down, so that others can look at it and the simulator can repeat it to the bit.
 
-use tolman::episode::Trial;
+use tolman_arena::episode::Trial;
 use tolman_robot::TurnTranslate;
 use tolman_sim::robots::LaserPioneer;
 use tolman_sim::trace::{Detail, Recording};

@@ -1,7 +1,7 @@
 //! The colours of the view, or none.
 
 use ratatui::style::{Color, Modifier, Style};
-use tolman::experiment::Ink;
+use tolman_experiment::Ink;
 
 /// Colours of the sixteen that every terminal has and its owner has chosen, none of them one that vanishes on
 /// a light or on a dark ground.

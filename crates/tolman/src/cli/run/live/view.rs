@@ -7,9 +7,9 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Padding, Paragraph, Wrap};
-use tolman::episode::{Step, Trial};
-use tolman::experiment::Ink;
+use tolman_arena::episode::{Step, Trial};
 use tolman_control::Outcome;
+use tolman_experiment::Ink;
 use tolman_geom::{Point, Pose};
 use tolman_maze::Direction;
 use tolman_robot::{Robot, Scan};
@@ -222,10 +222,10 @@ mod tests {
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::style::Color;
-    use tolman::agents::{Agent, Cast};
-    use tolman::course::Course;
-    use tolman::episode;
-    use tolman::pioneer::{body, calibrated};
+    use tolman_arena::agents::{Agent, Cast};
+    use tolman_arena::course::Course;
+    use tolman_arena::episode;
+    use tolman_arena::pioneer::{body, calibrated};
     use tolman_geom::Heading;
 
     use super::*;

@@ -1,0 +1,182 @@
+//! What becomes of the robot where a world or its own sensors are not what it was made for: an error that says what is wrong, or an end
+//! without the goal that says so, and always an end.
+
+use alloc::sync::Arc;
+use core::f64::consts::{PI, TAU};
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maps::cpm::{Aim, CpmConfig, Done, Landmark};
+use tolman_robot::Robot;
+use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
+use tolman_sim::robots::Epuck;
+use tolman_sim::{Area, StepError, Wall, World, Zone};
+
+use super::agent::{AgentError, Cpm, Episode};
+use super::body::{Body, SimulatedEpuck};
+use super::robot::{epuck, walker_config};
+use super::trial::placed;
+use super::trial::tests::PATTERNS;
+use super::walker::{Walker, WalkerConfig};
+
+const WIDTH: f64 = 0.25;
+
+/// A robot one of whose sensors always reads the same.
+#[derive(Debug)]
+struct OneSensor {
+    body: SimulatedEpuck,
+    sensor: usize,
+    value: f64,
+    sensing: EpuckSensing,
+}
+
+impl OneSensor {
+    fn new(body: SimulatedEpuck, sensor: usize, value: f64) -> Self {
+        let sensing = EpuckSensing::default();
+        let mut robot = Self {
+            body,
+            sensor,
+            value,
+            sensing,
+        };
+        robot.read();
+        robot
+    }
+
+    fn read(&mut self) {
+        self.sensing = *self.body.sensing();
+        if let Some(values) = &mut self.sensing.proximity {
+            values[self.sensor] = self.value;
+        }
+    }
+}
+
+impl Robot for OneSensor {
+    type Command = WheelSpeeds;
+    type Sensing = EpuckSensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &EpuckSensing {
+        &self.sensing
+    }
+
+    fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
+        self.body.step(command)?;
+        self.read();
+        Ok(())
+    }
+}
+
+impl Body for OneSensor {
+    fn landmark(&self) -> Option<Landmark> {
+        self.body.landmark()
+    }
+}
+
+/// The first episode, and whether the robot truly stands at the goal at its end.
+fn search<B: Body>(body: B, width: f64) -> Result<(Episode, bool), AgentError<B::Error>> {
+    // Enough for worlds of this size.
+    let config = CpmConfig {
+        most_traversals: 20,
+        ..CpmConfig::online()
+    };
+    let walker = WalkerConfig {
+        longest_fragment: 150,
+        ..walker_config(&epuck(), width).unwrap()
+    };
+    let mut agent = Cpm::begin(Walker::new(body, walker), &PATTERNS, config)?;
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let episode = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
+    let is_there = agent.walker().body().landmark() == Some(Landmark::Goal);
+    Ok((episode, is_there))
+}
+
+#[test]
+fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
+    let text = include_str!("../../../mazes/cpm-1.maze");
+    let maze = tolman_maze::read(text).unwrap().maze;
+    let body = || placed(&maze, WIDTH, epuck(), 1).unwrap();
+    let (mut blind_reached, mut stuck_told) = (0, 0);
+    for sensor in 0..PROXIMITY_SENSORS {
+        // A sensor that is not there sees nothing, one that is stuck a wall that touches it.
+        for value in [0.0, 3800.0] {
+            match search(OneSensor::new(body(), sensor, value), WIDTH) {
+                Ok((episode, is_there)) => {
+                    assert_eq!(episode.done == Done::Reached, is_there, "{sensor} {value}");
+                    blind_reached += u32::from(is_there);
+                    assert!(!is_there || value == 0.0, "sensor {sensor} is stuck");
+                }
+                Err(error) => {
+                    assert!(error.to_string().contains("check the sensors"), "{error}");
+                    stuck_told += u32::from(value > 0.0);
+                }
+            }
+        }
+        let broken = search(OneSensor::new(body(), sensor, f64::NAN), WIDTH);
+        let error = broken.unwrap_err().to_string();
+        assert!(
+            error.contains(&format!("of sensor {sensor} is not finite")),
+            "{error}"
+        );
+    }
+    // Most of them can be done without; with none can the robot drive through a wall that it always sees.
+    assert!(blind_reached >= 5, "{blind_reached} reached");
+    assert!(stuck_told >= 3, "{stuck_told} told");
+}
+
+/// A world of so many corridors that meet in its middle, each 0.8 m long; the robot is put into the end of the first, the goal is
+/// at the end of the one across.
+fn star(branches: u32, width: f64) -> (World, Pose) {
+    let (length, half) = (0.8, width / 2.0);
+    let spacing = TAU / f64::from(branches);
+    // Where the walls of neighbouring corridors meet.
+    let meet = half / libm::tan(spacing / 2.0);
+    let mut walls = Vec::new();
+    for branch in 0..branches {
+        let ahead = Heading::from_radians(spacing * f64::from(branch)).unit();
+        let left = Vector::new(-ahead.y, ahead.x);
+        let at = |along: f64, aside: f64| Point::from(ahead * along + left * aside);
+        walls.push(Wall::between(at(meet, half), at(length, half)));
+        walls.push(Wall::between(at(meet, -half), at(length, -half)));
+        walls.push(Wall::between(at(length, half), at(length, -half)));
+    }
+    let end = |branch: u32| {
+        let ahead = Heading::from_radians(spacing * f64::from(branch));
+        Point::from(ahead.unit() * (length - half))
+    };
+    let zone = |name, centre| {
+        let area = Area::Disc {
+            centre,
+            radius: half,
+        };
+        Zone::new(name, vec![area])
+    };
+    let world = World::from_segments(walls).unwrap();
+    let world = world.with_zone(zone("start", end(0))).unwrap();
+    let world = world
+        .with_zone(zone("destination", end(branches / 2)))
+        .unwrap();
+    (world, Pose::new(end(0), Heading::from_radians(PI)))
+}
+
+/// The robot comes to a junction of more branches than a feature has room for ("the vector's size might be more than ten if the junction size
+/// is larger than five ways"). In corridors of its width the middle is a room whose walls it does not see.
+#[test]
+fn junctions_of_many_branches_end_in_an_error_or_as_it_is_said() {
+    for (branches, width) in [(5, 0.25), (8, 0.15), (10, 0.12), (10, 0.25)] {
+        let (world, start) = star(branches, width);
+        let robot = Epuck::new(epuck()).unwrap();
+        let body = SimulatedEpuck::new(Arc::new(world), robot, start, 1).unwrap();
+        match search(body, width) {
+            Ok((episode, is_there)) => {
+                assert_eq!(
+                    episode.done == Done::Reached,
+                    is_there,
+                    "{branches} {width}"
+                );
+            }
+            Err(error) => assert!(error.to_string().contains("check"), "{branches}: {error}"),
+        }
+    }
+}

@@ -1,0 +1,261 @@
+use core::ops::ControlFlow;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::Pose;
+use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, Landmark, Location};
+
+use super::agent::{Begun, Cpm, Episode, Step};
+use super::body::SimulatedEpuck;
+use super::common_patterns::CommonPatterns;
+use super::fragments::TrueFragments;
+use super::trial::{Trial, TrialError, world_of};
+use super::whereabouts::{Approach, Whereabouts, find_out};
+
+/// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.
+#[derive(Clone, Debug)]
+pub struct Errand {
+    /// What became of it.
+    pub episode: Episode,
+    /// The map at its end.
+    pub map: CpMap,
+    /// The common patterns that it is written in.
+    pub patterns: CommonPatterns,
+    /// Where the robot was after every step.
+    pub path: Vec<Pose>,
+    /// Time steps in which its body touched a wall.
+    pub bumps: u32,
+}
+
+/// How far a robot has come with a map that it learns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Fragments walked, each as often as it was.
+    pub walks: u32,
+    /// How many of them it entered by a way that was not on its map.
+    pub untried: u32,
+    /// How many of those it knew again at their end.
+    pub recognized: u32,
+    /// Fragments on its map.
+    pub fragments: u32,
+    /// How long it has walked, s.
+    pub seconds: f64,
+}
+
+impl Progress {
+    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+        self.walks = agent.explorer().traversals();
+        self.fragments = agent.explorer().map().fragments().len() as u32;
+        self.seconds = agent.walker().time_us() as f64 * 1e-6;
+        if step.leg.known.is_none() {
+            self.untried += 1;
+            let is_new = matches!(
+                step.arrival,
+                None | Some(Arrival::New | Arrival::Contradiction)
+            );
+            self.recognized += u32::from(!is_new);
+        }
+    }
+}
+
+/// What came of learning.
+#[derive(Clone, Debug)]
+pub struct Learned {
+    /// The walk and the map.
+    pub errand: Errand,
+    /// How far it had come in the end.
+    pub progress: Progress,
+}
+
+/// What came of a drive from anywhere.
+#[derive(Clone, Debug)]
+pub struct DriveFrom {
+    /// What the robot found out; again each time that it came to another place than its map has there.
+    pub found: Vec<Whereabouts>,
+    /// Where it believed to be when it began its last drive.
+    pub believed: Location,
+    /// The drive from where it was put down on, and the map that it went by.
+    pub errand: Errand,
+}
+
+/// After so many places it drives where it most likely is right.
+const MOST_PLACES: u32 = 12;
+
+/// So often it may find itself at another place than its map has there.
+const SEARCHES: usize = 3;
+
+/// After so many walks for each fragment of the maze a robot gives up. A way through all fragments takes at most two for each, there and back,
+/// and robots that find it by themselves walked 1.3 times as many as the best: whoever walks four times as many no longer knows again where
+/// he was.
+const PATIENCE: u32 = 8;
+
+impl Trial<'_> {
+    /// After how many walks a robot that learns a map of this maze [gives up](tolman_maps::cpm::Done::OutOfPatience): eight for each
+    /// fragment that there is. The robot does not know how many there are; who sends it does.
+    #[must_use]
+    pub fn patience(&self) -> u32 {
+        PATIENCE * self.true_fragments().max(1)
+    }
+
+    /// How many fragments the maze has.
+    #[must_use]
+    pub fn true_fragments(&self) -> u32 {
+        TrueFragments::of(self.maze).count()
+    }
+
+    /// Walks from the start until the aim is reached, and optimizes the map. `watch` is told after every fragment how far it has come, and may
+    /// break off.
+    ///
+    /// # Errors
+    /// [`TrialError`]; [`TrialError::BrokenOff`] if `watch` did.
+    pub fn learn(
+        &self,
+        aim: Aim,
+        mut watch: impl FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<Learned, TrialError> {
+        let config = CpmConfig {
+            most_traversals: self.patience(),
+            ..self.mode.config()
+        };
+        let mut agent = self.begin(self.set_up()?, config)?;
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let (begun, mut progress) = (Begun::now(agent.walker()), Progress::default());
+        let done = loop {
+            match agent.advance(aim, &mut rng)? {
+                ControlFlow::Break(done) => break done,
+                ControlFlow::Continue(step) => progress.see(&agent, &step),
+            }
+            if watch(&progress).is_break() {
+                return Err(TrialError::BrokenOff {
+                    walks: progress.walks,
+                });
+            }
+        };
+        let episode = begun.ended(done, agent.walker());
+        agent.optimize()?;
+        let errand = Errand::of(&agent, episode);
+        Ok(Learned { errand, progress })
+    }
+
+    /// Drives from the start to the goal by a map that was learned before.
+    ///
+    /// # Errors
+    /// [`TrialError`], also if the map has no way to a goal, or does not begin where the robot stands.
+    pub fn drive(&self, map: CpMap) -> Result<Errand, TrialError> {
+        let mut agent = Cpm::resume(self.set_up()?, self.patterns, self.mode.config(), map)?;
+        let plan = agent.explorer().plan(Landmark::Goal);
+        let plan = plan.ok_or(TrialError::NoPlan)?;
+        let episode = agent.drive_plan(&plan)?;
+        Ok(Errand::of(&agent, episode))
+    }
+
+    /// Put down anywhere in the maze, also amid a fragment, finds out which of some maps is that of the maze and where on it the robot is, and
+    /// drives to the goal from there (section 8). Where it comes to another place than that map has, it looks again where it is, twice at most.
+    ///
+    /// # Errors
+    /// [`TrialError`], also if the maps have no way to a goal, or are other patterns', or the robot cannot stand there.
+    pub fn drive_from(&self, maps: &[CpMap], start: Pose) -> Result<DriveFrom, TrialError> {
+        let world = world_of(self.maze, self.corridor_width)?;
+        let mut walker = self.set_up_at(world, start)?;
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let begun = Begun::now(&walker);
+        let mut found = Vec::new();
+        loop {
+            let (patterns, approach) = (self.patterns, Approach::ToAndFro);
+            let whereabouts = find_out(
+                &mut walker,
+                maps,
+                patterns,
+                approach,
+                MOST_PLACES,
+                &mut rng,
+                |_| {},
+            )?;
+            let believed = whereabouts.here().ok_or(TrialError::NoPlan)?;
+            found.push(whereabouts);
+            let map = maps.get(believed.map).ok_or(TrialError::NoPlan)?.clone();
+            let has_these_ways =
+                map.degree(believed.ahead.junction) as usize == walker.branches().len();
+            let config = self.mode.config();
+            let mut agent = Cpm::resume_at(walker, patterns, config, map, believed.ahead)?;
+            let plan = agent.explorer().plan(Landmark::Goal);
+            let plan = plan.ok_or(TrialError::NoPlan)?;
+            let done = if has_these_ways {
+                agent.drive_plan(&plan)?.done
+            } else {
+                Done::NotThere
+            };
+            if done == Done::Reached || found.len() == SEARCHES {
+                let episode = begun.ended(done, agent.walker());
+                let errand = Errand::of(&agent, episode);
+                return Ok(DriveFrom {
+                    found,
+                    believed,
+                    errand,
+                });
+            }
+            walker = agent.into_walker();
+        }
+    }
+}
+
+impl Errand {
+    fn of(agent: &Cpm<'_, SimulatedEpuck>, episode: Episode) -> Self {
+        let body = agent.walker().body();
+        Self {
+            episode,
+            map: agent.explorer().map().clone(),
+            patterns: agent.patterns().clone(),
+            path: body.path().to_vec(),
+            bumps: body.bumps(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_maps::cpm::{Done, Matching, Similarity};
+
+    use super::super::robot::epuck;
+    use super::super::trial::{Mode, tests::PATTERNS};
+    use super::*;
+
+    #[test]
+    fn a_robot_that_knows_nothing_again_gives_up_and_one_that_is_told_to_breaks_off() {
+        let maze = include_str!("../../../mazes/cpm-1.maze");
+        let maze = tolman_maze::read(maze).unwrap().maze;
+        // Nothing is similar to anything.
+        let matching = Matching::Positions(Similarity {
+            mu: 2.0,
+            ..Similarity::paper()
+        });
+        let blind = CpmConfig {
+            matching,
+            ..CpmConfig::online()
+        };
+        let trial = Trial {
+            maze: &maze,
+            corridor_width: 0.25,
+            patterns: &PATTERNS,
+            robot: epuck(),
+            mode: Mode::Paper(blind),
+            seed: 1,
+        };
+        let mut walks = Vec::new();
+        let learned = trial.learn(Aim::Explore, |progress| {
+            walks.push(progress.walks);
+            ControlFlow::Continue(())
+        });
+        let Learned { errand, progress } = learned.unwrap();
+        assert_eq!(errand.episode.done, Done::OutOfPatience);
+        assert_eq!(trial.true_fragments(), 3);
+        assert_eq!((progress.walks, progress.recognized), (24, 0));
+        assert_eq!(walks, (1..=24).collect::<Vec<u32>>());
+        assert!(progress.fragments > 3 && progress.untried >= progress.fragments);
+        let broken_off = trial.learn(Aim::Explore, |_| ControlFlow::Break(()));
+        assert!(matches!(
+            broken_off,
+            Err(TrialError::BrokenOff { walks: 1 })
+        ));
+    }
+}

@@ -1,0 +1,177 @@
+use alloc::collections::{BTreeMap, VecDeque};
+
+use tolman_maps::cpm::{CpMap, End, FragmentId, JunctionId, Landmark, Port, PortState, Sign};
+use tolman_maze::{Cell, Direction, Maze};
+
+use super::fragments::{DIRECTIONS, along};
+
+/// Where the parts of a map lie in the maze, for pictures; the map itself knows no coordinates. Both are walked together from the start, port
+/// by port, as far as they agree.
+///
+/// ```
+/// use tolman_arena::agents::cpm::{Layout, learn, Mode, Trial, epuck};
+/// use tolman_maps::cpm::{CpmConfig, Landmark};
+///
+/// # let text = include_str!("../../../mazes/cpm-1.maze");
+/// let maze = tolman_maze::read(text)?.maze;
+/// let patterns = learn(&maze, 0.25, 1)?;
+/// let mode = Mode::Paper(CpmConfig::online());
+/// let trial = Trial { maze: &maze, corridor_width: 0.25, patterns: &patterns, robot: epuck(), mode, seed: 3 };
+/// let map = trial.play()?.map;
+/// let layout = Layout::of(&map, &maze);
+/// let goal = map.landmarks(Landmark::Goal).next().ok_or("the goal is not on the map")?;
+/// assert_eq!(layout.place(goal), Some(maze.goals()[0]));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// With the direction of port 0.
+    places: BTreeMap<JunctionId, (Cell, Direction)>,
+    fragments: BTreeMap<FragmentId, Course>,
+    open: Vec<OpenPort>,
+}
+
+/// A port that nobody has been through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OpenPort {
+    /// The port.
+    pub port: Port,
+    /// The cell of its junction.
+    pub cell: Cell,
+    /// The cell it leads to.
+    pub next: Cell,
+}
+
+/// Where a fragment lies.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Course {
+    /// From − to +, with the places at both ends.
+    pub cells: Vec<Cell>,
+    /// Whether the map has both its ends where the maze has them.
+    pub fit: Fit,
+}
+
+/// Whether map and maze agree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fit {
+    /// They do.
+    Agrees,
+    /// The map says that it leads to another place, or another port of it.
+    Astray,
+}
+
+impl Layout {
+    /// Lays a map over the maze it was learned in. Nothing is laid of a map without a start, or where the maze has none.
+    /// O(fragments · cells).
+    #[must_use]
+    pub fn of(map: &CpMap, maze: &Maze) -> Self {
+        let mut layout = Self::default();
+        let (Some((cell, ahead)), Some(start)) =
+            (maze.start(), map.landmarks(Landmark::Start).next())
+        else {
+            return layout;
+        };
+        // Port 0 of the start is the way nearest to behind the robot.
+        let behind = ahead.opposite();
+        let nearest = [behind, behind.left(), behind.right(), ahead];
+        let first = nearest.into_iter().find(|way| maze.is_open(cell, *way));
+        let mut queue = VecDeque::new();
+        if let Some(first) = first {
+            layout.places.insert(start, (cell, first));
+            queue.push_back((start, cell, first));
+        }
+        while let Some((id, cell, first)) = queue.pop_front() {
+            let Some(junction) = map.junction(id) else {
+                continue;
+            };
+            let ways = branches(maze, cell, first);
+            if ways.len() != junction.ports.len() {
+                continue;
+            }
+            for ((number, port), way) in (0..).zip(&junction.ports).zip(ways) {
+                match port {
+                    PortState::Open { .. } => {
+                        let port = Port {
+                            junction: id,
+                            number,
+                        };
+                        let next = maze.beside(cell, way);
+                        layout
+                            .open
+                            .extend(next.map(|next| OpenPort { port, cell, next }));
+                    }
+                    PortState::Filled(end) => {
+                        queue.extend(layout.lay(map, maze, *end, cell, way));
+                    }
+                }
+            }
+        }
+        layout
+    }
+
+    /// Lays a fragment that leads from one of its ends out of a cell. Gives the place at its other end, its cell and the direction of its port 0,
+    /// if that is new.
+    fn lay(
+        &mut self,
+        map: &CpMap,
+        maze: &Maze,
+        end: End,
+        from: Cell,
+        way: Direction,
+    ) -> Option<(JunctionId, Cell, Direction)> {
+        if self.fragments.contains_key(&end.fragment) {
+            return None;
+        }
+        let arrive = map.fragment(end.fragment)?.port(end.sign.opposite());
+        let (mut cells, came) = along(maze, from, way)?;
+        let to = *cells.last()?;
+        let back = came.opposite();
+        let known = self.places.get(&arrive.junction).copied();
+        let is_there = known.is_none_or(|(cell, first)| {
+            let ways = branches(maze, cell, first);
+            cell == to && ways.get(arrive.number as usize) == Some(&back)
+        });
+        let fit = if is_there { Fit::Agrees } else { Fit::Astray };
+        if end.sign == Sign::Plus {
+            cells.reverse();
+        }
+        self.fragments.insert(end.fragment, Course { cells, fit });
+        if known.is_some() {
+            return None;
+        }
+        // The way back is port `arrive.number`; port 0 lies as many branches clockwise.
+        let ways = branches(maze, to, back);
+        let turn = arrive.number as usize % ways.len();
+        let first = ways[(ways.len() - turn) % ways.len()];
+        self.places.insert(arrive.junction, (to, first));
+        Some((arrive.junction, to, first))
+    }
+
+    /// The cell of a junction; none where map and maze do not agree.
+    #[must_use]
+    pub fn place(&self, junction: JunctionId) -> Option<Cell> {
+        self.places.get(&junction).map(|(cell, _)| *cell)
+    }
+
+    /// Where a fragment lies.
+    #[must_use]
+    pub fn course(&self, fragment: FragmentId) -> Option<&Course> {
+        self.fragments.get(&fragment)
+    }
+
+    /// The ports that nobody has been through.
+    #[must_use]
+    pub fn open_ports(&self) -> &[OpenPort] {
+        &self.open
+    }
+}
+
+/// The ways out of a cell, counter-clockwise from one of them.
+fn branches(maze: &Maze, cell: Cell, first: Direction) -> Vec<Direction> {
+    let from = DIRECTIONS.iter().position(|way| *way == first).unwrap_or(0);
+    let around = DIRECTIONS.iter().cycle().skip(from).take(DIRECTIONS.len());
+    around
+        .copied()
+        .filter(|way| maze.is_open(cell, *way))
+        .collect()
+}

@@ -1,0 +1,630 @@
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_control::epuck::RangeCurveError;
+use tolman_control::heading_of;
+use tolman_geom::Pose;
+use tolman_maps::cpm::{Aim, CpMap, CpmConfig, Done, FragmentId, Landmark, RecallError};
+use tolman_maze::{Cell, Maze};
+use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
+use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
+
+use super::agent::{AgentError, Cpm, Episode, Step};
+use super::body::SimulatedEpuck;
+use super::common_patterns::{CommonPatterns, LearnError, Lesson, wander};
+use super::fragments::Way;
+use super::robot::{epuck, soinn, walker_config};
+use super::score::{Closures, Score};
+use super::walker::{HeadingBy, WalkError, Walker, WalkerConfig};
+use super::whereabouts::WhereaboutsError;
+
+/// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
+/// shortest known way.
+#[derive(Clone, Debug)]
+pub struct Trial<'a> {
+    /// The maze, with a start and a goal.
+    pub maze: &'a Maze,
+    /// From wall to wall, m.
+    pub corridor_width: f64,
+    /// What the robot learned before, if its mode has that.
+    pub patterns: &'a CommonPatterns,
+    /// The robot.
+    pub robot: EpuckConfig,
+    /// How it maps.
+    pub mode: Mode,
+    /// The seed of all chance.
+    pub seed: u64,
+}
+
+/// How a robot maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mode {
+    /// As the paper's: no dead reckoning.
+    Paper(CpmConfig),
+    /// With dead reckoning.
+    Reckoned(CpmConfig),
+    /// With dead reckoning, and without any patterns but those that it learns on its way.
+    Unlearned(CpmConfig),
+}
+
+/// How far from all patterns an observation is that becomes one on the way.
+const NOVELTY: f64 = 30.0;
+
+impl Mode {
+    pub(super) const fn config(self) -> CpmConfig {
+        match self {
+            Self::Paper(config) | Self::Reckoned(config) | Self::Unlearned(config) => config,
+        }
+    }
+}
+
+/// What came of a trial.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    /// The first episode, if it came to an end.
+    pub first: Option<Episode>,
+    /// The second.
+    pub second: Option<Episode>,
+    /// Whether the second episode's way was as short as any that could be known: the junctions at the ends of a fragment that was walked twice are
+    /// known to be the same, and start and goal are; others are not.
+    pub is_shortest_known: bool,
+    /// Whether it was as short as any over the fragments that were walked as they truly lie, which nothing need tell the robot.
+    pub is_shortest_as_it_lies: bool,
+    /// Whether the map by which the second episode is planned is right: each place and fragment where the robot has been is on it once, and all are
+    /// joined as they truly are.
+    pub is_map_right: bool,
+    /// How well loops were closed.
+    pub closures: Closures,
+    /// Fragments walked in the first episode, each as often as it was.
+    pub traversals: u32,
+    /// Fragments of the map at the end of it.
+    pub fragments: u32,
+    /// Common patterns that it knows at the end.
+    pub patterns: u32,
+    /// Fragments that were truly walked.
+    pub true_fragments: u32,
+    /// How often the map was not what the robot found.
+    pub contradictions: u32,
+    /// Time steps in which the body touched a wall.
+    pub bumps: u32,
+    /// What the robot did, step by step.
+    pub path: Vec<Pose>,
+    /// When the second episode began, steps.
+    pub second_from: usize,
+    /// The map of the end of the first episode.
+    pub map: CpMap,
+    /// The true fragment of each fragment of the map.
+    pub truth: BTreeMap<FragmentId, Way>,
+    /// Why it broke off.
+    pub trouble: Option<String>,
+}
+
+impl Record {
+    /// Whether the goal was found, the shortest known way was planned and led to the goal.
+    #[must_use]
+    pub fn is_solved(&self) -> bool {
+        let reached =
+            |episode: Option<Episode>| episode.is_some_and(|episode| episode.done == Done::Reached);
+        reached(self.first) && reached(self.second) && self.is_shortest_known
+    }
+
+    /// By how much the second episode was shorter, in percent of the time of the first.
+    #[must_use]
+    pub fn reduction_percent(&self) -> Option<f64> {
+        let (first, second) = (self.first?, self.second?);
+        (first.seconds > 0.0 && self.is_solved())
+            .then(|| 100.0 * (1.0 - second.seconds / first.seconds))
+    }
+}
+
+/// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations (section 5).
+///
+/// # Errors
+/// [`TrialError`].
+pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatterns, TrialError> {
+    let config = walker_config(&epuck(), corridor_width)?;
+    learn_by(maze, epuck(), config, Lesson::Observations(1000), seed)
+}
+
+/// Learns the common patterns in a maze as any other robot that observes like this.
+///
+/// # Errors
+/// [`TrialError`].
+pub fn learn_by(
+    maze: &Maze,
+    robot: EpuckConfig,
+    config: WalkerConfig,
+    lesson: Lesson,
+    seed: u64,
+) -> Result<CommonPatterns, TrialError> {
+    let body = placed(maze, config.corridor_width, robot, seed)?;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut walker = Walker::new(body, config);
+    let observations = wander(&mut walker, lesson, &mut rng)?;
+    Ok(CommonPatterns::learn(&observations, soinn())?)
+}
+
+/// The robot at the start of a maze.
+///
+/// # Errors
+/// If the maze has no start, makes no world, or the robot cannot stand there.
+pub fn placed(
+    maze: &Maze,
+    corridor_width: f64,
+    robot: EpuckConfig,
+    seed: u64,
+) -> Result<SimulatedEpuck, TrialError> {
+    let world = world_of(maze, corridor_width)?;
+    let start = start_of(maze, &world)?;
+    let robot = Epuck::new(robot)?;
+    Ok(SimulatedEpuck::new(Arc::new(world), robot, start, seed)?)
+}
+
+/// A maze of thin walls.
+pub(super) fn world_of(maze: &Maze, corridor_width: f64) -> Result<World, TrialError> {
+    let size = CorridorSize {
+        corridor_width,
+        wall_thickness: 0.0,
+    };
+    Ok(World::from_maze(maze, &size)?)
+}
+
+pub(super) fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
+    let (cell, direction) = maze.start().ok_or(TrialError::NoStart)?;
+    Ok(Pose::new(world.cell_centre(cell), heading_of(direction)))
+}
+
+impl Trial<'_> {
+    /// The robot of the paper with wheels that slip by this share.
+    #[must_use]
+    pub fn slipping(share: f64) -> EpuckConfig {
+        EpuckConfig {
+            wheels: vec![Fault::Slip(Slip { share })],
+            ..epuck()
+        }
+    }
+
+    /// The robot at the start.
+    pub(super) fn set_up(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
+        let world = world_of(self.maze, self.corridor_width)?;
+        let start = start_of(self.maze, &world)?;
+        self.set_up_at(world, start)
+    }
+
+    /// The robot anywhere in its world.
+    pub(super) fn set_up_at(
+        &self,
+        world: World,
+        start: Pose,
+    ) -> Result<Walker<SimulatedEpuck>, TrialError> {
+        let mut config = walker_config(&self.robot, self.corridor_width)?;
+        config.heading = match self.mode {
+            Mode::Paper(_) => HeadingBy::Encoders,
+            Mode::Reckoned(_) | Mode::Unlearned(_) => HeadingBy::Walls,
+        };
+        let robot = Epuck::new(self.robot.clone())?;
+        let body = SimulatedEpuck::new(Arc::new(world), robot, start, self.seed)?;
+        Ok(Walker::new(body, config))
+    }
+
+    /// The robot looks where it is and begins its map there, as its mode has it but for the configuration.
+    pub(super) fn begin(
+        &self,
+        walker: Walker<SimulatedEpuck>,
+        config: CpmConfig,
+    ) -> Result<Cpm<'_, SimulatedEpuck>, AgentError<StepError>> {
+        match self.mode {
+            Mode::Unlearned(_) => Cpm::begin_unlearned(walker, NOVELTY, config),
+            Mode::Paper(_) | Mode::Reckoned(_) => Cpm::begin(walker, self.patterns, config),
+        }
+    }
+
+    /// Plays both episodes. What goes wrong on the way is a result.
+    ///
+    /// # Errors
+    /// [`TrialError`] if it cannot be begun.
+    pub fn play(&self) -> Result<Record, TrialError> {
+        self.watch(|_, _| {})
+    }
+
+    /// [Plays](Self::play) both episodes. `see` is told of every fragment of the first.
+    ///
+    /// # Errors
+    /// [`TrialError`] if it cannot be begun.
+    pub fn watch(
+        &self,
+        see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+    ) -> Result<Record, TrialError> {
+        let walker = self.set_up()?;
+        let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
+        let mut record = Record::default();
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut agent = match self.begin(walker, self.mode.config()) {
+            Ok(agent) => agent,
+            Err(error) => {
+                record.trouble = Some(error.to_string());
+                return Ok(record);
+            }
+        };
+        if let Err(error) = self.episodes(&mut agent, start, &mut rng, &mut record, see) {
+            record.trouble = Some(error.to_string());
+        }
+        record.patterns = agent.patterns().dictionary().len() as u32;
+        let body = agent.walker().body();
+        record.bumps = body.bumps();
+        record.path = body.path().to_vec();
+        Ok(record)
+    }
+
+    fn episodes(
+        &self,
+        agent: &mut Cpm<'_, SimulatedEpuck>,
+        start: Pose,
+        rng: &mut ChaCha8Rng,
+        record: &mut Record,
+        mut see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+    ) -> Result<(), TrialError> {
+        let mut score = Score::of(self.maze);
+        score.begin(agent, start);
+        let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
+            score.see(agent, step);
+            see(agent, step);
+        });
+        record.closures = score.closures_at_the_end(agent.explorer().map());
+        record.contradictions = agent.explorer().contradictions();
+        record.traversals = agent.explorer().traversals();
+        record.fragments = agent.explorer().map().fragments().count() as u32;
+        record.true_fragments = score.lengths.len() as u32;
+        record.map = agent.explorer().map().clone();
+        record.truth = score.truth.clone();
+        record.first = Some(first?);
+        agent.optimize()?;
+        record.is_map_right = score.is_map_right(agent.explorer().map(), self.maze);
+        record.second_from = agent.walker().body().path().len();
+        agent.walker_mut().body_mut().place(start)?;
+        agent.placed_at_start()?;
+        if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
+            record.second = Some(agent.drive_plan(&plan)?);
+            let body = agent.walker().body();
+            let path = body.path().get(record.second_from..).unwrap_or_default();
+            if let Some(driven) = score.length_of(body.world(), path) {
+                let is_as_short = |shortest: Option<u32>| is_as_short(driven, shortest);
+                record.is_shortest_known = is_as_short(score.known.shortest());
+                record.is_shortest_as_it_lies = is_as_short(score.shortest_as_it_lies(self.maze));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a drive was as short as the shortest way, by observations, give or take what walks vary by: 5 % and 8 observations.
+fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
+    shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
+}
+
+/// Why a trial cannot be played.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TrialError {
+    /// The maze marks no start.
+    #[error("the maze marks no start: mark a cell with S")]
+    NoStart,
+    /// In such corridors the robot does not see what they are.
+    #[error(
+        "corridors of {width} m: an e-puck, whose sensors reach {reach} m, tells junctions in corridors of {least} to {most} m alone; set \
+         corridor_width to 0.25"
+    )]
+    Width {
+        /// From wall to wall, m.
+        width: f64,
+        /// How narrow they may be, m.
+        least: f64,
+        /// How wide they may be, m.
+        most: f64,
+        /// How far its sensors reach, m.
+        reach: f64,
+    },
+    /// Who watched a robot learn broke off.
+    #[error("broken off after {walks} fragments")]
+    BrokenOff {
+        /// How many were walked.
+        walks: u32,
+    },
+    /// The maze makes no world.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The robot cannot be built.
+    #[error(transparent)]
+    Epuck(#[from] EpuckError),
+    /// The maze makes no graph of places.
+    #[error(transparent)]
+    Graph(#[from] tolman_maps::cpm::world::WorldError),
+    /// A fragment was not walked from end to end.
+    #[error(
+        "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",
+        ends.0, ends.1
+    )]
+    Unwalked {
+        /// The places it leads from and to.
+        ends: (Cell, Cell),
+    },
+    /// The map leads to no goal.
+    #[error("the map has no way to a goal: learn until the goal is found")]
+    NoPlan,
+    /// It cannot stand at the start.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// Its sensors cannot be read.
+    #[error(transparent)]
+    Curve(#[from] RangeCurveError),
+    /// It could not wander.
+    #[error(transparent)]
+    Wander(#[from] WalkError<StepError>),
+    /// It learned nothing.
+    #[error(transparent)]
+    Learn(#[from] LearnError),
+    /// It could not find out where it is.
+    #[error(transparent)]
+    Whereabouts(#[from] WhereaboutsError<StepError>),
+    /// The memory of several mazes.
+    #[error(transparent)]
+    Recall(#[from] RecallError),
+    /// An episode broke off.
+    #[error(transparent)]
+    Agent(#[from] AgentError<StepError>),
+}
+
+impl TrialError {
+    /// Whether maze or map did not serve; else what the robot did came to nothing.
+    #[must_use]
+    pub const fn is_bad_input(&self) -> bool {
+        match self {
+            Self::NoStart
+            | Self::Width { .. }
+            | Self::World(_)
+            | Self::Epuck(_)
+            | Self::NoPlan
+            | Self::Place(_)
+            | Self::Agent(AgentError::NoStart | AgentError::NotTheStart { .. }) => true,
+            Self::BrokenOff { .. }
+            | Self::Unwalked { .. }
+            | Self::Curve(_)
+            | Self::Graph(_)
+            | Self::Wander(_)
+            | Self::Learn(_)
+            | Self::Whereabouts(_)
+            | Self::Recall(_)
+            | Self::Agent(_) => false,
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use std::sync::LazyLock;
+
+    use tolman_maps::cpm::{Matching, Similarity};
+    use tolman_maze::{Direction, Grid};
+    use tolman_sim::noise::{DropOut, Stuck};
+
+    use super::*;
+    use crate::agents::cpm::{Approach, KnownMaze, PutDown};
+
+    const WIDTH: f64 = 0.25;
+
+    fn read(text: &str) -> Maze {
+        tolman_maze::read(text).unwrap().maze
+    }
+
+    /// What a robot learns in the learning maze, for all tests of CPM.
+    pub(in crate::agents::cpm) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
+        let maze = read(include_str!("../../../mazes/cpm-learning.maze"));
+        learn(&maze, WIDTH, 1).unwrap()
+    });
+
+    fn trial(maze: &Maze, robot: EpuckConfig) -> Trial<'_> {
+        Trial {
+            maze,
+            corridor_width: WIDTH,
+            patterns: &PATTERNS,
+            robot,
+            mode: Mode::Paper(CpmConfig::online()),
+            seed: 3,
+        }
+    }
+
+    fn play(maze: &Maze, robot: EpuckConfig) -> Record {
+        trial(maze, robot).play().unwrap()
+    }
+
+    #[test]
+    fn the_second_episode_is_the_shorter_one_bit_for_bit() {
+        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let record = play(&maze, epuck());
+        assert!(record.is_solved(), "{:?}", record.trouble);
+        assert!(record.is_map_right);
+        assert!(record.reduction_percent().unwrap() > 50.0);
+        assert_eq!(record.bumps, 0);
+        assert_eq!(record.path, play(&maze, epuck()).path);
+    }
+
+    #[test]
+    fn patterns_learned_on_the_way_do() {
+        let maze = read(include_str!("../../../mazes/cpm-2.maze"));
+        let unlearned = Trial {
+            mode: Mode::Unlearned(CpmConfig::robust()),
+            ..trial(&maze, epuck())
+        };
+        let mut versions = Vec::new();
+        let record = unlearned.watch(|agent, _| {
+            versions.push(agent.patterns().dictionary().version());
+        });
+        let record = record.unwrap();
+        assert!(
+            record.is_solved() && record.is_map_right,
+            "{:?}",
+            record.trouble
+        );
+        // It has learned something on the first fragment already, and more on others.
+        assert!((5..PATTERNS.dictionary().len() as u32).contains(&record.patterns));
+        assert!(versions.windows(2).any(|pair| pair[0] != pair[1]));
+    }
+
+    #[test]
+    fn a_goal_that_is_walled_off_is_not_there() {
+        let mut maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let goal = maze.goals()[0];
+        for direction in Direction::ALL {
+            maze.set_wall(goal, direction, true);
+        }
+        let record = play(&maze, epuck());
+        assert!(!record.is_solved() && record.trouble.is_none());
+        assert_eq!(record.first.unwrap().done, Done::NotThere);
+        assert!(record.second.is_none());
+    }
+
+    #[test]
+    fn a_maze_without_junctions_is_walked_to_its_end() {
+        let mut maze = Maze::solid(Grid::new(4, 1));
+        for x in 0..3 {
+            maze.set_wall(Cell::new(x, 0), Direction::East, false);
+        }
+        maze.set_start(Some((Cell::new(0, 0), Direction::East)));
+        maze.set_goals(vec![Cell::new(3, 0)]);
+        let record = play(&maze, epuck());
+        assert!(record.is_solved(), "{:?}", record.trouble);
+    }
+
+    #[test]
+    fn loops_that_stay_open_on_the_map_are_missed() {
+        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        // A robot to which nothing is similar closes none.
+        let matching = Matching::Positions(Similarity {
+            mu: 2.0,
+            ..Similarity::paper()
+        });
+        let config = CpmConfig {
+            matching,
+            most_traversals: 20,
+            ..CpmConfig::online()
+        };
+        let mut missed = 0;
+        for seed in 0..4 {
+            let blind = Trial {
+                mode: Mode::Paper(config),
+                seed,
+                ..trial(&maze, epuck())
+            };
+            let record = blind.play().unwrap();
+            let closures = record.closures;
+            assert_eq!((closures.right, closures.wrong), (0, 0));
+            assert_eq!(closures.missed, record.fragments - record.true_fragments);
+            assert!(closures.missed == 0 || !record.is_map_right);
+            missed += closures.missed;
+        }
+        assert!(missed > 0);
+    }
+
+    #[test]
+    fn sensors_that_fail_are_told() {
+        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let faulty = |fault| EpuckConfig {
+            proximity: vec![fault],
+            ..epuck()
+        };
+        let silent = faulty(Fault::DropOut(DropOut { probability: 1.0 }));
+        let trouble = play(&maze, silent).trouble.unwrap();
+        assert!(trouble.contains("check the proximity sensors"), "{trouble}");
+        // A sensor that always says the same shows no way on, or one everywhere: an end without the goal, whichever.
+        let stuck = faulty(Fault::Stuck(Stuck {
+            probability: 1.0,
+            steps: u32::MAX,
+        }));
+        assert!(!play(&maze, stuck).is_solved());
+    }
+
+    #[test]
+    fn wheels_that_slip_by_half_end_where_the_record_says() {
+        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let world = world_of(&maze, WIDTH).unwrap();
+        for seed in 0..3 {
+            let slipping = Trial {
+                seed,
+                ..trial(&maze, Trial::slipping(0.5))
+            };
+            let record = slipping.play().unwrap();
+            let end = record
+                .path
+                .last()
+                .and_then(|pose| world.cell_at(pose.position));
+            let is_there = end.is_some_and(|cell| maze.goals().contains(&cell));
+            let second = record.second.map(|episode| episode.done);
+            assert_eq!(second == Some(Done::Reached), second.is_some() && is_there);
+            assert!(record.first.is_some() || record.trouble.is_some());
+        }
+    }
+
+    #[test]
+    fn a_robot_put_down_amid_a_fragment_finds_out_where_it_is() {
+        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let record = play(&maze, epuck());
+        let known = [KnownMaze {
+            maze: &maze,
+            map: &record.map,
+            truth: &record.truth,
+        }];
+        let straight_on = (0..4).map(|seed| (Approach::StraightOn, seed));
+        let to_and_fro = (0..8).map(|seed| (Approach::ToAndFro, seed));
+        let (mut under_way, mut turned) = (0, 0);
+        for (approach, seed) in straight_on.chain(to_and_fro) {
+            let put_down = PutDown {
+                known: &known,
+                here: 0,
+                corridor_width: WIDTH,
+                patterns: &PATTERNS,
+                robot: epuck(),
+                approach,
+                most_places: 6,
+                seed,
+            };
+            let found = put_down.play().unwrap().unwrap();
+            assert!(found.is_right_at_last, "{:?}", found.whereabouts);
+            // It was sure at the last place and at none before.
+            let beliefs = &found.whereabouts.at_places;
+            let places_unsure = beliefs
+                .iter()
+                .take_while(|belief| belief.probability <= 0.95);
+            assert_eq!(places_unsure.count(), beliefs.len() - 1);
+            if approach == Approach::ToAndFro {
+                // No two fragments of this maze bend alike.
+                assert!(found.knowable_by_bends > 0.99);
+                under_way += u32::from(found.is_right_under_way);
+                turned += u32::from(found.whereabouts.has_turned_round);
+            } else {
+                assert!(!found.whereabouts.has_turned_round);
+            }
+        }
+        assert!(under_way >= 7, "{under_way} of 8");
+        assert!((1..8).contains(&turned), "{turned} of 8");
+    }
+
+    #[test]
+    fn on_the_way_back_a_shorter_way_is_found() {
+        let maze = read(include_str!("../../../mazes/cpm-real.maze"));
+        // With this seed the first way is the longer one of two.
+        let trip = Trial {
+            seed: 900,
+            ..trial(&maze, epuck())
+        };
+        let trip = trip.round_trip().unwrap();
+        assert_eq!(trip.back.unwrap().done, Done::Reached);
+        assert!(trip.tried > 0 && trip.length_after < trip.length_before);
+        let again = trip.again.unwrap();
+        assert_eq!(again.done, Done::Reached);
+        assert!(again.observations < trip.there.observations / 10);
+    }
+}

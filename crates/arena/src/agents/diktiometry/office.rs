@@ -1,0 +1,502 @@
+//! A world of corridors in which corners and doorways are the places: the paper's simulated environments.
+
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_geom::{Point, Vector};
+use tolman_maze::{Cell, Direction, Grid, Maze};
+use tolman_sim::{CorridorSize, Door, DoorState, Material, Wall, World, WorldError};
+
+/// How deep the narrow part of a doorway is, in the middle of the wall, as a share of the corridor's width.
+const DOORWAY_DEPTH: f64 = 0.5;
+/// From jamb to jamb of a doorway, as a share of the corridor's width.
+const DOORWAY_WIDTH: f64 = 2.0 / 3.0;
+
+/// How an office is furnished.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OfficeConfig {
+    /// From wall to wall of a corridor, m. Openings beside a way are told apart only if the walls between them are thick.
+    pub corridor_width: f64,
+    /// What lies between two corridors side by side, m; 0 for walls that are lines.
+    pub wall_thickness: f64,
+    /// Which share of the passages between two cells are doorways, 0 … 1; which ones, `seed` decides.
+    pub doorway_share: f64,
+    /// How many colours the walls have, each piece as long as a cell its own: 1 makes all places look the same.
+    pub colours: u32,
+    /// Of the doorways and the colours.
+    pub seed: u64,
+}
+
+impl OfficeConfig {
+    /// Corridors 1.2 m wide and 4 m apart, without doorways, all of one colour.
+    #[must_use]
+    pub const fn bare() -> Self {
+        Self {
+            corridor_width: 1.2,
+            wall_thickness: 2.8,
+            doorway_share: 0.0,
+            colours: 1,
+            seed: 1,
+        }
+    }
+
+    /// From the middle of one cell to that of the next, m.
+    #[must_use]
+    pub const fn pitch(&self) -> f64 {
+        self.corridor_width + self.wall_thickness
+    }
+
+    /// From jamb to jamb of a doorway, m.
+    #[must_use]
+    pub const fn doorway_width(&self) -> f64 {
+        DOORWAY_WIDTH * self.corridor_width
+    }
+}
+
+/// A maze as a world with doorways and painted walls, and what is truly there: the places and the ways between them.
+///
+/// Where four cells make a square without walls, a pillar stands between them: all floor is corridor. Only what a way leads
+/// to a goal of the maze from belongs to it, if the maze has a goal.
+#[derive(Clone, Debug)]
+pub struct Office {
+    maze: Maze,
+    /// Passages that are doorways, each named from its south or west cell, in order.
+    doorways: Vec<(Cell, Direction)>,
+    /// The cells that belong to it, in the order of the grid.
+    cells: Vec<Cell>,
+    config: OfficeConfig,
+    world: Arc<World>,
+}
+
+/// Why a maze makes no office.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OfficeError {
+    /// The share of doorways is none.
+    #[error("`doorway_share` is {share}; give a number from 0 to 1")]
+    DoorwayShare {
+        /// The offending share.
+        share: f64,
+    },
+    /// There are no colours.
+    #[error("`colours` is 0; give 1 or more")]
+    NoColours,
+    /// The world cannot be built.
+    #[error("the maze makes no world")]
+    World(#[from] WorldError),
+}
+
+impl Office {
+    /// Raises the walls of a maze.
+    ///
+    /// # Errors
+    /// [`OfficeError`] if the configuration has no sense.
+    pub fn new(maze: &Maze, config: &OfficeConfig) -> Result<Self, OfficeError> {
+        let share = config.doorway_share;
+        if !(0.0..=1.0).contains(&share) {
+            return Err(OfficeError::DoorwayShare { share });
+        }
+        if config.colours == 0 {
+            return Err(OfficeError::NoColours);
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(config.seed);
+        let cells: Vec<Cell> = match maze.goals() {
+            [] => maze.grid().cells().collect(),
+            _ => maze.reachable().collect(),
+        };
+        let passages = cells.iter().copied().flat_map(|cell| {
+            let ahead = [Direction::North, Direction::East];
+            ahead.map(|direction| (cell, direction))
+        });
+        let doorways: Vec<(Cell, Direction)> = passages
+            .filter(|(cell, direction)| maze.is_open(*cell, *direction))
+            .filter(|_| rng.random_range(0.0..1.0) < share)
+            .collect();
+        let palette: Vec<[u8; 3]> = match config.colours {
+            1 => vec![Material::default().colour],
+            colours => (0..colours)
+                .map(|_| core::array::from_fn(|_| (rng.random_range(0_u32..256)) as u8))
+                .collect(),
+        };
+        let mut paint = || {
+            let colour = palette[rng.random_range(0..config.colours) as usize];
+            Material {
+                colour,
+                ..Material::default()
+            }
+        };
+        let size = CorridorSize {
+            corridor_width: config.corridor_width,
+            wall_thickness: config.wall_thickness,
+        };
+        let scale = Scale(config);
+        let bare = World::from_maze(maze, &size)?;
+        let mut walls = Vec::new();
+        for wall in bare.walls() {
+            scale.pieces(wall, &mut paint, &mut walls);
+        }
+        for cell in cells.iter().copied() {
+            if config.wall_thickness > 0.0 && maze.is_room(cell) {
+                scale.pillar(cell, &mut paint, &mut walls);
+            }
+        }
+        for (cell, direction) in &doorways {
+            scale.jambs(*cell, *direction, &mut paint, &mut walls);
+        }
+        let mut world = World::from_segments(walls)?;
+        for (number, (cell, direction)) in doorways.iter().enumerate() {
+            for door in scale.leaves(number, *cell, *direction) {
+                world = world.with_door(door)?;
+            }
+        }
+        Ok(Self {
+            maze: maze.clone(),
+            doorways,
+            cells,
+            config: *config,
+            world: Arc::new(world),
+        })
+    }
+
+    /// Its walls. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the passage.
+    #[must_use]
+    pub const fn world(&self) -> &Arc<World> {
+        &self.world
+    }
+
+    /// The maze it was built from.
+    #[must_use]
+    pub const fn maze(&self) -> &Maze {
+        &self.maze
+    }
+
+    /// How it is furnished.
+    #[must_use]
+    pub const fn config(&self) -> &OfficeConfig {
+        &self.config
+    }
+
+    /// No two places are nearer to each other than this, whatever doorways are shut, m: δ_sep. O(places²).
+    #[must_use]
+    pub fn separation(&self) -> f64 {
+        let pitch = self.config.pitch();
+        if !self.doorways.is_empty() {
+            return 0.5 * pitch;
+        }
+        let places = self.places(&[]);
+        let distances = places.values().flat_map(|one| {
+            let later = places.range(one.site + 1..);
+            later.map(|(_, other)| (one.position - other.position).norm())
+        });
+        distances.reduce(f64::min).unwrap_or(pitch)
+    }
+
+    /// How many doorways there are.
+    #[must_use]
+    pub const fn doorways(&self) -> usize {
+        self.doorways.len()
+    }
+
+    /// Where a doorway is.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    #[must_use]
+    pub fn doorway(&self, number: usize) -> Point {
+        let (cell, direction) = self.doorways[number];
+        Scale(&self.config).between(cell, direction)
+    }
+
+    /// What is truly there while some doorways are shut, by site: a place at every bend, junction and dead end of the
+    /// corridors and in every open doorway, and from each the ways to the next in the four directions.
+    ///
+    /// A site is the index of a cell in its grid, or behind all cells the number of a doorway. O(cells · length of the
+    /// longest corridor).
+    #[must_use]
+    pub fn places(&self, shut: &[usize]) -> BTreeMap<u32, TruePlace> {
+        let chart = Chart { office: self, shut };
+        let corners = self.cells.iter().copied();
+        let corners = corners.filter(|cell| chart.is_corner(*cell));
+        let corners = corners.map(|cell| TruePlace {
+            site: self.site(cell),
+            kind: PlaceKind::Corner,
+            position: Scale(&self.config).middle(cell),
+            ways: Direction::ALL.map(|direction| chart.onward(cell, direction)),
+        });
+        let doorways = (0..self.doorways.len()).filter(|number| !shut.contains(number));
+        let doorways = doorways.map(|number| TruePlace {
+            site: self.site_of_doorway(number),
+            kind: PlaceKind::Doorway,
+            position: self.doorway(number),
+            ways: Direction::ALL.map(|direction| chart.behind(number, direction)),
+        });
+        corners
+            .chain(doorways)
+            .map(|place| (place.site, place))
+            .collect()
+    }
+
+    fn site(&self, cell: Cell) -> u32 {
+        self.maze.grid().index(cell) as u32
+    }
+
+    fn site_of_doorway(&self, number: usize) -> u32 {
+        (self.maze.grid().cells().count() + number) as u32
+    }
+
+    /// A passage as doorways are named.
+    fn passage(&self, cell: Cell, direction: Direction) -> Option<(Cell, Direction)> {
+        match direction {
+            Direction::North | Direction::East => Some((cell, direction)),
+            Direction::South | Direction::West => {
+                let neighbour = self.maze.grid().neighbour(cell, direction)?;
+                Some((neighbour, direction.opposite()))
+            }
+        }
+    }
+}
+
+/// Corridors between blocks: a square grid in which a share of the inner walls stands, drawn by chance but for those that would
+/// cut a cell off.
+pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
+    let grid = Grid::new(side, side);
+    let mut maze = Maze::open(grid);
+    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    for cell in grid.cells() {
+        for direction in [Direction::North, Direction::East] {
+            let inner = grid.neighbour(cell, direction).is_some();
+            if inner && rng.random_range(0.0..1.0) < walls {
+                maze.set_wall(cell, direction, true);
+                let steps = maze.steps_to(&[Cell::new(0, 0)]);
+                if steps.contains(&None) {
+                    maze.set_wall(cell, direction, false);
+                }
+            }
+        }
+    }
+    maze
+}
+
+/// A place that is truly there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TruePlace {
+    /// Its number, the same whatever doorways are shut.
+    pub site: u32,
+    /// What makes it one.
+    pub kind: PlaceKind,
+    /// Where it is, m.
+    pub position: Point,
+    /// The site that the way north, east, south and west leads to; none where a wall is.
+    pub ways: [Option<u32>; 4],
+}
+
+/// What makes a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceKind {
+    /// A bend, a junction or the end of a corridor.
+    Corner,
+    /// A narrow passage.
+    Doorway,
+}
+
+/// An office while some doorways are shut.
+struct Chart<'a> {
+    office: &'a Office,
+    shut: &'a [usize],
+}
+
+impl Chart<'_> {
+    fn doorway(&self, cell: Cell, direction: Direction) -> Option<usize> {
+        let wanted = self.office.passage(cell, direction);
+        let mut doorways = self.office.doorways.iter();
+        doorways.position(|at| Some(*at) == wanted)
+    }
+
+    fn is_open(&self, cell: Cell, direction: Direction) -> bool {
+        let doorway = self.doorway(cell, direction);
+        self.office.maze.is_open(cell, direction)
+            && !doorway.is_some_and(|number| self.shut.contains(&number))
+    }
+
+    /// Whether the corridors do anything but lead straight on through a cell.
+    fn is_corner(&self, cell: Cell) -> bool {
+        let ways = Direction::ALL.map(|direction| self.is_open(cell, direction));
+        let straight = [[true, false, true, false], [false, true, false, true]];
+        !straight.contains(&ways) && ways.contains(&true)
+    }
+
+    /// From a cell on in one direction, to the site of the next place.
+    fn onward(&self, mut cell: Cell, direction: Direction) -> Option<u32> {
+        while self.is_open(cell, direction) {
+            if let Some(number) = self.doorway(cell, direction) {
+                return Some(self.office.site_of_doorway(number));
+            }
+            cell = self.office.maze.grid().neighbour(cell, direction)?;
+            if self.is_corner(cell) {
+                return Some(self.office.site(cell));
+            }
+        }
+        None
+    }
+
+    /// From a doorway on in one direction.
+    fn behind(&self, number: usize, direction: Direction) -> Option<u32> {
+        let (cell, along) = self.office.doorways[number];
+        let beyond = match direction {
+            _ if direction == along => self.office.maze.grid().neighbour(cell, along)?,
+            _ if direction == along.opposite() => cell,
+            _ => return None,
+        };
+        if self.is_corner(beyond) {
+            return Some(self.office.site(beyond));
+        }
+        self.onward(beyond, direction)
+    }
+}
+
+/// One metre in a direction.
+fn unit(direction: Direction) -> Vector {
+    let (east, north) = direction.step();
+    Vector::new(f64::from(east), f64::from(north))
+}
+
+/// Raises a painted wall along each stretch of an outline.
+fn raise(outline: &[Point], paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+    for ends in outline.windows(2) {
+        walls.push(Wall {
+            start: ends[0],
+            end: ends[1],
+            material: paint(),
+        });
+    }
+}
+
+/// Where an office's parts are and how they look.
+#[derive(Clone, Copy)]
+struct Scale<'a>(&'a OfficeConfig);
+
+impl Scale<'_> {
+    /// The middle of a cell.
+    fn middle(self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.0.pitch();
+        Point::new(along(cell.x), along(cell.y))
+    }
+
+    /// The middle between a cell and the next.
+    fn between(self, cell: Cell, direction: Direction) -> Point {
+        self.middle(cell) + unit(direction) * (0.5 * self.0.pitch())
+    }
+
+    /// Cuts a wall into pieces no longer than a cell and paints each.
+    fn pieces(self, wall: &Wall, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+        let along = wall.end - wall.start;
+        let count = libm::ceil(along.norm() / self.0.pitch() - 1e-9).max(1.0) as u32;
+        for piece in 0..count {
+            let at = |index: u32| wall.start + along * (f64::from(index) / f64::from(count));
+            walls.push(Wall {
+                start: at(piece),
+                end: at(piece + 1),
+                material: paint(),
+            });
+        }
+    }
+
+    /// A pillar at the north-east corner of a cell, which keeps the corridors beside it apart.
+    fn pillar(self, cell: Cell, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+        let half = 0.5 * self.0.pitch();
+        let centre = self.middle(cell) + Vector::new(half, half);
+        let corner = |x: f64, y: f64| centre + Vector::new(x, y) * (0.5 * self.0.wall_thickness);
+        let outline = [
+            (-1.0, -1.0),
+            (1.0, -1.0),
+            (1.0, 1.0),
+            (-1.0, 1.0),
+            (-1.0, -1.0),
+        ];
+        raise(&outline.map(|(x, y)| corner(x, y)), paint, walls);
+    }
+
+    /// What narrows a passage to a doorway: on both sides the outline of a post.
+    fn jambs(
+        self,
+        cell: Cell,
+        direction: Direction,
+        paint: &mut impl FnMut() -> Material,
+        walls: &mut Vec<Wall>,
+    ) {
+        let width = self.0.corridor_width;
+        let (centre, ahead) = (self.between(cell, direction), unit(direction));
+        for side in [unit(direction.left()), unit(direction.right())] {
+            let corner = |across: f64, along: f64| {
+                centre + side * (0.5 * across) + ahead * (0.5 * along * DOORWAY_DEPTH * width)
+            };
+            let outline = [
+                corner(width, -1.0),
+                corner(self.0.doorway_width(), -1.0),
+                corner(self.0.doorway_width(), 1.0),
+                corner(width, 1.0),
+            ];
+            raise(&outline, paint, walls);
+        }
+    }
+
+    /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like a wall from both sides.
+    fn leaves(self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
+        let across = unit(direction.left()) * (0.5 * self.0.corridor_width);
+        let depth = unit(direction) * (0.5 * self.0.wall_thickness);
+        let centre = self.between(cell, direction);
+        [("a", centre - depth), ("b", centre + depth)].map(|(leaf, at)| Door {
+            name: format!("{number} {leaf}"),
+            start: at - across,
+            end: at + across,
+            material: Material::default(),
+            state: DoorState::Open,
+            schedule: Vec::new(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_the_passages_is_walled_up_and_nothing_is_cut_off() {
+        for seed in 0..10 {
+            let maze = blocks(7, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
+            let all = Maze::open(maze.grid()).opening_count();
+            let walled_up = all - maze.opening_count();
+            assert!(
+                (all / 8..all / 2).contains(&walled_up),
+                "{walled_up} of {all}"
+            );
+            assert!(!maze.steps_to(&[Cell::new(0, 0)]).contains(&None));
+        }
+    }
+
+    #[test]
+    fn what_leads_to_no_goal_is_no_part_of_it() {
+        let text = include_str!("../../../mazes/j.maze");
+        let file = tolman_maze::read(text).unwrap();
+        let furniture = OfficeConfig {
+            corridor_width: 0.95,
+            wall_thickness: 0.0,
+            ..OfficeConfig::bare()
+        };
+        let office = Office::new(&file.maze, &furniture).unwrap();
+        // A J has two ends and three bends.
+        let places = office.places(&[]);
+        assert_eq!(places.len(), 5);
+        let degrees = places
+            .values()
+            .map(|place| place.ways.iter().flatten().count());
+        assert_eq!(degrees.sum::<usize>(), 8);
+        // The hook is the shortest way between two places.
+        let nearest = office.separation();
+        assert!((5.0..7.0).contains(&nearest), "{nearest}");
+    }
+}

@@ -1,0 +1,556 @@
+//! One run: a robot walks an office, its observer maps it, and the truth is kept beside.
+
+use alloc::collections::BTreeMap;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_geom::{Point, PointBox, Vector};
+use tolman_maps::diktiometry::{
+    Config, Observer, Percepts, PlaceId, Rotation, SignatureKind, StepReport,
+};
+use tolman_maze::Direction;
+use tolman_sim::DoorState;
+
+use super::errors::MoveError;
+use super::memory::Memory;
+use super::office::{Office, TruePlace};
+use super::planner::{Decision, Planner};
+use super::rover::{Arrival, MapError, Mapped, RoutineOutcome};
+use super::score::{MapScore, Visit, score};
+use super::surveyor::{Sight, SurveyError, Surveyor, SurveyorConfig};
+use crate::episode::stream;
+
+/// Everything a run depends on but the office and the seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurveyConfig {
+    /// The robot and its noise.
+    pub robot: SurveyorConfig,
+    /// The mapper.
+    pub mapper: Config,
+    /// How likely a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of the time".
+    pub heed: f64,
+    /// How many moves are made.
+    pub moves: u32,
+    /// After every so many moves one of the office's doorways, by chance, is shut or opened; 0 for never.
+    pub door_period: u32,
+}
+
+impl SurveyConfig {
+    /// A run of the paper in an office: random walk, no advice, no door that moves.
+    #[must_use]
+    pub fn paper(office: &Office, moves: u32) -> Self {
+        Self::of(office, SurveyorConfig::paper(), moves)
+    }
+
+    /// The same with another robot.
+    #[must_use]
+    pub fn of(office: &Office, robot: SurveyorConfig, moves: u32) -> Self {
+        Self {
+            mapper: mapper(office, &robot),
+            robot,
+            heed: 0.0,
+            moves,
+            door_period: 0,
+        }
+    }
+}
+
+/// The mapper for a robot in an office: what its designers know of both.
+#[must_use]
+pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
+    let separation = office.separation();
+    let mut config = Config::new(Config::compass_actions(), separation);
+    config.place_radius = robot.place_radius;
+    let signatures = |rows, columns: u32, tolerance| {
+        Percepts::Signatures(SignatureKind {
+            rows,
+            columns: columns as usize,
+            tolerance,
+            share: 0.6,
+            rotation: Rotation::Aligned,
+            views: 4,
+        })
+    };
+    match robot.sight {
+        Sight::Camera { columns, .. } if office.config().colours > 1 => {
+            // A doorway does not look like the corners beside it, and those are a pitch apart or more.
+            config.alike_separation = separation.max(office.config().pitch());
+            config.search.width = 4.0 * config.alike_separation;
+            config.percepts = signatures(3, columns, 0.15);
+        }
+        // Where all walls have one colour a camera tells nothing.
+        Sight::Camera { .. } => {}
+        Sight::Laser { columns } => config.percepts = signatures(1, columns, 0.15),
+    }
+    config
+}
+
+/// What truly was in a run so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Past {
+    /// Where the robot began, m.
+    pub start: Point,
+    /// Where it is, m.
+    pub at: Point,
+    /// The true places it was at and what the map took them for, from the start on.
+    pub visits: Vec<Visit>,
+    /// The true ways it went: from which site in which direction.
+    pub gone: Vec<(u32, Direction)>,
+}
+
+/// A run under way, or ended.
+#[derive(Debug)]
+pub struct Survey<'a> {
+    office: &'a Office,
+    config: SurveyConfig,
+    mapped: Mapped<Surveyor>,
+    planner: Planner,
+    walk: ChaCha8Rng,
+    doors: ChaCha8Rng,
+    plans: ChaCha8Rng,
+    shut: Vec<usize>,
+    /// What is truly there now, by site.
+    truth: BTreeMap<u32, TruePlace>,
+    start: Point,
+    site: u32,
+    visits: Vec<Visit>,
+    gone: Vec<(u32, Direction)>,
+    errors: Vec<MoveError>,
+    memory: Memory,
+}
+
+/// A place of a learned map where it is drawn over the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Its id.
+    pub id: u32,
+    /// South-west corner of the box that holds it as seen from the start, m.
+    pub low: Point,
+    /// North-east corner, m.
+    pub high: Point,
+    /// What is known of it, in words.
+    pub label: String,
+}
+
+/// What became of a plan to a place of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanTrial {
+    /// The place is not there now (a doorway that is shut, a junction whose branch is): no plan leads to it.
+    Gone,
+    /// The place is there.
+    There {
+        /// Whether the plan would lead to it.
+        works: bool,
+        /// Whether a plan by the ways as the robot last saw them, places never confused, would.
+        remembered_works: bool,
+    },
+}
+
+/// What happened in one move.
+#[derive(Debug)]
+pub struct Surveyed {
+    /// What the planner wanted.
+    pub decision: Decision,
+    /// What the robot measured.
+    pub arrival: Arrival,
+    /// What the observer made of it.
+    pub report: StepReport,
+}
+
+/// Why a run cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The robot cannot be built or a doorway not be moved.
+    #[error("the robot cannot begin")]
+    Robot(#[from] SurveyError),
+    /// Robot or observer cannot go on.
+    #[error(transparent)]
+    Map(#[from] MapError<SurveyError>),
+    /// The robot is at no place.
+    #[error("the robot stands at ({}, {}) m, where no place is; lower the noise", at.x, at.y)]
+    OffPlace {
+        /// Where it stands.
+        at: Point,
+    },
+    /// There is no way on.
+    #[error("no way leads on from ({}, {}) m", at.x, at.y)]
+    NoWay {
+        /// Where the robot stands.
+        at: Point,
+    },
+}
+
+impl<'a> Survey<'a> {
+    /// A robot at a random place of an office, with a map of that place alone.
+    ///
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot be had.
+    pub fn new(office: &'a Office, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
+        let truth = office.places(&[]);
+        let first = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
+        let start = truth.values().nth(first).copied();
+        let start = start.ok_or(RunError::NoWay {
+            at: Point::origin(),
+        })?;
+        let robot = Surveyor::new(office, config.robot.clone(), start.position, seed)?;
+        let mapped = Mapped::new(robot, config.mapper.clone())?;
+        let visits = vec![Visit {
+            site: start.site,
+            place: mapped.observer().place(),
+        }];
+        let mut memory = Memory::default();
+        memory.see(start.site, mapped.exits());
+        Ok(Self {
+            office,
+            planner: Planner::new(config.heed),
+            mapped,
+            walk: stream(seed, 1),
+            doors: stream(seed, 2),
+            plans: stream(seed, 3),
+            shut: Vec::new(),
+            truth,
+            start: start.position,
+            site: start.site,
+            visits,
+            gone: Vec::new(),
+            errors: Vec::new(),
+            memory,
+            config,
+        })
+    }
+
+    /// A run that goes on where another ended. `seed` is that of all chance from now on; doorways are open.
+    ///
+    /// # Errors
+    /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
+    pub fn resumed(
+        office: &'a Office,
+        config: SurveyConfig,
+        past: Past,
+        observer: Observer,
+        seed: u64,
+    ) -> Result<Self, RunError> {
+        let robot = Surveyor::new(office, config.robot.clone(), past.at, seed)?;
+        let mut survey = Self {
+            office,
+            planner: Planner::new(config.heed),
+            mapped: Mapped::resumed(robot, observer)?,
+            walk: stream(seed, 1),
+            doors: stream(seed, 2),
+            plans: stream(seed, 3),
+            shut: Vec::new(),
+            truth: office.places(&[]),
+            start: past.start,
+            site: 0,
+            visits: past.visits,
+            gone: past.gone,
+            errors: Vec::new(),
+            memory: Memory::default(),
+            config,
+        };
+        survey.site = survey.true_site(past.at)?;
+        survey.memory.see(survey.site, survey.mapped.exits());
+        Ok(survey)
+    }
+
+    /// Makes all moves.
+    ///
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot go on.
+    pub fn finish(mut self) -> Result<Self, RunError> {
+        for _ in 0..self.config.moves {
+            self.step()?;
+        }
+        Ok(self)
+    }
+
+    /// Makes one move.
+    ///
+    /// # Errors
+    /// [`RunError`] if robot or observer cannot go on.
+    pub fn step(&mut self) -> Result<Surveyed, RunError> {
+        self.move_a_door()?;
+        let decision =
+            self.planner
+                .choose(self.mapped.observer(), self.mapped.exits(), &mut self.walk);
+        let at = self.robot().position();
+        let decision = decision.ok_or(RunError::NoWay { at })?;
+        let surveyed = self.go(decision)?;
+        Ok(surveyed)
+    }
+
+    fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
+        let before = self.robot().position();
+        let (arrival, report) = self.mapped.go(decision.direction)?;
+        let here = self.robot().position();
+        let from = self.site;
+        self.site = self.true_site(here)?;
+        if arrival.outcome == RoutineOutcome::Completed {
+            let way = (here - before).norm();
+            self.memory.go(from, decision.direction, self.site, way);
+            self.gone.push((from, decision.direction));
+            self.errors
+                .push(MoveError::of(&report, arrival.moved, here - before));
+        }
+        self.memory.see(self.site, self.mapped.exits());
+        self.visits.push(Visit {
+            site: self.site,
+            place: self.observer().place(),
+        });
+        Ok(Surveyed {
+            decision,
+            arrival,
+            report,
+        })
+    }
+
+    /// Shuts or opens a doorway when it is time to, but none that the robot is near.
+    fn move_a_door(&mut self) -> Result<(), RunError> {
+        let period = self.config.door_period as usize;
+        let doorways = self.office.doorways();
+        if period == 0
+            || doorways == 0
+            || !self.gone.len().is_multiple_of(period)
+            || self.gone.is_empty()
+        {
+            return Ok(());
+        }
+        let number = self.doors.random_range(0..doorways as u32) as usize;
+        let near = (self.office.doorway(number) - self.robot().position()).norm() < 3.0;
+        let is_shut = self.shut.contains(&number);
+        if near {
+            return Ok(());
+        }
+        let state = if is_shut {
+            DoorState::Open
+        } else {
+            DoorState::Shut
+        };
+        self.mapped.robot_mut().set_doorway(number, state)?;
+        match state {
+            DoorState::Open => self.shut.retain(|other| *other != number),
+            DoorState::Shut => self.shut.push(number),
+        }
+        self.truth = self.office.places(&self.shut);
+        Ok(())
+    }
+
+    /// The true place the robot is at.
+    fn true_site(&self, here: Point) -> Result<u32, RunError> {
+        let near = self
+            .truth
+            .values()
+            .map(|place| ((place.position - here).norm(), place.site))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match near {
+            Some((distance, site)) if distance < 0.5 * self.office.separation() => Ok(site),
+            _ => Err(RunError::OffPlace { at: here }),
+        }
+    }
+
+    /// What it depends on but the office and the seed.
+    #[must_use]
+    pub const fn config(&self) -> &SurveyConfig {
+        &self.config
+    }
+
+    /// What truly was so far.
+    #[must_use]
+    pub fn past(&self) -> Past {
+        Past {
+            start: self.start,
+            at: self.robot().position(),
+            visits: self.visits.clone(),
+            gone: self.gone.clone(),
+        }
+    }
+
+    /// The observer with its map.
+    #[must_use]
+    pub const fn observer(&self) -> &Observer {
+        self.mapped.observer()
+    }
+
+    /// The robot.
+    #[must_use]
+    pub const fn robot(&self) -> &Surveyor {
+        self.mapped.robot()
+    }
+
+    /// The doorways that are shut now.
+    #[must_use]
+    pub fn shut(&self) -> &[usize] {
+        &self.shut
+    }
+
+    /// Where the robot truly was and where the map had it, from the start on.
+    #[must_use]
+    pub fn visits(&self) -> &[Visit] {
+        &self.visits
+    }
+
+    /// The errors of all moves so far.
+    #[must_use]
+    pub fn errors(&self) -> &[MoveError] {
+        &self.errors
+    }
+
+    /// Whether a plan from here to a place of the map that is drawn by chance would lead there: its actions are followed on
+    /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
+    /// no other place, or the robot was never where the one drawn is.
+    pub fn try_plan(&mut self) -> Option<PlanTrial> {
+        let paths = &self.mapped.observer().map().paths;
+        let here = self.observer().place();
+        let others: Vec<PlaceId> = paths
+            .places()
+            .map(|(id, _)| id)
+            .filter(|id| *id != here)
+            .collect();
+        if others.is_empty() {
+            return None;
+        }
+        let to = others[self.plans.random_range(0..others.len() as u32) as usize];
+        let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
+        let wanted = self.visits.iter().rev().find(is_to)?.site;
+        if !self.truth.contains_key(&wanted) {
+            return Some(PlanTrial::Gone);
+        }
+        let end = |plan: Vec<usize>| {
+            plan.into_iter().try_fold(self.site, |site, direction| {
+                self.truth.get(&site)?.ways.get(direction).copied()?
+            })
+        };
+        let plan = self.observer().plan(here, to);
+        let plan = plan.map(|plan| {
+            plan.steps
+                .iter()
+                .map(|step| step.action.0 as usize)
+                .collect()
+        });
+        let remembered = self.memory.plan(self.site, wanted);
+        let remembered = remembered.map(|plan| plan.into_iter().map(Direction::index).collect());
+        Some(PlanTrial::There {
+            works: plan.and_then(end) == Some(wanted),
+            remembered_works: remembered.and_then(end) == Some(wanted),
+        })
+    }
+
+    /// The share of ways that lead where they did when the robot last saw them, of those it would then take to be there: what a map
+    /// of this run is measured against that does not guess what has changed since. A run that was resumed remembers what it saw since then
+    /// alone: the ways of before are no part of its [`Past`].
+    #[must_use]
+    pub fn remembered_precision(&self) -> f64 {
+        self.memory.precision(&self.truth)
+    }
+
+    /// Where the run began, m.
+    #[must_use]
+    pub const fn start(&self) -> Point {
+        self.start
+    }
+
+    /// The places of the map, moved so that the first lies where the run truly began.
+    #[must_use]
+    pub fn drawn(&self) -> Vec<Drawn> {
+        let map = self.observer().map();
+        let Some(home) = self.visits.first().map(|visit| visit.place) else {
+            return Vec::new();
+        };
+        let places = map.layout(home).into_iter().map(|drawn| {
+            let PointBox { x, y } = drawn.bounds;
+            let corner = |x: f64, y: f64| self.start + Vector::new(x, y);
+            let visits = map.paths.place(drawn.place).map_or(0, |place| place.visits);
+            Drawn {
+                id: drawn.place.0,
+                low: corner(x.low(), y.low()),
+                high: corner(x.high(), y.high()),
+                label: format!("place {}, {visits} visits", drawn.place.0),
+            }
+        });
+        places.collect()
+    }
+
+    /// The links of the map, by the ids of the places at their ends.
+    #[must_use]
+    pub fn links(&self) -> Vec<(u32, u32)> {
+        let links = self.observer().map().paths.links();
+        links.map(|(_, link)| (link.from.0, link.to.0)).collect()
+    }
+
+    /// How good the map is by now.
+    #[must_use]
+    pub fn score(&self) -> MapScore {
+        let paths = &self.observer().map().paths;
+        score(paths, &self.visits, &self.gone, &self.truth)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::super::{OfficeConfig, blocks};
+    use super::*;
+
+    fn office(side: u16, doorway_share: f64, colours: u32) -> Office {
+        let maze = blocks(side, 0.3, &mut ChaCha8Rng::seed_from_u64(1));
+        let config = OfficeConfig {
+            doorway_share,
+            colours,
+            ..OfficeConfig::bare()
+        };
+        Office::new(&maze, &config).unwrap()
+    }
+
+    #[test]
+    fn what_is_certain_is_never_confused_where_all_places_look_alike() {
+        let office = office(4, 0.0, 1);
+        let config = SurveyConfig {
+            heed: 0.3,
+            ..SurveyConfig::paper(&office, 150)
+        };
+        for seed in 0..3 {
+            let run = Survey::new(&office, config.clone(), seed).unwrap();
+            let run = run.finish().unwrap();
+            let score = run.score();
+            assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
+            assert!((score.link_precision - 1.0).abs() < 1e-12, "{score:?}");
+            assert!((score.gone_recall - 1.0).abs() < 1e-12, "{score:?}");
+            assert!(2 * score.places < run.visits().len(), "{score:?}");
+        }
+    }
+
+    #[test]
+    fn places_may_be_far_apart_and_walls_painted() {
+        let file = tolman_maze::read(include_str!("../../../mazes/j.maze")).unwrap();
+        let furniture = OfficeConfig {
+            colours: 6,
+            ..OfficeConfig::bare()
+        };
+        let office = Office::new(&file.maze, &furniture).unwrap();
+        let config = SurveyConfig::paper(&office, 30);
+        let run = Survey::new(&office, config, 1).unwrap().finish().unwrap();
+        let score = run.score();
+        assert_eq!((score.places, score.visited), (5, 5), "{score:?}");
+    }
+
+    #[test]
+    fn the_same_seed_makes_the_same_run_and_the_moves_of_doors_are_part_of_it() {
+        let office = office(4, 0.5, 6);
+        let mut config = SurveyConfig::paper(&office, 120);
+        config.door_period = 10;
+        let run = |seed| {
+            Survey::new(&office, config.clone(), seed)
+                .unwrap()
+                .finish()
+                .unwrap()
+        };
+        let (one, again, other) = (run(1), run(1), run(2));
+        assert!(!one.shut().is_empty(), "some doorway is shut by now");
+        assert_eq!(one.visits(), again.visits());
+        assert_eq!(one.observer(), again.observer());
+        assert_ne!(one.visits(), other.visits());
+    }
+}

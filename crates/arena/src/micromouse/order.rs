@@ -1,0 +1,90 @@
+//! What a mouse says to the referee.
+
+use serde::{Deserialize, Serialize};
+use tolman_planners::moves::MouseStep;
+
+/// The answer of a mouse to what its sensors see: a rotation, then a movement.
+///
+/// It is written as the paper's test program takes it, with one key for each:
+///
+/// ```
+/// use tolman_arena::micromouse::{Movement, Order, Rotation};
+///
+/// let order = Order { rotation: Rotation::Degrees(-90), movement: Movement::Cells(3) };
+/// assert_eq!(serde_json::to_string(&order)?, r#"{"rotation":-90,"movement":3}"#);
+/// assert_eq!(serde_json::to_string(&Order::RESET)?, r#"{"rotation":"Reset","movement":"Reset"}"#);
+/// assert_eq!(serde_json::from_str::<Order>(r#"{"rotation":"Reset","movement":"Reset"}"#)?, Order::RESET);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Order {
+    /// First the mouse turns.
+    pub rotation: Rotation,
+    /// Then it drives.
+    pub movement: Movement,
+}
+
+/// By how much to turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Rotation {
+    /// Degrees clockwise. The referee obeys −90, 0 and 90 and ignores all others.
+    Degrees(i32),
+    /// Half of a reset.
+    Reset(Reset),
+}
+
+/// How far to drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Movement {
+    /// Cells ahead, or back where negative. The referee moves the mouse by three at most.
+    Cells(i32),
+    /// Half of a reset.
+    Reset(Reset),
+}
+
+/// The word `Reset`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Reset {
+    /// The only one there is.
+    Reset,
+}
+
+impl Order {
+    /// The end of the first run, once the mouse has been at the goal: put me back to the start.
+    pub const RESET: Self = Self {
+        rotation: Rotation::Reset(Reset::Reset),
+        movement: Movement::Reset(Reset::Reset),
+    };
+
+    /// A rotation in degrees and a movement in cells.
+    #[must_use]
+    pub const fn new(degrees: i32, cells: i32) -> Self {
+        Self {
+            rotation: Rotation::Degrees(degrees),
+            movement: Movement::Cells(cells),
+        }
+    }
+}
+
+impl From<MouseStep> for Order {
+    fn from(step: MouseStep) -> Self {
+        Self::new(step.turn.degrees(), step.cells.into())
+    }
+}
+
+/// An order that the paper's test program breaks off at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OrderError {
+    /// A movement is a number, or the rotation is `Reset` too.
+    #[error(
+        "the movement is \"Reset\" but the rotation is {degrees}: say \"Reset\" for both, or a number of cells"
+    )]
+    HalfReset {
+        /// The rotation.
+        degrees: i32,
+    },
+}

@@ -1,0 +1,33 @@
+//! Both ends of the protocol of the simulator [mms](https://github.com/mackorone/mms), which most hobbyists use: a
+//! headless host, and a mouse.
+//!
+//! A mouse is a program that writes commands to stdout, a line each, and reads replies from stdin. The
+//! [`Simulator`] answers one command after the other, as mms does; the [`Score`] counts as mms does; [`host()`]
+//! starts the program and puts the two together, with a limit on time and on movements. [`play`] is a mouse of our own.
+//!
+//! ```
+//! use tolman_arena::mms::Simulator;
+//!
+//! let maze = tolman_maze::read("+---+---+\n|     G |\n+   +   +\n| S |   |\n+---+---+\n")?.maze;
+//! let mut simulator = Simulator::new(&maze);
+//! assert_eq!(simulator.answer("wallRight").as_deref(), Some("true"));
+//! assert_eq!(simulator.answer("moveForward").as_deref(), Some("ack"));
+//! assert_eq!(simulator.answer("moveForward").as_deref(), Some("crash"));
+//! // What only draws is not answered.
+//! assert_eq!(simulator.answer("setWall 0 1 n"), None);
+//! # Ok::<(), tolman_maze::MazeError>(())
+//! ```
+
+mod host;
+mod link;
+mod mouse;
+mod place;
+mod roads;
+mod score;
+mod simulator;
+
+pub use host::{Ended, HostError, Hosted, Limits, Log, host};
+pub use mouse::{PlayError, Played, Until, play};
+pub use place::{Gate, Heading, Place};
+pub use score::{Figures, Score, Unit};
+pub use simulator::Simulator;

@@ -1,0 +1,547 @@
+//! A graph whose nodes lie at coordinates of their own: a learned map, a network over its data.
+
+use core::fmt::Write;
+
+use maud::{Markup, html};
+use tolman_geom::Point;
+
+use super::Series;
+use super::number::tenths;
+use super::words;
+
+/// A graph to be drawn over a [`Plan`](super::Plan) or in a [`Chart`](super::Chart), each node at its
+/// coordinates.
+///
+/// Nodes that are not finite are left out, and so are edges that end at such a node or at none.
+///
+/// ```
+/// use tolman_draw::{Graph, GraphEdge, GraphNode, NodeMark, Plan, Series};
+/// use tolman_geom::Point;
+///
+/// let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
+/// let walls: Vec<[Point; 2]> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
+/// let mut map = Graph::new();
+/// let start = map.node(GraphNode::at(Point::new(0.5, 0.5)));
+/// let goal = GraphNode::at(Point::new(2.5, 1.5)).mark(NodeMark::Disc).label("goal");
+/// let goal = map.node(goal.series(Series(2)));
+/// map.edge(GraphEdge::between(start, goal).label("east"));
+///
+/// let mut plan = Plan::of_walls(&walls, 400.0);
+/// plan.graph(&map);
+/// let drawing = plan.drawing("A room with a map of two places.");
+/// assert!(drawing.body.into_string().contains("goal"));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graph {
+    /// The nodes, known by their index.
+    pub nodes: Vec<GraphNode>,
+    /// The edges.
+    pub edges: Vec<GraphEdge>,
+    /// The radius of a node, user units.
+    pub radius: f64,
+    /// Where signs of others stand, which the labels of nodes are not to cover.
+    pub signs: Vec<Point>,
+}
+
+/// One node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraphNode {
+    /// Where it lies.
+    pub position: Point,
+    /// Its class by colour.
+    pub series: Series,
+    /// Its class by shape.
+    pub mark: NodeMark,
+    /// What is written beside it; empty for nothing.
+    pub label: String,
+    /// What is shown when the pointer rests on it; empty for nothing.
+    pub note: String,
+}
+
+/// The shape of a node.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NodeMark {
+    /// An open ring.
+    #[default]
+    Ring,
+    /// A filled disc.
+    Disc,
+    /// An open square.
+    Square,
+}
+
+/// One edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraphEdge {
+    /// The index of the node it begins at.
+    pub from: usize,
+    /// The index of the node it ends at.
+    pub to: usize,
+    /// Its class by colour.
+    pub series: Series,
+    /// Its class by line.
+    pub line: EdgeLine,
+    /// What is written beside its middle; empty for nothing.
+    pub label: String,
+}
+
+/// How an edge is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum EdgeLine {
+    /// A line.
+    #[default]
+    Plain,
+    /// A dashed line, for what is doubtful.
+    Dashed,
+    /// A line with an arrow head towards its end; two that run opposite ways show both heads.
+    Arrow,
+}
+
+impl Graph {
+    /// No nodes, which will be 3.2 user units in radius.
+    pub const fn new() -> Self {
+        Self {
+            nodes: Vec::new(),
+            edges: Vec::new(),
+            radius: 3.2,
+            signs: Vec::new(),
+        }
+    }
+
+    /// Sets the radius of the nodes, user units.
+    #[must_use]
+    pub const fn radius(mut self, radius: f64) -> Self {
+        self.radius = radius;
+        self
+    }
+
+    /// Adds a node and tells its index.
+    pub fn node(&mut self, node: GraphNode) -> usize {
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+
+    /// Adds an edge.
+    pub fn edge(&mut self, edge: GraphEdge) {
+        self.edges.push(edge);
+    }
+
+    /// The elements, with coordinates as `at` gives them.
+    pub(super) fn markup(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Markup {
+        html! {
+            g class="graph" {
+                @for (series, line, path) in self.lines(at) {
+                    path class={ "edge " (series.class()) }
+                        stroke-dasharray=[(line == EdgeLine::Dashed).then_some("4 3")] d=(path) {}
+                }
+                @for (head, series) in self.heads(at) {
+                    path class={ "head " (series.class()) } d=(head) {}
+                }
+                @for node in self.nodes.iter().filter(|node| is_finite(node)) {
+                    (self.node_markup(node, at(node.position)))
+                }
+                @for (label, (x, y)) in self.labels(at) {
+                    text class="label" x=(tenths(x)) y=(tenths(y)) { (label) }
+                }
+                @for (edge, [from, to]) in self.sound_edges().filter(|(edge, _)| !edge.label.is_empty()) {
+                    @let (x, y) = beside(at(from), at(to));
+                    text class="label quiet" text-anchor="middle" dominant-baseline="central"
+                        x=(tenths(x)) y=(tenths(y)) { (edge.label) }
+                }
+            }
+        }
+    }
+
+    fn node_markup(&self, node: &GraphNode, (x, y): (f64, f64)) -> Markup {
+        let r = self.radius;
+        let class = match node.mark {
+            NodeMark::Ring | NodeMark::Square => "node",
+            NodeMark::Disc => "node full",
+        };
+        let class = format!("{class} {}", node.series.class());
+        let note = html! { @if !node.note.is_empty() { title { (node.note) } } };
+        html! {
+            @if node.mark == NodeMark::Square {
+                rect class=(class) x=(tenths(x - r)) y=(tenths(y - r))
+                    width=(tenths(2.0 * r)) height=(tenths(2.0 * r)) { (note) }
+            } @else {
+                circle class=(class) cx=(tenths(x)) cy=(tenths(y)) r=(tenths(r)) { (note) }
+            }
+        }
+    }
+
+    /// The labels of nodes, each with where its text begins: beside its node, where it covers least of the nodes, the signs and the labels before it.
+    fn labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(&str, (f64, f64))> {
+        let labelled = self
+            .nodes
+            .iter()
+            .filter(|node| is_finite(node) && !node.label.is_empty());
+        let nodes = self.nodes.iter().filter(|node| is_finite(node));
+        let nodes = nodes.map(|node| Patch::about(at(node.position), self.radius, self.radius));
+        let signs = self
+            .signs
+            .iter()
+            .map(|sign| Patch::about(at(*sign), 5.0, 5.0));
+        // Without labels nothing is to be laid out.
+        let mut taken: Vec<Patch> = Vec::new();
+        if labelled.clone().next().is_some() {
+            taken.extend(nodes.chain(signs));
+            taken.extend(self.edge_labels(at));
+        }
+        let mut placed = Vec::new();
+        for node in labelled {
+            let width = words::width(&node.label) * LABEL;
+            let covered = |(x, y): (f64, f64)| {
+                let label = Patch::of_text(x, y, width);
+                taken.iter().map(|other| label.overlap(other)).sum::<f64>()
+            };
+            let mut best = (f64::INFINITY, (0.0, 0.0));
+            for place in self.beside_node(at(node.position), width) {
+                let covered = covered(place);
+                // Of equals the first.
+                if covered < best.0 {
+                    best = (covered, place);
+                }
+            }
+            let (_, (x, y)) = best;
+            taken.push(Patch::of_text(x, y, width));
+            placed.push((node.label.as_str(), (x, y)));
+        }
+        placed
+    }
+
+    /// Where the label of a node may begin, the best place first.
+    fn beside_node(&self, (x, y): (f64, f64), width: f64) -> [(f64, f64); 8] {
+        let gap = self.radius + 2.0;
+        let (east, west, middle) = (x + gap, x - gap - width, x - width / 2.0);
+        let (above, below) = (y - self.radius, y + self.radius + 8.0);
+        [
+            (east, above),
+            (east, below),
+            (west, above),
+            (west, below),
+            (middle, above - 3.0),
+            (middle, below + 3.0),
+            (east + 2.0, y + 3.5),
+            (west - 2.0, y + 3.5),
+        ]
+    }
+
+    fn edge_labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<Patch> {
+        let labelled = self
+            .sound_edges()
+            .filter(|(edge, _)| !edge.label.is_empty());
+        let patches = labelled.map(|(edge, [from, to])| {
+            let width = words::width(&edge.label) * LABEL;
+            Patch::about(beside(at(from), at(to)), width / 2.0, 5.0)
+        });
+        patches.collect()
+    }
+
+    /// One path for each class of edges, so that hundreds stay few elements.
+    fn lines(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(Series, EdgeLine, String)> {
+        let mut paths: Vec<(Series, EdgeLine, String)> = Vec::new();
+        for (edge, [from, to]) in self.sound_edges() {
+            let ((x0, y0), (x1, y1)) = (at(from), at(to));
+            let same = |path: &&mut (Series, EdgeLine, String)| {
+                path.0 == edge.series && path.1 == edge.line
+            };
+            let index = match paths.iter_mut().position(|path| same(&path)) {
+                Some(index) => index,
+                None => {
+                    paths.push((edge.series, edge.line, String::new()));
+                    paths.len() - 1
+                }
+            };
+            // Writing to a string cannot fail.
+            let _ = write!(
+                paths[index].2,
+                "M{} {}L{} {}",
+                tenths(x0),
+                tenths(y0),
+                tenths(x1),
+                tenths(y1)
+            );
+        }
+        paths
+    }
+
+    /// The arrow heads, two thirds along their edges.
+    fn heads(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(String, Series)> {
+        let arrows = self
+            .sound_edges()
+            .filter(|(edge, _)| edge.line == EdgeLine::Arrow);
+        arrows
+            .filter_map(|(edge, [from, to])| {
+                let ((x0, y0), (x1, y1)) = (at(from), at(to));
+                let (dx, dy) = (x1 - x0, y1 - y0);
+                let length = libm::hypot(dx, dy);
+                if length < 1e-9 {
+                    return None;
+                }
+                let size = 1.4 * self.radius;
+                let (ux, uy) = (size * dx / length, size * dy / length);
+                let (x, y) = (x0 + dx * 2.0 / 3.0, y0 + dy * 2.0 / 3.0);
+                let path = format!(
+                    "M{} {}L{} {}L{} {}Z",
+                    tenths(x + ux),
+                    tenths(y + uy),
+                    tenths(x - ux - 0.7 * uy),
+                    tenths(y - uy + 0.7 * ux),
+                    tenths(x - ux + 0.7 * uy),
+                    tenths(y - uy - 0.7 * ux)
+                );
+                Some((path, edge.series))
+            })
+            .collect()
+    }
+
+    /// The edges between nodes that have a place, with the places.
+    fn sound_edges(&self) -> impl Iterator<Item = (&GraphEdge, [Point; 2])> {
+        let place = |index: usize| {
+            let node = self.nodes.get(index).filter(|node| is_finite(node))?;
+            Some(node.position)
+        };
+        self.edges
+            .iter()
+            .filter_map(move |edge| Some((edge, [place(edge.from)?, place(edge.to)?])))
+    }
+}
+
+/// The size of labels, as a share of that of other text.
+const LABEL: f64 = 0.85;
+
+/// A part of a drawing that something covers, user units.
+#[derive(Clone, Copy, Debug)]
+struct Patch {
+    x: (f64, f64),
+    y: (f64, f64),
+}
+
+impl Patch {
+    fn about((x, y): (f64, f64), half_width: f64, half_height: f64) -> Self {
+        Self {
+            x: (x - half_width, x + half_width),
+            y: (y - half_height, y + half_height),
+        }
+    }
+
+    /// A label that begins there, on its base line.
+    fn of_text(x: f64, y: f64, width: f64) -> Self {
+        Self {
+            x: (x, x + width),
+            y: (y - 8.0, y + 2.0),
+        }
+    }
+
+    /// The area that both cover.
+    fn overlap(&self, other: &Self) -> f64 {
+        let along = |a: (f64, f64), b: (f64, f64)| (a.1.min(b.1) - a.0.max(b.0)).max(0.0);
+        along(self.x, other.x) * along(self.y, other.y)
+    }
+}
+
+impl Default for Graph {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl GraphNode {
+    /// A plain node.
+    pub fn at(position: Point) -> Self {
+        Self {
+            position,
+            series: Series(0),
+            mark: NodeMark::Ring,
+            label: String::new(),
+            note: String::new(),
+        }
+    }
+
+    /// Sets the colour.
+    #[must_use]
+    pub const fn series(mut self, series: Series) -> Self {
+        self.series = series;
+        self
+    }
+
+    /// Sets the shape.
+    #[must_use]
+    pub const fn mark(mut self, mark: NodeMark) -> Self {
+        self.mark = mark;
+        self
+    }
+
+    /// Writes something beside it.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Shows something when the pointer rests on it.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.note = note.into();
+        self
+    }
+}
+
+impl GraphEdge {
+    /// A plain edge between the nodes of two indices.
+    pub const fn between(from: usize, to: usize) -> Self {
+        Self {
+            from,
+            to,
+            series: Series(0),
+            line: EdgeLine::Plain,
+            label: String::new(),
+        }
+    }
+
+    /// Sets the colour.
+    #[must_use]
+    pub const fn series(mut self, series: Series) -> Self {
+        self.series = series;
+        self
+    }
+
+    /// Sets how it is drawn.
+    #[must_use]
+    pub const fn line(mut self, line: EdgeLine) -> Self {
+        self.line = line;
+        self
+    }
+
+    /// Writes something beside its middle.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+}
+
+/// Beside the middle of an edge, above it: text on a line is hard to read.
+fn beside(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
+    let middle = (f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1));
+    let along = (to.0 - from.0, to.1 - from.1);
+    let length = libm::hypot(along.0, along.1);
+    let (x, y) = if length > 0.0 {
+        (along.1 / length, -along.0 / length)
+    } else {
+        (0.0, -1.0)
+    };
+    let up = if y > 0.0 { -1.0 } else { 1.0 };
+    (middle.0 + 9.0 * up * x, middle.1 + 8.0 * up * y)
+}
+
+fn is_finite(node: &GraphNode) -> bool {
+    node.position.x.is_finite() && node.position.y.is_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(graph: &Graph) -> String {
+        let markup = graph.markup(&|at| (10.0 * at.x, -10.0 * at.y));
+        markup.into_string()
+    }
+
+    #[test]
+    fn nodes_and_edges_lie_at_their_coordinates() {
+        let mut graph = Graph::new();
+        let a = graph.node(GraphNode::at(Point::new(1.0, -2.0)).label("a & b"));
+        let b = graph.node(GraphNode::at(Point::new(3.0, 0.0)).mark(NodeMark::Square));
+        graph.edge(GraphEdge::between(a, b));
+        let svg = drawn(&graph);
+        assert!(svg.contains("cx=\"10\" cy=\"20\""), "{svg}");
+        assert!(svg.contains("x=\"26.8\" y=\"-3.2\""), "{svg}");
+        assert!(svg.contains("d=\"M10 20L30 0\""), "{svg}");
+        assert!(svg.contains("a &amp; b"));
+        assert!(roxmltree::Document::parse(&svg).is_ok());
+    }
+
+    #[test]
+    fn labels_stand_beside_their_edges() {
+        let label = |to: Point| {
+            let mut graph = Graph::new();
+            let from = graph.node(GraphNode::at(Point::new(0.0, 0.0)));
+            let to = graph.node(GraphNode::at(to));
+            graph.edge(GraphEdge::between(from, to).label("here"));
+            drawn(&graph)
+        };
+        for to in [Point::new(4.0, 0.0), Point::new(-4.0, 0.0)] {
+            let svg = label(to);
+            assert!(svg.contains("y=\"-8\">here"), "above: {svg}");
+        }
+        let svg = label(Point::new(0.0, 4.0));
+        assert!(svg.contains("x=\"-9\" y=\"-20\">here"), "{svg}");
+    }
+
+    #[test]
+    fn labels_of_nodes_cover_neither_nodes_nor_signs_nor_each_other() {
+        let place = |graph: &Graph, label: &str| {
+            let at = |at: Point| (10.0 * at.x, -10.0 * at.y);
+            let labels = graph.labels(&at);
+            labels.iter().find(|placed| placed.0 == label).unwrap().1
+        };
+        let mut graph = Graph::new();
+        graph.node(GraphNode::at(Point::new(0.0, 0.0)).label("goal"));
+        assert_eq!(place(&graph, "goal"), (5.2, -3.2), "above, to the right");
+        graph.signs.push(Point::new(1.5, 0.7));
+        assert_eq!(place(&graph, "goal"), (5.2, 11.2), "below, to the right");
+        // A neighbour whose label would stand over that one.
+        graph.node(GraphNode::at(Point::new(0.2, -1.8)).label("A10"));
+        let (goal, next) = (place(&graph, "goal"), place(&graph, "A10"));
+        let patch = |(x, y)| Patch::of_text(x, y, 20.0);
+        assert!(
+            patch(goal).overlap(&patch(next)) <= 0.0,
+            "{goal:?} {next:?}"
+        );
+    }
+
+    #[test]
+    fn a_class_of_edges_is_one_path() {
+        let mut graph = Graph::new();
+        for i in 0..500_u32 {
+            graph.node(GraphNode::at(Point::new(f64::from(i), 0.0)));
+        }
+        for i in 1..500 {
+            let series = Series(u32::from(i % 2 == 0));
+            graph.edge(GraphEdge::between(i - 1, i).series(series));
+        }
+        let svg = drawn(&graph);
+        assert_eq!(svg.matches("<path").count(), 2);
+        assert_eq!(svg.matches("<circle").count(), 500);
+        assert_eq!(svg.matches('L').count(), 499);
+    }
+
+    #[test]
+    fn what_has_no_place_is_left_out() {
+        let mut graph = Graph::new();
+        graph.node(GraphNode::at(Point::new(f64::NAN, 0.0)));
+        graph.node(GraphNode::at(Point::new(0.0, 0.0)));
+        graph.edge(GraphEdge::between(0, 1));
+        graph.edge(GraphEdge::between(1, 7));
+        graph.edge(GraphEdge::between(1, 1).line(EdgeLine::Arrow));
+        let svg = drawn(&graph);
+        assert_eq!(svg.matches("<circle").count(), 1);
+        assert_eq!(
+            svg.matches("<path").count(),
+            1,
+            "the loop's line without a head"
+        );
+    }
+
+    #[test]
+    fn arrow_heads_point_to_the_end_of_their_edge() {
+        let mut graph = Graph::new().radius(5.0);
+        graph.node(GraphNode::at(Point::new(0.0, 0.0)));
+        graph.node(GraphNode::at(Point::new(9.0, 0.0)));
+        graph.edge(GraphEdge::between(0, 1).line(EdgeLine::Arrow));
+        // Two thirds of 90 is 60; the tip 7 ahead, the barbs 7 behind.
+        assert!(drawn(&graph).contains("d=\"M67 0L53 4.9L53 -4.9Z\""));
+    }
+}

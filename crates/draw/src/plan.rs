@@ -1,0 +1,387 @@
+//! The plan of a world, seen from above.
+
+use core::fmt::Write;
+
+use maud::{Markup, html};
+use tolman_geom::Point;
+use tolman_sim::{Bounds, World};
+
+use super::number::tenths;
+use super::simplify::simplified;
+use super::words;
+use super::{Drawing, Graph, Region, Series, Shade};
+
+/// Free space around the outermost walls, in user units.
+const MARGIN: f64 = 8.0;
+
+/// What a zone of the floor means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Zone {
+    /// Where the robot is to go.
+    Destination,
+    /// A part of the floor that is told apart.
+    Region,
+    /// No floor at all: walled off.
+    Solid,
+}
+
+/// A plan to which layers are added from the bottom up. World coordinates are metres, x to the
+/// right and y upwards.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    west: f64,
+    north: f64,
+    /// User units per metre.
+    scale: f64,
+    width: f64,
+    height: f64,
+    layers: Vec<Markup>,
+    walls: Markup,
+    /// What the colours of cells mean.
+    legend: Option<Shade>,
+}
+
+impl Plan {
+    /// A plan of a part of the world, `width` user units wide, without walls. Bounds without extent
+    /// show one square metre.
+    pub fn of_bounds(bounds: &Bounds, width: f64) -> Self {
+        let extent = |low: f64, high: f64| match high - low {
+            extent if extent > 0.0 && extent.is_finite() => extent,
+            _ => 1.0,
+        };
+        let (extent_x, extent_y) = (
+            extent(bounds.min.x, bounds.max.x),
+            extent(bounds.min.y, bounds.max.y),
+        );
+        let is_place = bounds.min.x.is_finite() && bounds.min.y.is_finite();
+        let min = if is_place {
+            bounds.min
+        } else {
+            Point::origin()
+        };
+        let scale = (width - 2.0 * MARGIN) / extent_x;
+        Self {
+            west: min.x,
+            north: min.y + extent_y,
+            scale,
+            width,
+            height: scale * extent_y + 2.0 * MARGIN,
+            layers: Vec::new(),
+            walls: html! {},
+            legend: None,
+        }
+    }
+
+    /// A plan that is `width` user units wide and holds all walls. Walls lie above every layer.
+    /// Without a wall of some extent the plan shows one square metre around it.
+    pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
+        let bounds = Bounds::of(walls.iter().flatten().copied());
+        let mut plan = Self::of_bounds(&bounds, width);
+        let mut path = String::new();
+        for [from, to] in walls {
+            let ((x0, y0), (x1, y1)) = (plan.at(*from), plan.at(*to));
+            // Writing to a string cannot fail.
+            let _ = write!(
+                path,
+                "M{} {}L{} {}",
+                tenths(x0),
+                tenths(y0),
+                tenths(x1),
+                tenths(y1)
+            );
+        }
+        plan.walls = html! { path class="wall" stroke-width="2.5" d=(path) {} };
+        plan
+    }
+
+    /// A plan of a world that is `width` user units wide, with its walls and nothing else.
+    pub fn of_world(world: &World, width: f64) -> Self {
+        let walls = world.walls().iter();
+        let walls: Vec<[Point; 2]> = walls.map(|wall| [wall.start, wall.end]).collect();
+        Self::of_walls(&walls, width)
+    }
+
+    /// Adds a zone given by its corners in order.
+    pub fn zone(&mut self, corners: &[Point], zone: Zone) {
+        let class = match zone {
+            Zone::Destination => "destination",
+            Zone::Region => "region",
+            Zone::Solid => "solid",
+        };
+        let path = self.path(corners);
+        self.layers
+            .push(html! { path class=(class) d={ (path) "Z" } {} });
+    }
+
+    /// Adds a trajectory with a ring at its start and a dot at its end.
+    pub fn trajectory(&mut self, positions: &[Point], series: Series) {
+        let (Some(start), Some(end)) = (positions.first(), positions.last()) else {
+            return;
+        };
+        let path = self.path(positions);
+        let ((start_x, start_y), (end_x, end_y)) = (self.at(*start), self.at(*end));
+        self.layers.push(html! {
+            g class=(series.class()) {
+                path class="trajectory" d=(path) {}
+                circle class="start" cx=(tenths(start_x)) cy=(tenths(start_y)) r="4" {}
+                circle class="end" cx=(tenths(end_x)) cy=(tenths(end_y)) r="4.5" {}
+            }
+        });
+    }
+
+    /// Adds a thin trajectory without ends, for many in one plan.
+    pub fn faint_trajectory(&mut self, positions: &[Point], series: Series) {
+        let path = self.path(positions);
+        self.layers.push(html! {
+            path class={ "trajectory faint " (series.class()) } d=(path) {}
+        });
+    }
+
+    /// Adds a broad band along positions, without ends: a way of a map, above which other things can be seen.
+    pub fn way(&mut self, positions: &[Point], series: Series) {
+        let path = self.path(positions);
+        self.layers.push(html! {
+            path class={ "way " (series.class()) } d=(path) {}
+        });
+    }
+
+    /// Adds a dashed line, for a way that is doubtful.
+    pub fn doubtful_way(&mut self, positions: &[Point], series: Series) {
+        let path = self.path(positions);
+        self.layers.push(html! {
+            path class={ "trajectory " (series.class()) } stroke-dasharray="4 3" d=(path) {}
+        });
+    }
+
+    /// Adds a graph, each node at its coordinates.
+    pub fn graph(&mut self, graph: &Graph) {
+        let markup = graph.markup(&|position| self.at(position));
+        self.layers.push(markup);
+    }
+
+    /// Adds where something may be.
+    pub fn region(&mut self, region: &Region, series: Series) {
+        let class = format!("uncertain {}", series.class());
+        let markup = match *region {
+            Region::Box {
+                pose,
+                length,
+                width,
+            } => {
+                let corner = |along: f64, across: f64| {
+                    pose.transform(Point::new(0.5 * along * length, 0.5 * across * width))
+                };
+                let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+                let path = self.path(&corners.map(|(along, across)| corner(along, across)));
+                html! { path class=(class) d={ (path) "Z" } {} }
+            }
+            Region::Ellipse {
+                pose,
+                along,
+                across,
+            } => {
+                let (x, y) = self.at(pose.position);
+                // Counter-clockwise in the world is clockwise where y grows downwards.
+                let turn = -pose.heading.degrees();
+                html! {
+                    ellipse class=(class)
+                        rx=(tenths(along * self.scale)) ry=(tenths(across * self.scale))
+                        transform={
+                            "translate(" (tenths(x)) " " (tenths(y)) ") rotate(" (tenths(turn)) ")"
+                        } {}
+                }
+            }
+        };
+        self.layers.push(markup);
+    }
+
+    /// Adds square cells, `side` metres wide, each with its middle and its value, coloured by the depth
+    /// of `shade`; values that are not finite are left out. Below the plan stands what the colours
+    /// mean, once for all cells: give every call the same shade.
+    ///
+    /// ```
+    /// use tolman_draw::{Plan, Shade};
+    /// use tolman_geom::Point;
+    ///
+    /// let steps = [(0.5, 2.0), (1.5, 1.0), (2.5, 0.0)];
+    /// let cells: Vec<_> = steps.iter().map(|&(x, steps)| (Point::new(x, 0.5), steps)).collect();
+    /// let shade = Shade::of("steps to the goal", cells.iter().map(|cell| cell.1));
+    /// let mut plan = Plan::of_walls(&[[Point::new(0.0, 0.0), Point::new(3.0, 1.0)]], 400.0);
+    /// plan.cells(&cells, 1.0, &shade);
+    /// let drawing = plan.drawing("How far each cell is from the goal.");
+    /// # assert!(drawing.body.into_string().contains("steps to the goal"));
+    /// ```
+    pub fn cells(&mut self, cells: &[(Point, f64)], side: f64, shade: &Shade) {
+        let size = side * self.scale;
+        // Values are written where there is room for them.
+        let longest = cells.iter().map(|cell| shade.text(cell.1).len()).max();
+        let written = words::width("0") * longest.unwrap_or(0) as f64 + 4.0 < size && size > 16.0;
+        let placed = cells.iter().filter(|(_, value)| value.is_finite());
+        let markup = html! {
+            g class=(shade.series.class()) {
+                @for (middle, value) in placed {
+                    @let (x, y) = self.at(*middle);
+                    rect class="heat" fill-opacity=(shade.opacity(*value))
+                        x=(tenths(x - 0.5 * size)) y=(tenths(y - 0.5 * size))
+                        width=(tenths(size)) height=(tenths(size)) {}
+                    @if written {
+                        text class={ "small " (shade.text_class(*value)) } x=(tenths(x)) y=(tenths(y))
+                            text-anchor="middle" dominant-baseline="central" { (shade.text(*value)) }
+                    }
+                }
+            }
+        };
+        self.layers.push(markup);
+        self.legend = Some(shade.clone());
+    }
+
+    /// Adds a word centred at a position.
+    pub fn label(&mut self, position: Point, text: &str) {
+        let (x, y) = self.at(position);
+        self.layers.push(html! {
+            text x=(tenths(x)) y=(tenths(y)) text-anchor="middle" dominant-baseline="central" {
+                (text)
+            }
+        });
+    }
+
+    /// Adds SVG elements of the caller's own; [`Self::at`] gives their coordinates.
+    pub fn layer(&mut self, elements: Markup) {
+        self.layers.push(elements);
+    }
+
+    /// Where a world position lies on the plan, in user units.
+    pub fn at(&self, position: Point) -> (f64, f64) {
+        (
+            MARGIN + (position.x - self.west) * self.scale,
+            MARGIN + (self.north - position.y) * self.scale,
+        )
+    }
+
+    /// The finished picture; `description` says in words what it shows.
+    pub fn drawing(self, description: impl Into<String>) -> Drawing {
+        let body = html! {
+            rect class="floor" width=(tenths(self.width)) height=(tenths(self.height)) {}
+            @for layer in &self.layers { (layer) }
+            (self.walls)
+            @if let Some(shade) = &self.legend { (shade.legend(MARGIN, self.height + 8.0)) }
+        };
+        let legend = self.legend.map_or(0.0, |_| Shade::LEGEND + 8.0);
+        Drawing {
+            width: self.width,
+            height: self.height + legend,
+            description: description.into(),
+            body,
+        }
+    }
+
+    /// SVG path data through positions. Corners that nobody would see are left out, and so is a place
+    /// that rounds to the one before.
+    fn path(&self, positions: &[Point]) -> String {
+        let places: Vec<(f64, f64)> = positions
+            .iter()
+            .map(|position| self.at(*position))
+            .collect();
+        let mut path = String::new();
+        let mut last = (String::new(), String::new());
+        for (x, y) in simplified(&places) {
+            let here = (tenths(x), tenths(y));
+            if here != last {
+                let verb = if path.is_empty() { 'M' } else { 'L' };
+                // Writing to a string cannot fail.
+                let _ = write!(path, "{verb}{} {}", here.0, here.1);
+                last = here;
+            }
+        }
+        path
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Pose};
+
+    use super::*;
+
+    fn square() -> Plan {
+        let corners =
+            [(1.0, 1.0), (5.0, 1.0), (5.0, 3.0), (1.0, 3.0)].map(|(x, y)| Point::new(x, y));
+        let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
+        Plan::of_walls(&walls, 2.0 * MARGIN + 400.0)
+    }
+
+    #[test]
+    fn y_grows_upwards_and_the_scale_is_the_same_in_both_directions() {
+        let plan = square();
+        assert_eq!(plan.at(Point::new(1.0, 3.0)), (MARGIN, MARGIN));
+        assert_eq!(
+            plan.at(Point::new(5.0, 1.0)),
+            (MARGIN + 400.0, MARGIN + 200.0)
+        );
+    }
+
+    #[test]
+    fn positions_that_round_alike_are_drawn_once() {
+        let plan = square();
+        let path =
+            plan.path(&[(1.0, 3.0), (1.0001, 3.0), (2.0, 3.0)].map(|(x, y)| Point::new(x, y)));
+        assert_eq!(path, "M8 8L108 8");
+    }
+
+    #[test]
+    fn regions_turn_counter_clockwise_in_the_world() {
+        let mut plan = square();
+        let pose = Pose::new(Point::new(3.0, 2.0), Heading::from_degrees(90.0));
+        let (length, width) = (1.0, 0.5);
+        plan.region(
+            &Region::Box {
+                pose,
+                length,
+                width,
+            },
+            Series(0),
+        );
+        let pose = Pose::new(pose.position, Heading::from_degrees(30.0));
+        let (along, across) = (0.5, 0.1);
+        plan.region(
+            &Region::Ellipse {
+                pose,
+                along,
+                across,
+            },
+            Series(1),
+        );
+        let svg = plan.drawing("regions").body.into_string();
+        // 100 units a metre: north-west, south-west, south-east, north-east of 208, 108.
+        assert!(svg.contains("M183 58L183 158L233 158L233 58Z"), "{svg}");
+        assert!(svg.contains("rx=\"50\" ry=\"10\" transform=\"translate(208 108) rotate(-30)\""));
+    }
+
+    #[test]
+    fn cells_lie_around_their_middle_and_have_a_legend() {
+        let mut plan = square();
+        let cells = [
+            (Point::new(1.5, 2.5), 3.0),
+            (Point::new(2.5, 2.5), f64::NAN),
+        ];
+        plan.cells(&cells, 1.0, &Shade::new("steps", 0.0, 3.0));
+        let drawing = plan.drawing("cells");
+        assert!((drawing.height - (200.0 + 2.0 * MARGIN + 8.0 + Shade::LEGEND)).abs() < 1e-9);
+        let svg = drawing.body.into_string();
+        assert!(
+            svg.contains("x=\"8\" y=\"8\" width=\"100\" height=\"100\""),
+            "{svg}"
+        );
+        assert_eq!(svg.matches("width=\"100\"").count(), 1);
+        assert!(svg.contains(">3</text>") && svg.contains("steps"));
+    }
+
+    #[test]
+    fn no_walls_and_no_positions_give_an_empty_plan() {
+        let mut plan = Plan::of_walls(&[], 100.0);
+        plan.trajectory(&[], Series(0));
+        let drawing = plan.drawing("nothing");
+        assert!(drawing.height.is_finite());
+        assert!(!drawing.body.into_string().contains("trajectory"));
+    }
+}

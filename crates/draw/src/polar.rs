@@ -1,0 +1,174 @@
+//! Scans as seen from the robot.
+
+use core::fmt::Write;
+
+use maud::{Markup, html};
+use tolman_robot::{Ring, Scan};
+
+use super::number::tenths;
+use super::{Drawing, Series};
+
+/// Room around the outer ring for its label, user units.
+const MARGIN: f64 = 14.0;
+
+/// Scans in polar coordinates: the robot in the middle, bearing 0 upwards, bearings growing
+/// counter-clockwise as everywhere.
+///
+/// A filled outline joins the ends of the beams; a dot marks each beam that met something.
+///
+/// ```
+/// use tolman_draw::{PolarPlot, Series, Tiles};
+/// use tolman_robot::{Ring, Scan};
+///
+/// let mut scan = Scan::clear(Ring::full(36, 1.25));
+/// scan.ranges[0] = 0.4;
+/// let mut plot = PolarPlot::new(1.25, 160.0);
+/// plot.scan(&scan, Series(0));
+/// // A grid of such plots, each with a caption: the states of a quantizer.
+/// let mut states = Tiles::new(4);
+/// states.tile("state 1, won 12 times", plot.drawing("A wall ahead."));
+/// let drawing = states.drawing("One state.");
+/// # assert!(drawing.body.into_string().contains("won 12 times"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct PolarPlot {
+    reach: f64,
+    size: f64,
+    layers: Vec<Markup>,
+}
+
+impl PolarPlot {
+    /// An empty plot with `size` user units to each side whose outer ring lies at `reach` metres.
+    pub const fn new(reach: f64, size: f64) -> Self {
+        Self {
+            reach,
+            size,
+            layers: Vec::new(),
+        }
+    }
+
+    /// Adds a scan. Ranges that are not finite or beyond the outer ring end there.
+    pub fn scan(&mut self, scan: &Scan, series: Series) {
+        self.ranges(&scan.ring, &scan.ranges, series);
+    }
+
+    /// Adds one range for each beam of a ring, such as a prototype that a quantizer has learned.
+    pub fn ranges(&mut self, ring: &Ring, ranges: &[f64], series: Series) {
+        let mut outline = String::new();
+        let mut met = Vec::new();
+        for (beam, &range) in (0..ring.beams).zip(ranges) {
+            let (x, y) = self.at(ring.bearing(beam), range);
+            let verb = if outline.is_empty() { 'M' } else { 'L' };
+            // Writing to a string cannot fail.
+            let _ = write!(outline, "{verb}{} {}", tenths(x), tenths(y));
+            if range < ring.max_range.min(self.reach) {
+                met.push((x, y));
+            }
+        }
+        // A fan ends at the robot, a whole turn at its first beam.
+        let turn = ring.spacing * f64::from(ring.beams);
+        if turn < 0.99 * core::f64::consts::TAU {
+            let middle = tenths(self.middle());
+            let _ = write!(outline, "L{middle} {middle}");
+        }
+        self.layers.push(html! {
+            g class=(series.class()) {
+                path class="outline" d={ (outline) "Z" } {}
+                g class="points" {
+                    @for (x, y) in met { circle cx=(tenths(x)) cy=(tenths(y)) r="1.5" {} }
+                }
+            }
+        });
+    }
+
+    /// The finished picture; `description` says in words what it shows.
+    pub fn drawing(self, description: impl Into<String>) -> Drawing {
+        let middle = tenths(self.middle());
+        let (half, full) = (0.5 * self.radius(), self.radius());
+        let reach = format!("{} m", tenths_or_hundredths(self.reach));
+        let body = html! {
+            circle class="grid" cx=(middle) cy=(middle) r=(tenths(full)) {}
+            circle class="grid" cx=(middle) cy=(middle) r=(tenths(half)) {}
+            path class="grid" d={
+                "M" (middle) " " (tenths(MARGIN)) "v" (tenths(2.0 * full))
+                "M" (tenths(MARGIN)) " " (middle) "h" (tenths(2.0 * full))
+            } {}
+            @for layer in &self.layers { (layer) }
+            path class="robot" d={
+                "M" (middle) " " (tenths(self.middle() - 5.0)) "l3.5 8h-7Z"
+            } {}
+            text class="quiet small" x=(tenths(self.size)) y="10" text-anchor="end" { (reach) }
+        };
+        Drawing {
+            width: self.size,
+            height: self.size,
+            description: description.into(),
+            body,
+        }
+    }
+
+    fn middle(&self) -> f64 {
+        0.5 * self.size
+    }
+
+    fn radius(&self) -> f64 {
+        0.5 * self.size - MARGIN
+    }
+
+    /// Where a beam ends.
+    fn at(&self, bearing: f64, range: f64) -> (f64, f64) {
+        let share = range / self.reach;
+        let share = if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        let (sin, cos) = libm::sincos(bearing);
+        let r = share * self.radius();
+        (self.middle() - r * sin, self.middle() - r * cos)
+    }
+}
+
+/// A reach in metres without needless zeros.
+fn tenths_or_hundredths(reach: f64) -> String {
+    let text = format!("{reach:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn svg(ring: Ring, ranges: &[f64]) -> String {
+        let mut plot = PolarPlot::new(2.0, 2.0 * (100.0 + MARGIN));
+        plot.ranges(&ring, ranges, Series(0));
+        plot.drawing("a test").body.into_string()
+    }
+
+    #[test]
+    fn ahead_is_up_and_bearings_grow_to_the_left() {
+        let svg = svg(Ring::full(4, 2.0), &[1.0, 2.0, 0.5, f64::NAN]);
+        assert!(
+            svg.contains("class=\"outline\" d=\"M114 64L14 114L114 139L214 114Z\""),
+            "{svg}"
+        );
+        assert_eq!(
+            svg.matches("r=\"1.5\"").count(),
+            2,
+            "two beams met something"
+        );
+    }
+
+    #[test]
+    fn a_fan_closes_at_the_robot() {
+        let ring = Ring::fan(3, core::f64::consts::PI, 2.0);
+        assert!(svg(ring, &[2.0; 3]).contains("d=\"M214 114L114 14L14 114L114 114Z\""));
+    }
+
+    #[test]
+    fn reaches_lose_their_zeros() {
+        for (reach, expect) in [(1.25, "1.25"), (8.0, "8"), (2.5, "2.5"), (0.304, "0.3")] {
+            assert_eq!(tenths_or_hundredths(reach), expect);
+        }
+    }
+}

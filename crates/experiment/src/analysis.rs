@@ -1,0 +1,219 @@
+//! What the runs say: every metric of every row, beside the paper and beside the reference row.
+
+use super::sample::Sample;
+use super::{
+    Experiment, Metric, Pair, PaperValue, Reached, Run, Statistic, Table, Verdict, run_seed,
+};
+use tolman_stats::{Interval, Method, PValue};
+
+/// All tables of an experiment, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    /// Those that have runs, in the experiment's order.
+    pub tables: Vec<TableAnalysis>,
+}
+
+/// One table, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableAnalysis {
+    /// The table.
+    pub table: Table,
+    /// In the table's order.
+    pub metrics: Vec<MetricAnalysis>,
+    /// The rows that are compared each with each; empty if none are.
+    pub pairs: Vec<Pair>,
+}
+
+/// One metric of a table, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetricAnalysis {
+    /// The metric.
+    pub metric: Metric,
+    /// The rows that have it, in the table's order.
+    pub rows: Vec<Measured>,
+}
+
+/// One metric of one row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The name of the row.
+    pub row: String,
+    /// How many runs were measured.
+    pub n: u64,
+    /// The value, in the metric's unit.
+    pub value: f64,
+    /// Whether the value was reached, or is what was not enough.
+    pub reached: Reached,
+    /// The standard deviation, for means and medians of two runs or more.
+    pub sd: Option<f64>,
+    /// The mean, for means and medians.
+    pub mean: Option<f64>,
+    /// The median, for means and medians.
+    pub median: Option<f64>,
+    /// The 95 % interval of the value.
+    pub interval: Option<Interval>,
+    /// What the paper says.
+    pub paper: Option<PaperValue>,
+    /// Whether that matches.
+    pub verdict: Option<Verdict>,
+    /// How the row differs from the reference row.
+    pub contrast: Option<Contrast>,
+}
+
+/// How a row differs from the reference row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contrast {
+    /// Mann and Whitney's p-value, corrected for the comparisons of the metric.
+    pub p: PValue,
+    /// The probability that a run of this row has a greater value than one of the reference row.
+    pub a12: f64,
+}
+
+/// A value that does not match the paper's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// The table.
+    pub table: String,
+    /// The row.
+    pub row: String,
+    /// The metric.
+    pub metric: String,
+    /// Our value.
+    pub ours: f64,
+    /// The paper's value.
+    pub paper: f64,
+    /// What would have matched.
+    pub accepted: Interval,
+}
+
+impl Analysis {
+    /// Measures runs that are sorted by table, row and index.
+    pub(super) fn of(experiment: &dyn Experiment, runs: &[Run], master_seed: u64) -> Self {
+        let tables = experiment
+            .tables()
+            .iter()
+            .filter(|table| table.is_filled())
+            .map(|table| TableAnalysis {
+                metrics: table
+                    .metrics
+                    .iter()
+                    .map(|metric| measure(table, metric, runs, master_seed))
+                    .collect(),
+                pairs: table
+                    .pairwise
+                    .as_ref()
+                    .map_or_else(Vec::new, |pairwise| pairwise.compare(table, runs)),
+                table: table.clone(),
+            })
+            .collect();
+        Self { tables }
+    }
+
+    /// The values that do not match the paper's, for `--check`.
+    pub fn disagreements(&self) -> Vec<Disagreement> {
+        let mut found = Vec::new();
+        for (table, metric, measured) in self.values() {
+            if let (Some(paper), Some(verdict)) = (&measured.paper, measured.verdict)
+                && !verdict.matches
+            {
+                found.push(Disagreement {
+                    table: table.name.clone(),
+                    row: measured.row.clone(),
+                    metric: metric.name.clone(),
+                    ours: measured.value,
+                    paper: paper.value,
+                    accepted: verdict.accepted,
+                });
+            }
+        }
+        found
+    }
+
+    /// Every measured value with its table and metric.
+    pub fn values(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
+        self.tables.iter().flat_map(|table| {
+            table.metrics.iter().flat_map(move |metric| {
+                metric
+                    .rows
+                    .iter()
+                    .map(move |measured| (&table.table, &metric.metric, measured))
+            })
+        })
+    }
+}
+
+fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> MetricAnalysis {
+    let runs_of = |row: &str| -> Vec<&Run> {
+        let of_row = |run: &&Run| run.table == table.name && run.row == row;
+        runs.iter().filter(of_row).collect()
+    };
+    let others = match &metric.statistic {
+        Statistic::Multiple { of, .. } => runs_of(of),
+        _ => Vec::new(),
+    };
+    let by_row: Vec<Vec<&Run>> = table.rows.iter().map(|row| runs_of(&row.name)).collect();
+    let mut samples = Vec::new();
+    for (row, runs) in table.rows.iter().zip(&by_row) {
+        if let Some(sample) = Sample::of(&metric.statistic, runs, &others, &by_row) {
+            samples.push((row, sample));
+        }
+    }
+    let mut rows: Vec<Measured> = samples
+        .iter()
+        .map(|(row, sample)| {
+            let stream = format!("bootstrap of {}, {}, {}", table.name, row.name, metric.name);
+            let value = sample.value();
+            let paper = row.paper_value(&metric.name);
+            Measured {
+                row: row.name.clone(),
+                n: sample.len() as u64,
+                value,
+                reached: sample.reached(),
+                sd: sample.sd(),
+                mean: sample.mean(),
+                median: sample.median(),
+                interval: sample.interval(run_seed(master_seed, &stream, 0)),
+                paper: paper.cloned(),
+                verdict: paper
+                    .and_then(|paper| Verdict::of(value, paper, table.paper_runs, metric)),
+                contrast: None,
+            }
+        })
+        .collect();
+    contrast(table, &samples, &mut rows);
+    MetricAnalysis {
+        metric: metric.clone(),
+        rows,
+    }
+}
+
+/// Compares every row with the reference row, if the table wants that and the row was measured.
+fn contrast(table: &Table, samples: &[(&super::Row, Sample)], rows: &mut [Measured]) {
+    let Some(comparison) = &table.comparison else {
+        return;
+    };
+    let Some((_, reference)) = samples
+        .iter()
+        .find(|(row, _)| row.name == comparison.reference)
+    else {
+        return;
+    };
+    let reference = reference.numbers();
+    let mut compared = Vec::new();
+    for (place, (row, sample)) in samples.iter().enumerate() {
+        let numbers = sample.numbers();
+        if row.name != comparison.reference
+            && let Ok(test) = tolman_stats::mann_whitney(&numbers, &reference, Method::Auto)
+            && let Ok(a12) = tolman_stats::a12(&numbers, &reference)
+        {
+            compared.push((place, test.p, a12));
+        }
+    }
+    let p_values: Vec<PValue> = compared.iter().map(|(_, p, _)| *p).collect();
+    for ((place, _, a12), p) in compared
+        .into_iter()
+        .zip(comparison.correction.correct(&p_values))
+    {
+        rows[place].contrast = Some(Contrast { p, a12 });
+    }
+}

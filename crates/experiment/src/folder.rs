@@ -1,0 +1,218 @@
+//! The folder of results: opened once at a time, resumed if it is the same experiment, set aside
+//! if it is another.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::at::{at, make_folder, write_whole};
+use super::config_file::ConfigFile;
+use super::runs_file::{self, Appender, Runs};
+use super::{Error, Event, Experiment, Progress};
+use tolman_draw::Figure;
+
+const CONFIG: &str = "config.toml";
+const RUNS: &str = "runs.jsonl";
+/// Finished runs beyond the number asked for, kept for a later, larger number.
+const SPARE: &str = "spare.jsonl";
+/// An empty file that is locked while a process has the folder open. It stays: to remove it would let
+/// two processes lock two files of the same name.
+const LOCK: &str = ".lock";
+
+/// The folder of single replays, which may be there before any run was played.
+pub(super) const REPLAYS: &str = "replays";
+
+/// An open folder of results. No other process can open it until this is dropped.
+#[derive(Debug)]
+pub(super) struct Folder {
+    path: PathBuf,
+    /// Held for its lock only.
+    _lock: File,
+}
+
+impl Folder {
+    /// Opens or makes the folder for the experiment that `config` describes and writes its
+    /// `config.toml`. What lies there of another configuration is moved to `PATH.1`, `PATH.2`, ….
+    pub(super) fn open(
+        path: &Path,
+        config: &ConfigFile,
+        progress: &dyn Progress,
+    ) -> Result<Self, Error> {
+        let text = config.text()?;
+        refuse_foreign(path)?;
+        make_folder(path)?;
+        let mut lock = lock(path)?;
+        if let Some(reason) = conflict(path, config)? {
+            let moved_to = free_name(path);
+            at("move aside", path, fs::rename(path, &moved_to))?;
+            progress.event(&Event::SetAside {
+                folder: path,
+                moved_to: &moved_to,
+                reason: &reason,
+            });
+            make_folder(path)?;
+            lock = self::lock(path)?;
+        }
+        write_whole(&path.join(CONFIG), text.as_bytes())?;
+        Ok(Self {
+            path: path.to_owned(),
+            _lock: lock,
+        })
+    }
+
+    /// Reads the finished runs, keeps those below `runs` in `runs.jsonl` and parks the others in
+    /// `spare.jsonl`. Returns the kept ones.
+    pub(super) fn resume(
+        &self,
+        experiment: &dyn Experiment,
+        master_seed: u64,
+        runs: u32,
+        progress: &dyn Progress,
+    ) -> Result<Runs, Error> {
+        let (file, spare_file) = (self.path.join(RUNS), self.path.join(SPARE));
+        let files = [file.as_path(), &spare_file];
+        let known = runs_file::read(files, experiment, master_seed, runs, progress)?;
+        let (kept, spare): (Runs, Runs) = known
+            .into_iter()
+            .partition(|(key, _)| runs_file::is_wanted(*key, experiment, runs));
+        // Spare runs are safe before they leave the other file.
+        if !spare.is_empty() {
+            runs_file::write(&spare_file, spare.values())?;
+        }
+        runs_file::write(&file, kept.values())?;
+        if spare.is_empty() {
+            self.discard(SPARE)?;
+        }
+        Ok(kept)
+    }
+
+    /// Opens `runs.jsonl` for runs that finish from now on.
+    pub(super) fn appender(&self) -> Result<Appender, Error> {
+        Appender::open(&self.path.join(RUNS))
+    }
+
+    /// Writes the finished `runs.jsonl`, in order.
+    pub(super) fn write_runs(&self, runs: &[super::Run]) -> Result<(), Error> {
+        runs_file::write(&self.path.join(RUNS), runs.iter())
+    }
+
+    /// Writes every figure to `figures/NAME.svg` and removes those of an earlier time.
+    pub(super) fn write_figures(&self, figures: &[Figure]) -> Result<(), Error> {
+        let folder = self.path.join("figures");
+        make_folder(&folder)?;
+        let names: Vec<String> = figures
+            .iter()
+            .map(|figure| format!("{}.svg", figure.name))
+            .collect();
+        for entry in at("read the folder", &folder, fs::read_dir(&folder))? {
+            let path = at("read the folder", &folder, entry)?.path();
+            let stale = path.extension().is_some_and(|extension| extension == "svg")
+                && !names.iter().any(|name| path.ends_with(name));
+            if stale {
+                at("remove", &path, fs::remove_file(&path))?;
+            }
+        }
+        for (figure, name) in figures.iter().zip(&names) {
+            write_whole(&folder.join(name), figure.standalone().as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Removes a file of the folder, if it is there.
+    pub(super) fn discard(&self, name: &str) -> Result<(), Error> {
+        let path = self.path.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            result => at("remove", &path, result),
+        }
+    }
+
+    /// Writes a file of the folder.
+    pub(super) fn write(&self, name: &str, contents: &str) -> Result<(), Error> {
+        write_whole(&self.path.join(name), contents.as_bytes())
+    }
+}
+
+/// Refuses a path that is a file, and a folder with files but without a `config.toml` of ours:
+/// nobody's files are moved or overwritten.
+fn refuse_foreign(path: &Path) -> Result<(), Error> {
+    let entries = match fs::read_dir(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        result => at("read the folder", path, result)?,
+    };
+    let config = path.join(CONFIG);
+    if config.is_file() {
+        let text = at("read", &config, fs::read_to_string(&config))?;
+        return match ConfigFile::parse(&text) {
+            Some(_) => Ok(()),
+            None => Err(foreign(path, "its config.toml is of another kind")),
+        };
+    }
+    for entry in entries {
+        let name = at("read the folder", path, entry)?.file_name();
+        let name = name.to_string_lossy();
+        // What a process that died before its first whole file may leave behind, and single replays.
+        let ours =
+            name == LOCK || name == REPLAYS || (name.starts_with('.') && name.ends_with(".tmp"));
+        if !ours {
+            return Err(foreign(
+                path,
+                &format!("for one {name}, and no config.toml"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn foreign(path: &Path, what: &str) -> Error {
+    Error::ForeignFolder {
+        folder: path.to_owned(),
+        what: what.to_owned(),
+    }
+}
+
+fn lock(path: &Path) -> Result<File, Error> {
+    let name = path.join(LOCK);
+    let file = OpenOptions::new()
+        .create(true)
+        .write(true)
+        .truncate(false)
+        .open(&name);
+    let file = at("open", &name, file)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(Error::Busy {
+            folder: path.to_owned(),
+        }),
+        Err(TryLockError::Error(error)) => at("lock", &name, Err(error)),
+    }
+}
+
+/// What keeps the contents of the folder from being part of the new results.
+fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String>, Error> {
+    let file = path.join(CONFIG);
+    let text = match fs::read_to_string(&file) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        result => at("read", &file, result)?,
+    };
+    Ok(match ConfigFile::parse(&text) {
+        Some(former) => config.conflict_with(&former),
+        None => Some("a config.toml that cannot be read".to_owned()),
+    })
+}
+
+/// The first of `PATH.1`, `PATH.2`, … that is free.
+fn free_name(path: &Path) -> PathBuf {
+    let mut number = 1_u64;
+    // Without the slash that may end the path.
+    let path: PathBuf = path.components().collect();
+    loop {
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".{number}"));
+        let name = PathBuf::from(name);
+        if !name.exists() {
+            return name;
+        }
+        number += 1;
+    }
+}

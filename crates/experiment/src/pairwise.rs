@@ -1,0 +1,89 @@
+//! All rows of a table against each other, as papers report them.
+
+use super::sample::Sample;
+use super::{Correction, Run, Statistic, Table};
+use tolman_stats::{Method, PValue};
+
+/// Which rows are compared with each other, and in what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pairwise {
+    /// The numeric field of the runs that is compared.
+    pub field: String,
+    /// The rows; every two of them are a pair.
+    pub rows: Vec<String>,
+    /// How p-values are corrected for the number of pairs.
+    pub correction: Correction,
+    /// The paper's p-values, each with its two rows, in either order.
+    pub paper: Vec<(String, String, f64)>,
+}
+
+/// Two rows, compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// The row that comes first in the table.
+    pub first: String,
+    /// The other one.
+    pub second: String,
+    /// Runs of both.
+    pub n: u64,
+    /// Mann and Whitney's p-value, two-sided, corrected for the number of pairs.
+    pub p: PValue,
+    /// The probability that a run of the first row has a greater value than one of the second.
+    pub a12: f64,
+    /// The paper's p-value.
+    pub paper: Option<f64>,
+}
+
+impl Pair {
+    /// Both rows in words.
+    pub fn name(&self) -> String {
+        format!("{} – {}", self.first, self.second)
+    }
+}
+
+impl Pairwise {
+    /// Every pair of rows that were measured, in the order of the rows.
+    pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<Pair> {
+        let statistic = Statistic::Mean {
+            field: self.field.clone(),
+        };
+        let samples: Vec<(&String, Vec<f64>)> = self
+            .rows
+            .iter()
+            .filter_map(|row| {
+                let of_row = |run: &&Run| run.table == table.name && run.row == *row;
+                let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
+                Some((row, Sample::of(&statistic, &runs, &[], &[])?.numbers()))
+            })
+            .collect();
+        let mut pairs = Vec::new();
+        for (place, (first, a)) in samples.iter().enumerate() {
+            for (second, b) in &samples[place + 1..] {
+                if let Ok(test) = tolman_stats::mann_whitney(a, b, Method::Auto)
+                    && let Ok(a12) = tolman_stats::a12(a, b)
+                {
+                    pairs.push(Pair {
+                        first: (*first).clone(),
+                        second: (*second).clone(),
+                        n: (a.len() + b.len()) as u64,
+                        p: test.p,
+                        a12,
+                        paper: self.paper_value(first, second),
+                    });
+                }
+            }
+        }
+        let p_values: Vec<PValue> = pairs.iter().map(|pair| pair.p).collect();
+        for (pair, p) in pairs.iter_mut().zip(self.correction.correct(&p_values)) {
+            pair.p = p;
+        }
+        pairs
+    }
+
+    fn paper_value(&self, first: &str, second: &str) -> Option<f64> {
+        let mut values = self.paper.iter();
+        let found =
+            values.find(|(a, b, _)| (a == first && b == second) || (a == second && b == first));
+        found.map(|(_, _, p)| *p)
+    }
+}

@@ -1,0 +1,114 @@
+//! The box plots that every experiment gets.
+
+use super::{Experiment, Field, Metric, Run, Statistic, Table};
+use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
+
+/// One box plot for every field of which a metric is the mean or the median, in the order of tables and
+/// metrics.
+pub(super) fn box_plots(experiment: &dyn Experiment, runs: &[Run]) -> Vec<Figure> {
+    plotted(experiment)
+        .map(|(name, table, metric, field)| box_plot(name, table, metric, field, runs))
+        .collect()
+}
+
+/// The names of the box plots, known before any run.
+pub(super) fn names(experiment: &dyn Experiment) -> Vec<String> {
+    plotted(experiment).map(|(name, ..)| name).collect()
+}
+
+/// What gets a box plot: its name, the table, the metric and the metric's field. Tables go by number,
+/// since their names may be any text of a maze file.
+fn plotted(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
+    (1_u32..)
+        .zip(experiment.tables())
+        .filter(|(_, table)| table.is_filled())
+        .flat_map(|(number, table)| {
+            let mut seen: Vec<&str> = Vec::new();
+            table.metrics.iter().filter_map(move |metric| {
+                let (Statistic::Mean { field } | Statistic::Median { field }) = &metric.statistic
+                else {
+                    return None;
+                };
+                // The mean and the median of one field share a plot.
+                if seen.contains(&field.as_str()) {
+                    return None;
+                }
+                seen.push(field);
+                let name = format!("box-{number}-{}", slug(&metric.name));
+                Some((name, table, metric, field.as_str()))
+            })
+        })
+}
+
+fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[Run]) -> Figure {
+    let groups = (0..).zip(&table.rows).map(|(i, row)| {
+        let runs = runs
+            .iter()
+            .filter(|run| run.table == table.name && run.row == row.name);
+        let dots = runs.filter_map(|run| {
+            let value = run.fields.get(field).and_then(Field::as_number)?;
+            Some(Dot {
+                value,
+                run: run.run,
+                seed: run.seed,
+            })
+        });
+        BoxGroup {
+            row: row.name.clone(),
+            series: Series(i),
+            dots: dots.collect(),
+            paper: row.paper_value(&metric.name).map(|paper| PaperMark {
+                mean: paper.value,
+                sd: paper.sd,
+            }),
+        }
+    });
+    let axis = match metric.unit.as_str() {
+        "" => metric.title.clone(),
+        unit => format!("{}, {unit}", metric.title),
+    };
+    let of_paper = table
+        .rows
+        .iter()
+        .any(|row| row.paper_value(&metric.name).is_some());
+    let caption = match of_paper {
+        true => "Box: quartiles and median. Dots: every run. Diamond: the paper.",
+        false => "Box: quartiles and median. Dots: every run.",
+    };
+    let plot = BoxPlot {
+        table: table.name.clone(),
+        axis,
+        groups: groups.collect(),
+    };
+    Figure::new(
+        name,
+        format!("Table {}: {}", table.name, metric.title),
+        plot.drawing(),
+    )
+    .caption(caption)
+    .table(&table.name)
+}
+
+/// Lower-case letters, digits and single hyphens.
+fn slug(name: &str) -> String {
+    let mut slug = String::new();
+    for c in name.chars() {
+        if c.is_ascii_alphanumeric() {
+            slug.push(c.to_ascii_lowercase());
+        } else if !slug.ends_with('-') {
+            slug.push('-');
+        }
+    }
+    slug.trim_matches('-').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slug;
+
+    #[test]
+    fn names_of_files() {
+        assert_eq!(slug("Steps (of J)"), "steps-of-j");
+        assert_eq!(slug("success_percent"), "success-percent");
+    }
+}

@@ -1,0 +1,141 @@
+//! The replays that the report carries: runs played again from their seeds, and recorded.
+
+use alloc::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use super::{Error, Experiment, Job, Progress, run_seed};
+
+/// The most runs of each row that are recorded: as many as MSLST made of each. With more runs a row, the
+/// others are a small part of the time and would be most of the page.
+const FIRST: u32 = 25;
+
+/// So many bytes of replays fit on a page that is to stay below 5 MB with its tables and figures.
+const BUDGET: usize = 4_250_000;
+
+/// Replays of the first runs of each row.
+#[derive(Clone, Debug, Default)]
+pub struct Replays {
+    /// How many runs of each row there are, where the row can be recorded at all.
+    pub of_each_row: u32,
+    /// By run, then in the order of tables and rows.
+    pub recorded: Vec<Recorded>,
+    /// The names of the tables whose runs can be recorded.
+    pub tables: BTreeSet<String>,
+    /// The bytes that all replays together may take.
+    pub budget: usize,
+}
+
+/// The replay of one run.
+#[derive(Clone, Debug)]
+pub struct Recorded {
+    /// The name of the table.
+    pub table: String,
+    /// The name of the row.
+    pub row: String,
+    /// The index of the run.
+    pub run: u32,
+    /// What the player reads, fit to stand in a `script` element.
+    pub json: String,
+}
+
+/// Records the first runs of each row, in parallel on the current threads, up to [`FIRST`], as long as their replays fit
+/// the budget; where no room is left for a run as large as those before, none is played in vain. `None` if the caller
+/// asked to stop.
+pub(super) fn record(
+    experiment: &dyn Experiment,
+    master_seed: u64,
+    runs_per_row: u32,
+    progress: &dyn Progress,
+) -> Result<Option<Replays>, Error> {
+    let mut replays = Replays {
+        budget: BUDGET,
+        ..Replays::default()
+    };
+    let most = runs_per_row.min(FIRST);
+    let (mut done, mut bytes) = (0, 0);
+    while done < most {
+        let runs = match room(done, bytes).min(most - done) {
+            0 => break,
+            count => done..done + count,
+        };
+        let jobs: Vec<Job<'_>> = runs
+            .clone()
+            .flat_map(|run| jobs_of(experiment, master_seed, run))
+            .collect();
+        let recorded: Result<Vec<Option<Recorded>>, Error> = jobs
+            .par_iter()
+            .with_max_len(1)
+            .filter(|_| !progress.stop_requested())
+            .map(|job| record_one(experiment, job))
+            .collect();
+        let recorded = recorded?;
+        if recorded.len() < jobs.len() {
+            return Ok(None);
+        }
+        let recorded: Vec<Recorded> = recorded.into_iter().flatten().collect();
+        replays
+            .tables
+            .extend(recorded.iter().map(|one| one.table.clone()));
+        for run in runs {
+            let of_run = || recorded.iter().filter(move |one| one.run == run);
+            bytes += of_run().map(|one| one.json.len()).sum::<usize>();
+            if bytes > BUDGET || replays.tables.is_empty() {
+                return Ok(Some(replays));
+            }
+            replays.recorded.extend(of_run().cloned());
+            replays.of_each_row = run + 1;
+        }
+        done = replays.of_each_row;
+    }
+    Ok(Some(replays))
+}
+
+/// How many more runs of each row are likely to fit, if `done` of them took so many bytes; the first is always tried.
+fn room(done: u32, bytes: usize) -> u32 {
+    match done {
+        0 => 1,
+        _ => {
+            let each = (bytes / done as usize).max(1);
+            u32::try_from((BUDGET - bytes) / each).unwrap_or(u32::MAX)
+        }
+    }
+}
+
+/// The job of one run index for every row.
+fn jobs_of(
+    experiment: &dyn Experiment,
+    master_seed: u64,
+    run: u32,
+) -> impl Iterator<Item = Job<'_>> {
+    experiment.tables().iter().flat_map(move |table| {
+        let seed = run_seed(master_seed, &table.name, run);
+        // A row with a number of its own may have fewer.
+        let rows = table
+            .rows
+            .iter()
+            .filter(move |row| row.runs_of(run + 1) > run);
+        rows.map(move |row| Job {
+            table: &table.name,
+            row: &row.name,
+            run,
+            seed,
+        })
+    })
+}
+
+fn record_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Option<Recorded>, Error> {
+    let replay = experiment
+        .replay(job)
+        .map_err(|source| Error::run(job, source))?;
+    let Some(replay) = replay else {
+        return Ok(None);
+    };
+    let json = tolman_replay::json(&replay).map_err(|source| Error::run(job, source.into()))?;
+    Ok(Some(Recorded {
+        table: job.table.to_owned(),
+        row: job.row.to_owned(),
+        run: job.run,
+        json,
+    }))
+}

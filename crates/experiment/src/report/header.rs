@@ -1,0 +1,162 @@
+//! The head of the page: what was run, with what, and the outcome at a glance.
+
+use maud::{Markup, html};
+
+use crate::{Outcome, duration};
+
+/// Corrected p-values below this are called a difference.
+pub(super) const SIGNIFICANT: f64 = 0.05;
+
+/// Title, source, provenance, and the command that makes the page again.
+pub(super) fn header(outcome: &Outcome) -> Markup {
+    let time = match outcome.played {
+        0 => "no run played now".to_owned(),
+        played => format!(
+            "{} runs in {} on {}",
+            grouped(played),
+            duration(outcome.elapsed),
+            counted(u64::from(outcome.jobs), "thread")
+        ),
+    };
+    html! {
+        header {
+            button #theme type="button" title="light or dark" aria-label="dark colours" { "◐" }
+            h1 { (outcome.title) }
+            @if !outcome.source.is_empty() { p.source { (outcome.source) } }
+            p.meta {
+                "commit " (outcome.build.commit)
+                " · " (short_compiler(&outcome.build.compiler))
+                " · seed " (outcome.seed)
+                " · " (time)
+            }
+            p.meta { "make it again: " code { (outcome.command) } }
+            @if let Some(skipped) = &outcome.skipped { p.skipped { (skipped) } }
+        }
+    }
+}
+
+/// The outcome in a few numbers.
+pub(super) fn cards(outcome: &Outcome) -> Markup {
+    let verdicts: Vec<bool> = outcome
+        .analysis
+        .values()
+        .filter_map(|(_, _, measured)| Some(measured.verdict?.matches))
+        .collect();
+    let matching = verdicts.iter().filter(|matches| **matches).count();
+    let contrasts: Vec<bool> = outcome
+        .analysis
+        .values()
+        .filter_map(|(_, _, measured)| Some(measured.contrast?.p.value() < SIGNIFICANT))
+        .collect();
+    let differing = contrasts.iter().filter(|differs| **differs).count();
+    let total = outcome.runs.len() as u64;
+    html! {
+        div.cards {
+            @if !verdicts.is_empty() {
+                (card(&format!("{matching} / {}", verdicts.len()), "values match the paper's"))
+            }
+            (card(
+                &grouped(total),
+                &runs_of_rows(outcome),
+            ))
+            @if outcome.played < total {
+                (card(&grouped(total - outcome.played), "runs reused from before"))
+            }
+            @if !contrasts.is_empty() {
+                (card(
+                    &format!("{differing} / {}", contrasts.len()),
+                    &format!("comparisons differ (p < {SIGNIFICANT})"),
+                ))
+            }
+            @if outcome.played > 0 { (card(&duration(outcome.elapsed), "to play the runs")) }
+        }
+    }
+}
+
+/// Links to the tables, with how many of their values match, where there is more than one.
+pub(super) fn contents(outcome: &Outcome) -> Markup {
+    let tables = &outcome.analysis.tables;
+    html! {
+        @if tables.len() > 1 {
+            nav aria-label="tables" {
+                @for (number, table) in (1_u32..).zip(tables) {
+                    @let verdicts = || {
+                        let rows = table.metrics.iter().flat_map(|metric| &metric.rows);
+                        rows.filter_map(|row| row.verdict)
+                    };
+                    @let (matching, all) = (verdicts().filter(|v| v.matches).count(), verdicts().count());
+                    a href={ "#table-" (number) } {
+                        "Table " (table.table.name)
+                        @if all > 0 { span { (matching) " / " (all) " match" } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How many runs the rows have, where all have the same number.
+fn runs_of_rows(outcome: &Outcome) -> String {
+    let tables = &outcome.analysis.tables;
+    let mut rows = tables.iter().flat_map(|table| &table.table.rows);
+    if rows.all(|row| row.runs.is_none()) {
+        format!(
+            "runs, {} of each row",
+            grouped(u64::from(outcome.runs_per_row))
+        )
+    } else {
+        "runs".to_owned()
+    }
+}
+
+fn card(value: &str, label: &str) -> Markup {
+    html! {
+        div.card {
+            strong { (value) }
+            span { (label) }
+        }
+    }
+}
+
+/// `rustc 1.95.0 (59807616e 2026-04-14)` without what is in the parentheses.
+fn short_compiler(compiler: &str) -> &str {
+    compiler.split(" (").next().unwrap_or(compiler)
+}
+
+/// `1 thread`, `2 threads`.
+fn counted(count: u64, noun: &str) -> String {
+    match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    }
+}
+
+/// A whole number with thin spaces between groups of three digits.
+pub(super) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_in_groups_of_three() {
+        for (number, expect) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1\u{202f}000"),
+            (1_234_567, "1\u{202f}234\u{202f}567"),
+        ] {
+            assert_eq!(grouped(number), expect);
+        }
+    }
+}

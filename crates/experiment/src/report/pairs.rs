@@ -1,0 +1,36 @@
+//! The rows of a table compared each with each.
+
+use maud::{Markup, html};
+
+use super::header::SIGNIFICANT;
+use crate::TableAnalysis;
+
+/// Every pair with the paper's p-value and ours.
+pub(super) fn table(analysis: &TableAnalysis) -> Markup {
+    let pairwise = analysis.table.pairwise.as_ref();
+    html! {
+        table aria-label={ "Table " (analysis.table.name) ", each row with each" } {
+            thead { tr {
+                th {
+                    @if let Some(pairwise) = pairwise {
+                        (pairwise.field) ", each with each"
+                    }
+                }
+                th { "paper's p" }
+                th {
+                    "p"
+                    @if let Some(pairwise) = pairwise { " (" (pairwise.correction.name()) ")" }
+                }
+                th { "A" sub { "12" } }
+            } }
+            tbody { @for pair in &analysis.pairs { tr {
+                th scope="row" { (pair.name()) }
+                td {
+                    @if let Some(p) = pair.paper { (p) } @else { span.quiet { "–" } }
+                }
+                td class=[(pair.p.value() < SIGNIFICANT).then_some("strong")] { (pair.p) }
+                td { (format!("{:.2}", pair.a12)) }
+            } } }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! The replays that the page carries, the player, and what stands in for the others.
+
+use maud::{Markup, PreEscaped, html};
+use serde_json::{Map, Value, json};
+
+use crate::Outcome;
+use crate::shell;
+
+/// The window a replay opens in, hidden until then, and the small text beside a dot.
+pub(super) fn dialog(outcome: &Outcome) -> Markup {
+    html! {
+        div #tip role="status" hidden {}
+        dialog #replay-dialog aria-labelledby="replay-title" {
+            div.bar {
+                h2 #replay-title {}
+                button #replay-before type="button" title="the run before" aria-label="the run before" { "‹" }
+                button #replay-after type="button" title="the next run" aria-label="the next run" { "›" }
+                button #replay-close type="button" title="close (Esc)" aria-label="close" { "✕" }
+            }
+            div #replay-stage {}
+            div #replay-absent hidden {
+                p { (carried(outcome)) " This command plays this run again, just as it was, and writes its replay:" }
+                pre { code #replay-command {} }
+                p {
+                    button #replay-copy type="button" { "copy" }
+                    " Then open " a #replay-link {} " beside this page."
+                }
+            }
+        }
+    }
+}
+
+/// Which replays the page carries, and why not all; empty if no run is recorded.
+pub(super) fn carried(outcome: &Outcome) -> String {
+    let replays = &outcome.replays;
+    let megabytes = replays.budget / 1_000_000;
+    match replays.of_each_row {
+        _ if replays.tables.is_empty() => String::new(),
+        0 => format!(
+            "This page carries no replays: the first of each row alone would take more than {megabytes} MB."
+        ),
+        runs if runs == outcome.runs_per_row => {
+            "This page carries the replay of every run.".to_owned()
+        }
+        1 => {
+            format!("{CARRIES} run 0 of each row, so that it stays small enough to open anywhere.")
+        }
+        runs => format!(
+            "{CARRIES} runs 0 to {} of each row, so that it stays small enough to open anywhere.",
+            runs - 1
+        ),
+    }
+}
+
+const CARRIES: &str = "This page carries the replays of";
+
+/// The rules of the player, if the page has replays.
+pub(super) fn style(outcome: &Outcome) -> &'static str {
+    match outcome.replays.recorded.is_empty() {
+        true => "",
+        false => tolman_replay::style(),
+    }
+}
+
+/// What the page's script reads, the replays, the player and the script.
+pub(super) fn scripts(outcome: &Outcome) -> Markup {
+    html! {
+        script #report-data type="application/json" { (PreEscaped(data(outcome))) }
+        @for recorded in &outcome.replays.recorded {
+            script type="application/json" data-replay data-table=(recorded.table)
+                data-row=(recorded.row) data-run=(recorded.run) { (PreEscaped(&recorded.json)) }
+        }
+        @if !outcome.replays.recorded.is_empty() { script { (PreEscaped(tolman_replay::script())) } }
+        script { (PreEscaped(include_str!("page.js"))) }
+    }
+}
+
+/// The command that plays a run again, in the parts the script puts together.
+fn data(outcome: &Outcome) -> String {
+    let mut tables = Map::new();
+    for (number, table) in (1_u32..).zip(&outcome.analysis.tables) {
+        let table = &table.table;
+        let mut rows = Map::new();
+        for (number, row) in (1_u32..).zip(&table.rows) {
+            let value = json!({ "number": number, "shell": shell::quoted(&row.name) });
+            rows.insert(row.name.clone(), value);
+        }
+        let value = json!({
+            "number": number,
+            "shell": shell::quoted(&table.name),
+            "recorded": outcome.replays.tables.contains(&table.name),
+            "rows": rows,
+        });
+        tables.insert(table.name.clone(), value);
+    }
+    let data = json!({
+        "command": outcome.command,
+        "runs": outcome.runs_per_row,
+        "tables": Value::Object(tables),
+    });
+    // Nothing in a script element may look like its end.
+    data.to_string().replace('<', "\\u003c")
+}

@@ -1,0 +1,211 @@
+//! One table of the paper beside ours.
+
+use maud::{Markup, html};
+
+use super::header::SIGNIFICANT;
+use super::{figures, pairs};
+use crate::{
+    Comparison, Measured, Metric, MetricAnalysis, Statistic, TableAnalysis, Verdict, heading, ours,
+    value_with_spread,
+};
+use tolman_draw::{Figure, Series};
+
+/// The section of the table of this number, from 1, with its figures.
+///
+/// Each metric is a body of the table. A header with `data-sort` sorts the rows of every body by the
+/// `data-value` of their cells with that `data-column`. On a narrow page a row becomes a card: name and
+/// verdict above, the other cells below with their `data-label`.
+pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure]) -> Markup {
+    let table = &analysis.table;
+    let columns = Columns::of(analysis);
+    html! {
+        section id={ "table-" (number) } {
+            h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
+            div.wide {
+                table class=[columns.paper.then_some("judged")] aria-label={ "Table " (table.name) } {
+                    thead { tr {
+                        (sortable("row", &html! { "row" }))
+                        @if columns.paper { (sortable("paper", &html! { "paper" })) }
+                        (sortable("ours", &html! { "ours" }))
+                        @if columns.also { th.also { "also" } }
+                        th.interval { "95 % interval" }
+                        @if let Some(Comparison { reference, correction }) = columns.comparison {
+                            (sortable("p", &html! { "p vs. " (reference) " (" (correction.name()) ")" }))
+                            (sortable("effect", &html! { "A" sub { "12" } }))
+                        }
+                        @if columns.paper { (sortable("verdict", &html! { "verdict" })) }
+                    } }
+                    @for metric in &analysis.metrics { (group(analysis, &columns, metric)) }
+                }
+            }
+            @if !analysis.pairs.is_empty() { (pairs::table(analysis)) }
+            @if !table.note.is_empty() { p.note { (table.note) } }
+            (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
+        }
+    }
+}
+
+/// Which columns a table has, beside those that all have.
+struct Columns<'a> {
+    /// Whether the paper says anything of the table.
+    paper: bool,
+    /// Whether a metric is a mean or a median, beside which stands the other.
+    also: bool,
+    comparison: Option<&'a Comparison>,
+}
+
+impl<'a> Columns<'a> {
+    fn of(analysis: &'a TableAnalysis) -> Self {
+        let mut rows = analysis.metrics.iter().flat_map(|metric| &metric.rows);
+        let mut metrics = analysis
+            .metrics
+            .iter()
+            .map(|metric| &metric.metric.statistic);
+        Self {
+            paper: rows.any(|row| row.paper.is_some()),
+            also: metrics.any(|s| matches!(s, Statistic::Mean { .. } | Statistic::Median { .. })),
+            comparison: analysis.table.comparison.as_ref(),
+        }
+    }
+
+    fn count(&self) -> u32 {
+        let when = |there: bool, columns: u32| if there { columns } else { 0 };
+        3 + when(self.paper, 2) + when(self.also, 1) + when(self.comparison.is_some(), 2)
+    }
+}
+
+fn sortable(column: &str, title: &Markup) -> Markup {
+    html! {
+        th class=(column) scope="col" data-sort=(column) aria-sort="none" {
+            button type="button" title="sort; once more for the other way, and again for the table's order" {
+                (title)
+            }
+        }
+    }
+}
+
+/// The rows of one metric below its heading.
+fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysis) -> Markup {
+    html! {
+        tbody data-metric=(metric.metric.name) {
+            tr.metric { th colspan=(columns.count()) scope="rowgroup" { (heading(&metric.metric)) } }
+            @for measured in &metric.rows {
+                @let place = analysis.table.rows.iter().position(|row| row.name == measured.row);
+                (row(columns, &metric.metric, measured, place.unwrap_or(0)))
+            }
+        }
+    }
+}
+
+fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize) -> Markup {
+    let decimals = usize::from(metric.decimals);
+    let series = Series(u32::try_from(place).unwrap_or(0));
+    let also = also(metric, measured);
+    html! {
+        tr data-place=(place) {
+            th scope="row" data-column="row" data-value=(measured.row) {
+                span class={ "swatch " (series.class()) } {} (measured.row)
+            }
+            @if columns.paper {
+                @if let Some(paper) = &measured.paper {
+                    td data-label="paper" data-column="paper" data-value=(paper.value) {
+                        (value_with_spread(metric, paper.value, paper.sd))
+                    }
+                } @else { td.none { "–" } }
+            }
+            td data-label="ours" data-column="ours" data-value=(measured.value) { (ours(metric, measured)) }
+            @if columns.also {
+                @if let Some(also) = also { td.quiet data-label="also" { (also) } } @else { td.none { "–" } }
+            }
+            @if let Some(interval) = measured.interval {
+                td.quiet data-label="95 % interval" {
+                    (format!("{:.decimals$} – {:.decimals$}", interval.low, interval.high))
+                }
+            } @else { td.none { "–" } }
+            @if let Some(comparison) = columns.comparison { (contrast(comparison, measured)) }
+            @if columns.paper { (verdict(metric, measured.verdict)) }
+        }
+    }
+}
+
+/// p and effect size.
+fn contrast(comparison: &Comparison, measured: &Measured) -> Markup {
+    let versus = format!("p vs. {}", comparison.reference);
+    html! {
+        @if let Some(contrast) = measured.contrast {
+            td class=[(contrast.p.value() < SIGNIFICANT).then_some("strong")] data-label=(versus)
+                data-column="p" data-value=(contrast.p.ln()) { (contrast.p) }
+            td data-label="A₁₂" data-column="effect" data-value=(contrast.a12) {
+                (format!("{:.2}", contrast.a12)) " " span.quiet { (magnitude(contrast.a12)) }
+            }
+        } @else if comparison.reference == measured.row {
+            td.quiet.none colspan="2" { "reference" }
+        } @else {
+            td.none { "–" }
+            td.none { "–" }
+        }
+    }
+}
+
+/// How large an effect is, in the words of Vargha and Delaney ("A critique and improvement of the CL
+/// common language effect size statistics of McGraw and Wong", 2000).
+fn magnitude(a12: f64) -> &'static str {
+    match (a12 - 0.5).abs() {
+        distance if distance < 0.06 => "none",
+        distance if distance < 0.14 => "small",
+        distance if distance < 0.21 => "medium",
+        _ => "large",
+    }
+}
+
+fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
+    let decimals = usize::from(metric.decimals);
+    html! {
+        @if let Some(Verdict { matches, accepted, .. }) = verdict {
+            td.verdict data-column="verdict" data-value=(if matches { "matches" } else { "differs" }) {
+                span.accepted {
+                    (format!("{:.decimals$} – {:.decimals$}", accepted.low, accepted.high))
+                }
+                // Where they do not fit beside each other the line breaks here.
+                " "
+                span class=(if matches { "badge matches" } else { "badge differs" }) {
+                    (if matches { "matches" } else { "differs" })
+                }
+            }
+        } @else { td.verdict.none { "–" } }
+    }
+}
+
+/// The median beside a mean, the mean beside a median.
+fn also(metric: &Metric, measured: &Measured) -> Option<String> {
+    let decimals = usize::from(metric.decimals);
+    match metric.statistic {
+        Statistic::Mean { .. } => measured
+            .median
+            .map(|value| format!("median {value:.decimals$}")),
+        Statistic::Median { .. } => {
+            let mean = value_with_spread(metric, measured.mean?, measured.sd);
+            Some(format!("mean {mean}"))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::magnitude;
+
+    #[test]
+    fn effects_have_vargha_and_delaneys_names() {
+        for (a12, expect) in [
+            (0.5, "none"),
+            (0.57, "small"),
+            (0.37, "small"),
+            (0.35, "medium"),
+            (0.72, "large"),
+            (0.0, "large"),
+        ] {
+            assert_eq!(magnitude(a12), expect, "{a12}");
+        }
+    }
+}

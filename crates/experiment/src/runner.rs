@@ -1,0 +1,221 @@
+//! Plays the missing runs of an experiment and writes its folder of results.
+
+use core::time::Duration;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::config_file::ConfigFile;
+use super::folder::Folder;
+use super::runs_file::{Appender, Key, Runs};
+use super::{
+    Analysis, Build, Error, Event, Experiment, Job, Options, Progress, Replays, Run, Summary,
+    check, plots, replays, run_seed,
+};
+use crate::report;
+use tolman_draw::Figure;
+
+/// What came of an experiment.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// The experiment's name.
+    pub name: String,
+    /// The experiment's title.
+    pub title: String,
+    /// The paper whose tables these are; empty if there is none.
+    pub source: String,
+    /// What the experiment leaves out because it is not here.
+    pub skipped: Option<String>,
+    /// Where the results lie.
+    pub folder: PathBuf,
+    /// The command that makes them again.
+    pub command: String,
+    /// The master seed.
+    pub seed: u64,
+    /// Runs of each row that has no number of its own.
+    pub runs_per_row: u32,
+    /// The threads that played.
+    pub jobs: u32,
+    /// Runs that were played now; the others were there from before.
+    pub played: u64,
+    /// How long the runs that were played now took.
+    pub elapsed: Duration,
+    /// The program that played them.
+    pub build: Build,
+    /// Every run, sorted by table, row and index.
+    pub runs: Vec<Run>,
+    /// What the runs say.
+    pub analysis: Analysis,
+    /// What `summary.json` holds.
+    pub summary: Summary,
+    /// The pictures.
+    pub figures: Vec<Figure>,
+    /// The replays that the report carries.
+    pub replays: Replays,
+}
+
+/// Runs an experiment: resumes its folder, plays what is missing, and writes `config.toml`,
+/// `runs.jsonl`, `summary.json`, `figures/*.svg` and `report.html`.
+///
+/// The results depend on the experiment's configuration and the seed alone, not on the number of
+/// threads nor on how often the experiment was interrupted.
+///
+/// # Errors
+/// Typed with place and repair; finished runs are kept in every case. See [`Error::is_bad_input`].
+pub fn execute(
+    experiment: &dyn Experiment,
+    options: &Options,
+    build: &Build,
+    progress: &dyn Progress,
+) -> Result<Outcome, Error> {
+    check::options(options, experiment)?;
+    check::tables(experiment)?;
+    let runs_per_row = options.runs_of(experiment);
+    if let Some(what) = experiment.skipped() {
+        progress.event(&Event::Skipped { what });
+    }
+    let config = ConfigFile::new(experiment, options, build)?;
+    let path = options.folder_of(experiment.name());
+    let folder = Folder::open(&path, &config, progress)?;
+    let known = folder.resume(experiment, options.seed, runs_per_row, progress)?;
+
+    let started = Instant::now();
+    let jobs = jobs(experiment, options.seed, runs_per_row);
+    let total = jobs.len() as u64;
+    let reused = known.len() as u64;
+    if reused < total {
+        // What they say of fewer runs must not pass for the outcome of these.
+        folder.discard("summary.json")?;
+        folder.discard("report.html")?;
+    }
+    progress.event(&Event::Started { total, reused });
+    let thread_count = options.threads_for(total - reused);
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(thread_count as usize)
+        .build()
+        .map_err(|source| Error::Threads {
+            jobs: thread_count,
+            source: source.into(),
+        })?;
+    let played =
+        threads.install(|| play(experiment, &jobs, &known, &folder.appender()?, progress))?;
+    let elapsed = started.elapsed();
+    progress.event(&Event::RunsFinished {
+        played: played.len() as u64,
+        elapsed,
+    });
+    let interrupted = |done: u64| Error::Interrupted {
+        done,
+        total,
+        folder: path.clone(),
+        command: config.command.clone(),
+    };
+    if known.len() + played.len() < jobs.len() {
+        return Err(interrupted((known.len() + played.len()) as u64));
+    }
+
+    let played_count = played.len() as u64;
+    let mut all = known;
+    all.extend(played);
+    let runs: Vec<Run> = all.into_values().collect();
+    folder.write_runs(&runs)?;
+    let analysis = Analysis::of(experiment, &runs, options.seed);
+    let summary = Summary::of(experiment.name(), options.seed, &analysis);
+    folder.write("summary.json", &summary.to_json()?)?;
+    let mut figures = plots::box_plots(experiment, &runs);
+    figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
+        name: experiment.name().to_owned(),
+        source,
+    })?);
+    check::figures(experiment, &figures)?;
+    folder.write_figures(&figures)?;
+    progress.event(&Event::Recording);
+    let record = || replays::record(experiment, options.seed, runs_per_row, progress);
+    let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
+    let outcome = Outcome {
+        name: experiment.name().to_owned(),
+        title: experiment.title().to_owned(),
+        source: experiment.source().to_owned(),
+        skipped: experiment.skipped().map(str::to_owned),
+        folder: path,
+        command: config.command,
+        seed: options.seed,
+        runs_per_row,
+        jobs: thread_count,
+        played: played_count,
+        elapsed,
+        build: build.clone(),
+        runs,
+        analysis,
+        summary,
+        figures,
+        replays,
+    };
+    folder.write("report.html", &report::html(&outcome))?;
+    Ok(outcome)
+}
+
+/// Every job of the experiment with its place in the order of results.
+fn jobs(experiment: &dyn Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
+    let mut jobs = Vec::new();
+    for (t, table) in experiment.tables().iter().enumerate() {
+        for (r, row) in table.rows.iter().enumerate() {
+            jobs.extend((0..row.runs_of(runs)).map(|run| {
+                let seed = run_seed(master_seed, &table.name, run);
+                (
+                    (t, r, run),
+                    Job {
+                        table: &table.name,
+                        row: &row.name,
+                        run,
+                        seed,
+                    },
+                )
+            }));
+        }
+    }
+    jobs
+}
+
+/// Plays the jobs that are not known yet, in parallel; every finished run is in the file before the
+/// next one begins. Returns fewer than are missing only if the caller asked to stop.
+fn play(
+    experiment: &dyn Experiment,
+    jobs: &[(Key, Job<'_>)],
+    known: &Runs,
+    file: &Appender,
+    progress: &dyn Progress,
+) -> Result<Vec<(Key, Run)>, Error> {
+    jobs.par_iter()
+        .with_max_len(1)
+        .filter(|(key, _)| !known.contains_key(key))
+        .filter_map(|(key, job)| {
+            if progress.stop_requested() {
+                return None;
+            }
+            Some(play_one(experiment, job).and_then(|run| {
+                file.append(&run)?;
+                progress.event(&Event::RunFinished);
+                Ok((*key, run))
+            }))
+        })
+        // The first error ends the others.
+        .collect()
+}
+
+fn play_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Run, Error> {
+    let played = experiment.run(job).and_then(|fields| {
+        let run = Run {
+            table: job.table.to_owned(),
+            row: job.row.to_owned(),
+            run: job.run,
+            seed: job.seed,
+            fields,
+        };
+        check::run(experiment, &run)?;
+        Ok(run)
+    });
+    played.map_err(|source| Error::run(job, source))
+}

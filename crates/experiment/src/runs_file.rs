@@ -1,0 +1,208 @@
+//! `runs.jsonl`: one line a run, appended as runs finish, sorted at the end.
+
+use alloc::collections::btree_map::Entry;
+use alloc::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use super::at::{at, write_whole};
+use super::{Error, Event, Experiment, Progress, Remedy, Run, check, run_seed};
+
+/// The places of a run's table and row, and its index: the order of the finished file.
+pub(super) type Key = (usize, usize, u32);
+
+/// The runs of a folder by key.
+pub(super) type Runs = BTreeMap<Key, Run>;
+
+/// A line that cannot be used.
+struct Broken<'a> {
+    file: &'a Path,
+    line: u64,
+    what: String,
+    /// Its run, if it says so.
+    key: Option<Key>,
+}
+
+/// Reads the usable runs of files; tells of every line that is not usable and of what becomes of its
+/// run when `wanted` runs of each row are. A file that is not there has no runs.
+///
+/// Of two lines that contradict each other none is used: nothing says which one is right.
+pub(super) fn read<'a>(
+    files: impl IntoIterator<Item = &'a Path>,
+    experiment: &dyn Experiment,
+    master_seed: u64,
+    wanted: u32,
+    progress: &dyn Progress,
+) -> Result<Runs, Error> {
+    let mut runs = Runs::new();
+    let mut disputed = BTreeSet::new();
+    let mut broken = Vec::new();
+    for file in files {
+        let bytes = match fs::read(file) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            result => at("read", file, result)?,
+        };
+        for (line, text) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
+            if text.is_empty() {
+                continue;
+            }
+            let (what, key) = match parse(text, experiment, master_seed) {
+                Ok((key, run)) => match runs.entry(key) {
+                    Entry::Vacant(entry) => {
+                        entry.insert(run);
+                        continue;
+                    }
+                    Entry::Occupied(entry) if *entry.get() == run => continue,
+                    Entry::Occupied(_) => {
+                        disputed.insert(key);
+                        ("it contradicts an earlier line".to_owned(), Some(key))
+                    }
+                },
+                Err(refused) => refused,
+            };
+            broken.push(Broken {
+                file,
+                line,
+                what,
+                key,
+            });
+        }
+    }
+    runs.retain(|key, _| !disputed.contains(key));
+    tell(&broken, &runs, experiment, wanted, progress);
+    Ok(runs)
+}
+
+fn tell(
+    broken: &[Broken<'_>],
+    runs: &Runs,
+    experiment: &dyn Experiment,
+    wanted: u32,
+    progress: &dyn Progress,
+) {
+    let rows = experiment.tables().iter().flat_map(|table| &table.rows);
+    let all: u64 = rows.map(|row| u64::from(row.runs_of(wanted))).sum();
+    let is_wanted = |key: &Key| is_wanted(*key, experiment, wanted);
+    let complete = runs.keys().filter(|key| is_wanted(key)).count() as u64 == all;
+    for Broken {
+        file,
+        line,
+        what,
+        key,
+    } in broken
+    {
+        let remedy = match key {
+            Some(key) if is_wanted(key) && !runs.contains_key(key) => Remedy::PlayedAgain,
+            None if !complete => Remedy::MissingPlayed,
+            _ => Remedy::Ignored,
+        };
+        progress.event(&Event::BrokenLine {
+            file,
+            line: *line,
+            what,
+            remedy,
+        });
+    }
+}
+
+/// Whether a run is one of those to be made when `runs` of each row are.
+pub(super) fn is_wanted((table, row, run): Key, experiment: &dyn Experiment, runs: u32) -> bool {
+    let table = experiment.tables().get(table);
+    let row = table.and_then(|table| table.rows.get(row));
+    row.is_some_and(|row| run < row.runs_of(runs))
+}
+
+/// The run of a line; or what is wrong with the line, and which run it was if it says so.
+fn parse(
+    line: &[u8],
+    experiment: &dyn Experiment,
+    master: u64,
+) -> Result<(Key, Run), (String, Option<Key>)> {
+    let run: Run = serde_json::from_slice(line).map_err(|error| {
+        // It was given one line, so the line it names is not that of the file.
+        let what = error.to_string();
+        let what = what.split(" at line ").next().unwrap_or_default();
+        (
+            format!("{what} at column {}", error.column()),
+            identity(line, experiment),
+        )
+    })?;
+    let key = key_of(experiment, &run).ok_or_else(|| {
+        let what = format!("there is no row {:?} in a table {:?}", run.row, run.table);
+        (what, None)
+    })?;
+    let seed = run_seed(master, &run.table, run.run);
+    if run.seed != seed {
+        let what = format!("run {} has seed {} where {seed} belongs", run.run, run.seed);
+        return Err((what, Some(key)));
+    }
+    match check::run(experiment, &run) {
+        Ok(()) => Ok((key, run)),
+        Err(error) => Err((error.to_string(), Some(key))),
+    }
+}
+
+/// Which run a line is of whose fields hold what no field can.
+fn identity(line: &[u8], experiment: &dyn Experiment) -> Option<Key> {
+    let mut line: serde_json::Value = serde_json::from_slice(line).ok()?;
+    line.as_object_mut()?
+        .retain(|name, _| check::RESERVED.contains(&name.as_str()));
+    key_of(experiment, &serde_json::from_value(line).ok()?)
+}
+
+fn key_of(experiment: &dyn Experiment, run: &Run) -> Option<Key> {
+    let tables = experiment.tables();
+    let table = tables.iter().position(|table| table.name == run.table)?;
+    let row = tables[table]
+        .rows
+        .iter()
+        .position(|row| row.name == run.row)?;
+    Some((table, row, run.run))
+}
+
+/// Writes runs in order, as a whole file.
+pub(super) fn write<'a>(path: &Path, runs: impl Iterator<Item = &'a Run>) -> Result<(), Error> {
+    let mut text = Vec::new();
+    for run in runs {
+        at("write", path, write_line(&mut text, run))?;
+    }
+    write_whole(path, &text)
+}
+
+fn write_line(out: &mut Vec<u8>, run: &Run) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, run)?;
+    out.push(b'\n');
+    Ok(())
+}
+
+/// A file that runs are added to from several threads.
+#[derive(Debug)]
+pub(super) struct Appender {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+impl Appender {
+    /// Opens a file that is there.
+    pub(super) fn open(path: &Path) -> Result<Self, Error> {
+        let file = at("open", path, OpenOptions::new().append(true).open(path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            file: Mutex::new(file),
+        })
+    }
+
+    /// Adds one run. The line goes to the system at once, so it outlives the end of this process.
+    pub(super) fn append(&self, run: &Run) -> Result<(), Error> {
+        let mut line = Vec::new();
+        let written = write_line(&mut line, run).and_then(|()| {
+            // A thread that panicked while it held the file has written a whole line or a broken
+            // one, which the next reading reports.
+            let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+            file.write_all(&line)
+        });
+        at("add a run to", &self.path, written)
+    }
+}

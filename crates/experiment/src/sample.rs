@@ -1,0 +1,254 @@
+//! The runs of one row as the sample of one metric.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use super::settling::settles;
+use super::{Field, Reached, Run, Settling, Statistic};
+use tolman_stats::Interval;
+
+/// Resamples of the bootstrap.
+pub(crate) const RESAMPLES: u32 = 2000;
+/// The confidence of every interval.
+pub(crate) const LEVEL: f64 = 0.95;
+
+/// The measured values of one metric in one row. Never empty.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Sample {
+    /// Whether each run succeeded; the value is `whole` × the share of those that did.
+    Flags { flags: Vec<bool>, whole: f64 },
+    /// One number for each run.
+    Numbers { numbers: Vec<f64>, centre: Centre },
+    /// A numerator and a denominator for each run.
+    Pairs(Vec<(f64, f64)>),
+    /// A curve for each run, and the limit that their mean is to stay below.
+    Curves {
+        curves: Vec<Vec<f64>>,
+        step: f64,
+        limit: f64,
+    },
+}
+
+/// How numbers become one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Centre {
+    Mean,
+    Median,
+    Least,
+}
+
+impl Sample {
+    /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of the row
+    /// that [`Statistic::Multiple`] names, sorted by index; `table` are those of all rows, row by row.
+    pub(super) fn of(
+        statistic: &Statistic,
+        runs: &[&Run],
+        others: &[&Run],
+        table: &[Vec<&Run>],
+    ) -> Option<Self> {
+        let number = |run: &Run, field: &str| run.fields.get(field).and_then(Field::as_number);
+        let flags = |field: &str, whole: f64| Self::Flags {
+            flags: runs
+                .iter()
+                .filter_map(|run| run.fields.get(field)?.as_flag())
+                .collect(),
+            whole,
+        };
+        let numbers = |field: &str, centre: Centre| Self::Numbers {
+            numbers: runs.iter().filter_map(|run| number(run, field)).collect(),
+            centre,
+        };
+        let sample = match statistic {
+            Statistic::Percent { field } => flags(field, 100.0),
+            Statistic::Count { field, whole } => flags(field, f64::from(*whole)),
+            Statistic::Mean { field } => numbers(field, Centre::Mean),
+            Statistic::Median { field } => numbers(field, Centre::Median),
+            Statistic::Least { field } => numbers(field, Centre::Least),
+            Statistic::Ratio { over, under } => Self::Pairs(
+                runs.iter()
+                    .filter_map(|run| Some((number(run, over)?, number(run, under)?)))
+                    .collect(),
+            ),
+            Statistic::Multiple { field, .. } => Self::Pairs(
+                runs.iter()
+                    .filter_map(|run| {
+                        let place = others.binary_search_by_key(&run.run, |other| other.run);
+                        Some((number(run, field)?, number(others[place.ok()?], field)?))
+                    })
+                    .collect(),
+            ),
+            Statistic::Settling(settling) => Self::Curves {
+                curves: runs
+                    .iter()
+                    .filter(|run| number(run, &settling.level).is_some())
+                    .filter(|run| number(run, &settling.scale).is_some())
+                    .filter_map(|run| Some(run.fields.get(&settling.curve)?.as_curve()?.to_vec()))
+                    .collect(),
+                step: settling.step,
+                limit: limit(settling, table)?,
+            },
+        };
+        (sample.len() > 0).then_some(sample)
+    }
+
+    /// How many runs were measured.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Flags { flags, .. } => flags.len(),
+            Self::Numbers { numbers, .. } => numbers.len(),
+            Self::Pairs(pairs) => pairs.len(),
+            Self::Curves { curves, .. } => curves.len(),
+        }
+    }
+
+    /// The value: part of a whole, mean, median, least, ratio of sums, or when the mean curve settles.
+    pub(super) fn value(&self) -> f64 {
+        match self {
+            Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
+            Self::Numbers { numbers, centre } => match centre {
+                Centre::Mean => mean(numbers),
+                // A sample is neither empty nor infinite: the runner refuses such runs.
+                Centre::Median => tolman_stats::quantile(numbers, 0.5).unwrap_or(f64::NAN),
+                Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
+            },
+            Self::Pairs(pairs) => ratio_of_sums(pairs),
+            Self::Curves { .. } => self.settles().0,
+        }
+    }
+
+    /// Whether what the metric waits for came about; always where it waits for nothing.
+    pub(super) fn reached(&self) -> Reached {
+        self.settles().1
+    }
+
+    fn settles(&self) -> (f64, Reached) {
+        match self {
+            Self::Curves {
+                curves,
+                step,
+                limit,
+            } => {
+                let curves: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
+                settles(&curves, *step, *limit)
+            }
+            Self::Flags { .. } | Self::Numbers { .. } | Self::Pairs(_) => (f64::NAN, Reached::Yes),
+        }
+    }
+
+    /// The standard deviation of two numbers or more.
+    pub(super) fn sd(&self) -> Option<f64> {
+        tolman_stats::standard_deviation(self.spread()?).ok()
+    }
+
+    /// The mean of numbers.
+    pub(super) fn mean(&self) -> Option<f64> {
+        tolman_stats::mean(self.spread()?).ok()
+    }
+
+    /// The median of numbers.
+    pub(super) fn median(&self) -> Option<f64> {
+        tolman_stats::quantile(self.spread()?, 0.5).ok()
+    }
+
+    /// The numbers whose spread says something of the value, which it does not of the least.
+    fn spread(&self) -> Option<&[f64]> {
+        match self {
+            Self::Numbers {
+                centre: Centre::Least,
+                ..
+            } => None,
+            Self::Numbers { numbers, .. } => Some(numbers),
+            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
+        }
+    }
+
+    /// The 95 % interval of the value: exact binomial for a share, that of order statistics for a
+    /// median, BCa bootstrap otherwise. `None` where there are too few runs for one.
+    pub(super) fn interval(&self, seed: u64) -> Option<Interval> {
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        match self {
+            Self::Flags { flags, whole } => {
+                let successes = flags.iter().filter(|flag| **flag).count() as u64;
+                tolman_stats::exact_binomial_interval(successes, flags.len() as u64, LEVEL)
+                    .map(|interval| interval.scaled(*whole))
+            }
+            Self::Numbers { numbers, centre } => match centre {
+                Centre::Mean => tolman_stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
+                Centre::Median => tolman_stats::median_interval(numbers, LEVEL),
+                Centre::Least => return None,
+            },
+            Self::Pairs(pairs) => {
+                tolman_stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng)
+            }
+            Self::Curves {
+                curves,
+                step,
+                limit,
+            } => {
+                let curves: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
+                let value = |curves: &[&[f64]]| settles(curves, *step, *limit).0;
+                tolman_stats::bca_interval(&curves, value, RESAMPLES, LEVEL, rng)
+            }
+        }
+        .ok()
+    }
+
+    /// One number for each run, for rank tests.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        match self {
+            Self::Flags { flags, .. } => zeros_and_ones(flags),
+            Self::Numbers { numbers, .. } => numbers.clone(),
+            // A run without denominator says nothing of the ratio.
+            Self::Pairs(pairs) => pairs
+                .iter()
+                .filter(|(_, under)| *under > 0.0)
+                .map(|(over, under)| over / under)
+                .collect(),
+            // A mean curve settles, one run's does not.
+            Self::Curves { .. } => Vec::new(),
+        }
+    }
+}
+
+/// What the mean curves of a table are to stay below; `None` if no run says so.
+fn limit(settling: &Settling, table: &[Vec<&Run>]) -> Option<f64> {
+    let mean_of = |runs: &[&Run], field: &str| {
+        let has = |run: &&&Run| {
+            let number = |field: &str| run.fields.get(field).and_then(Field::as_number);
+            number(&settling.level).is_some() && number(&settling.scale).is_some()
+        };
+        let measured = runs.iter().filter(has);
+        let numbers: Vec<f64> = measured
+            .filter_map(|run| run.fields.get(field)?.as_number())
+            .collect();
+        tolman_stats::mean(&numbers).ok()
+    };
+    let levels = table
+        .iter()
+        .filter_map(|runs| mean_of(runs, &settling.level));
+    let lowest = levels.reduce(f64::min)?;
+    let scales = table.iter().filter(|runs| {
+        let row = runs.first().map(|run| &run.row);
+        row == Some(&settling.of)
+    });
+    let scale = scales.filter_map(|runs| mean_of(runs, &settling.scale));
+    Some(lowest + settling.margin * scale.reduce(f64::min)?)
+}
+
+fn zeros_and_ones(flags: &[bool]) -> Vec<f64> {
+    flags
+        .iter()
+        .map(|&flag| f64::from(u8::from(flag)))
+        .collect()
+}
+
+#[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
+fn mean(numbers: &[f64]) -> f64 {
+    numbers.iter().sum::<f64>() / numbers.len() as f64
+}
+
+fn ratio_of_sums(pairs: &[(f64, f64)]) -> f64 {
+    let over: f64 = pairs.iter().map(|pair| pair.0).sum();
+    let under: f64 = pairs.iter().map(|pair| pair.1).sum();
+    over / under
+}

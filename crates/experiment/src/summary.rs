@@ -1,0 +1,102 @@
+//! `summary.json`: one value for each metric of each row.
+
+use serde::Serialize;
+
+use super::{Analysis, Error, Reached};
+
+/// The table of all p-values of rows compared each with each.
+pub const P_TABLE: &str = "p";
+
+/// The contents of `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The experiment's name.
+    pub experiment: String,
+    /// The version of this format: 1.
+    pub version: u32,
+    /// The master seed.
+    pub seed: u64,
+    /// By table, row and metric, in the experiment's order.
+    pub rows: Vec<SummaryRow>,
+}
+
+/// One value of `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SummaryRow {
+    /// The name of the table.
+    pub table: String,
+    /// The name of the row.
+    pub row: String,
+    /// The name of the metric.
+    pub metric: String,
+    /// The value: the mean unless the metric says otherwise. `null` if it is not a number.
+    pub value: f64,
+    /// There and false where the metric waits for something that did not come about: `value` is what was not enough.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached: Option<bool>,
+    /// The standard deviation, for means and medians of two runs or more.
+    pub sd: Option<f64>,
+    /// How many runs were measured.
+    pub n: u64,
+    /// The paper's value.
+    pub paper: Option<f64>,
+}
+
+impl Summary {
+    pub(super) fn of(experiment: &str, seed: u64, analysis: &Analysis) -> Self {
+        let mut rows = Vec::new();
+        for table in &analysis.tables {
+            for row in &table.table.rows {
+                for metric in &table.metrics {
+                    rows.extend(
+                        metric
+                            .rows
+                            .iter()
+                            .filter(|measured| measured.row == row.name)
+                            .map(|measured| SummaryRow {
+                                table: table.table.name.clone(),
+                                row: row.name.clone(),
+                                metric: metric.metric.name.clone(),
+                                value: measured.value,
+                                reached: (measured.reached == Reached::No).then_some(false),
+                                sd: measured.sd,
+                                n: measured.n,
+                                paper: measured.paper.as_ref().map(|paper| paper.value),
+                            }),
+                    );
+                }
+            }
+        }
+        for table in &analysis.tables {
+            rows.extend(table.pairs.iter().map(|pair| SummaryRow {
+                table: P_TABLE.to_owned(),
+                row: format!("{}: {}", table.table.name, pair.name()),
+                metric: "p".to_owned(),
+                value: pair.p.value(),
+                reached: None,
+                sd: None,
+                n: pair.n,
+                paper: pair.paper,
+            }));
+        }
+        Self {
+            experiment: experiment.to_owned(),
+            version: 1,
+            seed,
+            rows,
+        }
+    }
+
+    /// The text of `summary.json`, with a line end.
+    ///
+    /// # Errors
+    /// [`Error::Summary`].
+    pub fn to_json(&self) -> Result<String, Error> {
+        serde_json::to_string_pretty(self)
+            .map(|text| text + "\n")
+            .map_err(|source| Error::Summary {
+                name: self.experiment.clone(),
+                source,
+            })
+    }
+}

@@ -1,0 +1,442 @@
+//! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
+
+use super::{Kind, Pairwise, Settling};
+use tolman_stats::PValue;
+
+/// One table of a paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// The name it has in `summary.json`, such as `2 (J)`.
+    pub name: String,
+    /// What it shows, in words.
+    pub title: String,
+    /// The rows, in the order they are shown.
+    pub rows: Vec<Row>,
+    /// What its runs measure. A run with other fields is no run of this table.
+    pub fields: Vec<Measure>,
+    /// What is measured of every row, in the order it is shown.
+    pub metrics: Vec<Metric>,
+    /// How many runs each of the paper's rows has, where it says so.
+    pub paper_runs: Option<u32>,
+    /// How the rows are compared with each other; `None` compares none.
+    pub comparison: Option<Comparison>,
+    /// Which rows are compared each with each; `None` compares none.
+    pub pairwise: Option<Pairwise>,
+    /// What a reader must know to read the values, such as how runs without success count; empty if
+    /// there is nothing.
+    pub note: String,
+}
+
+impl Table {
+    /// An empty table.
+    pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            rows: Vec::new(),
+            fields: Vec::new(),
+            metrics: Vec::new(),
+            paper_runs: None,
+            comparison: None,
+            pairwise: None,
+            note: String::new(),
+        }
+    }
+
+    /// Adds a row.
+    #[must_use]
+    pub fn row(mut self, row: Row) -> Self {
+        self.rows.push(row);
+        self
+    }
+
+    /// Whether a row has runs.
+    #[must_use]
+    pub fn is_filled(&self) -> bool {
+        self.rows.iter().any(|row| row.runs != Some(0))
+    }
+
+    /// Says that every run has this field.
+    #[must_use]
+    pub fn field(mut self, name: impl Into<String>, kind: Kind) -> Self {
+        self.fields.push(Measure {
+            name: name.into(),
+            kind,
+            presence: Presence::Always,
+        });
+        self
+    }
+
+    /// Says that a run may have this field.
+    #[must_use]
+    pub fn optional_field(mut self, name: impl Into<String>, kind: Kind) -> Self {
+        self.fields.push(Measure {
+            name: name.into(),
+            kind,
+            presence: Presence::Sometimes,
+        });
+        self
+    }
+
+    /// Adds a metric, which summarizes fields of the table.
+    #[must_use]
+    pub fn metric(mut self, metric: Metric) -> Self {
+        self.metrics.push(metric);
+        self
+    }
+
+    /// Says how many runs each of the paper's rows has.
+    #[must_use]
+    pub fn paper_runs(mut self, runs: u32) -> Self {
+        self.paper_runs = Some(runs);
+        self
+    }
+
+    /// Says what a reader must know to read the values.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.note = note.into();
+        self
+    }
+
+    /// Compares rows each with each by Mann–Whitney's U.
+    #[must_use]
+    pub fn pairwise(mut self, pairwise: Pairwise) -> Self {
+        self.pairwise = Some(pairwise);
+        self
+    }
+
+    /// Compares every other row with the row named `reference` by Mann–Whitney's U.
+    #[must_use]
+    pub fn compared_with(mut self, reference: impl Into<String>, correction: Correction) -> Self {
+        self.comparison = Some(Comparison {
+            reference: reference.into(),
+            correction,
+        });
+        self
+    }
+}
+
+/// A field of a table's runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Measure {
+    /// The name of the field.
+    pub name: String,
+    /// What it holds.
+    pub kind: Kind,
+    /// Whether every run has it.
+    pub presence: Presence,
+}
+
+/// Whether every run has a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// Every run has it.
+    Always,
+    /// Some runs have it.
+    Sometimes,
+}
+
+/// How the rows of a table are compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Comparison {
+    /// The row all others are compared with.
+    pub reference: String,
+    /// How p-values are corrected for the number of comparisons in one metric.
+    pub correction: Correction,
+}
+
+/// Correction of p-values for the number of comparisons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Correction {
+    /// Every p-value times the number of comparisons.
+    Bonferroni,
+    /// Holm's step-down procedure: never weaker than Bonferroni's.
+    Holm,
+}
+
+impl Correction {
+    /// The name of its author.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Bonferroni => "Bonferroni",
+            Self::Holm => "Holm",
+        }
+    }
+
+    /// Corrects p-values.
+    pub(super) fn correct(self, p_values: &[PValue]) -> Vec<PValue> {
+        match self {
+            Self::Bonferroni => tolman_stats::bonferroni(p_values),
+            Self::Holm => tolman_stats::holm(p_values),
+        }
+    }
+}
+
+/// One row of a table: one brain, one quantizer, one setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The name it has in `summary.json`.
+    pub name: String,
+    /// The paper's values, at most one for each metric.
+    pub paper: Vec<PaperValue>,
+    /// How many runs it has, whatever the caller asks for: those of something without chance, one for each
+    /// thing it is tried on. `None` leaves it to the caller.
+    pub runs: Option<u32>,
+}
+
+impl Row {
+    /// A row of which the paper says nothing.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            paper: Vec::new(),
+            runs: None,
+        }
+    }
+
+    /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.
+    #[must_use]
+    pub fn paper(mut self, metric: impl Into<String>, value: f64) -> Self {
+        self.paper.push(PaperValue {
+            metric: metric.into(),
+            value,
+            sd: None,
+        });
+        self
+    }
+
+    /// Adds a value of the paper given as mean ± standard deviation.
+    #[must_use]
+    pub fn paper_mean(mut self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
+        self.paper.push(PaperValue {
+            metric: metric.into(),
+            value: mean,
+            sd: Some(sd),
+        });
+        self
+    }
+
+    /// Sets how many runs it has, whatever the caller asks for.
+    #[must_use]
+    pub fn runs(mut self, runs: u32) -> Self {
+        self.runs = Some(runs);
+        self
+    }
+
+    /// How many runs it has where the caller asks for `runs` of each row.
+    #[must_use]
+    pub fn runs_of(&self, runs: u32) -> u32 {
+        self.runs.unwrap_or(runs)
+    }
+
+    /// The paper's value of a metric.
+    pub fn paper_value(&self, metric: &str) -> Option<&PaperValue> {
+        self.paper.iter().find(|value| value.metric == metric)
+    }
+}
+
+/// What the paper says of one metric in one row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperValue {
+    /// The name of the metric.
+    pub metric: String,
+    /// The value, in the metric's unit.
+    pub value: f64,
+    /// The standard deviation, where it is given.
+    pub sd: Option<f64>,
+}
+
+/// One measured quantity: how the runs of a row become one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Metric {
+    /// The name it has in `summary.json`, such as `success_percent`.
+    pub name: String,
+    /// The name it has on a page, such as `success`.
+    pub title: String,
+    /// The unit, shown behind the title; empty if there is none.
+    pub unit: String,
+    /// How the runs are summarized.
+    pub statistic: Statistic,
+    /// How many decimals its values are shown with.
+    pub decimals: u8,
+    /// How far our value may lie from the paper's and still match.
+    pub tolerance: Option<Tolerance>,
+}
+
+impl Metric {
+    fn new(name: impl Into<String>, decimals: u8, statistic: Statistic) -> Self {
+        let name = name.into();
+        Self {
+            title: name.clone(),
+            name,
+            unit: String::new(),
+            statistic,
+            decimals,
+            tolerance: None,
+        }
+    }
+
+    /// The mean of the numeric field that bears the metric's name.
+    pub fn mean(name: impl Into<String>) -> Self {
+        let name = name.into();
+        let field = name.clone();
+        Self::new(name, 2, Statistic::Mean { field })
+    }
+
+    /// The median of a numeric field, by definition R-7; its interval is that of order statistics.
+    pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
+        let field = field.into();
+        Self::new(name, 2, Statistic::Median { field })
+    }
+
+    /// The least of a numeric field.
+    pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
+        let field = field.into();
+        Self::new(name, 2, Statistic::Least { field })
+    }
+
+    /// The percentage of runs in which the flag named `field` is set.
+    pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
+        let field = field.into();
+        let title = field.clone();
+        let metric = Self::new(name, 1, Statistic::Percent { field });
+        metric.titled(title).unit("%")
+    }
+
+    /// In how many of `whole` runs the flag named `field` is set, as a paper that made that many
+    /// counts them: `whole` × the share of our runs.
+    ///
+    /// ```
+    /// use tolman_experiment::{Metric, Statistic};
+    ///
+    /// // The paper converged in 20 of 20 runs; of our 1000, 990 make 19.8 of 20.
+    /// let metric = Metric::count_of("five_of_twenty", "found_five", 20).titled("five found");
+    /// assert_eq!(metric.unit, "of 20");
+    /// # assert!(matches!(metric.statistic, Statistic::Count { whole: 20, .. }));
+    /// ```
+    pub fn count_of(name: impl Into<String>, field: impl Into<String>, whole: u32) -> Self {
+        let field = field.into();
+        let title = field.clone();
+        let metric = Self::new(name, 1, Statistic::Count { field, whole });
+        metric.titled(title).unit(format!("of {whole}"))
+    }
+
+    /// The sum of one numeric field over all runs divided by the sum of another.
+    pub fn ratio(
+        name: impl Into<String>,
+        over: impl Into<String>,
+        under: impl Into<String>,
+    ) -> Self {
+        let (over, under) = (over.into(), under.into());
+        Self::new(name, 2, Statistic::Ratio { over, under })
+    }
+
+    /// The sum of a numeric field over all runs divided by its sum over the runs of the row named `of` that
+    /// bear the same index: how many times that row's value.
+    pub fn multiple(
+        name: impl Into<String>,
+        field: impl Into<String>,
+        of: impl Into<String>,
+    ) -> Self {
+        let (field, of) = (field.into(), of.into());
+        Self::new(name, 2, Statistic::Multiple { field, of })
+    }
+
+    /// When the mean of the runs' curves settles.
+    pub fn settling(name: impl Into<String>, settling: Settling) -> Self {
+        Self::new(name, 0, Statistic::Settling(settling))
+    }
+
+    /// Sets the name shown on a page.
+    #[must_use]
+    pub fn titled(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Sets the unit.
+    #[must_use]
+    pub fn unit(mut self, unit: impl Into<String>) -> Self {
+        self.unit = unit.into();
+        self
+    }
+
+    /// Sets how many decimals values are shown with.
+    #[must_use]
+    pub const fn decimals(mut self, decimals: u8) -> Self {
+        self.decimals = decimals;
+        self
+    }
+
+    /// Sets how far our value may lie from the paper's.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: Tolerance) -> Self {
+        self.tolerance = Some(tolerance);
+        self
+    }
+}
+
+/// How the runs of a row become one value. A run without the field is left out.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Statistic {
+    /// 100 × the share of runs whose flag is set.
+    Percent {
+        /// A field of [`Field::Flag`](crate::Field::Flag).
+        field: String,
+    },
+    /// The mean of a field.
+    Mean {
+        /// A numeric field.
+        field: String,
+    },
+    /// The median of a field.
+    Median {
+        /// A numeric field.
+        field: String,
+    },
+    /// The least of a field, of which no interval is told.
+    Least {
+        /// A numeric field.
+        field: String,
+    },
+    /// `whole` × the share of runs whose flag is set.
+    Count {
+        /// A field of [`Field::Flag`](crate::Field::Flag).
+        field: String,
+        /// How many runs the paper counts in.
+        whole: u32,
+    },
+    /// The ratio of two sums.
+    Ratio {
+        /// The numeric field of the numerator.
+        over: String,
+        /// The numeric field of the denominator.
+        under: String,
+    },
+    /// The ratio of a sum to that of another row, over the runs that both have.
+    Multiple {
+        /// A numeric field.
+        field: String,
+        /// The name of the other row.
+        of: String,
+    },
+    /// When the mean of curves settles; see [`Settling`].
+    Settling(Settling),
+}
+
+/// How far our value may lie from the paper's and still match it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// By this much, in the metric's unit.
+    Absolute(f64),
+    /// By this share of the paper's value: 0.35 is ± 35 %.
+    Relative(f64),
+    /// By this factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half of
+    /// it.
+    Factor(f64),
+    /// By the paper's own standard deviation: within the spread of its runs. Where the paper gives none,
+    /// nothing is judged.
+    Spread,
+}

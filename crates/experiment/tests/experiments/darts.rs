@@ -1,0 +1,186 @@
+//! Players of different skill throw darts until one hits or ten have missed.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_draw::{Figure, Plan, Series, Zone};
+use tolman_experiment::{
+    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Row, Run, Table, Tolerance,
+};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_replay::{Replay, Scenery, Track};
+use tolman_robot::Body;
+
+/// The most darts of a run.
+const DARTS: u32 = 10;
+
+/// The experiment. Its fields are what tests change.
+pub(crate) struct Darts {
+    pub(crate) tables: Vec<Table>,
+    /// Half the side of the board.
+    pub(crate) reach: f64,
+    /// How often a replay goes over the darts.
+    pub(crate) replay_length: usize,
+}
+
+impl Darts {
+    pub(crate) fn new() -> Self {
+        let table = |name: &str, title: &str| {
+            Table::new(name, title)
+                .field("success", Kind::Flag)
+                .field("throws", Kind::Count)
+                .optional_field("outcome", Kind::Text)
+                .optional_field("miss", Kind::Number)
+                .metric(
+                    Metric::percent("success_percent", "success")
+                        .tolerance(Tolerance::Absolute(15.0)),
+                )
+                .metric(Metric::mean("throws").tolerance(Tolerance::Relative(0.35)))
+                .metric(Metric::mean("miss").titled("last miss").unit("m"))
+                .metric(Metric::ratio("miss_per_throw", "miss", "throws").titled("miss a throw"))
+                .paper_runs(25)
+                .compared_with("Adept", Correction::Holm)
+        };
+        let near = table("1 (near)", "From two metres, at most 10 darts")
+            .note("Runs without a hit count as 10 throws.")
+            .row(
+                Row::new("Novice")
+                    .paper("success_percent", 60.0)
+                    .paper_mean("throws", 6.4, 2.9),
+            )
+            .row(
+                Row::new("Adept")
+                    .paper("success_percent", 96.0)
+                    .paper_mean("throws", 2.6, 2.1)
+                    .paper_mean("miss", 0.05, 0.02),
+            )
+            .row(
+                Row::new("Master")
+                    .paper("success_percent", 100.0)
+                    .paper_mean("throws", 1.3, 0.6),
+            );
+        let far = table("2 (far)", "From four metres, at most 10 darts")
+            .row(Row::new("Novice").paper("success_percent", 40.0))
+            .row(Row::new("Adept"))
+            .row(Row::new("Master").paper_mean("throws", 1.9, 1.2));
+        Self {
+            tables: vec![near, far],
+            reach: 1.0,
+            replay_length: 1,
+        }
+    }
+
+    fn throws(&self, job: &Job<'_>) -> Vec<Point> {
+        let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+        let skill = match job.row {
+            "Novice" => 1.0,
+            "Adept" => 0.5,
+            _ => 0.3,
+        };
+        let spread = self.reach
+            * if job.table == "1 (near)" {
+                skill
+            } else {
+                1.4 * skill
+            };
+        let mut throws = Vec::new();
+        for _ in 0..DARTS {
+            let mut along = || rng.random_range(-spread..spread);
+            throws.push(Point::new(along(), along()));
+            if hits(throws.last().copied()) {
+                break;
+            }
+        }
+        throws
+    }
+}
+
+fn hits(throw: Option<Point>) -> bool {
+    throw.is_some_and(|throw| throw.coords.norm() < 0.3)
+}
+
+impl Experiment for Darts {
+    fn name(&self) -> &'static str {
+        "darts"
+    }
+
+    fn title(&self) -> &'static str {
+        "Throws until a hit, <by> skill & distance"
+    }
+
+    fn source(&self) -> &'static str {
+        "After nobody's paper: values made up for tests"
+    }
+
+    fn default_runs(&self) -> u32 {
+        400
+    }
+
+    fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    fn config(&self) -> Result<toml::Table, BoxError> {
+        Ok(toml::toml! {
+            darts = 10
+        }
+        .into_iter()
+        .chain([("reach".to_owned(), toml::Value::Float(self.reach))])
+        .collect())
+    }
+
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let throws = self.throws(job);
+        let last = throws.last().copied();
+        let hit = hits(last);
+        Ok(Fields::new()
+            .flag("success", hit)
+            .text("outcome", if hit { "Hit" } else { "OutOfDarts" })
+            .count("throws", throws.len() as u64)
+            .number("miss", last.map_or(0.0, |throw| throw.coords.norm())))
+    }
+
+    fn check(&self, run: &Run) -> Result<(), BoxError> {
+        match run.fields.get("throws") {
+            Some(Field::Count(throws)) if (1..=u64::from(DARTS)).contains(throws) => Ok(()),
+            throws => Err(format!("{throws:?} throws of {DARTS} darts").into()),
+        }
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        let corners = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)];
+        let corners = corners.map(|(x, y)| Point::new(x, y));
+        let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
+        let mut plan = Plan::of_walls(&walls, 420.0);
+        plan.zone(&corners.map(|corner| corner * 0.15), Zone::Destination);
+        for (i, row) in (0..).zip(&self.tables[0].rows) {
+            let run = runs
+                .iter()
+                .find(|run| run.row == row.name)
+                .ok_or("no run to draw")?;
+            plan.trajectory(&self.throws(&run.job()), Series(i));
+        }
+        let figure = Figure::new("first-run", "The first run of each player", {
+            plan.drawing("The board with the darts of three players, joined by lines.")
+        });
+        Ok(vec![figure.caption("Ring: first dart. Dot: last dart.")])
+    }
+
+    /// The darts of the near board, as if a robot went from one to the next.
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        if job.table != "1 (near)" {
+            return Ok(None);
+        }
+        let poses = self.throws(job).into_iter();
+        let poses: Vec<Pose> = poses.map(|at| Pose::new(at, Heading::EAST)).collect();
+        let long = poses.iter().cycle().take(poses.len() * self.replay_length);
+        let body = Body::Circle { radius: 0.05 };
+        let track = Track::new(job.row, body, long.copied().collect());
+        let title = format!("Run {} <of {}>", job.run, job.row);
+        Ok(Some(Replay::new(
+            title,
+            0.1,
+            Scenery::default(),
+            vec![track],
+        )))
+    }
+}

@@ -1,0 +1,483 @@
+//! The folder of results: resumed, mended, set aside, refused.
+
+use std::fs;
+
+use tolman_experiment::{
+    BoxError, Build, Error, Event, Experiment, Fields, Job, Metric, Options, Progress, Silent,
+    Table, execute,
+};
+
+use crate::darts::Darts;
+use crate::support::{Listener, build, fresh, options, read, run};
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let folder = fresh("threads");
+    let files: Vec<(String, String)> = [1, 2, 5]
+        .map(|jobs| {
+            let out = folder.join(jobs.to_string());
+            let options = Options {
+                jobs: Some(jobs),
+                ..options(&out)
+            };
+            run(&Darts::new(), &options).0.unwrap();
+            (read(&out, "runs.jsonl"), read(&out, "summary.json"))
+        })
+        .into();
+    assert_eq!(files[0].0.lines().count(), 240);
+    assert_eq!(files[0], files[1]);
+    assert_eq!(files[0], files[2]);
+}
+
+#[test]
+fn rows_of_a_table_meet_the_same_seeds_and_tables_do_not() {
+    let out = fresh("seeds").join("out");
+    let outcome = run(&Darts::new(), &options(&out)).0.unwrap();
+    let seeds = |table: &str, row: &str| -> Vec<u64> {
+        let runs = outcome
+            .runs
+            .iter()
+            .filter(|run| run.table == table && run.row == row);
+        runs.map(|run| run.seed).collect()
+    };
+    assert_eq!(seeds("1 (near)", "Novice"), seeds("1 (near)", "Master"));
+    assert_ne!(seeds("1 (near)", "Novice"), seeds("2 (far)", "Novice"));
+}
+
+#[test]
+fn an_interrupted_experiment_goes_on_where_it_stopped() {
+    let folder = fresh("interrupted");
+    let (whole, parts) = (folder.join("whole"), folder.join("parts"));
+    run(&Darts::new(), &options(&whole)).0.unwrap();
+    // A smaller outcome of before does not pass for the outcome of the interrupted one.
+    let few = Options {
+        runs: Some(2),
+        ..options(&parts)
+    };
+    run(&Darts::new(), &few).0.unwrap();
+
+    let listener = Listener::stopping_after(100);
+    let stopped = execute(&Darts::new(), &options(&parts), &build(), &listener);
+    let Err(
+        error @ Error::Interrupted {
+            done, total: 240, ..
+        },
+    ) = stopped
+    else {
+        panic!("{stopped:?}");
+    };
+    assert!((100..240).contains(&done) && !error.is_bad_input());
+    assert!(
+        error
+            .to_string()
+            .contains("from there: tolman experiment darts --seed 7 --runs 40")
+    );
+    assert!(!parts.join("summary.json").exists(), "no summary of a part");
+
+    let (outcome, listener) = run(&Darts::new(), &options(&parts));
+    assert_eq!(outcome.unwrap().played, 240 - done);
+    assert_eq!(listener.played(), 240 - done);
+    assert_eq!(listener.messages(), [format!("{done} of 240")]);
+    for file in ["runs.jsonl", "summary.json"] {
+        assert_eq!(read(&whole, file), read(&parts, file));
+    }
+}
+
+#[test]
+fn broken_lines_are_told_and_played_again() {
+    let out = fresh("broken").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let whole = read(&out, "runs.jsonl");
+    let mut lines: Vec<Vec<u8>> = whole.lines().map(|line| line.as_bytes().to_vec()).collect();
+    lines[2].truncate(30);
+    lines[5] = vec![0xff, 0xfe, b'{'];
+    lines[9] = String::from_utf8(lines[9].clone())
+        .unwrap()
+        .replace("Novice", "Nobody")
+        .into();
+    lines[11] = String::from_utf8(lines[11].clone())
+        .unwrap()
+        .replace("\"seed\":", "\"seed\":1")
+        .into();
+    lines.push(
+        String::from_utf8(lines[0].clone())
+            .unwrap()
+            .replace("\"miss\":0", "\"miss\":1")
+            .into(),
+    );
+    // As after a process that died within a line.
+    lines.push(b"{\"table\":\"1 (n".to_vec());
+    fs::write(out.join("runs.jsonl"), lines.join(&b'\n')).unwrap();
+
+    let (outcome, listener) = run(&Darts::new(), &options(&out));
+    assert_eq!(outcome.unwrap().played, 5);
+    let messages = listener.messages();
+    let expect = [
+        ("runs.jsonl:3: ", "EOF", "MissingPlayed"),
+        ("runs.jsonl:6: ", "", "MissingPlayed"),
+        ("runs.jsonl:10: ", "no row \"Nobody\"", "MissingPlayed"),
+        ("runs.jsonl:12: ", "seed", "PlayedAgain"),
+        ("runs.jsonl:241: ", "contradicts", "PlayedAgain"),
+        ("runs.jsonl:242: ", "EOF", "MissingPlayed"),
+    ];
+    assert_eq!(messages.len(), expect.len() + 1, "{messages:?}");
+    for (message, (place, what, remedy)) in messages.iter().zip(expect) {
+        assert!(
+            message.starts_with(place) && message.contains(what) && message.ends_with(remedy),
+            "{message}"
+        );
+    }
+    assert_eq!(read(&out, "runs.jsonl"), whole);
+}
+
+#[test]
+fn lines_of_what_no_run_measures_are_told_and_played_again() {
+    let out = fresh("wrong").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let whole = read(&out, "runs.jsonl");
+    let first = whole.lines().next().unwrap();
+    let throws = first.find("\"throws\":").unwrap();
+    let end = throws + first[throws..].find(['}', ',']).unwrap();
+    let with = |value: &str| format!("{}\"throws\":{value}{}", &first[..throws], &first[end..]);
+    for wrong in [
+        with("\"many\""),
+        with("-5"),
+        with("1.5"),
+        with("1e300"),
+        with("true"),
+        with("null"),
+        with("[3]"),
+        with("0"),
+        with("11"),
+        with("3,\"luck\":1"),
+        first.replace("\"throws\"", "\"thrown\""),
+        first
+            .replace("\"success\":", "\"success\":1")
+            .replace("1true", "\"yes\"")
+            .replace("1false", "\"no\""),
+    ] {
+        fs::write(out.join("runs.jsonl"), whole.replacen(first, &wrong, 1)).unwrap();
+        let (outcome, listener) = run(&Darts::new(), &options(&out));
+        assert_eq!(outcome.unwrap().played, 1, "{wrong}");
+        let told = &listener.messages()[0];
+        assert!(
+            told.starts_with("runs.jsonl:1: ") && told.ends_with("; PlayedAgain"),
+            "{wrong}: {told}"
+        );
+        assert_eq!(read(&out, "runs.jsonl"), whole);
+
+        // Beside the good line, or of a run nobody asks for, it does no harm.
+        fs::write(out.join("runs.jsonl"), format!("{whole}{wrong}\n")).unwrap();
+        let (outcome, listener) = run(&Darts::new(), &options(&out));
+        assert_eq!(outcome.unwrap().played, 0, "{wrong}");
+        assert!(listener.messages()[0].ends_with("; Ignored"), "{wrong}");
+    }
+}
+
+#[test]
+fn fewer_or_more_runs_reuse_what_is_there() {
+    let folder = fresh("counts");
+    let (out, alone) = (folder.join("out"), folder.join("alone"));
+    let with = |runs, out| Options {
+        runs: Some(runs),
+        ..options(out)
+    };
+    run(&Darts::new(), &with(20, &alone)).0.unwrap();
+    run(&Darts::new(), &with(40, &out)).0.unwrap();
+    let forty = read(&out, "runs.jsonl");
+
+    assert_eq!(run(&Darts::new(), &with(20, &out)).0.unwrap().played, 0);
+    for file in ["runs.jsonl", "summary.json"] {
+        assert_eq!(
+            read(&out, file),
+            read(&alone, file),
+            "as if there had never been more"
+        );
+    }
+    assert_eq!(run(&Darts::new(), &with(40, &out)).0.unwrap().played, 0);
+    assert_eq!(read(&out, "runs.jsonl"), forty);
+    assert!(!out.join("spare.jsonl").exists());
+    assert_eq!(run(&Darts::new(), &with(50, &out)).0.unwrap().played, 60);
+}
+
+#[test]
+fn results_of_another_configuration_are_set_aside_whole() {
+    let folder = fresh("aside");
+    let out = folder.join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let first = read(&out, "runs.jsonl");
+
+    let seed = Options {
+        seed: 8,
+        ..options(&out)
+    };
+    let (outcome, listener) = run(&Darts::new(), &seed);
+    assert_eq!(outcome.unwrap().played, 240);
+    assert_eq!(listener.messages()[0], "out.1 has seed 7");
+    assert_eq!(read(&folder.join("out.1"), "runs.jsonl"), first);
+
+    let wide = Darts {
+        reach: 1.5,
+        ..Darts::new()
+    };
+    let (_, listener) = run(&wide, &seed);
+    assert_eq!(
+        listener.messages()[0],
+        "out.2 has another configuration, see config.toml there"
+    );
+
+    // A slash at the end of the path does not put the copy inside the folder.
+    let slashed = Options {
+        out: Some(out.join("")),
+        ..seed
+    };
+    let other = Build {
+        executable: "11".into(),
+        ..build()
+    };
+    let listener = Listener::default();
+    execute(&wide, &slashed, &other, &listener).unwrap();
+    assert_eq!(
+        listener.messages()[0],
+        "out.3 has another build, of commit 0123456789"
+    );
+    assert!(folder.join("out.3").join("report.html").exists());
+}
+
+#[test]
+fn folders_of_others_are_left_alone() {
+    let folder = fresh("foreign");
+    let documents = folder.join("documents");
+    fs::create_dir(&documents).unwrap();
+    fs::write(documents.join("thesis.txt"), "years of work").unwrap();
+    let error = run(&Darts::new(), &options(&documents)).0.unwrap_err();
+    assert!(matches!(error, Error::ForeignFolder { .. }) && error.is_bad_input());
+    assert!(error.to_string().contains("thesis.txt"), "{error}");
+
+    let project = folder.join("project");
+    fs::create_dir(&project).unwrap();
+    fs::write(project.join("config.toml"), "title = \"not ours\"").unwrap();
+    let error = run(&Darts::new(), &options(&project)).0.unwrap_err();
+    assert!(matches!(error, Error::ForeignFolder { .. }));
+    assert_eq!(read(&project, "config.toml"), "title = \"not ours\"");
+
+    let file = folder.join("file");
+    fs::write(&file, "").unwrap();
+    for path in [file.clone(), file.join("below")] {
+        let error = run(&Darts::new(), &options(&path)).0.unwrap_err();
+        let Error::File { path: place, .. } = error else {
+            panic!("{error:?}")
+        };
+        assert_eq!(place, path);
+    }
+}
+
+#[test]
+fn a_folder_is_open_only_once_at_a_time() {
+    /// Runs the same experiment again while the first one has begun.
+    struct Intruder<'a>(&'a Options);
+    impl Progress for Intruder<'_> {
+        fn event(&self, event: &Event<'_>) {
+            if matches!(event, Event::Started { .. }) {
+                let error = execute(&Darts::new(), self.0, &build(), &Silent).unwrap_err();
+                assert!(matches!(error, Error::Busy { .. }), "{error:?}");
+            }
+        }
+    }
+    let out = fresh("busy").join("out");
+    let options = options(&out);
+    execute(&Darts::new(), &options, &build(), &Intruder(&options)).unwrap();
+    execute(&Darts::new(), &options, &build(), &Silent).unwrap();
+}
+
+#[test]
+fn options_that_run_nothing_or_too_much_are_refused_before_anything_is_written() {
+    let out = fresh("zero").join("out");
+    for (options, option) in [
+        (
+            Options {
+                runs: Some(0),
+                ..options(&out)
+            },
+            "--runs",
+        ),
+        (
+            Options {
+                runs: Some(Options::MOST_RUNS + 1),
+                ..options(&out)
+            },
+            "--runs 100000 or fewer",
+        ),
+        (
+            Options {
+                runs: Some(u32::MAX),
+                ..options(&out)
+            },
+            "4294967295 runs",
+        ),
+        (
+            Options {
+                jobs: Some(0),
+                ..options(&out)
+            },
+            "--jobs",
+        ),
+        (
+            Options {
+                seed: 1 << 63,
+                ..options(&out)
+            },
+            "seed",
+        ),
+    ] {
+        let error = run(&Darts::new(), &options).0.unwrap_err();
+        assert!(
+            error.is_bad_input() && error.to_string().contains(option),
+            "{error}"
+        );
+        assert!(!out.exists());
+    }
+}
+
+#[test]
+fn tables_that_contradict_themselves_are_refused() {
+    let out = fresh("unsound").join("out");
+    type Spoil = fn(&mut Vec<Table>);
+    let spoil: [(Spoil, &str); 12] = [
+        (|tables| tables.clear(), "no table"),
+        (|tables| tables[1].name = "1 (near)".into(), "two tables"),
+        (
+            |tables| tables[0].rows[1].name = "Novice".into(),
+            "two rows",
+        ),
+        (
+            |tables| tables[0].metrics[1].name = "miss".into(),
+            "two metrics",
+        ),
+        (
+            |tables| tables[0].rows[0].paper[0].metric = "luck".into(),
+            "no metric",
+        ),
+        (|tables| tables[0].rows[1].name = "Expert".into(), "no row"),
+        (
+            |tables| tables[1].metrics[2].name = "THROWS".into(),
+            "two figures",
+        ),
+        (
+            |tables| tables[1].metrics[2].name = "m".repeat(200),
+            "no name of a figure",
+        ),
+        (
+            |tables| tables[0].metrics.push(Metric::mean("luck")),
+            "no field",
+        ),
+        (
+            |tables| tables[0].metrics.push(Metric::mean("success")),
+            "no field of kind [Count, Number]",
+        ),
+        (
+            |tables| tables[0].fields[0].name = "throws".into(),
+            "two fields",
+        ),
+        (
+            |tables| tables[0].fields[2].name = "run".into(),
+            "identifies a run",
+        ),
+    ];
+    for (spoil, what) in spoil {
+        let mut darts = Darts::new();
+        spoil(&mut darts.tables);
+        let error = run(&darts, &options(&out)).0.unwrap_err();
+        assert!(
+            matches!(error, Error::Tables { .. }) && error.to_string().contains(what),
+            "{error}"
+        );
+        assert!(!out.exists(), "refused before the first run");
+    }
+}
+
+/// Darts whose run 3 of Adept from far away gives the fields of the test.
+struct Spoilt(Fields);
+
+impl Experiment for Spoilt {
+    fn name(&self) -> &'static str {
+        "spoilt"
+    }
+    fn title(&self) -> &'static str {
+        "Spoilt"
+    }
+    fn default_runs(&self) -> u32 {
+        5
+    }
+    fn tables(&self) -> &[Table] {
+        static TABLES: std::sync::OnceLock<Vec<Table>> = std::sync::OnceLock::new();
+        TABLES.get_or_init(|| Darts::new().tables)
+    }
+    fn config(&self) -> Result<toml::Table, BoxError> {
+        Ok(toml::Table::new())
+    }
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        if (job.table, job.row, job.run) == ("2 (far)", "Adept", 3) {
+            return Ok(self.0.clone());
+        }
+        Darts::new().run(job)
+    }
+}
+
+#[test]
+fn a_run_that_measures_nonsense_is_named() {
+    for (i, (fields, what)) in [
+        (Fields::new().number("throws", f64::NAN), "NaN"),
+        (Fields::new().number("throws", f64::INFINITY), "inf"),
+        (Fields::new().count("seed", 3), "seed"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let out = fresh(&format!("nonsense-{i}")).join("out");
+        let error = run(
+            &Spoilt(fields),
+            &Options {
+                runs: None,
+                ..options(&out)
+            },
+        )
+        .0
+        .unwrap_err();
+        let Error::Run {
+            table,
+            row,
+            run: 3,
+            source,
+            ..
+        } = &error
+        else {
+            panic!("{error:?}")
+        };
+        assert_eq!((table.as_str(), row.as_str()), ("2 (far)", "Adept"));
+        assert!(source.to_string().contains(what), "{source}");
+        assert!(out.join("runs.jsonl").exists(), "what was finished is kept");
+    }
+}
+
+#[test]
+fn a_field_that_some_runs_lack_is_measured_on_the_others() {
+    let out = fresh("lacking").join("out");
+    let fields = Fields::new().flag("success", true).count("throws", 1);
+    let outcome = run(
+        &Spoilt(fields),
+        &Options {
+            runs: None,
+            ..options(&out)
+        },
+    )
+    .0
+    .unwrap();
+    let n = |metric: &str| {
+        let mut rows = outcome.summary.rows.iter();
+        rows.find(|row| row.table == "2 (far)" && row.row == "Adept" && row.metric == metric)
+            .unwrap()
+            .n
+    };
+    assert_eq!((n("throws"), n("miss")), (5, 4));
+}

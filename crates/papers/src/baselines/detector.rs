@@ -1,0 +1,111 @@
+//! How often the corridor detector takes each kind of place for a corridor.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_control::{CorridorDetector, View};
+use tolman_geom::{Heading, Pose, Vector};
+use tolman_maze::{Cell, Direction, Grid, Maze, MazeFile};
+use tolman_robot::Robot;
+use tolman_sim::Solo;
+use tolman_sim::robots::LaserPioneer;
+
+use tolman_arena::course::Course;
+use tolman_arena::pioneer;
+use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+
+/// The table's name in `summary.json`.
+pub(super) const NAME: &str = "corridor detector";
+
+/// The one field of a run, and its metric.
+const CALLED: &str = "called_corridor_percent";
+
+/// Random poses in one run.
+const POSES: u32 = 200;
+
+/// How long the arms of a place are, cells: further than the laser sees.
+const ARM: u16 = 2;
+
+/// A kind of place and the directions it is open in.
+const PLACES: [(&str, &[Direction]); 5] = [
+    ("corridor", &[Direction::North, Direction::South]),
+    ("bend", &[Direction::North, Direction::East]),
+    (
+        "T junction",
+        &[Direction::North, Direction::East, Direction::South],
+    ),
+    ("crossing", &Direction::ALL),
+    ("dead end", &[Direction::North]),
+];
+
+pub(super) fn table() -> Table {
+    let mut table = Table::new(NAME, "What the corridor detector takes for a corridor")
+        .field(CALLED, Kind::Number)
+        .metric(Metric::mean(CALLED).titled("called corridor").unit("%"));
+    for (name, _) in PLACES {
+        table = table.row(Row::new(name));
+    }
+    table.note(format!(
+        "{POSES} poses a run, anywhere in the cell where the robot stands clear and with any heading."
+    ))
+}
+
+/// One run: the share of random poses in a place that look like a corridor.
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let open = PLACES
+        .iter()
+        .find(|(name, _)| *name == job.row)
+        .map_or(&[][..], |(_, open)| open);
+    let centre = Cell::new(ARM, ARM);
+    let file = MazeFile::from(place(centre, open));
+    let course = Course::new(job.row, &file, &pioneer::body())?;
+    let detector = CorridorDetector::new(pioneer::ring(), course.corridor_width)?;
+    let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+    let half = 0.5 * course.corridor_width;
+    let (mut poses, mut called) = (0_u32, 0_u32);
+    while poses < POSES {
+        let offset = Vector::new(
+            rng.random_range(-half..=half),
+            rng.random_range(-half..=half),
+        );
+        let heading = Heading::from_degrees(rng.random_range(-180.0..180.0));
+        let pose = Pose::new(course.world.cell_centre(centre) + offset, heading);
+        if !course.world.clear_for(&pioneer::body(), pose) {
+            continue;
+        }
+        poses += 1;
+        let robot = LaserPioneer::new(pioneer::calibrated())?;
+        let solo = Solo::new(course.world.clone(), robot, pose, job.seed)?;
+        if let Some(scan) = &solo.sensing().scan {
+            called += u32::from(detector.detect(View { scan, heading }).is_some());
+        }
+    }
+    let percent = 100.0 * f64::from(called) / f64::from(POSES);
+    Ok(Fields::new().number(CALLED, percent))
+}
+
+/// Refuses what is no percentage.
+pub(super) fn check(run: &Run) -> Result<(), BoxError> {
+    match run.fields.get(CALLED).and_then(Field::as_number) {
+        Some(percent) if !(0.0..=100.0).contains(&percent) => {
+            Err(format!("{CALLED} is {percent}").into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A place with straight arms in the directions it is open in; the goal lies at the end of one.
+fn place(centre: Cell, open: &[Direction]) -> Maze {
+    let grid = Grid::new(2 * ARM + 1, 2 * ARM + 1);
+    let mut maze = Maze::solid(grid);
+    let mut end = centre;
+    for &direction in open {
+        end = centre;
+        for _ in 0..ARM {
+            maze.set_wall(end, direction, false);
+            end = grid.neighbour(end, direction).unwrap_or(end);
+        }
+    }
+    maze.set_goals(vec![end]);
+    maze
+}

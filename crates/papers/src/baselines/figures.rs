@@ -1,0 +1,87 @@
+//! Where the runs went: for each maze and brain, the middle run over all others.
+
+use tolman_geom::Point;
+
+use super::{Baselines, ROWS, Venue};
+use tolman_arena::agents::Agent;
+use tolman_draw::{Figure, Series};
+use tolman_experiment::{BoxError, Field, Run};
+
+/// How many runs one plan shows at most.
+const SHOWN: usize = 25;
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 420.0;
+
+pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let mut figures = Vec::new();
+    for (number, venue) in (1_u32..).zip(&experiment.venues) {
+        for (series, row) in (0_u32..).zip(ROWS.map(Agent::name)) {
+            let of_row: Vec<&Run> = runs
+                .iter()
+                .filter(|run| run.table == venue.table && run.row == row)
+                .collect();
+            if let Some(middle) = middle(&of_row) {
+                let name = format!("plan-{number}-{}", series + 1);
+                figures.push(plan(
+                    experiment,
+                    venue,
+                    &name,
+                    &of_row,
+                    middle,
+                    Series(series),
+                )?);
+            }
+        }
+    }
+    Ok(figures)
+}
+
+/// The run with the median number of steps.
+fn middle<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
+    let steps = |run: &Run| match run.fields.get("steps") {
+        Some(Field::Count(steps)) => *steps,
+        _ => u64::MAX,
+    };
+    let mut sorted = runs.to_vec();
+    sorted.sort_by_key(|run| (steps(run), run.run));
+    sorted.get(sorted.len() / 2).copied()
+}
+
+fn plan(
+    experiment: &Baselines,
+    venue: &Venue,
+    name: &str,
+    runs: &[&Run],
+    middle: &Run,
+    series: Series,
+) -> Result<Figure, BoxError> {
+    let mut plan = crate::plan_of_course(&venue.course, WIDTH);
+    for run in runs.iter().take(SHOWN).filter(|run| run.run != middle.run) {
+        plan.faint_trajectory(&way(experiment, run)?, series);
+    }
+    plan.trajectory(&way(experiment, middle)?, series);
+    let row = &middle.row;
+    let steps = match middle.fields.get("steps") {
+        Some(Field::Count(steps)) => *steps,
+        _ => 0,
+    };
+    let shown = runs.len().min(SHOWN);
+    let description = format!(
+        "Plan of {}: the ways of {shown} runs of {row}.",
+        venue.title
+    );
+    Ok(Figure::new(name, format!("{row} in {}", venue.course.name), plan.drawing(description))
+        .caption(format!(
+            "Run {} ({steps} steps, the median) from ring to dot, over {shown} runs. The destination is shaded.",
+            middle.run
+        ))
+        .table(&venue.table))
+}
+
+fn way(experiment: &Baselines, run: &Run) -> Result<Vec<Point>, BoxError> {
+    let episode = experiment.episode(&run.job())?;
+    Ok(episode.map_or_else(Vec::new, |episode| {
+        episode.path.iter().map(|pose| pose.position).collect()
+    }))
+}

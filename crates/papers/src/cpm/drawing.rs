@@ -1,0 +1,352 @@
+//! Pictures of a map, as the paper's figures 5 (b) and 8.
+
+use core::fmt::Write;
+
+use tolman_geom::{Point, Pose, Vector};
+use tolman_maps::cpm::{
+    CpMap, End, Fragment, FragmentId, Junction, JunctionId, Landmark, PortState, Sign,
+};
+use tolman_maze::{Cell, Maze};
+use tolman_sim::World;
+
+use tolman_arena::agents::cpm::{Fit, Layout};
+use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series, Zone};
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 420.0;
+
+/// The radius of a node, user units.
+const RADIUS: f64 = 4.5;
+
+/// The colour of junctions, and the first of fragments.
+const JUNCTION: Series = Series(0);
+
+/// The name of a fragment on all pictures.
+#[must_use]
+pub fn fragment_name(id: FragmentId) -> String {
+    format!("A{}", id.0)
+}
+
+/// What stands at a junction, or its number.
+#[must_use]
+pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
+    match map.junction(id).and_then(|junction| junction.landmark) {
+        Some(Landmark::Start) => "start".to_owned(),
+        Some(Landmark::Goal) => "goal".to_owned(),
+        _ => format!("J{}", id.0),
+    }
+}
+
+const fn sign_text(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Minus => "−",
+        Sign::Plus => "+",
+    }
+}
+
+/// The colour of a fragment: that of its number.
+const fn series(id: FragmentId) -> Series {
+    Series(1 + id.0 % (Series::COLOURS - 1))
+}
+
+/// A map over the maze it was learned in: each fragment along the corridor it stands for, in a colour of its own, with its name and its signs;
+/// junctions as squares. Dashed stubs are ports nobody has been through.
+#[must_use]
+pub fn over_maze(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
+    let plan = plan_with(map, maze, world);
+    plan.drawing(format!(
+        "A common-pattern map of {} fragments over its maze.",
+        map.fragments().len()
+    ))
+}
+
+/// A drive over the map that it was made by, over the maze.
+#[must_use]
+pub fn drive(map: &CpMap, maze: &Maze, world: &World, path: &[Pose]) -> Drawing {
+    let mut plan = plan_with(map, maze, world);
+    let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
+    plan.trajectory(&positions, JUNCTION);
+    plan.drawing("A drive by a common-pattern map.")
+}
+
+fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
+    let layout = Layout::of(map, maze);
+    let mut plan = plan_of(maze, world);
+    let mut graph = Graph::new().radius(RADIUS);
+    let mut signs = Vec::new();
+    let bounds = world.bounds();
+    let unit = (bounds.max.x - bounds.min.x) / WIDTH;
+    stubs(&mut graph, &layout, world);
+    for (id, fragment) in map.fragments() {
+        let Some(course) = layout.course(id) else {
+            continue;
+        };
+        let centres = centres(&course.cells, world);
+        match course.fit {
+            Fit::Agrees => plan.way(&centres, series(id)),
+            Fit::Astray => plan.doubtful_way(&centres, series(id)),
+        }
+        let node = GraphNode::at(middle(&centres))
+            .mark(NodeMark::Disc)
+            .series(series(id))
+            .label(fragment_name(id))
+            .note(fragment_note(map, id, fragment));
+        add(&mut graph, node);
+        if let ([at, towards, ..], [.., before, last]) = (&centres[..], &centres[..]) {
+            signs.push((beside(*at, *towards, unit), sign_text(Sign::Minus)));
+            signs.push((beside(*last, *before, unit), sign_text(Sign::Plus)));
+        }
+    }
+    graph.signs = signs.iter().map(|(at, _)| *at).collect();
+    for (id, junction) in map.junctions() {
+        if let Some(cell) = layout.place(id) {
+            add(
+                &mut graph,
+                junction_node(map, id, junction, world.cell_centre(cell)),
+            );
+        }
+    }
+    plan.graph(&graph);
+    for (at, sign) in signs {
+        plan.label(at, sign);
+    }
+    plan
+}
+
+/// The plan of a maze; what the robot cannot come to is solid.
+#[must_use]
+pub fn plan_of(maze: &Maze, world: &World) -> Plan {
+    let mut plan = Plan::of_world(world, WIDTH);
+    // Cell (0, 0) begins at the origin.
+    let half = world.cell_centre(Cell::new(0, 0)).x;
+    for cell in maze.sealed() {
+        let centre = world.cell_centre(cell);
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
+        plan.zone(&corners, Zone::Solid);
+    }
+    plan
+}
+
+/// Adds a node; where one stands already, as where the map has one place twice, it is named there.
+fn add(graph: &mut Graph, node: GraphNode) {
+    let same = |other: &&mut GraphNode| {
+        other.mark == node.mark
+            && !other.label.is_empty()
+            && (other.position - node.position).norm() < 1e-6
+    };
+    match graph.nodes.iter_mut().find(same) {
+        Some(other) => {
+            other.label = format!("{}, {}", other.label, node.label);
+            other.note = format!("{}; {}", other.note, node.note);
+        }
+        None => {
+            graph.node(node);
+        }
+    }
+}
+
+/// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares, each edge with the sign of the
+/// fragment's end and the port of the junction. Nodes lie as they do in the maze.
+#[must_use]
+pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
+    let layout = Layout::of(map, maze);
+    let mut graph = Graph::new().radius(RADIUS + 1.0);
+    stubs(&mut graph, &layout, world);
+    let mut junctions = Vec::new();
+    for (id, junction) in map.junctions() {
+        if let Some(cell) = layout.place(id) {
+            let node = junction_node(map, id, junction, world.cell_centre(cell));
+            junctions.push((id, graph.node(node)));
+        }
+    }
+    for (id, fragment) in map.fragments() {
+        let Some(course) = layout.course(id) else {
+            continue;
+        };
+        let centres = centres(&course.cells, world);
+        let node = graph.node(
+            GraphNode::at(free(&centres, &graph))
+                .mark(NodeMark::Disc)
+                .series(series(id))
+                .label(format!("{} · {}", fragment_name(id), fragment.length()))
+                .note(fragment_note(map, id, fragment)),
+        );
+        for sign in [Sign::Minus, Sign::Plus] {
+            let port = fragment.port(sign);
+            let place = junctions.iter().find(|(other, _)| *other == port.junction);
+            if let Some((_, place)) = place {
+                let line = match course.fit {
+                    Fit::Agrees => EdgeLine::Plain,
+                    Fit::Astray => EdgeLine::Dashed,
+                };
+                graph.edge(
+                    GraphEdge::between(node, *place)
+                        .series(series(id))
+                        .line(line)
+                        .label(format!("{}{}", sign_text(sign), port.number)),
+                );
+            }
+        }
+    }
+    // Names stand to the right of their nodes.
+    let mut bounds = world.bounds();
+    bounds.max.x += 0.1 * (bounds.max.x - bounds.min.x);
+    let mut plan = Plan::of_bounds(&bounds, WIDTH);
+    plan.graph(&graph);
+    plan.drawing(format!(
+        "A common-pattern map: {} fragment nodes and {} junction nodes.",
+        map.fragments().len(),
+        map.junctions().len()
+    ))
+}
+
+fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) -> GraphNode {
+    let mut note = format!("{}: ", junction_name(map, id));
+    for (number, port) in (0_u32..).zip(&junction.ports) {
+        let what = match port {
+            PortState::Open { .. } => "nobody has been there".to_owned(),
+            PortState::Filled(end) => end_name(*end),
+        };
+        // Writing to a string cannot fail.
+        let _ = write!(note, "port {number} {what}; ");
+    }
+    GraphNode::at(at)
+        .mark(NodeMark::Square)
+        .series(JUNCTION)
+        .label(junction_name(map, id))
+        .note(note.trim_end_matches("; "))
+}
+
+/// An end as the paper writes it: A3⁺.
+fn end_name(end: End) -> String {
+    let sign = match end.sign {
+        Sign::Minus => "⁻",
+        Sign::Plus => "⁺",
+    };
+    format!("{}{sign}", fragment_name(end.fragment))
+}
+
+/// The three properties of a fragment node: its sequence, its length, its transitions.
+fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
+    let sequence: Vec<String> = fragment
+        .patterns
+        .iter()
+        .map(|pattern| pattern.0.to_string())
+        .collect();
+    let mut note = format!(
+        "{}: {} patterns, {}; ",
+        fragment_name(id),
+        fragment.patterns.len(),
+        sequence.join("-")
+    );
+    for sign in [Sign::Minus, Sign::Plus] {
+        let from = End { fragment: id, sign };
+        let place = map.junction(fragment.port(sign).junction);
+        let ends = place.into_iter().flat_map(|place| &place.ports);
+        for port in ends {
+            if let PortState::Filled(to) = port
+                && *to != from
+                && let Some(turn) = map.transition(from, *to)
+            {
+                // Writing to a string cannot fail.
+                let _ = write!(
+                    note,
+                    "Δ({} → {}) = {}; ",
+                    end_name(from),
+                    end_name(*to),
+                    turn.0
+                );
+            }
+        }
+    }
+    note.trim_end_matches("; ").to_owned()
+}
+
+/// Dashed stubs where nobody has been.
+fn stubs(graph: &mut Graph, layout: &Layout, world: &World) {
+    for open in layout.open_ports() {
+        let at = world.cell_centre(open.cell);
+        let on = world.cell_centre(open.next) - at;
+        // Hidden below its junction.
+        let from = graph.node(GraphNode::at(at).mark(NodeMark::Square).series(JUNCTION));
+        let to = graph.node(
+            GraphNode::at(at + 0.5 * on)
+                .series(JUNCTION)
+                .note("nobody has been there"),
+        );
+        graph.edge(
+            GraphEdge::between(from, to)
+                .series(JUNCTION)
+                .line(EdgeLine::Dashed),
+        );
+    }
+}
+
+/// The middles of cells.
+fn centres(cells: &[Cell], world: &World) -> Vec<Point> {
+    cells.iter().map(|cell| world.cell_centre(*cell)).collect()
+}
+
+/// The point half way along cells, where a fragment's name stands.
+#[must_use]
+pub fn middle_of(cells: &[Cell], world: &World) -> Point {
+    middle(&centres(cells, world))
+}
+
+/// A point along a way from which straight lines to both its ends pass no node: the middle, or as near to it as may be.
+fn free(points: &[Point], graph: &Graph) -> Point {
+    let (Some(start), Some(end)) = (points.first(), points.last()) else {
+        return Point::origin();
+    };
+    let room = |at: &Point| {
+        let others = graph.nodes.iter().map(|node| node.position);
+        let others = others.filter(|node| node != start && node != end);
+        let distances = others.map(|node| {
+            let to = |end: &Point| distance_to(node, *at, *end);
+            to(start).min(to(end))
+        });
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    // Less than half a cell is too near.
+    let cell = points.get(1).map_or(0.0, |next| (next - start).norm());
+    let mut candidates =
+        [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8].map(|share| point_along(points, share));
+    let free = candidates.iter().find(|at| room(at) > 0.5 * cell);
+    if let Some(free) = free {
+        return *free;
+    }
+    candidates.sort_by(|a, b| room(b).total_cmp(&room(a)));
+    candidates[0]
+}
+
+/// How far a point lies from the line between two others.
+fn distance_to(point: Point, from: Point, to: Point) -> f64 {
+    let along = to - from;
+    let share = (point - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+    (point - (from + share.clamp(0.0, 1.0) * along)).norm()
+}
+
+/// The point half way along.
+fn middle(points: &[Point]) -> Point {
+    point_along(points, 0.5)
+}
+
+/// The point at this share of the length, 0 … 1.
+fn point_along(points: &[Point], share: f64) -> Point {
+    let length = |pair: &[Point]| (pair[1] - pair[0]).norm();
+    let mut left = points.windows(2).map(length).sum::<f64>() * share;
+    for pair in points.windows(2) {
+        if left <= length(pair) {
+            return pair[0] + (left / length(pair).max(f64::MIN_POSITIVE)) * (pair[1] - pair[0]);
+        }
+        left -= length(pair);
+    }
+    points.first().copied().unwrap_or_else(Point::origin)
+}
+
+/// Where a sign stands: a little way along, to the left. `unit` is the length of a user unit, m.
+fn beside(at: Point, towards: Point, unit: f64) -> Point {
+    let along = (towards - at).normalize();
+    at + unit * (17.0 * along + 9.0 * Vector::new(-along.y, along.x))
+}

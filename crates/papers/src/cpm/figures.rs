@@ -1,0 +1,144 @@
+//! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both episodes.
+
+use tolman_geom::Point;
+use tolman_maps::cpm::Landmark;
+
+use super::Cpm;
+use super::drawing;
+use super::trials::{BETTER, FIGURE_9};
+use tolman_arena::agents::cpm::{Record, Venue};
+use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
+use tolman_experiment::{BoxError, Field, Run};
+
+pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let mut figures = Vec::new();
+    for (number, venue) in (1_u32..).zip(&experiment.venues) {
+        for (suffix, kind) in [("", "paper"), (BETTER, "better")] {
+            let row = format!("{}{suffix}", venue.name);
+            let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
+            let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
+            let Some(longest) = longest(&runs) else {
+                continue;
+            };
+            figures.push(times(&row, &format!("times-{number}-{kind}"), &runs));
+            let Some((venue, record)) = experiment.play(&longest.job())? else {
+                continue;
+            };
+            figures.push(ways(
+                &venue,
+                &record,
+                &row,
+                &format!("ways-{number}-{kind}"),
+            )?);
+            figures.extend(maps(&venue, &record, &row, &format!("{number}-{kind}"))?);
+        }
+    }
+    Ok(figures)
+}
+
+/// The run with the longest first episode, of those that were solved if any was.
+fn longest<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
+    let key = |run: &Run| {
+        let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
+        (solved, number_of(run, "seconds_1").unwrap_or(0.0))
+    };
+    let order = |a: &&Run, b: &&Run| {
+        let (a, b) = (key(a), key(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    };
+    runs.iter().copied().max_by(order)
+}
+
+fn number_of(run: &Run, field: &str) -> Option<f64> {
+    run.fields.get(field).and_then(Field::as_number)
+}
+
+/// The paper's figure 9, panels (a) to (c): the seconds of both episodes by trial.
+fn times(row: &str, name: &str, runs: &[&Run]) -> Figure {
+    let mut chart = Chart::new(
+        Axis::linear("trial").whole_numbers(),
+        Axis::linear("time, s").from_zero(),
+    );
+    for (series, field, label) in [(0, "seconds_1", "episode 1"), (1, "seconds_2", "episode 2")] {
+        let point = |run: &&Run| {
+            Some(LinePoint::new(
+                f64::from(run.run + 1),
+                number_of(run, field)?,
+            ))
+        };
+        let points = runs.iter().filter_map(point).take(50).collect();
+        chart.line(Line::new(label, Series(series), points));
+    }
+    Figure::new(
+        name,
+        format!("{row}: time of both episodes"),
+        chart.drawing(format!(
+            "The seconds of the first and the second episode in {row}, by trial."
+        )),
+    )
+    .caption("As the paper's figure 9, (a) to (c). The first fifty trials.")
+    .table(FIGURE_9)
+}
+
+/// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took longest.
+fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<Figure, BoxError> {
+    let world = venue.world()?;
+    let mut plan = drawing::plan_of(&venue.maze, &world);
+    let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
+    let (first, second) = positions.split_at(record.second_from.min(positions.len()));
+    plan.faint_trajectory(first, Series(0));
+    plan.trajectory(second, Series(1));
+    for (landmark, cells) in [
+        (
+            Landmark::Start,
+            venue
+                .maze
+                .start()
+                .map(|(cell, _)| vec![cell])
+                .unwrap_or_default(),
+        ),
+        (Landmark::Goal, venue.maze.goals().to_vec()),
+    ] {
+        for cell in cells {
+            let word = if landmark == Landmark::Start {
+                "start"
+            } else {
+                "goal"
+            };
+            plan.label(world.cell_centre(cell), word);
+        }
+    }
+    Ok(Figure::new(
+        name,
+        format!("{row}: the ways of one trial"),
+        plan.drawing(format!("Plan of {row} with the ways of both episodes.")),
+    )
+    .caption(format!(
+        "The solved trial with the longest first episode (first colour): {} fragments walked, {} of them different, {} on the map. The second \
+         colour is the second episode. As the paper's figure 8, (b) and (c).",
+        record.traversals, record.true_fragments, record.fragments
+    ))
+    .table(FIGURE_9))
+}
+
+/// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by itself.
+fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<[Figure; 2], BoxError> {
+    let world = venue.world()?;
+    let over = drawing::over_maze(&record.map, &venue.maze, &world);
+    let graph = drawing::graph(&record.map, &venue.maze, &world);
+    Ok([
+        Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
+            .caption(
+                "The map at the end of that trial's first episode, laid over the maze port by port: each fragment A with its ends − and +, \
+                 junctions as squares, rings where nobody has been. A dashed fragment leads elsewhere on the map than in the maze.",
+            )
+            .table(FIGURE_9),
+        Figure::new(format!("graph-{name}"), format!("{row}: the map"), graph)
+            .caption(
+                "The same map as a graph, as the paper's figures 5 (b) and 8 (a): fragment nodes as discs with their length in observations, \
+                 junction nodes as squares; on each edge the fragment's end and the junction's port. The turn Δ from one fragment into another is \
+                 how many ports lie between them, counter-clockwise. Point at a node for its patterns and transitions.",
+            )
+            .table(FIGURE_9),
+    ])
+}

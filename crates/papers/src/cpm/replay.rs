@@ -1,0 +1,259 @@
+//! A trial as it can be watched: both episodes, and the map as it grew.
+
+use alloc::collections::BTreeMap;
+
+use tolman_geom::{Point, Pose};
+use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Sign};
+use tolman_maze::Maze;
+use tolman_robot::Body;
+use tolman_robot::epuck::BODY_RADIUS;
+use tolman_sim::World;
+
+use super::drawing::{fragment_name, junction_name, middle_of};
+use super::real::Real;
+use tolman_arena::agents::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, slow_epuck};
+use tolman_experiment::{BoxError, Job};
+use tolman_replay::{
+    Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,
+    Track,
+};
+
+/// Plays a trial again and watches it.
+pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
+    let world = venue.world()?;
+    let mut watch = Watch::new(&venue.maze, &world);
+    let record = trial.watch(|agent, step| watch.see(agent, step))?;
+    let mut track = track(&record.path);
+    let begun = record.second_from as u32;
+    let mut second = Marks::new(Mark::Arrival, "second episode");
+    if record.second.is_some() {
+        track.lifts = vec![begun];
+        second.steps.push(begun);
+        watch.arrivals.say(begun, "drives by the map");
+    }
+    track.marks = vec![second];
+    let outcome = if record.is_solved() {
+        "solved"
+    } else {
+        "not solved"
+    };
+    Ok(watch
+        .replay(venue, trial.robot.step_us, job, track)
+        .fact("outcome", outcome)
+        .fact("fragments walked", record.traversals.to_string()))
+}
+
+/// Plays a round trip again and watches it: to the goal, back, and to the goal again.
+pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxError> {
+    let venue = &real.venue;
+    let world = venue.world()?;
+    let mut watch = Watch::new(&venue.maze, &world);
+    let trip = real.play(job, |agent, step| watch.see(agent, step))?;
+    let mut track = track(&trip.path);
+    for (episode, begun, name) in [
+        (trip.back, trip.back_from, "way back"),
+        (trip.again, trip.again_from, "to the goal again"),
+    ] {
+        if episode.is_some() {
+            let mut mark = Marks::new(Mark::Arrival, name);
+            mark.steps.push(begun as u32);
+            track.marks.push(mark);
+        }
+    }
+    Ok(watch
+        .replay(venue, slow_epuck().step_us, job, track)
+        .fact("tried on the way", trip.tried.to_string())
+        .fact("given up", trip.given_up.to_string()))
+}
+
+/// Where an e-puck was after every step.
+fn track(path: &[Pose]) -> Track {
+    let body = Body::Circle {
+        radius: BODY_RADIUS,
+    };
+    Track::new("e-puck", body, path.to_vec())
+}
+
+/// What is noted at the end of each fragment.
+struct Watch<'a> {
+    maze: &'a Maze,
+    world: &'a World,
+    nodes: Vec<Node>,
+    /// The nodes that stand for parts of the map as it is.
+    live: BTreeMap<Part, usize>,
+    edges: Vec<Edge>,
+    joints: BTreeMap<(FragmentId, Sign), usize>,
+    arrivals: Notes,
+    fragments: Series,
+}
+
+/// What a node stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Junction(JunctionId),
+    Fragment(FragmentId),
+}
+
+impl<'a> Watch<'a> {
+    fn new(maze: &'a Maze, world: &'a World) -> Self {
+        Self {
+            maze,
+            world,
+            nodes: Vec::new(),
+            live: BTreeMap::new(),
+            edges: Vec::new(),
+            joints: BTreeMap::new(),
+            arrivals: Notes::new("last fragment"),
+            fragments: Series {
+                name: "fragments on the map".to_owned(),
+                unit: String::new(),
+                samples: Vec::new(),
+            },
+        }
+    }
+
+    /// The replay of a track, with what was seen on it.
+    fn replay(self, venue: &Venue, step_us: u64, job: &Job<'_>, mut track: Track) -> Replay {
+        let scenery = Scenery::of_world(self.world);
+        track.maps = vec![self.growth()];
+        track.notes = vec![self.arrivals];
+        track.series = vec![self.fragments];
+        let step_s = step_us as f64 * 1e-6;
+        let title = format!("{}, run {}", job.row, job.run);
+        Replay::new(title, step_s, scenery, vec![track])
+            .fact("maze", &venue.name)
+            .fact("seed", job.seed.to_string())
+    }
+
+    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+        let now = agent.walker().body().path().len().saturating_sub(1) as u32;
+        let word = match step.arrival {
+            Some(arrival) => word_for(arrival),
+            None => "turned back",
+        };
+        self.arrivals.say(now, word);
+        let map = agent.explorer().map();
+        self.fragments.samples.push(Sample {
+            step: now,
+            value: map.fragments().len() as f64,
+        });
+        self.update(map, now);
+        let here = Part::Junction(agent.explorer().at().junction);
+        if let Some(index) = self.live.get(&here) {
+            self.nodes[*index].visits.push(now);
+        }
+    }
+
+    /// What has changed on the map.
+    fn update(&mut self, map: &CpMap, now: u32) {
+        let layout = Layout::of(map, self.maze);
+        let mut parts = Vec::new();
+        for (id, junction) in map.junctions() {
+            let cell = layout.place(id);
+            parts.extend(cell.map(|cell| {
+                let facts = vec![Fact::new("branches", junction.degree().to_string())];
+                let at = self.world.cell_centre(cell);
+                (Part::Junction(id), at, junction_name(map, id), facts)
+            }));
+        }
+        for (id, fragment) in map.fragments() {
+            let course = layout.course(id);
+            parts.extend(course.map(|course| {
+                let facts = vec![
+                    Fact::new("observations", fragment.patterns.len().to_string()),
+                    Fact::new("walked", fragment.traversals.to_string()),
+                ];
+                let at = middle_of(&course.cells, self.world);
+                (Part::Fragment(id), at, fragment_name(id), facts)
+            }));
+        }
+        let nodes = &mut self.nodes;
+        self.live.retain(|part, index| {
+            let stays = parts.iter().any(|(other, ..)| other == part);
+            if !stays {
+                nodes[*index].died = Some(now);
+            }
+            stays
+        });
+        for (part, at, label, facts) in parts {
+            match self.live.get(&part) {
+                Some(index) => moved(&mut self.nodes[*index], at, now),
+                None => {
+                    let id = self.nodes.len() as u32;
+                    self.live.insert(part, self.nodes.len());
+                    let mut node = Node::new(id, at, now);
+                    node.label = label;
+                    self.nodes.push(node);
+                }
+            }
+            if let Some(index) = self.live.get(&part) {
+                self.nodes[*index].facts = facts;
+            }
+        }
+        self.join(map, now);
+    }
+
+    /// Edges from each fragment to the junctions at its ends.
+    fn join(&mut self, map: &CpMap, now: u32) {
+        let mut wanted = BTreeMap::new();
+        for (id, fragment) in map.fragments() {
+            for sign in [Sign::Minus, Sign::Plus] {
+                let ends = [
+                    Part::Fragment(id),
+                    Part::Junction(fragment.port(sign).junction),
+                ];
+                if let [Some(a), Some(b)] = ends.map(|part| self.live.get(&part)) {
+                    wanted.insert((id, sign), (*a as u32, *b as u32));
+                }
+            }
+        }
+        let edges = &mut self.edges;
+        self.joints.retain(|joint, index| {
+            let edge = &mut edges[*index];
+            let stays = wanted.get(joint) == Some(&(edge.a, edge.b));
+            if !stays {
+                edge.died = Some(now);
+            }
+            stays
+        });
+        for ((fragment, sign), (a, b)) in wanted {
+            if !self.joints.contains_key(&(fragment, sign)) {
+                let mut edge = Edge::new(a, b, now);
+                edge.label = match sign {
+                    Sign::Minus => "−".to_owned(),
+                    Sign::Plus => "+".to_owned(),
+                };
+                self.joints.insert((fragment, sign), self.edges.len());
+                self.edges.push(edge);
+            }
+        }
+    }
+
+    fn growth(&self) -> MapGrowth {
+        MapGrowth {
+            name: "common-pattern map".to_owned(),
+            nodes: self.nodes.clone(),
+            edges: self.edges.clone(),
+        }
+    }
+}
+
+/// A node's place as it is now.
+fn moved(node: &mut Node, position: Point, step: u32) {
+    let last = node.moves.last();
+    let last = last.map_or(node.position, |last| last.position);
+    if (last - position).norm() > 1e-6 {
+        node.moves.push(NodeMove { step, position });
+    }
+}
+
+const fn word_for(arrival: Arrival) -> &'static str {
+    match arrival {
+        Arrival::New => "new",
+        Arrival::Known => "known",
+        Arrival::Duplicate => "a duplicate: a loop is closed",
+        Arrival::Loop => "new, to a known place: a loop is closed",
+        Arrival::Revised => "the map is revised",
+        Arrival::Contradiction => "not what the map says",
+    }
+}

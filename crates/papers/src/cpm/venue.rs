@@ -1,0 +1,141 @@
+//! The mazes of the experiment.
+
+use std::path::PathBuf;
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::{Cell, Direction, Perfect};
+
+use super::trials::BETTER;
+use crate::maze_file;
+use tolman_arena::agents::cpm::{Likeness, Venue};
+use tolman_experiment::BoxError;
+
+/// Cells along each side of an aliased maze.
+const ALIASED_SIDE: u16 = 5;
+
+/// The paper's three mazes, drawn anew.
+pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
+    [
+        include_str!("../../mazes/cpm-1.maze"),
+        include_str!("../../mazes/cpm-2.maze"),
+        include_str!("../../mazes/cpm-3.maze"),
+    ]
+    .into_iter()
+    .map(|text| Ok(Venue::new("", tolman_maze::read(text)?)?))
+    .collect()
+}
+
+/// That of figure 11, drawn anew.
+pub(super) fn real() -> Result<Venue, BoxError> {
+    let text = include_str!("../../mazes/cpm-real.maze");
+    Ok(Venue::new("", tolman_maze::read(text)?)?)
+}
+
+/// Where the common patterns are learned.
+pub(super) fn learning() -> Result<Venue, BoxError> {
+    let text = include_str!("../../mazes/cpm-learning.maze");
+    Ok(Venue::new("", tolman_maze::read(text)?)?)
+}
+
+/// The mazes that the caller names; the later of two of one name gets a number, and so does one whose name is that of another's row.
+pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
+    let mut venues: Vec<Venue> = Vec::new();
+    for path in files {
+        let mut venue = Venue::new(&maze_file::stem(path), maze_file::read(path)?)
+            .map_err(|error| maze_file::in_file(path, error))?;
+        let rows = |name: &str| [name.to_owned(), format!("{name}{BETTER}")];
+        venue.name = maze_file::told_apart(&venue.name, |name| {
+            let mut taken = venues.iter().flat_map(|before| rows(&before.name));
+            taken.any(|row| rows(name).contains(&row))
+        });
+        venues.push(venue);
+    }
+    Ok(venues)
+}
+
+/// A random maze whose fragments are short and alike, without rooms: a way behind every other dead end opened, start in the south-west,
+/// goal in the dead end farthest from it. Drawn again until two fragments of it bend alike.
+pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    loop {
+        let venue = braided(&mut rng)?;
+        if Likeness::of(&venue.maze).alike_pairs > 0 {
+            return Ok(venue);
+        }
+    }
+}
+
+fn braided(rng: &mut impl Rng) -> Result<Venue, BoxError> {
+    let side = ALIASED_SIDE;
+    let mut maze = Perfect {
+        width: side,
+        height: side,
+    }
+    .generate(rng)?;
+    let start = Cell::new(0, 0);
+    let dead_ends: Vec<Cell> = maze.dead_ends().filter(|cell| *cell != start).collect();
+    for cell in dead_ends.into_iter().step_by(2) {
+        let first = rng.random_range(0..4_u32) as usize;
+        let shut = (0..4)
+            .map(|turn| Direction::ALL[(first + turn) % 4])
+            .find(|direction| {
+                let inside = maze.grid().neighbour(cell, *direction).is_some();
+                inside && !maze.is_open(cell, *direction) && {
+                    let mut opened = maze.clone();
+                    opened.set_wall(cell, *direction, false);
+                    !opened.grid().cells().any(|cell| opened.is_room(cell))
+                }
+            });
+        if let Some(direction) = shut {
+            maze.set_wall(cell, direction, false);
+        }
+    }
+    let ahead = if maze.is_open(start, Direction::North) {
+        Direction::North
+    } else {
+        Direction::East
+    };
+    let steps = maze.steps_to(&[start]);
+    let grid = maze.grid();
+    let farthest = maze
+        .grid()
+        .cells()
+        .filter(|cell| maze.degree(*cell) == 1 && *cell != start)
+        .max_by_key(|cell| steps[grid.index(*cell)]);
+    let goal = farthest.unwrap_or(Cell::new(ALIASED_SIDE - 1, ALIASED_SIDE - 1));
+    maze.set_start(Some((start, ahead)));
+    maze.set_goals(vec![goal]);
+    Ok(Venue {
+        name: "Aliased".into(),
+        maze,
+        corridor_width: Venue::CORRIDOR_WIDTH,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn no_two_mazes_have_a_row_of_one_name() {
+        let folder = std::env::temp_dir().join(format!("tolman-cpm-venues-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let maze = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
+        let names = ["Loop", "Loop", "Loop better"];
+        let files: Vec<PathBuf> = (0..)
+            .zip(names)
+            .map(|(number, name)| {
+                let path = folder.join(format!("{number}.maze"));
+                fs::write(&path, format!("name = {name}\n{maze}")).unwrap();
+                path
+            })
+            .collect();
+        let venues = from_files(&files).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let found: Vec<&str> = venues.iter().map(|venue| venue.name.as_str()).collect();
+        assert_eq!(found, ["Loop", "Loop (2)", "Loop better (2)"]);
+    }
+}

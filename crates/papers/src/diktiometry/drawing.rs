@@ -1,0 +1,60 @@
+//! A learned map over the world it was learned in, as the paper's figures 3(a) and 4.
+
+use tolman_geom::Point;
+use tolman_sim::Bounds;
+
+use tolman_arena::agents::diktiometry::{Drawn, Office, Survey};
+use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, Plan, Region, Series};
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 560.0;
+
+/// More boxes than these lie over each other and hide the world.
+const MOST_BOXES: usize = 100;
+
+/// The places with the boxes that hold them, as seen from where the robot began, and the links, over the walls. Maps of more
+/// than a hundred places are drawn without boxes.
+#[must_use]
+pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
+    let mut plan = Plan::of_world(office.world(), WIDTH);
+    let drawn = survey.drawn();
+    let boxes = if drawn.len() > MOST_BOXES {
+        &[]
+    } else {
+        drawn.as_slice()
+    };
+    for Drawn { low, high, .. } in boxes {
+        let bounds = Bounds {
+            min: *low,
+            max: *high,
+        };
+        plan.region(&Region::within(&bounds), Series(1));
+    }
+    let mut graph = Graph::new();
+    let nodes: Vec<(u32, usize)> = drawn
+        .iter()
+        .map(|place| {
+            let node = GraphNode::at(middle(place)).note(&place.label);
+            (place.id, graph.node(node))
+        })
+        .collect();
+    // By id, as the layout is.
+    let node = |id: u32| {
+        let at = nodes.binary_search_by_key(&id, |(id, _)| *id).ok()?;
+        Some(nodes[at].1)
+    };
+    for (from, to) in survey.links() {
+        if let (Some(from), Some(to)) = (node(from), node(to)) {
+            graph.edge(GraphEdge::between(from, to).line(EdgeLine::Arrow));
+        }
+    }
+    plan.graph(&graph);
+    plan.drawing(format!(
+        "A learned map over its world: {} places.",
+        drawn.len()
+    ))
+}
+
+fn middle(place: &Drawn) -> Point {
+    place.low + 0.5 * (place.high - place.low)
+}

@@ -1,0 +1,95 @@
+//! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds, as figures 3(a) and 4.
+
+use super::drawing::map_over_world;
+use super::settings::{Setting, Subject, Trial};
+use tolman_arena::agents::diktiometry::{Survey, WINDOW};
+use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
+use tolman_experiment::{BoxError, Run};
+use tolman_stats::Interval;
+
+/// Width of a chart, user units.
+const WIDTH: f64 = 560.0;
+/// Tables of more rows get no curves: nobody could tell them apart.
+const MOST_CURVES: usize = 4;
+
+pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let mut figures = Vec::new();
+    for trial in trials {
+        if trial.settings.len() > MOST_CURVES {
+            continue;
+        }
+        figures.push(errors(trial, runs));
+        let maps = trial.settings.iter().enumerate();
+        for (number, setting) in maps.filter(|(_, setting)| setting.subject == Subject::Map) {
+            let first =
+                |run: &&Run| run.table == trial.name && run.row == setting.row && run.run == 0;
+            if let Some(run) = runs.iter().find(first) {
+                figures.push(map(trial, setting, run, number)?);
+            }
+        }
+    }
+    Ok(figures)
+}
+
+fn errors(trial: &Trial, runs: &[Run]) -> Figure {
+    let mut chart = Chart::new(
+        Axis::linear("moves").from_zero(),
+        Axis::linear("squared error a move, m²").from_zero(),
+    )
+    .sized(WIDTH, 340.0);
+    for (series, setting) in (0..).map(Series).zip(&trial.settings) {
+        let own = runs
+            .iter()
+            .filter(|run| run.table == trial.name && run.row == setting.row);
+        let curves: Vec<&[f64]> = own
+            .filter_map(|run| run.fields.get("curve")?.as_curve())
+            .collect();
+        let windows = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
+        let points = (0..windows).filter_map(|window| {
+            let values: Vec<f64> = curves
+                .iter()
+                .filter_map(|curve| curve.get(window).copied())
+                .collect();
+            let spread = Interval {
+                low: tolman_stats::quantile(&values, 0.25).ok()?,
+                high: tolman_stats::quantile(&values, 0.75).ok()?,
+            };
+            let moves = (window as f64 + 0.5) * WINDOW as f64;
+            Some(LinePoint::new(moves, tolman_stats::mean(&values).ok()?).spread(spread))
+        });
+        chart.line(Line::new(setting.row, series, points.collect()));
+    }
+    let drawing = chart.drawing(format!(
+        "{}: the error of each row against moves.",
+        trial.title
+    ));
+    Figure::new(format!("error-{}", slug(trial)), trial.title, drawing)
+        .caption(format!(
+            "Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles."
+        ))
+        .table(trial.name)
+}
+
+/// A table's name as part of a file's.
+fn slug(trial: &Trial) -> String {
+    trial.name.replace(' ', "-")
+}
+
+/// The map of a run, laid from where the robot truly began.
+fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
+    let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
+    let score = survey.score();
+    let drawing = map_over_world(&setting.office, &survey);
+    Ok(Figure::new(
+        format!("map-{}-{number}", slug(trial)),
+        format!("{}: the map of run 0", setting.row),
+        drawing,
+    )
+    .caption(format!(
+        "Its {} places with the boxes that hold them, seen from where the robot began, and the links, over the world, of which \
+         {} true places were visited. Boxes grow with the distance from the start, since each frame knows only its neighbours; \
+         relative to those they are small.",
+        score.places, score.visited
+    ))
+    .table(trial.name))
+}

@@ -1,0 +1,222 @@
+//! A run as it can be watched: the robot's way, and the map as it grows beside it.
+
+use alloc::collections::BTreeMap;
+
+use tolman_geom::{Point, PointBox};
+use tolman_maps::diktiometry::{LinkId, PlaceId, Standing};
+use tolman_robot::Body;
+use tolman_sim::robots::LaserPioneerConfig;
+
+use super::settings::Setting;
+use tolman_arena::agents::diktiometry::{Reason, Survey, Surveyed};
+use tolman_experiment::{BoxError, Job};
+use tolman_replay::{
+    Belief, BeliefAt, Edge, Fact, MapGrowth, Node, NodeMove, Notes, Replay, Sample, Scenery,
+    Series, Shape, Track,
+};
+
+/// Only every so many time steps of the simulator become steps of the replay.
+const COARSE: usize = 12;
+/// Nodes that moved less than this are left where they are, m: a quarter of a corridor's width. Most moves of the robot
+/// shift most of the map a little, which nobody could see and every replay would have to carry.
+const STILL: f64 = 0.3;
+
+pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
+    let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
+    let mut watch = Watch::new(&survey);
+    for _ in 0..setting.config.moves {
+        let surveyed = survey.step()?;
+        watch.see(&survey, &surveyed);
+    }
+    let robot = LaserPioneerConfig::noiseless();
+    let body = Body::Circle {
+        radius: robot.radius,
+    };
+    let poses = survey
+        .robot()
+        .path()
+        .iter()
+        .step_by(COARSE)
+        .copied()
+        .collect();
+    let mut track = Track::new("robot", body, poses);
+    track.maps = vec![watch.growth()];
+    track.beliefs = vec![watch.belief];
+    track.series = vec![watch.places, watch.error];
+    track.notes = vec![watch.matcher, watch.reason];
+    let scenery = Scenery::of_world(setting.office.world());
+    let step_s = COARSE as f64 * robot.step_us as f64 * 1e-6;
+    let score = survey.score();
+    Ok(Replay::new(
+        format!("{}, run {}", job.row, job.run),
+        step_s,
+        scenery,
+        vec![track],
+    )
+    .fact("table", job.table)
+    .fact("seed", job.seed.to_string())
+    .fact("moves", setting.config.moves.to_string())
+    .fact(
+        "places",
+        format!("{} for {} true ones", score.places, score.visited),
+    )
+    .fact("purity", format!("{:.3}", score.purity)))
+}
+
+/// What is noted after each move.
+#[derive(Debug)]
+struct Watch {
+    start: Point,
+    home: PlaceId,
+    nodes: BTreeMap<PlaceId, Node>,
+    /// By link and its ends: a merge of places gives a link other ends, which makes it another edge.
+    edges: BTreeMap<(LinkId, PlaceId, PlaceId), Edge>,
+    belief: Belief,
+    places: Series,
+    error: Series,
+    matcher: Notes,
+    reason: Notes,
+}
+
+impl Watch {
+    fn new(survey: &Survey<'_>) -> Self {
+        let series = |name: &str, unit: &str| Series {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            samples: Vec::new(),
+        };
+        let mut watch = Self {
+            start: survey.start(),
+            home: survey.observer().place(),
+            nodes: BTreeMap::new(),
+            edges: BTreeMap::new(),
+            belief: Belief {
+                name: "where the robot may be".to_owned(),
+                entries: Vec::new(),
+            },
+            places: series("places", ""),
+            error: series("squared error", "m²"),
+            matcher: Notes::new("match"),
+            reason: Notes::new("why"),
+        };
+        watch.map(survey, 0);
+        watch
+    }
+
+    fn see(&mut self, survey: &Survey<'_>, surveyed: &Surveyed) {
+        let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
+        let before = surveyed
+            .report
+            .tracks
+            .first()
+            .and_then(|track| self.nodes.get(&track.from));
+        let before = before.map(|node| {
+            node.moves
+                .last()
+                .map_or(node.position, |last| last.position)
+        });
+        self.map(survey, step);
+        let tracks = survey.observer().tracks();
+        let mut shapes: Vec<Shape> = tracks
+            .iter()
+            .map(|track| Shape::Node {
+                id: track.place.0,
+                weight: track.confidence.clamp(0.0, 1.0),
+            })
+            .collect();
+        if let Some(before) = before {
+            let PointBox { x, y } = surveyed.arrival.moved;
+            shapes.push(Shape::Box {
+                min: Point::new(before.x + x.low(), before.y + y.low()),
+                max: Point::new(before.x + x.high(), before.y + y.high()),
+                weight: 0.5,
+            });
+        }
+        // The last of several at one step counts.
+        self.belief.entries.pop_if(|entry| entry.step >= step);
+        self.belief.entries.push(BeliefAt { step, shapes });
+        let sample = |series: &mut Series, value: f64| {
+            series.samples.pop_if(|sample| sample.step >= step);
+            series.samples.push(Sample { step, value });
+        };
+        sample(
+            &mut self.places,
+            survey.observer().map().paths.places().count() as f64,
+        );
+        if let Some(error) = survey.errors().last() {
+            sample(&mut self.error, error.map);
+        }
+        let best = surveyed.report.tracks.first();
+        let matcher = best.and_then(|track| track.matcher);
+        self.matcher.say(
+            step,
+            matcher.map_or("blocked".to_owned(), |matcher| format!("{matcher:?}")),
+        );
+        self.reason.say(
+            step,
+            match &surveyed.decision.reason {
+                Reason::Walk => "random walk".to_owned(),
+                Reason::Advice(advice) => format!("advice: {:?}", advice.kind),
+                Reason::Script => "script".to_owned(),
+            },
+        );
+    }
+
+    /// What has changed on the map.
+    fn map(&mut self, survey: &Survey<'_>, step: u32) {
+        let map = survey.observer().map();
+        for drawn in map.layout(self.home) {
+            let position = self.start + drawn.bounds.middle().coords;
+            let id = drawn.place;
+            let node = self
+                .nodes
+                .entry(id)
+                .or_insert_with(|| Node::new(id.0, position, step));
+            let last = node
+                .moves
+                .last()
+                .map_or(node.position, |last| last.position);
+            if (last - position).norm() > STILL {
+                node.moves.pop_if(|moved| moved.step >= step);
+                node.moves.push(NodeMove { step, position });
+            }
+        }
+        for (id, node) in &mut self.nodes {
+            if node.died.is_none() && map.paths.resolve(*id) != Some(*id) {
+                node.died = Some(step);
+            }
+        }
+        if let Some(here) = self.nodes.get_mut(&survey.observer().place()) {
+            here.visits.pop_if(|visit| *visit >= step);
+            here.visits.push(step);
+        }
+        for (id, link) in map.paths.links() {
+            let ends = [link.from, link.to];
+            if ends.iter().all(|end| self.nodes.contains_key(end)) {
+                let edge = || Edge::new(link.from.0, link.to.0, step);
+                let key = (id, link.from, link.to);
+                self.edges.entry(key).or_insert_with(edge);
+            }
+        }
+        for ((id, from, to), edge) in &mut self.edges {
+            let stands = map.paths.link(*id).is_some_and(|link| {
+                link.standing == Standing::Standing && link.from == *from && link.to == *to
+            });
+            if edge.died.is_none() && !stands {
+                edge.died = Some(step);
+            }
+        }
+    }
+
+    fn growth(&self) -> MapGrowth {
+        let mut nodes: Vec<Node> = self.nodes.values().cloned().collect();
+        for node in &mut nodes {
+            node.facts = vec![Fact::new("visits", node.visits.len().to_string())];
+        }
+        MapGrowth {
+            name: "path graph".to_owned(),
+            nodes,
+            edges: self.edges.values().cloned().collect(),
+        }
+    }
+}

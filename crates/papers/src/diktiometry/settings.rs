@@ -1,0 +1,203 @@
+//! Which office, which mapper, how many moves: every row of every table.
+
+use alloc::sync::Arc;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::diktiometry::{Ablation, Config};
+
+use tolman_arena::agents::diktiometry::{
+    Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks,
+};
+use tolman_arena::pioneer;
+use tolman_experiment::BoxError;
+
+/// "Generally 30% of the time".
+const HEED: f64 = 0.3;
+
+/// One table: a world and the rows that are tried in it.
+#[derive(Debug)]
+pub(super) struct Trial {
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    pub(super) note: &'static str,
+    pub(super) rows: Rows,
+    pub(super) settings: Vec<Setting>,
+}
+
+/// What the rows of a table have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rows {
+    /// One world: they are compared with the first.
+    OneWorld,
+    /// Each has a world of its own.
+    OwnWorlds,
+}
+
+/// One row.
+#[derive(Debug)]
+pub(super) struct Setting {
+    pub(super) row: &'static str,
+    pub(super) office: Arc<Office>,
+    pub(super) config: SurveyConfig,
+    pub(super) subject: Subject,
+}
+
+/// What a row measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// The map.
+    Map,
+    /// What odometry alone would have said of the passive walk.
+    Odometry,
+}
+
+/// The paper draws its worlds in figures that no text describes. Ours are corridors between blocks; a share of the
+/// passages is walled up.
+fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>, BoxError> {
+    let maze = blocks(side, WALLED_UP, &mut ChaCha8Rng::seed_from_u64(seed));
+    Ok(Arc::new(Office::new(&maze, furniture)?))
+}
+
+const WALLED_UP: f64 = 0.25;
+
+/// Every place looks like every other.
+const BARE: OfficeConfig = OfficeConfig::bare();
+
+/// Doorways, and walls of many colours.
+const FURNISHED: OfficeConfig = OfficeConfig {
+    doorway_share: 0.2,
+    colours: 8,
+    ..OfficeConfig::bare()
+};
+
+pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
+    let small = office(5, 1, &BARE)?;
+    let large = office(7, 2, &BARE)?;
+    let complicated = office(7, 3, &FURNISHED)?;
+    Ok(vec![
+        Trial {
+            name: "3b",
+            title: "A small world in which every place looks the same (figure 3b), 700 moves",
+            note: "5 × 5 cells.",
+            rows: Rows::OneWorld,
+            settings: compared(&small, 700),
+        },
+        Trial {
+            name: "3c",
+            title: "A larger world, random walk and exploration scripts (figure 3c), 5000 moves",
+            note: "7 × 7 cells, all places alike.",
+            rows: Rows::OneWorld,
+            settings: compared(&large, 5000),
+        },
+        Trial {
+            name: "4",
+            title: "A complicated world (figure 4), 3000 moves",
+            note: "7 × 7 cells with doorways and walls of eight colours.",
+            rows: Rows::OneWorld,
+            settings: compared(&complicated, 3000),
+        },
+        Trial {
+            name: ABLATION,
+            title: "The complicated world with a part of the mapper left out, 1000 moves with scripts",
+            note: "7 × 7 cells with doorways and walls of eight colours.",
+            rows: Rows::OneWorld,
+            settings: ablations(&complicated),
+        },
+        Trial {
+            name: "changing",
+            title: "The complicated world while doors shut and open, 3000 moves with scripts",
+            note: "After every 25 moves a doorway by chance is shut or opened. A plan works if its actions lead where it says.",
+            rows: Rows::OneWorld,
+            settings: changing(&complicated),
+        },
+        Trial {
+            name: "mslst worlds",
+            title: "The mazes and the robot of MSLST, 300 moves with scripts",
+            note: "The robot of MSLST tells places apart by its laser.",
+            rows: Rows::OwnWorlds,
+            settings: vec![
+                mslst("J", include_str!("../../mazes/j.maze"))?,
+                mslst("Large", include_str!("../../mazes/large.maze"))?,
+            ],
+        },
+    ])
+}
+
+fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
+    let passive = SurveyConfig::paper(office, moves);
+    let setting = |row, config: &SurveyConfig, subject| Setting {
+        row,
+        office: Arc::clone(office),
+        config: config.clone(),
+        subject,
+    };
+    let scripted = SurveyConfig {
+        heed: HEED,
+        ..passive.clone()
+    };
+    vec![
+        setting("passive", &passive, Subject::Map),
+        setting("with scripts", &scripted, Subject::Map),
+        setting("odometry", &passive, Subject::Odometry),
+    ]
+}
+
+/// The table of parts left out.
+pub(super) const ABLATION: &str = "ablation";
+
+fn ablations(office: &Arc<Office>) -> Vec<Setting> {
+    let setting = |ablation: Ablation| {
+        let mut config = SurveyConfig::paper(office, 1000);
+        config.heed = HEED;
+        (ablation.change)(&mut config.mapper);
+        Setting {
+            row: ablation.name,
+            office: Arc::clone(office),
+            config,
+            subject: Subject::Map,
+        }
+    };
+    Ablation::ALL.into_iter().map(setting).collect()
+}
+
+/// A maze of MSLST as that paper has it, with that paper's robot.
+fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
+    let file = tolman_maze::read(text)?;
+    let furniture = OfficeConfig {
+        corridor_width: file.corridor_width.unwrap_or(pioneer::CORRIDOR_WIDTH),
+        wall_thickness: 0.0,
+        ..OfficeConfig::bare()
+    };
+    let office = Office::new(&file.maze, &furniture)?;
+    let config = SurveyConfig {
+        heed: HEED,
+        ..SurveyConfig::of(&office, SurveyorConfig::mslst(), 300)
+    };
+    Ok(Setting {
+        row,
+        office: Arc::new(office),
+        config,
+        subject: Subject::Map,
+    })
+}
+
+fn changing(office: &Arc<Office>) -> Vec<Setting> {
+    let setting = |row, door_period: u32, change: fn(&mut Config)| {
+        let mut config = SurveyConfig::paper(office, 3000);
+        config.heed = HEED;
+        config.door_period = door_period;
+        change(&mut config.mapper);
+        Setting {
+            row,
+            office: Arc::clone(office),
+            config,
+            subject: Subject::Map,
+        }
+    };
+    vec![
+        setting("doors stand open", 0, |_| {}),
+        setting("doors move", 25, |config| config.transients.fading = 1.0),
+        setting("doors move, counts fade", 25, |_| {}),
+    ]
+}

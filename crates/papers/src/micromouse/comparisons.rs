@@ -1,0 +1,187 @@
+//! What the paper compares in words (section 3.2): the ways to search a known maze, and Q-learning.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::{Cell, Maze};
+use tolman_planners::{Found, Graph, a_star, best_first, path_to};
+
+use super::paper::PaperTable;
+use super::{Fields, Kind, Metric, Row, Run, Table};
+use tolman_arena::micromouse::{CellTask, MAX_STEPS};
+use tolman_arena::q_learning::{QLearner, QLearningConfig};
+use tolman_experiment::{BoxError, Field};
+
+/// The table of planners.
+pub(super) const PLANNERS: &str = "planners";
+/// The table of Q-learning.
+pub(super) const Q_LEARNING: &str = "q-learning";
+
+/// When to give up on Q-learning, steps.
+const MOST_STEPS: u32 = 1_000_000;
+/// How often to look at what it has learned, steps.
+const LOOK: u32 = 100;
+
+const ROWS: [&str; 4] = ["breadth-first", "Dijkstra", "A*", "best-first"];
+
+/// The tables, where the paper's mazes are.
+pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
+    let mazes = mazes(paper);
+    if mazes.is_empty() {
+        return Vec::new();
+    }
+    let mut planners = Table::new(PLANNERS, "Searches in a known maze, by cells")
+        .field("path_cells", Kind::Count)
+        .optional_field("expanded", Kind::Count)
+        .metric(Metric::mean("path_cells").titled("path").unit("cells"))
+        .metric(Metric::mean("expanded").unit("cells"))
+        .note(
+            "One run on each of the paper's mazes 1 to 3. A* and best-first guess by the Manhattan distance. Expanded \
+             is how many cells' neighbours were looked at.",
+        );
+    for row in ROWS {
+        planners = planners.row(Row::new(row).runs(mazes.len() as u32));
+    }
+    let mut learning = Table::new(Q_LEARNING, "Q-learning in a known maze")
+        .field("learned_in_time", Kind::Flag)
+        .field("learned", Kind::Flag)
+        .optional_field("steps", Kind::Count)
+        .metric(
+            Metric::percent("learned_in_time_percent", "learned_in_time")
+                .titled(format!("learned in {MAX_STEPS} steps")),
+        )
+        .metric(Metric::median("steps_to_learn", "steps").titled("steps to learn"))
+        .note(format!(
+            "Learned is a shortest path in cells. Looked at every {LOOK} steps, up to {MOST_STEPS}."
+        ));
+    for (name, _) in &mazes {
+        learning = learning.row(Row::new(*name));
+    }
+    vec![planners, learning]
+}
+
+/// The mazes of tables 1 to 3.
+fn mazes(paper: &[PaperTable]) -> Vec<(&'static str, &Maze)> {
+    ["1", "2", "3"]
+        .into_iter()
+        .zip(["maze 1", "maze 2", "maze 3"])
+        .filter_map(|(table, name)| {
+            let table = paper.iter().find(|paper| paper.name == table)?;
+            Some((name, table.mazes().next()?.1))
+        })
+        .collect()
+}
+
+/// Plays a run of these tables; none of any other.
+pub(super) fn run(
+    paper: &[PaperTable],
+    table: &str,
+    row: &str,
+    number: u32,
+    seed: u64,
+) -> Result<Option<Fields>, BoxError> {
+    let mazes = mazes(paper);
+    match table {
+        PLANNERS => {
+            let (_, maze) = mazes.get(number as usize).ok_or("there is no such maze")?;
+            planner(row, maze).map(Some)
+        }
+        Q_LEARNING => {
+            let found = mazes.iter().find(|(name, _)| *name == row);
+            let (_, maze) = found.ok_or("there is no such maze")?;
+            learn(maze, seed).map(Some)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// What is wrong with a run of these tables; none of any other table.
+pub(super) fn check(run: &Run) -> Option<Result<(), BoxError>> {
+    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
+    let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);
+    Some(match run.table.as_str() {
+        PLANNERS if number("path_cells").is_none_or(|cells| cells < 1.0) => {
+            Err("a path has a cell at least".into())
+        }
+        Q_LEARNING if flag("learned_in_time") && !flag("learned") => {
+            Err("what is learned in time is learned".into())
+        }
+        Q_LEARNING if flag("learned") != number("steps").is_some() => {
+            Err("what is learned was learned in some steps".into())
+        }
+        PLANNERS | Q_LEARNING => Ok(()),
+        _ => return None,
+    })
+}
+
+/// Cells as nodes, by [`tolman_maze::Grid::index`].
+struct Cells<'a>(&'a Maze);
+
+impl Graph for Cells<'_> {
+    fn node_count(&self) -> usize {
+        self.0.grid().cell_count()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let grid = self.0.grid();
+        let Some(cell) = grid.cells().nth(node as usize) else {
+            return;
+        };
+        for (_, beside) in self.0.neighbours(cell) {
+            visit(grid.index(beside) as u32, 1);
+        }
+    }
+}
+
+fn planner(row: &str, maze: &Maze) -> Result<Fields, BoxError> {
+    let grid = maze.grid();
+    let (start, _) = maze.start().ok_or("the maze has no start")?;
+    let source = grid.index(start) as u32;
+    let goals: Vec<u32> = maze
+        .goals()
+        .iter()
+        .map(|goal| grid.index(*goal) as u32)
+        .collect();
+    let is_goal = |node: u32| goals.contains(&node);
+    let manhattan = |node: u32| {
+        let cell = grid.cells().nth(node as usize).unwrap_or(start);
+        let distance = |goal: &Cell| u32::from(goal.x.abs_diff(cell.x) + goal.y.abs_diff(cell.y));
+        maze.goals().iter().map(distance).min().unwrap_or(0)
+    };
+    let cells = Cells(maze);
+    let found = match row {
+        "breadth-first" => {
+            let path = path_to(&cells, source, is_goal).ok_or("no way")?;
+            return Ok(Fields::new().count("path_cells", path.len() as u64 - 1));
+        }
+        "Dijkstra" => a_star(&cells, source, is_goal, |_| 0),
+        "A*" => a_star(&cells, source, is_goal, manhattan),
+        _ => best_first(&cells, source, is_goal, manhattan),
+    };
+    let Found { cost, expanded, .. } = found.ok_or("no way")?;
+    Ok(Fields::new()
+        .count("path_cells", cost.into())
+        .count("expanded", expanded.into()))
+}
+
+fn learn(maze: &Maze, seed: u64) -> Result<Fields, BoxError> {
+    let (start, _) = maze.start().ok_or("the maze has no start")?;
+    let shortest = maze.steps_to_goal()[maze.grid().index(start)];
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut learner = QLearner::new(QLearningConfig::usual(), CellTask::new(maze, start));
+    let mut steps = 0;
+    while steps < MOST_STEPS {
+        for _ in 0..LOOK {
+            learner.step(&mut rng);
+        }
+        steps += LOOK;
+        if learner.greedy_cost() == shortest {
+            return Ok(Fields::new()
+                .flag("learned", true)
+                .flag("learned_in_time", steps <= MAX_STEPS)
+                .count("steps", steps.into()));
+        }
+    }
+    Ok(Fields::new()
+        .flag("learned", false)
+        .flag("learned_in_time", false))
+}

@@ -1,0 +1,171 @@
+//! The paper's tables: which maze, which search, which values.
+
+use std::path::Path;
+
+use tolman_maze::Maze;
+
+use super::{Metric, Row, Table, Tolerance, fields};
+use crate::maze_file;
+use tolman_arena::micromouse::Searcher;
+use tolman_experiment::BoxError;
+
+/// One of the paper's tables.
+#[derive(Debug)]
+pub(super) struct PaperTable {
+    /// Its number.
+    pub(super) name: &'static str,
+    title: &'static str,
+    note: &'static str,
+    rows: Vec<PaperRow>,
+}
+
+#[derive(Debug)]
+struct PaperRow {
+    name: &'static str,
+    searcher: Searcher,
+    maze: Maze,
+    /// Move length and average score.
+    paper: Option<(f64, f64)>,
+}
+
+/// A row: its name, the search, the file and the paper's values.
+type Line = (&'static str, Searcher, &'static str, Option<(f64, f64)>);
+
+const COUNTER_50: &str = "counter_search (at least 50%)";
+const COUNTER_75: &str = "counter_search (at least 75%)";
+const TARGET: &str = "target_search";
+const OURS: &str = "certifying search";
+/// Not in the paper's tables; section 3.2 says that it "does not work well".
+const RANDOM: &str = "random exploration";
+
+const MAZE_1: &str = "udacity/test_maze_01.txt";
+const MAZE_2: &str = "udacity/test_maze_02.txt";
+const MAZE_3: &str = "udacity/test_maze_03.txt";
+/// Candidates for the maze of table 4, which the paper calls that of the "2016 micromouse worldchampionship".
+const TAIWAN: &str = "classic/taiwan2016f.txt";
+const APEC: &str = "classic/apec2016.txt";
+
+const NOTE: &str = "Of searches that leave nothing to chance there is one run; those with chance that do not finish \
+                    within 1000 steps have no score.";
+
+const TABLES: [(&str, &str, &str, &[Line]); 4] = [
+    (
+        "1",
+        "Maze 1",
+        NOTE,
+        &lines(MAZE_1, [(19.4, 22.11), (17.0, 24.3198), (17.0, 20.833)]),
+    ),
+    (
+        "2",
+        "Maze 2",
+        NOTE,
+        &lines(MAZE_2, [(22.4, 31.8534), (23.8, 38.567), (23.0, 27.967)]),
+    ),
+    (
+        "3",
+        "Maze 3",
+        NOTE,
+        &lines(MAZE_3, [(25.2, 39.566), (25.4, 37.84), (25.0, 32.633)]),
+    ),
+    (
+        "4",
+        "The maze of the 2016 championship",
+        "The paper does not say which maze that is. The first row is on taiwan2016f, the others on the maze they name.",
+        &[
+            (TARGET, Searcher::Target, TAIWAN, Some((70.0, 83.967))),
+            ("target_search on apec2016", Searcher::Target, APEC, None),
+            (OURS, Searcher::Certify, TAIWAN, None),
+            (
+                "certifying search on apec2016",
+                Searcher::Certify,
+                APEC,
+                None,
+            ),
+        ],
+    ),
+];
+
+const fn lines(maze: &'static str, [low, high, target]: [(f64, f64); 3]) -> [Line; 5] {
+    [
+        (COUNTER_50, Searcher::Counter50, maze, Some(low)),
+        (COUNTER_75, Searcher::Counter75, maze, Some(high)),
+        (TARGET, Searcher::Target, maze, Some(target)),
+        (RANDOM, Searcher::Random, maze, None),
+        (OURS, Searcher::Certify, maze, None),
+    ]
+}
+
+/// The tables whose mazes are all below the folder of data.
+pub(super) fn tables(folder: &Path) -> Result<Vec<PaperTable>, BoxError> {
+    let mut tables = Vec::new();
+    for (name, title, note, lines) in TABLES {
+        let mut rows = Vec::new();
+        for (row, searcher, file, paper) in lines.iter().copied() {
+            let path = folder.join("mazes").join(file);
+            if !path.exists() {
+                continue;
+            }
+            let maze = maze_file::read(&path)?.maze;
+            rows.push(PaperRow {
+                name: row,
+                searcher,
+                maze,
+                paper,
+            });
+        }
+        if !rows.is_empty() {
+            tables.push(PaperTable {
+                name,
+                title,
+                note,
+                rows,
+            });
+        }
+    }
+    Ok(tables)
+}
+
+impl PaperTable {
+    pub(super) fn table(&self) -> Table {
+        let average_score = Metric {
+            name: "average_score".into(),
+            ..Metric::mean("score")
+        };
+        let average_score = average_score
+            .titled("average score")
+            .tolerance(Tolerance::Relative(0.2));
+        let mut table = fields(Table::new(self.name, self.title))
+            .metric(
+                Metric::mean("move_length")
+                    .titled("move length")
+                    .tolerance(Tolerance::Relative(0.15)),
+            )
+            .metric(average_score)
+            .metric(Metric::percent("finished_percent", "finished"))
+            .metric(Metric::percent("certified_percent", "certified"))
+            .note(self.note);
+        table.paper_runs = Some(5);
+        for line in &self.rows {
+            let mut row = Row::new(line.name);
+            if let Some((moves, score)) = line.paper {
+                row = row
+                    .paper("move_length", moves)
+                    .paper("average_score", score);
+            }
+            if line.searcher.is_deterministic() {
+                row = row.runs(1);
+            }
+            table = table.row(row);
+        }
+        table
+    }
+
+    pub(super) fn row(&self, name: &str) -> Option<(Searcher, &Maze)> {
+        let row = self.rows.iter().find(|row| row.name == name)?;
+        Some((row.searcher, &row.maze))
+    }
+
+    pub(super) fn mazes(&self) -> impl Iterator<Item = (&str, &Maze)> {
+        self.rows.iter().map(|row| (row.name, &row.maze))
+    }
+}

@@ -1,0 +1,227 @@
+//! Sets of mazes: those of others where they are found, ours, and those the caller names.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::{Braided, Maze};
+
+use crate::maze_file;
+use tolman_arena::micromouse::SIDE;
+use tolman_experiment::BoxError;
+use tolman_experiment::files::files_in;
+
+/// Mazes under one name.
+#[derive(Debug)]
+pub(super) struct MazeSet {
+    /// The name of its row.
+    pub(super) name: String,
+    /// Names of files and mazes, by name.
+    pub(super) mazes: Vec<(String, Maze)>,
+    /// How many files were left out, by the reason.
+    pub(super) left_out: LeftOut,
+}
+
+/// Files of a folder that no mouse can have a score in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct LeftOut {
+    no_maze: usize,
+    no_way: usize,
+    no_fit: usize,
+}
+
+impl MazeSet {
+    /// What was left out, for people; none if nothing was.
+    pub(super) fn complaint(&self) -> Option<String> {
+        let LeftOut {
+            no_maze,
+            no_way,
+            no_fit,
+        } = self.left_out;
+        let out = no_maze + no_way + no_fit;
+        if out == 0 {
+            return None;
+        }
+        let reasons = [
+            (no_way, "without a way to the goal".to_owned()),
+            (
+                no_fit,
+                format!("without a start or of more than {SIDE} cells a side"),
+            ),
+            (no_maze, "that are no mazes".to_owned()),
+        ];
+        let reasons: Vec<String> = reasons
+            .into_iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, reason)| format!("{count} {reason}"))
+            .collect();
+        let all = out + self.mazes.len();
+        Some(format!(
+            "{}: {out} of {all} files left out, {}.",
+            self.name,
+            reasons.join(", ")
+        ))
+    }
+}
+
+/// The set that is for the competition model alone.
+pub(super) const HALF_SIZE: &str = "half-size";
+
+/// The sets of others, below the folder of data.
+const OTHERS: [(&str, &str); 7] = [
+    ("classic", "mazes/classic"),
+    (HALF_SIZE, "mazes/halfsize"),
+    ("generated 12", "mazes/generated/12"),
+    ("generated 14", "mazes/generated/14"),
+    ("generated 16", "mazes/generated/16"),
+    ("generated 18", "mazes/generated/18"),
+    ("generated 20", "mazes/generated/20"),
+];
+
+/// How many mazes we make ourselves.
+const OURS: u64 = 20;
+
+pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSet>, BoxError> {
+    let mut sets = Vec::new();
+    for (name, path) in OTHERS {
+        if let Some(path) = folder.map(|folder| folder.join(path))
+            && path.is_dir()
+        {
+            let (mazes, left_out) = in_folder(&path)?;
+            sets.push(MazeSet {
+                name: name.to_owned(),
+                mazes,
+                left_out,
+            });
+        }
+    }
+    sets.push(ours()?);
+    for path in named {
+        let (mazes, left_out) = if path.is_dir() {
+            in_folder(path)?
+        } else {
+            (
+                vec![(maze_file::stem(path), maze(path)?)],
+                LeftOut::default(),
+            )
+        };
+        if mazes.is_empty() {
+            return Err(format!("{} holds no maze: name another folder", path.display()).into());
+        }
+        sets.push(MazeSet {
+            name: maze_file::told_apart(&maze_file::stem(path), |name| {
+                sets.iter().any(|set| set.name == name)
+            }),
+            mazes,
+            left_out,
+        });
+    }
+    Ok(sets)
+}
+
+/// Mazes with a few loops, the same ones every time.
+fn ours() -> Result<MazeSet, BoxError> {
+    let braided = Braided {
+        width: 16,
+        height: 16,
+        share: 0.5,
+    };
+    let mazes: Result<Vec<(String, Maze)>, BoxError> = (0..OURS)
+        .map(|seed| {
+            let maze = braided.generate(&mut ChaCha8Rng::seed_from_u64(seed))?;
+            Ok((format!("seed {seed}"), maze))
+        })
+        .collect();
+    Ok(MazeSet {
+        name: "braided 16".to_owned(),
+        mazes: mazes?,
+        left_out: LeftOut::default(),
+    })
+}
+
+/// All mazes of a folder that can be solved and fit a mouse, by name, and how many others there are.
+fn in_folder(folder: &Path) -> Result<(Vec<(String, Maze)>, LeftOut), BoxError> {
+    let files = files_in(folder)
+        .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
+    let mut mazes = Vec::new();
+    let mut left_out = LeftOut::default();
+    for path in &files {
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == ErrorKind::InvalidData => {
+                left_out.no_maze += 1;
+                continue;
+            }
+            Err(error) => return Err(maze_file::in_file(path, error)),
+        };
+        match tolman_maze::read(&text) {
+            Ok(file) if fits(&file.maze) => mazes.push((maze_file::stem(path), file.maze)),
+            Ok(_) => left_out.no_fit += 1,
+            // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
+            Err(_) if tolman_maze::parse(&text).is_ok() => left_out.no_way += 1,
+            Err(_) => left_out.no_maze += 1,
+        }
+    }
+    Ok((mazes, left_out))
+}
+
+fn maze(path: &Path) -> Result<Maze, BoxError> {
+    let maze = maze_file::read(path)?.maze;
+    if !fits(&maze) {
+        let reason = format!("it has no start or more than {SIDE} cells a side");
+        return Err(maze_file::in_file(path, reason));
+    }
+    Ok(maze)
+}
+
+fn fits(maze: &Maze) -> bool {
+    let side = maze.grid().width().max(maze.grid().height());
+    usize::from(side) <= SIDE && maze.start().is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOUND: &str = "+---+---+\n| S   G |\n+---+---+\n";
+
+    #[test]
+    fn what_is_left_out_is_counted() {
+        let folder = std::env::temp_dir().join(format!("tolman-sets-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let mut large = Maze::open(tolman_maze::Grid::new(33, 2));
+        large.set_start(Some((
+            tolman_maze::Cell::new(0, 0),
+            tolman_maze::Direction::North,
+        )));
+        large.set_goals(vec![tolman_maze::Cell::new(9, 1)]);
+        for (name, text) in [
+            ("a.maze", SOUND.to_owned()),
+            ("b.maze", SOUND.replace("S   G", "S | G")),
+            ("c.maze", large.to_string()),
+            ("d.maze", "no maze".to_owned()),
+        ] {
+            fs::write(folder.join(name), text).unwrap();
+        }
+        fs::write(folder.join("e.png"), b"\x89PNG\xff").unwrap();
+        let (mazes, left_out) = in_folder(&folder).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let set = MazeSet {
+            name: "mine".to_owned(),
+            mazes,
+            left_out,
+        };
+        assert_eq!(
+            set.complaint().unwrap(),
+            "mine: 4 of 5 files left out, 1 without a way to the goal, 1 without a start or of more than 32 cells a side, \
+             2 that are no mazes."
+        );
+        let whole = MazeSet {
+            left_out: LeftOut::default(),
+            ..set
+        };
+        assert_eq!(whole.complaint(), None);
+    }
+}

@@ -1,0 +1,295 @@
+//! Tables 2 and 3: the brains against each other in one world.
+
+use alloc::sync::Arc;
+use std::sync::OnceLock;
+
+use tolman_control::Outcome;
+use tolman_maze::Direction;
+use tolman_sim::robots::LaserPioneerConfig;
+
+use super::MAPS;
+use crate::venue::{self, Venue};
+use tolman_arena::agents::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
+use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::episode::{self, Episode, Trial};
+use tolman_experiment::{
+    BoxError, Correction, Field, Fields, Job, Kind, Metric, Pairwise, Run, Table, Tolerance,
+    run_seed,
+};
+use tolman_replay::Replay;
+
+/// One world, the brains that compete in it, and what they share.
+#[derive(Debug)]
+pub(super) struct Contest {
+    pub(super) venue: Venue,
+    cast: Cast,
+    pub(super) apprentices: Vec<Apprentice>,
+}
+
+/// MSLST with one threshold, and the maps it has learned so far.
+#[derive(Debug)]
+pub(super) struct Apprentice {
+    pub(super) row: String,
+    pub(super) config: MslstConfig,
+    /// The seed of each map, the same for every threshold.
+    seeds: Vec<u64>,
+    maps: Vec<OnceLock<Arc<Learned>>>,
+}
+
+/// The agents beside MSLST, the paper's first.
+const OTHERS: [Agent; 4] = [
+    Agent::Avoid,
+    Agent::WallFollow,
+    Agent::Oracle,
+    Agent::UnlocalizedOracle,
+];
+
+/// The significant differences that the paper reports, by row of MSLST and other row.
+const PAPER_P: [(&str, &str, f64); 6] = [
+    ("MSLST 100", "Wall-follow", 0.0018),
+    ("MSLST 100", "Avoid", 0.0036),
+    ("MSLST 20", "Avoid", 6.66e-5),
+    ("MSLST 20", "Wall-follow", 9.22e-4),
+    ("MSLST 50", "Avoid", 1.88e-5),
+    ("MSLST 50", "Wall-follow", 2.93e-4),
+];
+
+impl Contest {
+    pub(super) fn new(venue: Venue, master_seed: u64) -> Self {
+        let configs = match venue.course.name.as_str() {
+            "J" => vec![MslstConfig::j()],
+            "Large" => vec![MslstConfig::large(20.0), MslstConfig::large(50.0)],
+            _ => vec![MslstConfig::large(50.0)],
+        };
+        let stream = format!("maps of {}", venue.table);
+        let seeds: Vec<u64> = (0..MAPS)
+            .map(|map| run_seed(master_seed, &stream, map))
+            .collect();
+        let apprentice = |config: MslstConfig| Apprentice {
+            row: format!("MSLST {}", config.threshold),
+            config,
+            seeds: seeds.clone(),
+            maps: seeds.iter().map(|_| OnceLock::new()).collect(),
+        };
+        Self {
+            venue,
+            cast: Cast::default(),
+            apprentices: configs.into_iter().map(apprentice).collect(),
+        }
+    }
+
+    pub(super) fn table(&self) -> Table {
+        let oracle = Agent::Oracle.name();
+        let unlocalized = Agent::UnlocalizedOracle.name();
+        let mut table = self
+            .venue
+            .table()
+            .field("bounces", Kind::Count)
+            .optional_field("map", Kind::Count)
+            .metric(Metric::percent("success_percent", "reached").titled("success"))
+            .metric(Metric::mean("actions").tolerance(Tolerance::Spread))
+            .metric(Metric::mean("steps").tolerance(Tolerance::Spread))
+            .metric(Metric::multiple("steps_of_oracle", "steps", oracle).titled("steps / Oracle's"))
+            .metric(
+                Metric::multiple("steps_of_unlocalized", "steps", unlocalized)
+                    .titled("steps / Unlocalized oracle's"),
+            )
+            .metric(Metric::mean("bounces"));
+        let (baselines, yardsticks) = OTHERS.split_at(2);
+        let names = |agents: &[Agent]| -> Vec<String> {
+            agents.iter().map(|agent| agent.name().to_owned()).collect()
+        };
+        let mut rows = names(baselines);
+        rows.extend(self.apprentices.iter().map(|one| one.row.clone()));
+        let competitors = rows.clone();
+        rows.extend(names(yardsticks));
+        for name in &rows {
+            table = table.row(self.venue.row(name));
+        }
+        let own = |row: &str| competitors.iter().any(|name| name == row);
+        let paper = PAPER_P
+            .iter()
+            .filter(|(row, ..)| own(row))
+            .map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
+        let paper = paper.collect();
+        let note = format!(
+            "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
+             after another such.",
+            table.note
+        );
+        table
+            .pairwise(Pairwise {
+                field: "steps".to_owned(),
+                rows: competitors,
+                correction: Correction::Bonferroni,
+                paper,
+            })
+            .note(note)
+    }
+
+    /// What the runs depend on.
+    pub(super) fn config(&self) -> Result<toml::Table, BoxError> {
+        let mut world = self.venue.config();
+        for apprentice in &self.apprentices {
+            let config = toml::Value::try_from(apprentice.config)?;
+            world.insert(apprentice.row.clone(), config);
+        }
+        Ok(world)
+    }
+
+    pub(super) fn apprentice(&self, row: &str) -> Option<&Apprentice> {
+        self.apprentices.iter().find(|one| one.row == row)
+    }
+
+    /// Plays one run.
+    pub(super) fn run(
+        &self,
+        job: &Job<'_>,
+        robot: &LaserPioneerConfig,
+    ) -> Result<Fields, BoxError> {
+        let (episode, bounces) = self.episode(job, robot)?;
+        let fields = venue::fields(&episode).count("bounces", u64::from(bounces));
+        Ok(match self.apprentice(job.row) {
+            Some(_) => fields.count("map", u64::from(job.run % MAPS)),
+            None => fields,
+        })
+    }
+
+    /// Where a run takes place, and who drives.
+    fn cast(
+        &self,
+        job: &Job<'_>,
+        robot: &LaserPioneerConfig,
+    ) -> Result<(Trial<'_>, Mind), BoxError> {
+        let trial = self.venue.trial(robot, job.seed);
+        let mind = match self.apprentice(job.row) {
+            Some(apprentice) => {
+                let learned = apprentice.learned(self, robot, job.run % MAPS)?;
+                let map = Arc::new(learned.map.clone());
+                Mind::Brain(Box::new(Mslst::new(map, &apprentice.config)))
+            }
+            None => {
+                let agent = Agent::named(job.row)
+                    .ok_or_else(|| format!("there is no brain {:?}", job.row))?;
+                self.cast.mind(agent, &self.venue.course, robot)?
+            }
+        };
+        Ok((trial, mind))
+    }
+
+    /// One run and how often the robot bounced in it.
+    pub(super) fn episode(
+        &self,
+        job: &Job<'_>,
+        robot: &LaserPioneerConfig,
+    ) -> Result<(Episode, u32), BoxError> {
+        let (trial, mut mind) = self.cast(job, robot)?;
+        let mut bounces = Bounces::default();
+        let episode = episode::run(&trial, &mut mind, |step| {
+            if step.ends.is_some_and(Outcome::moved) {
+                bounces.moved(step.action);
+            }
+        })?;
+        Ok((episode, bounces.count))
+    }
+
+    /// One run as it can be watched.
+    pub(super) fn replay(
+        &self,
+        job: &Job<'_>,
+        robot: &LaserPioneerConfig,
+    ) -> Result<Replay, BoxError> {
+        let (trial, mut mind) = self.cast(job, robot)?;
+        let learned = match self.apprentice(job.row) {
+            Some(apprentice) => Some(apprentice.learned(self, robot, job.run % MAPS)?),
+            None => None,
+        };
+        let nodes = learned
+            .as_ref()
+            .map_or(&[][..], |learned| &learned.survey.positions);
+        Ok(venue::replay(job, &trial, &mut mind, nodes)?)
+    }
+
+    /// Refuses what no run can measure.
+    pub(super) fn check(&self, run: &Run) -> Result<(), BoxError> {
+        self.venue.check(run)?;
+        let count = |name: &str| run.fields.get(name).and_then(Field::as_number);
+        if count("bounces") > count("actions") {
+            return Err("more bounces than actions".into());
+        }
+        let map = run.fields.get("map");
+        let expected = self.apprentice(&run.row).map(|_| run.run % MAPS);
+        if map != expected.map(|map| Field::Count(u64::from(map))).as_ref() {
+            return Err(format!("map is {map:?}, expected {expected:?}").into());
+        }
+        Ok(())
+    }
+}
+
+impl Apprentice {
+    /// The map of this number, learned by whoever asks first.
+    pub(super) fn learned(
+        &self,
+        contest: &Contest,
+        robot: &LaserPioneerConfig,
+        number: u32,
+    ) -> Result<Arc<Learned>, LearnError> {
+        let cell = &self.maps[number as usize];
+        if let Some(learned) = cell.get() {
+            return Ok(Arc::clone(learned));
+        }
+        let seed = self.seeds[number as usize];
+        let learned = learn(&contest.venue.course, robot, &self.config, seed)?;
+        // Two threads may learn it at once; they learn the same.
+        Ok(Arc::clone(cell.get_or_init(|| Arc::new(learned))))
+    }
+}
+
+/// Counts how often a robot goes back and forth between two ways ("this process of bouncing between two
+/// possible routes").
+///
+/// To turn back once is no bouncing: every dead end asks for it. What counts is an action that takes back the
+/// one before it, no more than [`Bounces::SOON`] completed actions after the last such.
+#[derive(Debug, Default)]
+struct Bounces {
+    last: Option<Direction>,
+    since_reversal: Option<u32>,
+    count: u32,
+}
+
+impl Bounces {
+    /// As many as the brain remembers in the Large maze.
+    const SOON: u32 = 8;
+
+    fn moved(&mut self, action: Direction) {
+        self.since_reversal = self.since_reversal.map(|since| since + 1);
+        if self.last == Some(action.opposite()) {
+            let soon = |since: u32| since <= Self::SOON;
+            self.count += u32::from(self.since_reversal.is_some_and(soon));
+            self.since_reversal = Some(0);
+        }
+        self.last = Some(action);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_maze::Direction::{East, North, West};
+
+    use super::*;
+
+    #[test]
+    fn to_turn_back_once_is_no_bounce() {
+        let count = |actions: &[Direction]| {
+            let mut bounces = Bounces::default();
+            actions.iter().for_each(|action| bounces.moved(*action));
+            bounces.count
+        };
+        assert_eq!(count(&[]), 0);
+        assert_eq!(count(&[East, East, West, West]), 0);
+        assert_eq!(count(&[East, West, East]), 1);
+        assert_eq!(count(&[East, West, North, West, East, West]), 2);
+        let far = [vec![East, West], vec![North; 8], vec![North.opposite()]].concat();
+        assert_eq!(count(&far), 0, "nine actions later");
+    }
+}

@@ -1,0 +1,145 @@
+//! The states of Phase I, the graph of Phase II over its maze, and where the runs of Phase III went.
+
+use tolman_geom::Point;
+use tolman_maps::mslst_graph::{DUMMY, Node};
+
+use super::contest::{Apprentice, Contest};
+use super::drawing::{self, SHOWN_ACTIONS};
+use super::{MAPS, Mslst};
+use tolman_arena::agents::mslst::Learned;
+use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
+use tolman_experiment::{BoxError, Field, Run};
+use tolman_stats::wilson_interval;
+
+/// How many runs one plan shows at most.
+const SHOWN: usize = 25;
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 420.0;
+
+pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let mut figures = Vec::new();
+    for (number, contest) in (1_u32..).zip(&experiment.contests) {
+        for (place, apprentice) in (1_u32..).zip(&contest.apprentices) {
+            let learned = apprentice.learned(contest, &experiment.robot, 0)?;
+            let at = format!("{number}-{place}");
+            figures.push(states(contest, apprentice, &learned, &at));
+            figures.push(graph(contest, apprentice, &learned, &at));
+            let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+            let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
+            figures.push(ways(experiment, contest, apprentice, &shown, &at)?);
+        }
+        figures.extend(between_maps(contest, runs, number)?);
+    }
+    Ok(figures)
+}
+
+/// The paper's figure 3: every model scan, north upwards, with the nodes that have it.
+fn states(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str) -> Figure {
+    let name = &contest.venue.course.name;
+    Figure::new(
+        format!("states-{at}"),
+        format!("{} in {name}: states of map 0", apprentice.row),
+        drawing::states(learned),
+    )
+    .caption("Model scans of the equilibrium GNG, north upwards, each with the nodes that bear it.")
+    .table(&contest.venue.table)
+}
+
+/// The paper's figure 4, over the maze: each node where the robot truly was when it was made.
+fn graph(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str) -> Figure {
+    let name = &contest.venue.course.name;
+    let nodes = learned.map.graph.nodes();
+    let linear = nodes.iter().filter(|node| ways_from(node) <= 2).count();
+    let percent = 100.0 * linear as f64 / nodes.len() as f64;
+    Figure::new(
+        format!("graph-{at}"),
+        format!("{} in {name}: graph of map 0", apprentice.row),
+        drawing::graph_over_maze(&contest.venue.course, learned),
+    )
+    .caption(format!(
+        "The nodes of the first {SHOWN_ACTIONS} actions where the robot truly was when it made them; those in the \
+         destination are filled. Of all {} nodes {percent:.0} % have no more than two ways on: the graph is highly \
+         linear, as the paper found.",
+        nodes.len()
+    ))
+    .table(&contest.venue.table)
+}
+
+/// How many edges lead to other nodes.
+fn ways_from(node: &Node) -> usize {
+    node.edges.iter().filter(|edge| edge.head != DUMMY).count()
+}
+
+/// How many runs a map must have for its success to be drawn.
+const LEAST_RUNS: u64 = 5;
+
+/// How success differs from map to map; none while the maps have too few runs to tell.
+fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<Figure>, BoxError> {
+    let ranks = Axis::linear("maps, from the worst to the best");
+    let mut chart = Chart::new(
+        ranks,
+        Axis::linear("runs that arrive, %").between(0.0, 100.0),
+    );
+    let mut drawn = 0;
+    for (index, apprentice) in (0_u32..).zip(&contest.apprentices) {
+        let mut maps = vec![(0_u64, 0_u64); MAPS as usize];
+        let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+        for run in runs.iter().filter(of_row) {
+            let (arrived, all) = &mut maps[(run.run % MAPS) as usize];
+            *arrived += u64::from(run.fields.get("reached").and_then(Field::as_flag) == Some(true));
+            *all += 1;
+        }
+        maps.retain(|(_, all)| *all >= LEAST_RUNS);
+        maps.sort_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)));
+        let mut points = Vec::new();
+        for (rank, (arrived, all)) in (1_u32..).zip(maps) {
+            let percent = 100.0 * arrived as f64 / all as f64;
+            let spread = wilson_interval(arrived, all, 0.95)?.scaled(100.0);
+            points.push(LinePoint::new(f64::from(rank), percent).spread(spread));
+        }
+        if points.len() > 1 {
+            drawn += 1;
+            chart.line(Line::new(&apprentice.row, Series(index), points));
+        }
+    }
+    let name = &contest.venue.course.name;
+    let figure = || {
+        Figure::new(
+            format!("maps-{number}"),
+            format!("MSLST in {name}: the spread between maps"),
+            chart.drawing(format!("Success in {name} by map, from the worst map to the best.")),
+        )
+        .caption("Each map with the 95 % interval (Wilson) that its runs allow. Equal maps would make a line that stays inside.")
+        .table(&contest.venue.table)
+    };
+    Ok((drawn > 0).then(figure))
+}
+
+/// Where the first runs went.
+fn ways(
+    experiment: &Mslst,
+    contest: &Contest,
+    apprentice: &Apprentice,
+    runs: &[&Run],
+    at: &str,
+) -> Result<Figure, BoxError> {
+    let mut plan = crate::plan_of_course(&contest.venue.course, WIDTH);
+    for run in runs {
+        let (episode, _) = contest.episode(&run.job(), &experiment.robot)?;
+        let positions: Vec<Point> = episode.path.iter().map(|pose| pose.position).collect();
+        plan.faint_trajectory(&positions, Series(0));
+    }
+    let name = &contest.venue.course.name;
+    let drawing = plan.drawing(format!("Plan of {name}: the ways of {} runs.", runs.len()));
+    Ok(Figure::new(
+        format!("ways-{at}"),
+        format!("{} in {name}", apprentice.row),
+        drawing,
+    )
+    .caption(format!(
+        "The ways of {} runs, each by another map.",
+        runs.len()
+    ))
+    .table(&contest.venue.table))
+}

@@ -1,0 +1,313 @@
+//! What is varied: one thing at a time around MSLST 50 in the Large maze, then the worlds.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_maze::{Braided, Cell, Grid, Maze, MazeFile, Perfect};
+use tolman_robot::Ring;
+use tolman_sim::robots::LaserPioneerConfig;
+
+use super::drawings::{self, Corridors};
+use crate::venue;
+use tolman_arena::agents::mslst::MslstConfig;
+use tolman_arena::course::Course;
+use tolman_arena::pioneer::{self, ROBOT_UNIT};
+use tolman_experiment::BoxError;
+
+/// One table.
+#[derive(Debug)]
+pub(super) struct Sweep {
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    /// What is varied, with its unit; none if the settings have no order.
+    pub(super) axis: Option<&'static str>,
+    pub(super) settings: Vec<Setting>,
+    pub(super) note: &'static str,
+}
+
+/// One row.
+#[derive(Debug)]
+pub(super) struct Setting {
+    pub(super) row: String,
+    /// Where it stands on the axis.
+    pub(super) value: f64,
+    pub(super) config: MslstConfig,
+    pub(super) robot: LaserPioneerConfig,
+    pub(super) world: World,
+}
+
+/// Where a run takes place.
+#[derive(Clone, Debug)]
+pub(super) enum World {
+    /// The same for all runs, with a step limit of its own.
+    Fixed { course: Box<Course>, steps: u32 },
+    /// Another drawing of the Large maze for each run.
+    Redrawn(Corridors),
+    /// A random maze for each run, without loops.
+    Perfect { side: u16 },
+    /// A random maze for each run with every other dead end opened.
+    Braided { side: u16 },
+}
+
+impl World {
+    /// The course of the run with this seed.
+    pub(super) fn course(&self, seed: u64) -> Result<Course, BoxError> {
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        let maze = match *self {
+            Self::Fixed { ref course, .. } => return Ok((**course).clone()),
+            Self::Redrawn(corridors) => return drawings::of(corridors, seed),
+            Self::Perfect { side } => Perfect {
+                width: side,
+                height: side,
+            }
+            .generate(rng)?,
+            Self::Braided { side } => Braided {
+                width: side,
+                height: side,
+                share: 0.5,
+            }
+            .generate(rng)?,
+        };
+        Ok(Course::new(
+            &self.name(),
+            &MazeFile::from(maze),
+            &pioneer::body(),
+        )?)
+    }
+
+    pub(super) fn step_limit(&self, course: &Course) -> u32 {
+        match self {
+            Self::Fixed { steps, .. } => *steps,
+            Self::Redrawn(_) => venue::LARGE_STEPS,
+            Self::Perfect { .. } | Self::Braided { .. } => course.step_limit(),
+        }
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Fixed { course, .. } => course.name.clone(),
+            Self::Redrawn(corridors) => format!("Large, redrawn: {corridors:?}"),
+            Self::Perfect { side } => format!("perfect {side} × {side}"),
+            Self::Braided { side } => format!("braided {side} × {side}"),
+        }
+    }
+}
+
+impl Setting {
+    fn named(self, row: String) -> Self {
+        Self { row, ..self }
+    }
+
+    /// What its runs depend on.
+    pub(super) fn config(&self) -> Result<toml::Table, BoxError> {
+        let mut table = toml::Table::new();
+        table.insert("mslst".into(), toml::Value::try_from(self.config)?);
+        table.insert("robot".into(), toml::Value::try_from(&self.robot)?);
+        table.insert("world".into(), self.world.name().into());
+        if let World::Fixed { course, steps } = &self.world {
+            table.insert("maze".into(), course.maze.to_string().into());
+            table.insert("corridor_width".into(), course.corridor_width.into());
+            table.insert("step_limit".into(), i64::from(*steps).into());
+        }
+        Ok(table)
+    }
+}
+
+/// Every sweep.
+pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
+    let [j, large] = fixed()?;
+    let base = MslstConfig::large(50.0);
+    let at = |value: f64, config: MslstConfig| Setting {
+        row: format!("{value}"),
+        value,
+        config,
+        robot: pioneer::calibrated(),
+        world: large.clone(),
+    };
+    let thresholds = [5.0, 10.0, 20.0, 35.0, 50.0, 75.0, 100.0, 200.0];
+    let actions = [250, 500, 1000, 2000, 4000, 8000];
+    let steps = [500, 1000, 2000, 4000, 8000];
+    let memories = [1, 2, 4, 6, 8, 12, 16, 24];
+    let noises = [0.0, 0.5, 1.0, 1.5, 2.0];
+    Ok(vec![
+        Sweep {
+            name: "threshold",
+            title: "The error threshold of the quantizer",
+            axis: Some("threshold, squared robot units"),
+            settings: thresholds
+                .map(|threshold| at(threshold, MslstConfig { threshold, ..base }))
+                .into(),
+            note: "Large maze.",
+        },
+        Sweep {
+            name: "graph",
+            title: "The length of Phase II",
+            axis: Some("actions of Phase II"),
+            settings: actions
+                .map(|graph_actions| {
+                    let config = MslstConfig {
+                        graph_actions,
+                        ..base
+                    };
+                    at(f64::from(graph_actions), config)
+                })
+                .into(),
+            note: "Large maze, threshold 50.",
+        },
+        Sweep {
+            name: "scans",
+            title: "The length of Phase I",
+            axis: Some("time steps of Phase I"),
+            settings: steps
+                .map(|scan_steps| at(f64::from(scan_steps), MslstConfig { scan_steps, ..base }))
+                .into(),
+            note: "Large maze, threshold 50.",
+        },
+        Sweep {
+            name: "memory",
+            title: "How much is remembered",
+            axis: Some("pairs of state and action"),
+            settings: memories
+                .map(|memory| at(f64::from(memory), MslstConfig { memory, ..base }))
+                .into(),
+            note: "Large maze, threshold 50.",
+        },
+        Sweep {
+            name: "noise",
+            title: "The noise of the motors",
+            axis: Some("times the calibrated noise"),
+            settings: noises
+                .map(|times| Setting {
+                    robot: noisy(times),
+                    ..at(times, base)
+                })
+                .into(),
+            note: "Large maze, threshold 50.",
+        },
+        Sweep {
+            name: "drawings",
+            title: "Other drawings of the Large maze",
+            axis: None,
+            settings: [20.0, 50.0]
+                .into_iter()
+                .flat_map(|threshold| {
+                    let ours = at(threshold, MslstConfig::large(threshold));
+                    let redrawn = |corridors| Setting {
+                        world: World::Redrawn(corridors),
+                        ..at(threshold, MslstConfig::large(threshold))
+                    };
+                    let name = |what: &str| format!("{what}, MSLST {threshold}");
+                    [
+                        ours.named(name("our drawing")),
+                        redrawn(Corridors::Long).named(name("long corridors")),
+                        redrawn(Corridors::Short).named(name("short corridors")),
+                    ]
+                })
+                .collect(),
+            note: "Each run redraws the maze at random with the features that the paper names, until success and steps of \
+                   Avoid and Wall-follow are near the paper's, and with long corridors their steps an action too. MSLST \
+                   has no part in the choice. It remembers eight units; a short corridor has at most 7.6.",
+        },
+        Sweep {
+            name: "worlds",
+            title: "Other worlds",
+            axis: None,
+            settings: worlds(j, &large)?,
+            note: "Threshold 50 and a memory of eight, in the J maze 100 and six. Random mazes are new in each run, \
+                   and give time in proportion to their corridors.",
+        },
+    ])
+}
+
+/// The paper's two worlds with its limits.
+fn fixed() -> Result<[World; 2], BoxError> {
+    let mut venues = venue::papers()?.into_iter();
+    let mut next = || -> Result<World, BoxError> {
+        let venue = venues.next().ok_or("the paper has two mazes")?;
+        Ok(World::Fixed {
+            steps: venue.step_limit,
+            course: Box::new(venue.course),
+        })
+    };
+    Ok([next()?, next()?])
+}
+
+fn noisy(times: f64) -> LaserPioneerConfig {
+    let mut robot = pioneer::calibrated();
+    let noise = &mut robot.motor_noise;
+    noise.turn.relative_sd *= times;
+    noise.turn.absolute_sd *= times;
+    noise.translate.relative_sd *= times;
+    noise.drift_sd *= times;
+    robot
+}
+
+fn worlds(j: World, large: &World) -> Result<Vec<Setting>, BoxError> {
+    let row = |row: &str, world: World| Setting {
+        row: row.to_owned(),
+        value: 0.0,
+        config: MslstConfig::large(50.0),
+        robot: pioneer::calibrated(),
+        world,
+    };
+    let mut rows = vec![
+        Setting {
+            config: MslstConfig::j(),
+            ..row("J", j)
+        },
+        row("Large", large.clone()),
+        Setting {
+            robot: with_sonars(),
+            ..row("Large, 8 sonars", large.clone())
+        },
+    ];
+    for units in [1.85, 2.1, 2.5] {
+        let world = widened(large, units)?;
+        rows.push(row(&format!("Large, {units} units wide"), world));
+    }
+    rows.push(row("open room 6 × 6", room(6)?));
+    for side in [10, 20, 30] {
+        let world = World::Perfect { side };
+        rows.push(row(&world.name(), world));
+        let world = World::Braided { side };
+        rows.push(row(&world.name(), world));
+    }
+    Ok(rows)
+}
+
+/// A ring of eight beams in place of the laser's 72, as the sonars of a Khepera.
+fn with_sonars() -> LaserPioneerConfig {
+    let laser = pioneer::calibrated();
+    LaserPioneerConfig {
+        ring: Ring::full(8, laser.ring.max_range),
+        ..laser
+    }
+}
+
+/// The same maze with corridors of another width, robot units.
+fn widened(world: &World, units: f64) -> Result<World, BoxError> {
+    let World::Fixed { course, steps } = world else {
+        return Ok(world.clone());
+    };
+    let file = MazeFile {
+        name: None,
+        corridor_width: Some(units * ROBOT_UNIT),
+        maze: course.maze.clone(),
+    };
+    let course = Course::new(&course.name, &file, &pioneer::body())?;
+    Ok(World::Fixed {
+        course: Box::new(course),
+        steps: *steps,
+    })
+}
+
+/// A square without walls inside, the destination in its south-east corner.
+fn room(side: u16) -> Result<World, BoxError> {
+    let mut maze = Maze::open(Grid::new(side, side));
+    maze.set_goals(vec![Cell::new(side - 1, 0)]);
+    let name = format!("open room {side} × {side}");
+    let course = Course::new(&name, &MazeFile::from(maze), &pioneer::body())?;
+    Ok(World::Fixed {
+        steps: course.step_limit(),
+        course: Box::new(course),
+    })
+}

@@ -1,0 +1,40 @@
+//! The quantizers side by side.
+
+use tolman_quantizers::{
+    Gng, GngConfig, GrowthGate, Quantizer, Removal, Soinn, SoinnConfig, Utility,
+};
+
+use tolman_experiment::BoxError;
+
+/// The rows of tables that compare quantizers.
+pub(super) const ROWS: [&str; 4] = ["GNG", "GNG-U", "equilibrium GNG", "SOINN"];
+
+/// One of [`ROWS`] for inputs of `dimension` features: GNG grows to `units`, the equilibrium GNG until the mean error of
+/// its units is below `threshold`.
+pub(super) fn quantizer(
+    row: &str,
+    dimension: usize,
+    units: usize,
+    threshold: f64,
+) -> Result<Box<dyn Quantizer<f64>>, BoxError> {
+    let fritzke = GngConfig {
+        max_units: units,
+        ..GngConfig::fritzke()
+    };
+    let gng = |config| Gng::new(dimension, config);
+    Ok(match row {
+        "GNG" => Box::new(gng(fritzke)?),
+        "GNG-U" => Box::new(gng(GngConfig {
+            utility: Some(Utility {
+                threshold: 10.0,
+                removal: Removal::EveryInput,
+            }),
+            ..fritzke
+        })?),
+        "equilibrium GNG" => Box::new(gng(GngConfig {
+            gate: GrowthGate::MeanError { threshold },
+            ..GngConfig::fritzke()
+        })?),
+        _ => Box::new(Soinn::new(dimension, SoinnConfig::noisy())?),
+    })
+}

@@ -1,0 +1,183 @@
+//! Networks over their data, model scans, and how errors fall.
+
+use alloc::collections::BTreeMap;
+
+use tolman_geom::Point;
+use tolman_quantizers::{Network, Quantizer, UnitId};
+
+use super::any::ROWS;
+use super::states::Mazes;
+use super::{five, shapes, states};
+use tolman_arena::pioneer;
+use tolman_draw::{
+    Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, NodeMark, Points,
+    PolarPlot, Series, Tiles,
+};
+use tolman_experiment::{BoxError, Field, Run};
+use tolman_stats::{Interval, quantile};
+
+/// How many data points a picture shows at most.
+const SHOWN: usize = 700;
+
+/// The colour of data, the last one, which no cluster has.
+const DOTS: u32 = Series::COLOURS - 1;
+
+pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let first = |table: &str, row: &str| {
+        runs.iter()
+            .find(|run| run.table == table && run.row == row && run.run == 0)
+    };
+    let mut figures = Vec::new();
+    for (name, row) in [("states-j", "J 100"), ("states-large", "Large 20")] {
+        if let Some(run) = first(states::NAME, row) {
+            figures.push(model_scans(mazes, run, name)?);
+        }
+    }
+    for (name, table) in [
+        ("five-clusters", five::NAME),
+        ("five-clusters-in-turn", five::ONE_AFTER_ANOTHER),
+    ] {
+        for (suffix, row) in [("literal", five::LITERAL), ("chosen", five::CHOSEN)] {
+            if let Some(run) = first(table, row) {
+                figures.push(layers(run, &format!("{name}-{suffix}"))?);
+            }
+        }
+    }
+    let mut networks = Tiles::new(2);
+    for row in ROWS {
+        if let Some(run) = first(shapes::NAME, row) {
+            let learned = shapes::learn(&run.job())?;
+            let network = learned.quantizer.network();
+            let caption = format!("{row}: {} units", network.len());
+            networks.tile(caption, over_data(&learned.data, network));
+        }
+    }
+    figures.push(
+        Figure::new(
+            "rings-and-squares",
+            "Four networks of the same points",
+            networks.drawing(
+                "Networks of GNG, GNG-U, equilibrium GNG and SOINN over two rings and two squares.",
+            ),
+        )
+        .caption("Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.")
+        .table(shapes::NAME),
+    );
+    figures.push(errors(runs));
+    Ok(figures)
+}
+
+/// Every state of a run as a scan, north up.
+fn model_scans(mazes: &Mazes, run: &Run, name: &str) -> Result<Figure, BoxError> {
+    let (gng, scans) = mazes.learn(&run.job())?;
+    let network = gng.network();
+    let mut won = BTreeMap::<UnitId, u32>::new();
+    for scan in &scans {
+        *won.entry(network.nearest(scan)?.id).or_default() += 1;
+    }
+    let ring = pioneer::ring();
+    let mut tiles = Tiles::new(8);
+    for (state, id) in (0_u32..).zip(network.ids()) {
+        let metres: Vec<f64> = network
+            .prototype(id)?
+            .map(|range| range * pioneer::ROBOT_UNIT)
+            .collect();
+        let mut plot = PolarPlot::new(ring.max_range, 92.0);
+        plot.ranges(&ring, &metres, Series(0));
+        let share = 100.0 * f64::from(won.get(&id).copied().unwrap_or(0)) / scans.len() as f64;
+        tiles.tile(
+            format!("{state}: {share:.1} %"),
+            plot.drawing(format!("State {state}.")),
+        );
+    }
+    let row = &run.row;
+    let title = format!("The states of {row}");
+    let description = format!(
+        "{} model scans of {row}, each as seen from the robot.",
+        network.len()
+    );
+    Ok(Figure::new(name, title, tiles.drawing(description))
+        .caption("Run 0, beam 0 (north) up; below, its number and the share of scans that are nearest to it.")
+        .table(states::NAME))
+}
+
+/// Both layers of a SOINN over their data.
+fn layers(run: &Run, name: &str) -> Result<Figure, BoxError> {
+    let learned = five::learn(&run.job())?;
+    let mut tiles = Tiles::new(2);
+    for (layer, soinn) in [("first", &learned.first), ("second", &learned.second)] {
+        let network = soinn.network();
+        let clusters = network.clusters().count();
+        let caption = format!(
+            "{layer} layer: {} units, clusters: {clusters}",
+            network.len()
+        );
+        tiles.tile(caption, over_data(&learned.data, network));
+    }
+    let row = &run.row;
+    let title = format!("{row}, {}", run.table);
+    let description = format!("The two layers of {row} over their data.");
+    Ok(Figure::new(name, title, tiles.drawing(description))
+        .caption(
+            "Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.",
+        )
+        .table(&run.table))
+}
+
+/// A network in the plane over what it learnt, each cluster in its colour.
+fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
+    let mut chart = Chart::new(
+        Axis::linear("").between(0.0, 10.0),
+        Axis::linear("").between(0.0, 10.0),
+    )
+    .sized(360.0, 360.0)
+    .equal();
+    let every = data.len().div_ceil(SHOWN).max(1);
+    let points = data.iter().step_by(every);
+    let points = points.map(|point| Point::new(point[0], point[1]));
+    chart.points(Points::new("", Series(DOTS), points.collect()));
+    let mut graph = Graph::new().radius(2.6);
+    let mut nodes = BTreeMap::new();
+    for (id, cluster) in network.clusters().iter() {
+        let mut at = network.prototype(id).into_iter().flatten();
+        let position = Point::new(at.next().unwrap_or(f64::NAN), at.next().unwrap_or(f64::NAN));
+        let series = Series(cluster % DOTS);
+        let node = GraphNode::at(position).series(series).mark(NodeMark::Disc);
+        nodes.insert(id, (graph.node(node), series));
+    }
+    for edge in network.edges() {
+        if let (Some((from, series)), Some((to, _))) =
+            (nodes.get(&edge.ends.0), nodes.get(&edge.ends.1))
+        {
+            graph.edge(GraphEdge::between(*from, *to).series(*series));
+        }
+    }
+    chart.graph(graph);
+    chart.drawing(format!("{} units over their data.", network.len()))
+}
+
+/// The error of each quantizer after more and more inputs.
+fn errors(runs: &[Run]) -> Figure {
+    let mut chart = Chart::new(Axis::log("inputs"), Axis::log("RMS error"));
+    for (series, row) in (0_u32..).zip(ROWS) {
+        let points = shapes::MARKS.iter().filter_map(|&inputs| {
+            let field = shapes::field(inputs);
+            let values: Vec<f64> = runs
+                .iter()
+                .filter(|run| run.table == shapes::NAME && run.row == row)
+                .filter_map(|run| run.fields.get(&field).and_then(Field::as_number))
+                .collect();
+            let at = |share| quantile(&values, share).ok();
+            let spread = Interval {
+                low: at(0.0)?,
+                high: at(1.0)?,
+            };
+            Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
+        });
+        chart.line(Line::new(row, Series(series), points.collect()));
+    }
+    let drawing = chart.drawing("The error falls with the inputs, for each quantizer.");
+    Figure::new("errors", "Error against inputs", drawing)
+        .caption("Median over runs; bands from the least to the largest.")
+        .table(shapes::NAME)
+}

@@ -1,0 +1,200 @@
+//! Two Gaussians, two rings and a sine curve in noise: how often SOINN finds that there are five.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_quantizers::{Quantizer, SecondLayerConfig, Soinn, SoinnConfig};
+
+use super::streams::{self, Order, Point, REGIONS};
+use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+
+/// The table that the paper's own experiment makes; further ones vary it.
+pub(super) const NAME: &str = "five clusters";
+pub(super) const ONE_AFTER_ANOTHER: &str = "five clusters, one region after another";
+const OTHER_STREAMS: &str = "five clusters, other streams";
+
+/// The paper's parameters, its text taken literally.
+pub(super) const LITERAL: &str = "SOINN literal";
+/// The documented choice.
+pub(super) const CHOSEN: &str = "SOINN";
+
+/// The paper's number of points and its share of noise.
+const POINTS: u32 = 100_000;
+const NOISE: f64 = 0.1;
+
+/// Another stream than the paper's, as a row.
+struct Stream {
+    row: &'static str,
+    order: Order,
+    noise: f64,
+    points: u32,
+}
+
+const STREAMS: [Stream; 6] = [
+    Stream {
+        row: "no noise",
+        order: Order::Stationary,
+        noise: 0.0,
+        points: POINTS,
+    },
+    Stream {
+        row: "5 % noise",
+        order: Order::Stationary,
+        noise: 0.05,
+        points: POINTS,
+    },
+    Stream {
+        row: "20 % noise",
+        order: Order::Stationary,
+        noise: 0.2,
+        points: POINTS,
+    },
+    Stream {
+        row: "20 % noise, one region after another",
+        order: Order::OneAfterAnother,
+        noise: 0.2,
+        points: POINTS,
+    },
+    Stream {
+        row: "30,000 points",
+        order: Order::Stationary,
+        noise: NOISE,
+        points: 30_000,
+    },
+    Stream {
+        row: "300,000 points",
+        order: Order::Stationary,
+        noise: NOISE,
+        points: 300_000,
+    },
+];
+
+/// Points of each region that are held against the clusters.
+const PROBES: u32 = 200;
+
+pub(super) fn tables() -> Vec<Table> {
+    let rows = |table: Table| table.row(Row::new(LITERAL)).row(Row::new(CHOSEN));
+    let mut other = measured(Table::new(OTHER_STREAMS, "Five clusters in other streams"));
+    for stream in &STREAMS {
+        other = other.row(Row::new(stream.row));
+    }
+    vec![
+        rows(measured(Table::new(
+            NAME,
+            "Five clusters in 10 % noise, points drawn from all",
+        )))
+        .note(format!(
+            "{POINTS} points a run. A run is right if each region's own points fall, but for 5 %, into a cluster of \
+             their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = 100, c = 1, second layer's threshold by \
+             algorithm 3.3. SOINN: units judged by their age and age_dead = 20 in the first layer, λ = 500 and a \
+             threshold of four mean edges of the first layer in the second."
+        )),
+        rows(measured(Table::new(
+            ONE_AFTER_ANOTHER,
+            "The same, one region after another, in seven phases",
+        ))),
+        other.note("The same SOINN; the row says what differs from the first table."),
+    ]
+}
+
+fn measured(table: Table) -> Table {
+    table
+        .field("five", Kind::Flag)
+        .field("right", Kind::Flag)
+        .field("clusters", Kind::Count)
+        .field("first_clusters", Kind::Count)
+        .field("units", Kind::Count)
+        .field("first_units", Kind::Count)
+        .metric(Metric::count_of("five_of_twenty", "five", 20).titled("five clusters"))
+        .metric(Metric::count_of("right_of_twenty", "right", 20).titled("each its region"))
+        .metric(Metric::mean("clusters").decimals(1))
+        .metric(Metric::mean("units").decimals(0))
+        .metric(
+            Metric::mean("first_clusters")
+                .titled("clusters, first layer")
+                .decimals(1),
+        )
+        .metric(
+            Metric::mean("first_units")
+                .titled("units, first layer")
+                .decimals(0),
+        )
+}
+
+/// What one run learned.
+pub(super) struct Learned {
+    pub(super) data: Vec<Point>,
+    pub(super) first: Soinn<f64>,
+    pub(super) second: Soinn<f64>,
+}
+
+/// Whether the table is one of these.
+pub(super) fn has(table: &str) -> bool {
+    [NAME, ONE_AFTER_ANOTHER, OTHER_STREAMS].contains(&table)
+}
+
+pub(super) fn learn(job: &Job<'_>) -> Result<Learned, BoxError> {
+    let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+    let other = STREAMS.iter().find(|stream| stream.row == job.row);
+    let (order, noise, points) = match (job.table, other) {
+        (ONE_AFTER_ANOTHER, _) => (Order::OneAfterAnother, NOISE, POINTS),
+        (OTHER_STREAMS, Some(stream)) => (stream.order, stream.noise, stream.points),
+        _ => (Order::Stationary, NOISE, POINTS),
+    };
+    let data = streams::five_clusters(order, noise, points, &mut rng);
+    let (config, second) = match job.row {
+        LITERAL => (
+            SoinnConfig::shen_hasegawa(),
+            SecondLayerConfig::shen_hasegawa(),
+        ),
+        _ => (SoinnConfig::noisy(), SecondLayerConfig::noisy()),
+    };
+    let mut first = Soinn::new(2, config)?;
+    for point in &data {
+        first.observe(point)?;
+    }
+    first.remove_noise();
+    let second = first.second_layer(&second, &mut rng)?;
+    Ok(Learned {
+        data,
+        first,
+        second,
+    })
+}
+
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let Learned { first, second, .. } = learn(job)?;
+    let clusters = second.network().clusters().count();
+    let count = |number: usize| number as u64;
+    Ok(Fields::new()
+        .flag("five", clusters == REGIONS as usize)
+        .flag("right", is_right(&second, job.seed)?)
+        .count("clusters", count(clusters))
+        .count("first_clusters", count(first.network().clusters().count()))
+        .count("units", count(second.network().len()))
+        .count("first_units", count(first.network().len())))
+}
+
+/// Whether there are five clusters, each with at least 95 % of one region's points.
+fn is_right(second: &Soinn<f64>, seed: u64) -> Result<bool, BoxError> {
+    let clusters = second.network().clusters();
+    if clusters.count() != REGIONS as usize {
+        return Ok(false);
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(1);
+    let mut taken = [false; REGIONS as usize];
+    for region in 0..REGIONS {
+        let mut votes = [0_u32; REGIONS as usize];
+        for _ in 0..PROBES {
+            let unit = second.nearest(&streams::of_region(region, &mut rng))?.id;
+            votes[clusters.label(unit)? as usize] += 1;
+        }
+        for (votes, taken) in votes.iter().zip(&mut taken) {
+            if 100 * votes >= 95 * PROBES && !*taken {
+                *taken = true;
+                break;
+            }
+        }
+    }
+    Ok(taken.iter().all(|taken| *taken))
+}

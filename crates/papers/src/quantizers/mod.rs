@@ -1,0 +1,123 @@
+//! The quantizers by themselves: table 1 of MSLST, SOINN's five clusters, and what else tells them apart.
+
+mod any;
+mod figures;
+mod five;
+mod order;
+mod shapes;
+mod sonar;
+mod states;
+mod streams;
+
+use tolman_quantizers::{GngConfig, SecondLayerConfig, SoinnConfig};
+
+use crate::data;
+use tolman_arena::pioneer;
+use tolman_draw::Figure;
+use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Run, Table};
+
+use sonar::Log;
+use states::Mazes;
+
+/// The experiment, ready to run.
+#[derive(Debug)]
+struct Quantizers {
+    mazes: Mazes,
+    log: Option<Log>,
+    tables: Vec<Table>,
+}
+
+/// Reads what it needs and sets the tables up.
+///
+/// # Errors
+/// If the log of sonars cannot be read, or the caller names mazes, which have no place here.
+pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+    if !options.mazes.is_empty() {
+        return Err("table 1 is of the J and the Large maze: leave --maze out".into());
+    }
+    let log = Log::find()?;
+    let mut tables = vec![states::table()];
+    tables.extend(five::tables());
+    tables.extend([shapes::table(), order::table()]);
+    if log.is_some() {
+        tables.push(sonar::table());
+    } else if let Some(table) = tables.last_mut() {
+        let missing = data::missing("the logs of a ring of sonars");
+        table.note = format!("{} {missing}", table.note);
+    }
+    Ok(Box::new(Quantizers {
+        mazes: Mazes::new()?,
+        log,
+        tables,
+    }))
+}
+
+impl Experiment for Quantizers {
+    fn name(&self) -> &str {
+        "quantizers"
+    }
+
+    fn title(&self) -> &str {
+        "Quantizers: states out of scans, clusters out of noise"
+    }
+
+    fn source(&self) -> &str {
+        "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, table 1; F. Shen, O. Hasegawa: An \
+         incremental network for on-line unsupervised classification and topology learning, 2006"
+    }
+
+    fn default_runs(&self) -> u32 {
+        20
+    }
+
+    fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    fn config(&self) -> Result<toml::Table, BoxError> {
+        let mut config = toml::Table::new();
+        config.insert(
+            "robot".into(),
+            toml::Value::try_from(pioneer::calibrated())?,
+        );
+        let mut mazes = toml::Table::new();
+        for course in self.mazes.all() {
+            mazes.insert(course.name.clone(), course.maze.to_string().into());
+        }
+        config.insert("mazes".into(), mazes.into());
+        let mut parameters = toml::Table::new();
+        for (name, value) in [
+            ("mslst", format!("{:?}", GngConfig::mslst(50.0))),
+            ("gng", format!("{:?}", GngConfig::fritzke())),
+            (
+                "soinn_literal",
+                format!("{:?}", SoinnConfig::shen_hasegawa()),
+            ),
+            ("soinn", format!("{:?}", SoinnConfig::noisy())),
+            (
+                "second_layer_literal",
+                format!("{:?}", SecondLayerConfig::shen_hasegawa()),
+            ),
+            ("second_layer", format!("{:?}", SecondLayerConfig::noisy())),
+        ] {
+            parameters.insert(name.into(), value.into());
+        }
+        config.insert("parameters".into(), parameters.into());
+        Ok(config)
+    }
+
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        match (job.table, &self.log) {
+            (states::NAME, _) => self.mazes.run(job),
+            (shapes::NAME, _) => shapes::run(job),
+            (order::NAME, _) => order::run(&self.mazes, job),
+            (sonar::NAME, Some(log)) => log.run(job),
+            (table, _) if five::has(table) => five::run(job),
+            (table, _) => Err(format!("there is no table {table}").into()),
+        }
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        figures::of(&self.mazes, runs)
+    }
+}

@@ -1,0 +1,86 @@
+//! A robot's stream is no shuffled one: what the order of inputs does to GNG.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_quantizers::{Gng, GngConfig, Quantizer, Replay, ReplayConfig};
+
+use super::states::Mazes;
+use tolman_arena::pioneer;
+use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+
+/// The table's name.
+pub(super) const NAME: &str = "order of inputs";
+
+const SHUFFLED: &str = "shuffled";
+const IN_TIME: &str = "in time";
+const REPLAYED: &str = "in time, replayed";
+
+/// GNG grows to so many units, and the scans come so many times over.
+const UNITS: usize = 40;
+const PASSES: u32 = 3;
+
+pub(super) fn table() -> Table {
+    Table::new(NAME, "GNG on the scans of the Large maze, in two orders and with a memory")
+        .field("rms_error", Kind::Number)
+        .field("mean_squared_error", Kind::Number)
+        .field("units", Kind::Count)
+        .metric(Metric::mean("mean_squared_error").titled("MSE").unit("robot units²"))
+        .metric(Metric::mean("rms_error").titled("RMS error").unit("robot units"))
+        .metric(Metric::mean("units").decimals(0))
+        .row(Row::new(SHUFFLED))
+        .row(Row::new(IN_TIME))
+        .row(Row::new(REPLAYED))
+        .note(format!(
+            "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} units; the error is \
+             that of all those scans. Replayed: eight remembered scans are learnt for each that comes."
+        ))
+}
+
+pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
+    let scans = mazes.large_scans(job.seed)?;
+    let mut order: Vec<usize> = (0..scans.len()).collect();
+    if job.row == SHUFFLED {
+        let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+        rng.set_stream(4);
+        for end in (1..order.len()).rev() {
+            order.swap(end, rng.random_range(0..=end as u32) as usize);
+        }
+    }
+    let features = pioneer::ring().beams as usize;
+    let stream = || {
+        let once = order.iter().map(|scan| &scans[*scan]);
+        (0..PASSES).flat_map(move |_| once.clone())
+    };
+    let fields = if job.row == REPLAYED {
+        let gng = Gng::<f64>::new(features, GngConfig::in_order(UNITS))?;
+        learn(
+            Replay::new(gng, ReplayConfig::measured(job.seed))?,
+            stream(),
+            &scans,
+        )?
+    } else {
+        let config = GngConfig {
+            max_units: UNITS,
+            ..GngConfig::fritzke()
+        };
+        learn(Gng::<f64>::new(features, config)?, stream(), &scans)?
+    };
+    Ok(fields)
+}
+
+/// What a quantizer makes of a stream, measured by all scans.
+fn learn<'a>(
+    mut quantizer: impl Quantizer<f64>,
+    stream: impl Iterator<Item = &'a Vec<f64>>,
+    scans: &[Vec<f64>],
+) -> Result<Fields, BoxError> {
+    for scan in stream {
+        quantizer.observe(scan)?;
+    }
+    let error = quantizer.network().quantization_error(scans)?;
+    Ok(Fields::new()
+        .number("mean_squared_error", error.mean_squared)
+        .number("rms_error", libm::sqrt(error.mean_squared))
+        .count("units", quantizer.network().len() as u64))
+}

@@ -1,0 +1,142 @@
+//! A real ring of 24 sonars: what units say of what the robot did.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use flate2::read::GzDecoder;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::any::{ROWS, quantizer};
+use crate::data;
+use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+
+/// The table's name.
+pub(super) const NAME: &str = "sonar ring";
+
+/// Where the log lies in the folder of data.
+const FILE: &str = "logs/scitos-sonar24/sensor_readings_24.data.gz";
+
+const SONARS: usize = 24;
+const UNITS: usize = 100;
+
+/// In squared metres.
+const THRESHOLD: f64 = 10.0;
+
+/// The readings are shown so many times, each time in another order.
+const PASSES: u32 = 5;
+
+/// The log: readings in metres, each with what the wall-following robot did, in the order of time.
+#[derive(Debug)]
+pub(super) struct Log {
+    readings: Vec<([f64; SONARS], usize)>,
+    /// What it can do, in the order of the log.
+    actions: Vec<String>,
+}
+
+impl Log {
+    /// The log, if it is there.
+    pub(super) fn find() -> Result<Option<Self>, BoxError> {
+        let path = data::folder().map(|folder| folder.join(FILE));
+        match path {
+            Some(path) if path.exists() => Self::read(&path).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    fn read(path: &Path) -> Result<Self, BoxError> {
+        let lines = BufReader::new(GzDecoder::new(File::open(path)?)).lines();
+        let (mut readings, mut actions) = (Vec::new(), Vec::<String>::new());
+        for (number, line) in (1_u32..).zip(lines) {
+            let line = line?;
+            if line.starts_with('S') || line.trim().is_empty() {
+                continue;
+            }
+            let wrong = || {
+                format!(
+                    "{}: line {number} is not {SONARS} ranges and an action",
+                    path.display()
+                )
+            };
+            let mut ranges = [0.0; SONARS];
+            let mut columns = line.split(',');
+            for range in &mut ranges {
+                *range = columns
+                    .next()
+                    .ok_or_else(wrong)?
+                    .trim()
+                    .parse()
+                    .map_err(|_| wrong())?;
+            }
+            let action = columns.next().ok_or_else(wrong)?.trim();
+            let known = actions.iter().position(|known| known == action);
+            let action = known.unwrap_or_else(|| {
+                actions.push(action.to_owned());
+                actions.len() - 1
+            });
+            readings.push((ranges, action));
+        }
+        Ok(Self { readings, actions })
+    }
+
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        // Four laps: three to learn, one to be asked about.
+        let (learnt, asked) = self.readings.split_at(self.readings.len() * 3 / 4);
+        let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
+        let mut order: Vec<usize> = (0..learnt.len()).collect();
+        let mut quantizer = quantizer(job.row, SONARS, UNITS, THRESHOLD)?;
+        for _ in 0..PASSES {
+            for end in (1..order.len()).rev() {
+                order.swap(end, rng.random_range(0..=end as u32) as usize);
+            }
+            for reading in &order {
+                quantizer.observe(&learnt[*reading].0)?;
+            }
+        }
+        let network = quantizer.network();
+        // Ids are given in order, so the greatest is the last.
+        let ids = network.ids().last().map_or(0, |id| id.0 as usize + 1);
+        let mut votes = vec![vec![0_u32; self.actions.len()]; ids];
+        for (ranges, action) in learnt {
+            votes[network.nearest(ranges)?.id.0 as usize][*action] += 1;
+        }
+        let mut right = 0_u32;
+        for (ranges, action) in asked {
+            let votes = &votes[network.nearest(ranges)?.id.0 as usize];
+            let most = votes.iter().max();
+            right += u32::from(votes.iter().position(|v| Some(v) == most) == Some(*action));
+        }
+        let error = network.quantization_error(asked.iter().map(|(ranges, _)| ranges))?;
+        Ok(Fields::new()
+            .count("units", network.len() as u64)
+            .number("rms_error", libm::sqrt(error.mean_squared))
+            .number(
+                "right_percent",
+                100.0 * f64::from(right) / asked.len() as f64,
+            ))
+    }
+}
+
+pub(super) fn table() -> Table {
+    let mut table = Table::new(NAME, "A ring of 24 sonars on a wall-following robot")
+        .field("units", Kind::Count)
+        .field("rms_error", Kind::Number)
+        .field("right_percent", Kind::Number)
+        .metric(Metric::mean("rms_error").titled("RMS error").unit("m"))
+        .metric(Metric::mean("units").decimals(0))
+        .metric(
+            Metric::mean("right_percent")
+                .titled("action told")
+                .unit("%")
+                .decimals(1),
+        );
+    for row in ROWS {
+        table = table.row(Row::new(row));
+    }
+    table.note(
+        "A log of four laps (Freire and Barreto 2010). Three are learnt, in random orders; of each scan of the fourth, the unit \
+         nearest to it tells the action that was most frequent with that unit before.",
+    )
+}

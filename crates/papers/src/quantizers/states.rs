@@ -1,0 +1,123 @@
+//! Table 1 of MSLST: how many states the equilibrium GNG makes of a maze.
+
+use tolman_quantizers::{Gng, GngConfig, Quantizer};
+
+use crate::venue;
+use tolman_arena::agents::mslst;
+use tolman_arena::course::Course;
+use tolman_arena::pioneer;
+use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table, Tolerance};
+
+/// The table's name in `summary.json`.
+pub(super) const NAME: &str = "1";
+
+/// Phase I: "approximately 4000 time steps".
+pub(super) const STEPS: u32 = 4000;
+
+/// A row of the table.
+struct Setting {
+    row: &'static str,
+    maze: &'static str,
+    threshold: f64,
+    /// The paper's number of states.
+    states: f64,
+}
+
+const SETTINGS: [Setting; 3] = [
+    Setting {
+        row: "J 100",
+        maze: "J",
+        threshold: 100.0,
+        states: 16.0,
+    },
+    Setting {
+        row: "Large 20",
+        maze: "Large",
+        threshold: 20.0,
+        states: 43.0,
+    },
+    Setting {
+        row: "Large 50",
+        maze: "Large",
+        threshold: 50.0,
+        states: 26.0,
+    },
+];
+
+pub(super) fn table() -> Table {
+    let mut table = Table::new(NAME, "States of MSLST's equilibrium GNG")
+        .field("states", Kind::Count)
+        .field("rms_error", Kind::Number)
+        .metric(
+            Metric::median("states_median", "states")
+                .titled("states (median)")
+                .decimals(1)
+                .tolerance(Tolerance::Factor(1.5)),
+        )
+        .metric(
+            Metric::mean("rms_error")
+                .titled("RMS error")
+                .unit("robot units"),
+        )
+        .paper_runs(1);
+    for setting in &SETTINGS {
+        table = table.row(Row::new(setting.row).paper("states_median", setting.states));
+    }
+    table.note(format!(
+        "The scans of {STEPS} time steps of the Avoid brain, one maze and one network a run. The decay d = {} was chosen on \
+         Large 50 alone; J 100 and Large 20 are predictions.",
+        GngConfig::mslst(50.0).decay
+    ))
+}
+
+/// The courses of the table.
+#[derive(Debug)]
+pub(super) struct Mazes {
+    j: Course,
+    large: Course,
+}
+
+impl Mazes {
+    pub(super) fn new() -> Result<Self, BoxError> {
+        Ok(Self {
+            j: venue::j_maze()?,
+            large: venue::large_maze()?,
+        })
+    }
+
+    pub(super) fn all(&self) -> [&Course; 2] {
+        [&self.j, &self.large]
+    }
+
+    /// The scans of phase I in the Large maze.
+    pub(super) fn large_scans(&self, seed: u64) -> Result<Vec<Vec<f64>>, BoxError> {
+        scans(&self.large, seed)
+    }
+
+    /// The network of a run of the table, and the scans it learned.
+    pub(super) fn learn(&self, job: &Job<'_>) -> Result<(Gng<f64>, Vec<Vec<f64>>), BoxError> {
+        let setting = SETTINGS.iter().find(|setting| setting.row == job.row);
+        let (maze, threshold) = setting.map_or(("", 0.0), |s| (s.maze, s.threshold));
+        let course = if maze == "J" { &self.j } else { &self.large };
+        let scans = scans(course, job.seed)?;
+        let beams = pioneer::ring().beams as usize;
+        let mut gng = Gng::new(beams, GngConfig::mslst(threshold))?;
+        for scan in &scans {
+            gng.observe(scan)?;
+        }
+        Ok((gng, scans))
+    }
+
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let (gng, scans) = self.learn(job)?;
+        let error = gng.network().quantization_error(&scans)?;
+        Ok(Fields::new()
+            .count("states", gng.network().len() as u64)
+            .number("rms_error", libm::sqrt(error.mean_squared)))
+    }
+}
+
+/// The scans of phase I.
+fn scans(course: &Course, seed: u64) -> Result<Vec<Vec<f64>>, BoxError> {
+    Ok(mslst::scans(course, &pioneer::calibrated(), STEPS, seed)?)
+}

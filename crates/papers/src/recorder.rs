@@ -1,0 +1,215 @@
+//! A replay of a run that is being watched.
+
+use tolman_control::{CorridorDetector, Outcome, View};
+use tolman_geom::Point;
+use tolman_maze::Direction;
+use tolman_robot::{Body, Robot};
+
+use tolman_arena::agents::{Place, Thought};
+use tolman_arena::episode::{Episode, Step, Trial};
+use tolman_replay::{
+    Belief, BeliefAt, Fact, Floor, Mark, Marks, Notes, Replay, Scenery, Shape, Track,
+};
+
+/// Watches an episode and makes its replay: the robot's way, the action under way and how the last one
+/// ended, whether it is in a corridor, what it thinks and where it believes to be, how much of the maze it has seen, and
+/// where it bumped and failed.
+///
+/// ```
+/// use tolman_arena::agents::{Agent, Cast};
+/// use tolman_arena::course::Course;
+/// use tolman_arena::episode::{self, Trial, random_start};
+/// use tolman_arena::pioneer::{body, calibrated};
+/// use tolman_papers::Recorder;
+///
+/// let maze = tolman_maze::read("o---o---o---o\n| S       G |\no---o---o---o\n")?;
+/// let (course, robot) = (Course::new("corridor", &maze, &body())?, calibrated());
+/// let start = random_start(&course, &body(), 7);
+/// let trial = Trial { course: &course, robot, start, step_limit: 500, seed: 7 };
+/// let mut mind = Cast::default().mind(Agent::Avoid, &course, &trial.robot)?;
+///
+/// let mut recorder = Recorder::new(&trial);
+/// let episode = episode::run(&trial, &mut mind, |step| recorder.see(step))?;
+/// let replay = recorder.finish("Avoid in a corridor", &episode);
+/// assert_eq!(replay.steps(), episode.steps as usize);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Recorder<'a> {
+    trial: &'a Trial<'a>,
+    detector: Option<CorridorDetector>,
+    step: u32,
+    between_actions: bool,
+    action: Notes,
+    ended: Notes,
+    corridor: Notes,
+    thoughts: Notes,
+    belief: Belief,
+    /// Where the nodes of the robot's map lie, by id.
+    nodes: &'a [Point],
+    bumps: Marks,
+    failures: Marks,
+}
+
+/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
+const SHOWN_GUESSES: usize = 8;
+
+/// What is believed less is not shown.
+const LEAST_WEIGHT: f64 = 0.01;
+
+impl<'a> Recorder<'a> {
+    /// Watches a run of this trial.
+    #[must_use]
+    pub fn new(trial: &'a Trial<'a>) -> Self {
+        Self {
+            trial,
+            // A ring it cannot read is one the episode refuses.
+            detector: CorridorDetector::new(trial.robot.ring, trial.course.corridor_width).ok(),
+            step: 0,
+            between_actions: true,
+            action: Notes::new("action"),
+            ended: Notes::new("last action"),
+            corridor: Notes::new("corridor"),
+            thoughts: Notes::new("thinks"),
+            belief: Belief {
+                name: "belief".to_owned(),
+                entries: Vec::new(),
+            },
+            nodes: &[],
+            bumps: Marks::new(Mark::Bump, "bump"),
+            failures: Marks::new(Mark::Failure, "failed action"),
+        }
+    }
+
+    /// Shows beliefs in nodes of the robot's map where these truly lie, by id. Without this they are told in
+    /// words alone.
+    #[must_use]
+    pub const fn knowing(mut self, nodes: &'a [Point]) -> Self {
+        self.nodes = nodes;
+        self
+    }
+
+    /// Takes down what the mind thought when it chose the action that begins after `step`.
+    fn overhear(&mut self, step: u32, thought: &Thought) {
+        if !thought.words.is_empty() {
+            self.thoughts.say(step, thought.words.as_str());
+        }
+        let shapes: Vec<Shape> = thought
+            .guesses
+            .iter()
+            .filter(|guess| guess.weight >= LEAST_WEIGHT)
+            .take(SHOWN_GUESSES)
+            .filter_map(|guess| {
+                let position = match guess.place {
+                    Place::At(position) => position,
+                    Place::Node(id) => *self.nodes.get(id as usize)?,
+                };
+                Some(Shape::Point {
+                    position,
+                    weight: guess.weight,
+                })
+            })
+            .collect();
+        let before = self.belief.entries.last().map(|entry| &entry.shapes);
+        if before.map_or(!shapes.is_empty(), |before| *before != shapes) {
+            self.belief.entries.push(BeliefAt { step, shapes });
+        }
+    }
+
+    /// Sees one step.
+    pub fn see(&mut self, seen: &Step<'_>) {
+        if self.between_actions {
+            self.overhear(self.step, &seen.mind.thought());
+        }
+        self.between_actions = seen.ends.is_some();
+        self.step += 1;
+        let step = self.step;
+        self.action.say(step, word(seen.action));
+        if let Some(outcome) = seen.ends {
+            let outcome_word = match outcome {
+                Outcome::Completed => "completed",
+                Outcome::CutShort => "cut short",
+                Outcome::Failed => "failed",
+            };
+            self.ended
+                .say(step, format!("{}: {outcome_word}", word(seen.action)));
+            if !outcome.moved() {
+                self.failures.steps.push(step);
+            }
+        }
+        if seen.robot.truth().bump {
+            self.bumps.steps.push(step);
+        }
+        let sensing = seen.robot.sensing();
+        if let (Some(detector), Some(scan), Some(heading)) =
+            (&self.detector, &sensing.scan, sensing.compass)
+        {
+            let corridor = detector.detect(View { scan, heading });
+            self.corridor
+                .say(step, if corridor.is_some() { "yes" } else { "no" });
+        }
+    }
+
+    /// The replay of the run that was seen and ended so.
+    #[must_use]
+    pub fn finish(self, title: impl Into<String>, episode: &Episode) -> Replay {
+        let Trial { course, robot, .. } = self.trial;
+        let body = Body::Circle {
+            radius: robot.radius,
+        };
+        let mut track = Track::new("robot", body, episode.path.clone());
+        track.ring = Some(robot.ring);
+        let mut scenery = Scenery::of_world(&course.world);
+        let path = || episode.path.iter().map(|pose| pose.position);
+        let start: Point = self.trial.start.position;
+        if let Some(floor) = Floor::from(&course.world, start) {
+            scenery.zones.extend(floor.solid());
+            track.series.push(floor.coverage(path()));
+        }
+        track.notes = vec![self.action, self.ended, self.corridor];
+        if !self.thoughts.notes.is_empty() {
+            track.notes.push(self.thoughts);
+        }
+        if !self.belief.entries.is_empty() {
+            track.beliefs.push(self.belief);
+        }
+        let mut arrival = Marks::new(Mark::Arrival, "arrived");
+        if episode.reached {
+            arrival.steps.push(episode.steps);
+        }
+        track.marks = vec![self.bumps, self.failures, arrival];
+        let mut replay = Replay::new(title, robot.step_us as f64 * 1e-6, scenery, vec![track]);
+        replay.facts = vec![
+            Fact::new("maze", &course.name),
+            Fact::new("seed", self.trial.seed.to_string()),
+            Fact::new("outcome", outcome(episode)),
+        ];
+        replay
+    }
+}
+
+fn outcome(episode: &Episode) -> String {
+    let Episode {
+        reached,
+        actions,
+        failed_actions,
+        steps,
+        bumps,
+        ..
+    } = episode;
+    let came = if *reached {
+        "arrived"
+    } else {
+        "did not arrive"
+    };
+    format!("{came}: {steps} steps, {actions} actions, {failed_actions} failed, {bumps} bumps")
+}
+
+const fn word(action: Direction) -> &'static str {
+    match action {
+        Direction::North => "north",
+        Direction::East => "east",
+        Direction::South => "south",
+        Direction::West => "west",
+    }
+}

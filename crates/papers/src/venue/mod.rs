@@ -1,0 +1,128 @@
+//! Where MSLST and its baselines run, and what every run there measures.
+
+mod files;
+mod measured;
+mod paper;
+
+use tolman_geom::Point;
+use tolman_sim::robots::LaserPioneerConfig;
+
+use crate::Recorder;
+use tolman_arena::agents::Mind;
+use tolman_arena::course::Course;
+use tolman_arena::episode::{self, EpisodeError, Trial};
+use tolman_arena::pioneer;
+use tolman_experiment::{BoxError, Job, Row};
+use tolman_replay::Replay;
+
+pub(super) use files::{from_file, from_files};
+pub(super) use measured::fields;
+pub(super) use paper::{LARGE_STEPS, PaperRow};
+
+/// One world with its table.
+#[derive(Debug)]
+pub(super) struct Venue {
+    /// The name of its table in `summary.json`.
+    pub(super) table: String,
+    /// The title of its table.
+    pub(super) title: String,
+    pub(super) course: Course,
+    pub(super) step_limit: u32,
+    /// What the paper says of it.
+    paper: &'static [PaperRow],
+}
+
+/// The paper's own worlds.
+pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
+    Ok(vec![
+        Venue {
+            table: "2 (J)".into(),
+            title: "The J maze".into(),
+            course: j_maze()?,
+            step_limit: paper::J_STEPS,
+            paper: paper::TABLE_2,
+        },
+        large_like(large_maze()?),
+    ])
+}
+
+/// A course that stands for the paper's Large maze, with its limit and its rows.
+pub(super) fn large_like(course: Course) -> Venue {
+    Venue {
+        table: "3 (Large)".into(),
+        title: "The Large maze".into(),
+        course,
+        step_limit: paper::LARGE_STEPS,
+        paper: paper::TABLE_3,
+    }
+}
+
+/// The paper's J maze.
+pub(super) fn j_maze() -> Result<Course, BoxError> {
+    built_in("J", include_str!("../../mazes/j.maze"))
+}
+
+/// The paper's Large maze.
+pub(super) fn large_maze() -> Result<Course, BoxError> {
+    built_in("Large", include_str!("../../mazes/large.maze"))
+}
+
+fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
+    Ok(Course::new(
+        name,
+        &tolman_maze::read(text)?,
+        &pioneer::body(),
+    )?)
+}
+
+impl Venue {
+    /// The row of a brain, with what the paper says of it.
+    pub(super) fn row(&self, name: &str) -> Row {
+        let row = Row::new(name);
+        match self.paper(name) {
+            Some(paper) => row
+                .paper("success_percent", paper.success_percent)
+                .paper_mean("actions", paper.actions.0, paper.actions.1)
+                .paper_mean("steps", paper.steps.0, paper.steps.1),
+            None => row,
+        }
+    }
+
+    /// What the paper says of a brain here.
+    pub(super) fn paper(&self, name: &str) -> Option<&'static PaperRow> {
+        self.paper.iter().find(|paper| paper.row == name)
+    }
+
+    /// What the runs here depend on.
+    pub(super) fn config(&self) -> toml::Table {
+        let mut world = toml::Table::new();
+        world.insert("maze".into(), self.course.maze.to_string().into());
+        world.insert("corridor_width".into(), self.course.corridor_width.into());
+        world.insert("step_limit".into(), i64::from(self.step_limit).into());
+        world
+    }
+
+    /// The run of a seed, from the start that belongs to it.
+    pub(super) fn trial(&self, robot: &LaserPioneerConfig, seed: u64) -> Trial<'_> {
+        Trial {
+            course: &self.course,
+            robot: robot.clone(),
+            start: episode::random_start(&self.course, &pioneer::body(), seed),
+            step_limit: self.step_limit,
+            seed,
+        }
+    }
+}
+
+/// Plays a run as it can be watched; `nodes` says where the nodes of the robot's map lie, if it has one.
+pub(super) fn replay(
+    job: &Job<'_>,
+    trial: &Trial<'_>,
+    mind: &mut Mind,
+    nodes: &[Point],
+) -> Result<Replay, EpisodeError> {
+    let mut recorder = Recorder::new(trial).knowing(nodes);
+    let episode = episode::run(trial, mind, |step| recorder.see(step))?;
+    let title = format!("{} in {}, run {}", job.row, trial.course.name, job.run);
+    Ok(recorder.finish(title, &episode))
+}

@@ -1,0 +1,702 @@
+//! A replay as the player reads it: JSON, format `tolman-replay`, version 1 (`docs/replay.md`).
+
+use serde_json::{Map, Value, json};
+use thiserror::Error;
+use tolman_geom::Point;
+use tolman_robot::{Body, Ring};
+use tolman_sim::DoorState;
+
+use super::rounding::{Rounding, bounds_of};
+use super::{
+    Belief, Edge, EdgeKind, Exemplar, Fact, Field, MapGrowth, Mark, Marks, Node, Notes, Replay,
+    Scans, Scenery, Series, Shape, Track, ZoneKind, blob,
+};
+
+const FORMAT: &str = "tolman-replay";
+const VERSION: u32 = 1;
+
+/// Why a replay cannot be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EncodeError {
+    /// There is nothing to play.
+    #[error("there is no track with a pose; give at least one")]
+    Empty,
+    /// The step has no length.
+    #[error("the time step is {step_s} s; give one above 0")]
+    Step {
+        /// What it is, s.
+        step_s: f64,
+    },
+    /// A number is none.
+    #[error("{what} {index} holds a number that is not finite")]
+    NotFinite {
+        /// Of what.
+        what: String,
+        /// Which of them, from 0.
+        index: usize,
+    },
+    /// Steps that must ascend do not.
+    #[error("{what} {index} is of an earlier step than the one before it; sort them by step")]
+    Order {
+        /// Of what.
+        what: String,
+        /// Which of them, from 0.
+        index: usize,
+    },
+    /// A reading has not one range for each beam.
+    #[error("{what} {index} has {found} ranges for {expected} beams")]
+    Ranges {
+        /// Of what.
+        what: String,
+        /// Which of them, from 0.
+        index: usize,
+        /// How many it has.
+        found: usize,
+        /// How many beams there are.
+        expected: usize,
+    },
+    /// An edge ends at a node that is not there.
+    #[error("edge {index} of the map `{map}` names node {id}, which the map does not have")]
+    NoNode {
+        /// The map's name.
+        map: String,
+        /// Which edge, from 0.
+        index: usize,
+        /// The id it names.
+        id: u32,
+    },
+    /// Two nodes share an id.
+    #[error("two nodes of the map `{map}` have the id {id}; number them")]
+    NodeTwice {
+        /// The map's name.
+        map: String,
+        /// The id.
+        id: u32,
+    },
+    /// The grid of a field has no extent.
+    #[error("the field `{field}` has {columns} columns of cells {pitch} m wide")]
+    Grid {
+        /// The field's name.
+        field: String,
+        /// Its columns.
+        columns: u32,
+        /// The side of a cell, m.
+        pitch: f64,
+    },
+}
+
+/// The replay as JSON that may stand between `<script type="application/json">` and `</script>`: no `<` is
+/// in it. At most 9 characters a pose that lies near the one before it, and a few hundred for each robot.
+///
+/// Linear in the size of the replay.
+///
+/// # Errors
+/// [`EncodeError`] if there is nothing to play, or a number, an order or a name in it makes no sense.
+pub fn json(replay: &Replay) -> Result<String, EncodeError> {
+    Ok(value(replay)?.to_string().replace('<', "\\u003c"))
+}
+
+fn value(replay: &Replay) -> Result<Value, EncodeError> {
+    if !(replay.step_s.is_finite() && replay.step_s > 0.0) {
+        return Err(EncodeError::Step {
+            step_s: replay.step_s,
+        });
+    }
+    if !replay.tracks.iter().any(|track| !track.poses.is_empty()) {
+        return Err(EncodeError::Empty);
+    }
+    let scenery = scenery(&replay.scenery)?;
+    for track in &replay.tracks {
+        all_finite("pose", &track.poses, |pose| pose.is_finite())?;
+    }
+    let ends = replay.scenery.walls.iter().flatten().copied();
+    let positions = replay.tracks.iter().flat_map(|track| &track.poses);
+    let bounds = bounds_of(ends.chain(positions.map(|pose| pose.position)));
+    let rounding = Rounding { bounds };
+    let tracks: Result<Vec<Value>, EncodeError> = replay
+        .tracks
+        .iter()
+        .map(|track| self::track(track, &rounding))
+        .collect();
+    let mut value = json!({
+        "format": FORMAT,
+        "version": VERSION,
+        "title": replay.title,
+        "facts": facts(&replay.facts),
+        "step_s": replay.step_s,
+        "box": [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y],
+        "tracks": tracks?,
+        "marks": each(&replay.marks, marks)?,
+    });
+    if let Value::Object(object) = &mut value {
+        object.extend(scenery);
+    }
+    Ok(value)
+}
+
+fn scenery(scenery: &Scenery) -> Result<Map<String, Value>, EncodeError> {
+    all_finite("wall", &scenery.walls, |wall| wall.iter().all(finite))?;
+    all_finite("zone", &scenery.zones, |zone| {
+        zone.corners.iter().all(finite)
+    })?;
+    all_finite("door", &scenery.doors, |door| door.ends.iter().all(finite))?;
+    let zones: Vec<Value> = scenery
+        .zones
+        .iter()
+        .map(|zone| {
+            let kind = match zone.kind {
+                ZoneKind::Destination => "destination",
+                ZoneKind::Start => "start",
+                ZoneKind::Region => "region",
+                ZoneKind::Solid => "solid",
+            };
+            let corners = zone.corners.iter().flat_map(|at| [at.x, at.y]);
+            json!({ "kind": kind, "name": zone.name, "corners": blob::floats(corners) })
+        })
+        .collect();
+    let mut doors = Vec::new();
+    for door in &scenery.doors {
+        ascend("change of a door", door.changes.iter().map(|c| c.step))?;
+        let changes: Vec<Value> = door
+            .changes
+            .iter()
+            .map(|change| json!([change.step, u8::from(change.state == DoorState::Shut)]))
+            .collect();
+        let [a, b] = door.ends;
+        doors.push(json!({ "name": door.name, "ends": [a.x, a.y, b.x, b.y], "shut": changes }));
+    }
+    let walls = scenery
+        .walls
+        .iter()
+        .flatten()
+        .flat_map(|end| [end.x, end.y]);
+    let mut object = Map::new();
+    object.insert("walls".to_owned(), blob::floats(walls).into());
+    object.insert("zones".to_owned(), zones.into());
+    object.insert("doors".to_owned(), doors.into());
+    Ok(object)
+}
+
+fn track(track: &Track, rounding: &Rounding) -> Result<Value, EncodeError> {
+    ascend("lift", track.lifts.iter().copied())?;
+    let poses = track.poses.iter().map(|pose| rounding.encode(*pose));
+    let along = |axis: usize| blob::changes(poses.clone().map(|pose| i32::from(pose[axis])));
+    // A turn past the seam is a small change too.
+    let headings = poses.clone().scan(0_i32, |before, [_, _, heading]| {
+        *before += i32::from(heading.wrapping_sub(*before as u16) as i16);
+        Some(*before)
+    });
+    let body = match &track.body {
+        Body::Circle { radius } => json!({ "radius": radius }),
+        Body::Polygon { corners } => {
+            let corners = corners.iter().flat_map(|corner| [corner.x, corner.y]);
+            json!({ "corners": corners.collect::<Vec<f64>>() })
+        }
+    };
+    Ok(json!({
+        "name": track.name,
+        "body": body,
+        "ring": track.ring.as_ref().map(ring),
+        "scans": track.scans.as_ref().map(scans).transpose()?,
+        "x": along(0),
+        "y": along(1),
+        "heading": blob::changes(headings),
+        "lifts": track.lifts,
+        "maps": each(&track.maps, map)?,
+        "beliefs": each(&track.beliefs, belief)?,
+        "fields": each(&track.fields, field)?,
+        "series": each(&track.series, series)?,
+        "notes": each(&track.notes, notes)?,
+        "marks": each(&track.marks, marks)?,
+    }))
+}
+
+fn ring(ring: &Ring) -> Value {
+    json!({
+        "beams": ring.beams,
+        "first": ring.first_bearing,
+        "spacing": ring.spacing,
+        "reach": ring.max_range,
+    })
+}
+
+/// The largest value of a range of two bytes, and of one.
+const FINE: f64 = 65535.0;
+const COARSE: f64 = 255.0;
+
+/// A range as a share of the ring's reach, in whole parts of `most`. What was not met, or read as NaN, lies at
+/// the reach.
+fn share(range: f64, reach: f64, most: f64) -> f64 {
+    let share = range / reach;
+    if share >= 0.0 {
+        libm::round(share.min(1.0) * most)
+    } else {
+        most
+    }
+}
+
+fn scans(scans: &Scans) -> Result<Value, EncodeError> {
+    ascend("scan", scans.steps.iter().copied())?;
+    let expected = scans.ring.beams as usize;
+    let mut bytes = Vec::new();
+    for (index, ranges) in scans.ranges.iter().enumerate() {
+        if ranges.len() != expected {
+            return Err(EncodeError::Ranges {
+                what: "scan".to_owned(),
+                index,
+                found: ranges.len(),
+                expected,
+            });
+        }
+        for range in ranges {
+            let share = share(*range, scans.ring.max_range, FINE) as u16;
+            bytes.extend_from_slice(&share.to_le_bytes());
+        }
+    }
+    Ok(json!({
+        "ring": ring(&scans.ring),
+        "steps": blob::steps(scans.steps.iter().copied()),
+        "ranges": blob::bytes(&bytes),
+    }))
+}
+
+fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
+    let mut ids: Vec<u32> = map.nodes.iter().map(|node| node.id).collect();
+    ids.sort_unstable();
+    if let Some(twice) = ids.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(EncodeError::NodeTwice {
+            map: map.name.clone(),
+            id: twice[0],
+        });
+    }
+    for (index, edge) in map.edges.iter().enumerate() {
+        for id in [edge.a, edge.b] {
+            if ids.binary_search(&id).is_err() {
+                return Err(EncodeError::NoNode {
+                    map: map.name.clone(),
+                    index,
+                    id,
+                });
+            }
+        }
+    }
+    all_finite("node", &map.nodes, |node| {
+        finite(&node.position) && node.moves.iter().all(|moved| finite(&moved.position))
+    })?;
+    Ok(json!({
+        "name": map.name,
+        "nodes": each(&map.nodes, node)?,
+        "edges": map.edges.iter().map(edge).collect::<Vec<Value>>(),
+    }))
+}
+
+/// What is empty is left out: maps have many nodes, and most say little.
+fn node(node: &Node) -> Result<Value, EncodeError> {
+    ascend("visit of a node", node.visits.iter().copied())?;
+    ascend("move of a node", node.moves.iter().map(|moved| moved.step))?;
+    let mut object = Map::new();
+    let mut set = |name: &str, value: Value| object.insert(name.to_owned(), value);
+    set("id", node.id.into());
+    set("at", place(node.position));
+    set("born", node.born.into());
+    if let Some(died) = node.died {
+        set("died", died.into());
+    }
+    if !node.label.is_empty() {
+        set("label", node.label.clone().into());
+    }
+    if !node.facts.is_empty() {
+        set("facts", facts(&node.facts));
+    }
+    if !node.visits.is_empty() {
+        set("visits", blob::steps(node.visits.iter().copied()).into());
+    }
+    if !node.moves.is_empty() {
+        let moves = node
+            .moves
+            .iter()
+            .map(|moved| json!([moved.step, place(moved.position)]));
+        set("moves", moves.collect());
+    }
+    if let Some(exemplar) = &node.exemplar {
+        set("exemplar", self::exemplar(exemplar)?);
+    }
+    Ok(Value::Object(object))
+}
+
+fn exemplar(exemplar: &Exemplar) -> Result<Value, EncodeError> {
+    let Exemplar { heading, scan } = exemplar;
+    let (found, expected) = (scan.ranges.len(), scan.ring.beams as usize);
+    if found != expected {
+        return Err(EncodeError::Ranges {
+            what: "exemplar scan".to_owned(),
+            index: 0,
+            found,
+            expected,
+        });
+    }
+    let ranges: Vec<u8> = scan
+        .ranges
+        .iter()
+        .map(|range| share(*range, scan.ring.max_range, COARSE) as u8)
+        .collect();
+    Ok(json!({
+        "heading": short(heading.radians()),
+        "ring": ring(&scan.ring),
+        "ranges": blob::bytes(&ranges),
+    }))
+}
+
+fn edge(edge: &Edge) -> Value {
+    let kind = match edge.kind {
+        EdgeKind::Passage => "passage",
+        EdgeKind::Wall => "wall",
+        EdgeKind::Relation => "relation",
+    };
+    // Positions instead of names: a large map has many edges.
+    json!([edge.a, edge.b, kind, edge.born, edge.died, edge.label])
+}
+
+fn belief(belief: &Belief) -> Result<Value, EncodeError> {
+    ascend("belief", belief.entries.iter().map(|entry| entry.step))?;
+    let entries = belief.entries.iter().map(|entry| {
+        let shapes: Vec<Value> = entry.shapes.iter().map(shape).collect();
+        json!([entry.step, shapes])
+    });
+    Ok(json!({ "name": belief.name, "entries": entries.collect::<Vec<Value>>() }))
+}
+
+/// What is not finite becomes null, which the player leaves out.
+fn shape(shape: &Shape) -> Value {
+    match *shape {
+        Shape::Point { position, weight } => {
+            json!(["point", short(weight), place(position)])
+        }
+        Shape::Pose { pose, weight } => {
+            let heading = short(pose.heading.radians());
+            json!(["pose", short(weight), place(pose.position), heading])
+        }
+        Shape::Node { id, weight } => json!(["node", short(weight), id]),
+        Shape::Box { min, max, weight } => {
+            json!(["box", short(weight), place(min), place(max)])
+        }
+        Shape::Ellipse {
+            centre,
+            semi_axes: [a, b],
+            heading,
+            weight,
+        } => {
+            let heading = short(heading.radians());
+            json!([
+                "ellipse",
+                short(weight),
+                place(centre),
+                [short(a), short(b)],
+                heading
+            ])
+        }
+    }
+}
+
+fn field(field: &Field) -> Result<Value, EncodeError> {
+    ascend("change of a field", field.changes.iter().map(|c| c.step))?;
+    if !(field.pitch.is_finite() && field.pitch > 0.0 && field.columns > 0) {
+        return Err(EncodeError::Grid {
+            field: field.name.clone(),
+            columns: field.columns,
+            pitch: field.pitch,
+        });
+    }
+    // A cell without a value is NaN, which single precision has.
+    let values = field.changes.iter().map(|c| c.value.unwrap_or(f64::NAN));
+    Ok(json!({
+        "name": field.name,
+        "origin": place(field.origin),
+        "pitch": field.pitch,
+        "columns": field.columns,
+        "range": field.range,
+        "steps": blob::steps(field.changes.iter().map(|c| c.step)),
+        "cells": blob::numbers(field.changes.iter().map(|c| c.cell)),
+        "values": blob::floats(values),
+    }))
+}
+
+fn series(series: &Series) -> Result<Value, EncodeError> {
+    ascend("sample", series.samples.iter().map(|sample| sample.step))?;
+    all_finite("sample", &series.samples, |sample| sample.value.is_finite())?;
+    let steps = || series.samples.iter().map(|sample| sample.step);
+    let values = || series.samples.iter().map(|sample| sample.value);
+    let mut object = json!({
+        "name": series.name,
+        "unit": series.unit,
+        "steps": blob::steps(steps()),
+    });
+    let is_whole = |value: f64| (libm::trunc(value) - value).abs() <= 0.0 && value.abs() < 1e9;
+    if values().all(is_whole) {
+        object["whole"] = blob::changes(values().map(|value| value as i32)).into();
+    } else {
+        object["values"] = blob::floats(values()).into();
+    }
+    // A value at every step from the first on needs no steps.
+    if let Some(first) = steps().next()
+        && steps()
+            .zip(first..)
+            .all(|(step, expected)| step == expected)
+    {
+        object["steps"] = first.into();
+    }
+    Ok(object)
+}
+
+/// The texts once each, in the order they first appear, and their numbers by step.
+fn notes(notes: &Notes) -> Result<Value, EncodeError> {
+    ascend("note", notes.notes.iter().map(|note| note.step))?;
+    let mut texts: Vec<&str> = Vec::new();
+    let mut numbers = alloc::collections::BTreeMap::new();
+    let mut indices = Vec::new();
+    for note in &notes.notes {
+        let next = texts.len() as u32;
+        let index = *numbers.entry(note.text.as_str()).or_insert(next);
+        if index == next {
+            texts.push(&note.text);
+        }
+        indices.push(index);
+    }
+    Ok(json!({
+        "name": notes.name,
+        "texts": texts,
+        "steps": blob::steps(notes.notes.iter().map(|note| note.step)),
+        "index": blob::numbers(indices),
+    }))
+}
+
+fn marks(marks: &Marks) -> Result<Value, EncodeError> {
+    ascend("mark", marks.steps.iter().copied())?;
+    let kind = match marks.kind {
+        Mark::Bump => "bump",
+        Mark::Failure => "failure",
+        Mark::Arrival => "arrival",
+        Mark::Kidnapping => "kidnapping",
+        Mark::Difference => "difference",
+        Mark::Event => "event",
+    };
+    let steps = blob::steps(marks.steps.iter().copied());
+    Ok(json!({ "kind": kind, "name": marks.name, "steps": steps }))
+}
+
+fn facts(facts: &[Fact]) -> Value {
+    facts
+        .iter()
+        .map(|fact| json!([fact.name, fact.value]))
+        .collect()
+}
+
+/// A position to a tenth of a millimetre.
+fn place(point: Point) -> Value {
+    json!([short(point.x), short(point.y)])
+}
+
+/// A number to four digits behind the point.
+fn short(number: f64) -> f64 {
+    libm::round(number * 1e4) / 1e4
+}
+
+fn finite(point: &Point) -> bool {
+    point.x.is_finite() && point.y.is_finite()
+}
+
+fn each<T>(
+    all: &[T],
+    encode: fn(&T) -> Result<Value, EncodeError>,
+) -> Result<Vec<Value>, EncodeError> {
+    all.iter().map(encode).collect()
+}
+
+fn all_finite<T>(what: &str, all: &[T], holds: impl Fn(&T) -> bool) -> Result<(), EncodeError> {
+    match all.iter().position(|one| !holds(one)) {
+        Some(index) => Err(EncodeError::NotFinite {
+            what: what.to_owned(),
+            index,
+        }),
+        None => Ok(()),
+    }
+}
+
+fn ascend(what: &str, steps: impl Iterator<Item = u32>) -> Result<(), EncodeError> {
+    let mut before = 0;
+    for (index, step) in steps.enumerate() {
+        if step < before {
+            return Err(EncodeError::Order {
+                what: what.to_owned(),
+                index,
+            });
+        }
+        before = step;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Pose};
+    use tolman_robot::Scan;
+
+    use super::*;
+    use crate::{BeliefAt, FieldChange, NodeMove, Note, Sample, Zone};
+
+    /// A replay with every layer there is.
+    fn full() -> Replay {
+        let at = |x: f64| Point::new(x, 0.5);
+        let pose = |x| Pose::new(at(x), Heading::from_radians(3.0 + x));
+        let ring = Ring::full(4, 2.0);
+        let body = Body::Circle { radius: 0.1 };
+        let mut track = Track::new("robot", body, vec![pose(0.0), pose(0.25), pose(1.0)]);
+        track.ring = Some(ring);
+        let mut node = Node::new(7, at(0.0), 0);
+        node.moves.push(NodeMove {
+            step: 1,
+            position: at(0.1),
+        });
+        node.visits = vec![0, 2];
+        node.exemplar = Some(Exemplar {
+            heading: Heading::EAST,
+            scan: Scan::clear(ring),
+        });
+        track.maps.push(MapGrowth {
+            name: "map".to_owned(),
+            nodes: vec![node, Node::new(9, at(1.0), 2)],
+            edges: vec![Edge::new(7, 9, 2)],
+        });
+        let shape = Shape::Node { id: 7, weight: 1.0 };
+        let entries = vec![BeliefAt {
+            step: 1,
+            shapes: vec![shape],
+        }];
+        track.beliefs.push(Belief {
+            name: "belief".to_owned(),
+            entries,
+        });
+        track.fields.push(Field {
+            name: "field".to_owned(),
+            origin: at(0.0),
+            pitch: 1.0,
+            columns: 1,
+            range: [0.0, 1.0],
+            changes: vec![FieldChange {
+                step: 0,
+                cell: 0,
+                value: None,
+            }],
+        });
+        let samples = |values: [f64; 2]| {
+            (0..)
+                .zip(values)
+                .map(|(step, value)| Sample { step, value })
+                .collect()
+        };
+        for values in [[1.0, -3.0], [0.5, 1.0]] {
+            let (name, unit) = ("number".to_owned(), String::new());
+            track.series.push(Series {
+                name,
+                unit,
+                samples: samples(values),
+            });
+        }
+        let note = |step, text: &str| Note {
+            step,
+            text: text.to_owned(),
+        };
+        let notes = vec![note(0, "a"), note(1, "b"), note(2, "a")];
+        track.notes.push(Notes {
+            name: "notes".to_owned(),
+            notes,
+        });
+        let zone = Zone {
+            kind: ZoneKind::Region,
+            name: String::new(),
+            corners: vec![at(0.0)],
+        };
+        let scenery = Scenery {
+            zones: vec![zone],
+            ..Scenery::default()
+        };
+        Replay::new("full", 0.1, scenery, vec![track])
+    }
+
+    #[test]
+    fn every_layer_is_written() {
+        let value = value(&full()).unwrap();
+        let track = &value["tracks"][0];
+        // The box is a metre wide: a quarter is 16384 of 65535.
+        assert_eq!(track["x"], blob::changes([0, 16384, 65535]));
+        assert_eq!(track["series"][0]["whole"], blob::changes([1, -3]));
+        assert_eq!(track["series"][0]["steps"], 0, "one at each step");
+        assert_eq!(track["series"][1]["values"], blob::floats([0.5, 1.0]));
+        assert_eq!(track["notes"][0]["texts"], json!(["a", "b"]));
+        assert_eq!(track["notes"][0]["index"], blob::numbers([0, 1, 0]));
+        assert_eq!(
+            track["maps"][0]["nodes"][0]["moves"],
+            json!([[1, [0.1, 0.5]]])
+        );
+        let exemplar = &track["maps"][0]["nodes"][0]["exemplar"]["ranges"];
+        assert_eq!(*exemplar, blob::bytes(&[255; 4]));
+        assert_eq!(
+            track["maps"][0]["edges"],
+            json!([[7, 9, "passage", 2, null, ""]])
+        );
+        assert_eq!(
+            track["beliefs"][0]["entries"],
+            json!([[1, [["node", 1.0, 7]]]])
+        );
+    }
+
+    #[test]
+    fn a_turn_past_the_seam_is_a_small_change() {
+        let value = value(&full()).unwrap();
+        // From 3.0 to 3.25 rad and on to 4.0, of which π is passed.
+        let quantum = |radians: f64| {
+            libm::round((radians + core::f64::consts::PI) * 65536.0 / core::f64::consts::TAU) as i32
+        };
+        let headings = [3.0, 3.25, 4.0].map(quantum);
+        assert!(headings[1] > 65536, "past the seam");
+        // The first heading is counted from the side of the seam that is nearer to 0.
+        let expected = blob::changes(headings.map(|heading| heading - 65536));
+        assert_eq!(value["tracks"][0]["heading"], expected);
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        let refused = |change: fn(&mut Replay)| {
+            let mut replay = full();
+            change(&mut replay);
+            json(&replay).unwrap_err().to_string()
+        };
+        for (error, part) in [
+            (refused(|replay| replay.tracks.clear()), "no track"),
+            (refused(|replay| replay.step_s = f64::NAN), "NaN s"),
+            (
+                refused(|replay| replay.tracks[0].poses[1].position.x = f64::INFINITY),
+                "pose 1",
+            ),
+            (
+                refused(|replay| replay.tracks[0].maps[0].edges[0].b = 8),
+                "node 8",
+            ),
+            (
+                refused(|replay| replay.tracks[0].maps[0].nodes[1].id = 7),
+                "the id 7",
+            ),
+            (
+                refused(|replay| replay.tracks[0].notes[0].notes[0].step = 2),
+                "note 1",
+            ),
+            (
+                refused(|replay| replay.tracks[0].fields[0].columns = 0),
+                "0 columns",
+            ),
+        ] {
+            assert!(error.contains(part), "no `{part}` in: {error}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Which cells of a maze a robot can get to, and which it has been in.
+
+use tolman_geom::{Point, Vector};
+use tolman_maze::{Cell, Grid};
+use tolman_sim::World;
+
+use super::{Sample, Series, Zone, ZoneKind};
+
+/// The cells of a world made from a maze that a robot can get to from where it starts.
+#[derive(Clone, Debug)]
+pub struct Floor<'a> {
+    world: &'a World,
+    grid: Grid,
+    pitch: f64,
+    /// By cell index.
+    reachable: Vec<bool>,
+}
+
+/// Cells in a rectangle, the outermost ones.
+struct Rectangle {
+    west: u16,
+    east: u16,
+    south: u16,
+    north: u16,
+}
+
+/// North, east, south, west, in cells.
+const STEPS: [(i32, i32); 4] = [(0, 1), (1, 0), (0, -1), (-1, 0)];
+
+impl<'a> Floor<'a> {
+    /// What can be reached from `start`; nothing in a world that was not made from a maze, or from outside
+    /// of it. Doors do not count as walls. O(cells) rays.
+    pub fn from(world: &'a World, start: Point) -> Option<Self> {
+        let (grid, first) = (world.grid()?, world.cell_at(start)?);
+        let mut floor = Self {
+            world,
+            grid,
+            pitch: 2.0 * world.cell_centre(Cell::new(0, 0)).x,
+            reachable: vec![false; grid.cells().count()],
+        };
+        let mut open = vec![first];
+        floor.reachable[grid.index(first)] = true;
+        while let Some(cell) = open.pop() {
+            for (east, north) in STEPS {
+                let Some(next) = floor.neighbour(cell, east, north) else {
+                    continue;
+                };
+                if !floor.reachable[grid.index(next)] && floor.is_open(cell, east, north) {
+                    floor.reachable[grid.index(next)] = true;
+                    open.push(next);
+                }
+            }
+        }
+        Some(floor)
+    }
+
+    fn neighbour(&self, cell: Cell, east: i32, north: i32) -> Option<Cell> {
+        let x = u16::try_from(i32::from(cell.x) + east).ok()?;
+        let y = u16::try_from(i32::from(cell.y) + north).ok()?;
+        (x < self.grid.width() && y < self.grid.height()).then(|| Cell::new(x, y))
+    }
+
+    /// Whether nothing stands between the middle of a cell and that of its neighbour.
+    fn is_open(&self, cell: Cell, east: i32, north: i32) -> bool {
+        let direction = Vector::new(f64::from(east), f64::from(north));
+        let caster = self.world.caster();
+        caster.cast(self.world.cell_centre(cell), direction, self.pitch) > 0.9 * self.pitch
+    }
+
+    /// The cells that cannot be reached, as few solid rectangles.
+    pub fn solid(&self) -> Vec<Zone> {
+        // Runs of each row from the south, which grow northwards while the next row has the same.
+        let mut done: Vec<Rectangle> = Vec::new();
+        let mut growing: Vec<Rectangle> = Vec::new();
+        for y in 0..self.grid.height() {
+            let mut next = Vec::new();
+            for (west, east) in self.solid_runs(y) {
+                let below = growing
+                    .iter()
+                    .position(|run| (run.west, run.east) == (west, east));
+                let south = below.map_or(y, |below| growing.swap_remove(below).south);
+                let north = y;
+                next.push(Rectangle {
+                    west,
+                    east,
+                    south,
+                    north,
+                });
+            }
+            done.append(&mut growing);
+            growing = next;
+        }
+        done.append(&mut growing);
+        done.iter().map(|rectangle| self.zone(rectangle)).collect()
+    }
+
+    /// The first and last column of each run of unreachable cells in a row.
+    fn solid_runs(&self, y: u16) -> Vec<(u16, u16)> {
+        let mut runs: Vec<(u16, u16)> = Vec::new();
+        for x in 0..self.grid.width() {
+            if self.reachable[self.grid.index(Cell::new(x, y))] {
+                continue;
+            }
+            match runs.last_mut() {
+                Some((_, east)) if *east + 1 == x => *east = x,
+                _ => runs.push((x, x)),
+            }
+        }
+        runs
+    }
+
+    fn zone(&self, rectangle: &Rectangle) -> Zone {
+        let Rectangle {
+            west,
+            east,
+            south,
+            north,
+        } = *rectangle;
+        let half = Vector::new(0.5 * self.pitch, 0.5 * self.pitch);
+        let min = self.world.cell_centre(Cell::new(west, south)) - half;
+        let max = self.world.cell_centre(Cell::new(east, north)) + half;
+        Zone {
+            kind: ZoneKind::Solid,
+            name: String::new(),
+            corners: vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)],
+        }
+    }
+
+    /// The share of the reachable cells that lay under the robot's centre so far, step by step.
+    pub fn coverage(&self, path: impl IntoIterator<Item = Point>) -> Series {
+        let all = self.reachable.iter().filter(|cell| **cell).count();
+        let mut seen = vec![false; self.reachable.len()];
+        let mut count = 0_u32;
+        let mut samples = Vec::new();
+        for (step, position) in (0_u32..).zip(path) {
+            let Some(cell) = self.world.cell_at(position) else {
+                continue;
+            };
+            let index = self.grid.index(cell);
+            if self.reachable[index] && !seen[index] {
+                seen[index] = true;
+                count += 1;
+                let value = f64::from(count) / all as f64;
+                samples.push(Sample { step, value });
+            }
+        }
+        Series {
+            name: "coverage".to_owned(),
+            unit: "%".to_owned(),
+            samples,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_sim::CorridorSize;
+
+    use super::*;
+
+    #[test]
+    fn what_is_walled_off_is_solid_and_the_rest_can_be_covered() {
+        let maze = "\
+o---o---o---o
+| S   G |   |
+o---o---o   o
+|       |   |
+o   o   o   o
+|       |   |
+o---o---o---o
+";
+        let maze = tolman_maze::parse(maze).unwrap().maze;
+        let size = CorridorSize {
+            corridor_width: 1.0,
+            wall_thickness: 0.1,
+        };
+        let world = World::from_maze(&maze, &size).unwrap();
+        let centre = |x| world.cell_centre(Cell::new(x, 2));
+        let floor = Floor::from(&world, centre(0)).unwrap();
+        let solid = floor.solid();
+        let areas = solid.iter().map(|zone| {
+            let size = zone.corners[2] - zone.corners[0];
+            libm::round(size.x * size.y / (1.1 * 1.1)) as u32
+        });
+        assert_eq!(
+            areas.collect::<Vec<u32>>(),
+            [6, 1],
+            "two rows of three, one cell atop"
+        );
+
+        let path = [centre(0), centre(0), centre(1), centre(2)];
+        let samples = floor.coverage(path).samples;
+        let expected = [(0, 0.5), (2, 1.0)].map(|(step, value)| Sample { step, value });
+        assert_eq!(samples, expected);
+    }
+}
