@@ -2,9 +2,9 @@
 
 use alloc::sync::Arc;
 
-use tolman_arena::agents::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
 use tolman_arena::agents::{Guess, Mind, Place};
 use tolman_arena::episode::{self, Episode};
+use tolman_arena::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
 use tolman_arena::pioneer::calibrated;
 use tolman_maps::mslst_graph::DUMMY;
 use tolman_papers::Recorder;

@@ -10,9 +10,15 @@ extern crate alloc;
 pub mod agents;
 pub mod competition;
 pub mod course;
+pub mod cpm;
+pub mod diktiometry;
 pub mod drive;
 pub mod episode;
+mod file_kind;
 pub mod micromouse;
 pub mod mms;
+pub mod mslst;
 pub mod pioneer;
 pub mod q_learning;
+
+pub use file_kind::FileError;

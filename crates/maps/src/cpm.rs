@@ -81,6 +81,7 @@ pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
 pub use plan::{Plan, PlanLeg};
 pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};
 pub use theorem::theorem_1;
-pub use traversal::{Landmark, Motion, Sighting, Traversal};
+pub use tolman_robot::Landmark;
+pub use traversal::{Motion, Sighting, Traversal};
 pub use turn::{NoSuchTurn, Turn};
 pub use unify::Conflict;

@@ -97,6 +97,10 @@ impl WheelSpeeds {
     }
 }
 
+impl crate::Standstill for WheelSpeeds {
+    const STOP: Self = Self::STOP;
+}
+
 /// How far each wheel turned in a time step, rad, whether the robot moved or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

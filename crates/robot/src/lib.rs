@@ -14,20 +14,30 @@ extern crate alloc;
 extern crate std;
 
 mod body;
+mod capabilities;
 mod column_image;
 pub mod epuck;
 #[cfg(feature = "epuck-serial")]
 pub mod epuck_serial;
+mod landmark;
 mod laser_robot;
+mod mapper;
 mod odometry;
 mod robot;
 mod scan;
+mod stopping;
+mod system;
 mod turn_translate;
 
 pub use body::Body;
+pub use capabilities::{Bumps, Clock, Compass, Ranges, Rolls, Sees};
 pub use column_image::{CameraSensing, ColumnImage};
+pub use landmark::{Landmark, Landmarked, SensesLandmarks};
 pub use laser_robot::LaserSensing;
+pub use mapper::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 pub use odometry::Odometry;
-pub use robot::Robot;
+pub use robot::{Robot, Standstill};
 pub use scan::{Ring, Scan};
+pub use stopping::Stopping;
+pub use system::{Goal, Standing, System, Task};
 pub use turn_translate::TurnTranslate;

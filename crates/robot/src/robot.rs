@@ -27,7 +27,7 @@
 /// ```
 pub trait Robot {
     /// What the robot is told in one time step.
-    type Command;
+    type Command: Standstill;
     /// What it knows after one.
     type Sensing;
     /// Why a step can fail: a lost connection, a command that is not a number.
@@ -41,4 +41,37 @@ pub trait Robot {
     /// # Errors
     /// Whatever keeps the robot from carrying it out; it then stands still.
     fn step(&mut self, command: &Self::Command) -> Result<(), Self::Error>;
+
+    /// Tells the robot to stand still, for one time step.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    fn stop(&mut self) -> Result<(), Self::Error> {
+        self.step(&Self::Command::STOP)
+    }
+}
+
+/// A command that makes a robot stand still.
+pub trait Standstill {
+    /// The command.
+    const STOP: Self;
+}
+
+/// Standing still is no change.
+impl Standstill for f64 {
+    const STOP: Self = 0.0;
+}
+
+impl<R: Robot> Robot for &mut R {
+    type Command = R::Command;
+    type Sensing = R::Sensing;
+    type Error = R::Error;
+
+    fn sensing(&self) -> &R::Sensing {
+        (**self).sensing()
+    }
+
+    fn step(&mut self, command: &R::Command) -> Result<(), R::Error> {
+        (**self).step(command)
+    }
 }

@@ -16,3 +16,7 @@ impl TurnTranslate {
         translate: 0.0,
     };
 }
+
+impl crate::Standstill for TurnTranslate {
+    const STOP: Self = Self::STOP;
+}

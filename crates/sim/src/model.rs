@@ -19,7 +19,7 @@ pub struct Motion {
 /// the [`Chance`] of this robot and tick.
 pub trait Model {
     /// What it is told in one time step.
-    type Command: core::fmt::Debug;
+    type Command: core::fmt::Debug + tolman_robot::Standstill;
     /// What it senses after one.
     type Sensing: core::fmt::Debug;
 

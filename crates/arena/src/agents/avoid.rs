@@ -17,7 +17,7 @@ pub struct Avoid {
 
 impl Avoid {
     /// Takes in how the action before ended, whoever chose it.
-    pub(super) fn learn(&mut self, last: Option<(Direction, Outcome)>) {
+    pub(crate) fn learn(&mut self, last: Option<(Direction, Outcome)>) {
         match last {
             Some((action, Outcome::Completed)) => {
                 self.travelling = Some(action);
@@ -29,7 +29,7 @@ impl Avoid {
     }
 
     /// Draws the next action.
-    pub(super) fn wander(&mut self, rng: &mut dyn Rng) -> Direction {
+    pub(crate) fn wander(&mut self, rng: &mut dyn Rng) -> Direction {
         let back = self.travelling.map(Direction::opposite);
         let untried: Vec<Direction> = Direction::ALL
             .into_iter()

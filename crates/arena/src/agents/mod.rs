@@ -5,10 +5,6 @@
 
 mod avoid;
 mod cast;
-pub mod cpm;
-pub mod diktiometry;
-mod file_kind;
-pub mod mslst;
 mod oracle;
 mod random;
 mod thought;
@@ -26,7 +22,6 @@ use tolman_sim::Truth;
 
 pub use avoid::Avoid;
 pub use cast::{Agent, Cast};
-pub use file_kind::FileError;
 pub use oracle::{Oracle, Policy};
 pub use random::Random;
 pub use thought::{Guess, Place, Thought};

@@ -240,8 +240,9 @@ mod tests {
     use super::super::config::CpmConfig;
     use super::super::map::{Port, PortState};
     use super::super::pattern::{Dictionary, PatternId};
-    use super::super::traversal::{Landmark, Motion, Sighting};
+    use super::super::traversal::{Motion, Sighting};
     use super::*;
+    use tolman_robot::Landmark;
 
     const START: Sighting = Sighting {
         degree: 1,

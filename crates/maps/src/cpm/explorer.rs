@@ -10,8 +10,9 @@ use super::map::{CpMap, End, JunctionId, Port, PortState};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
 use super::plan::Plan;
-use super::traversal::{Landmark, Sighting, Traversal};
+use super::traversal::{Sighting, Traversal};
 use super::turn::{NoSuchTurn, Turn};
+use tolman_robot::Landmark;
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///

@@ -9,8 +9,9 @@ use super::map::{End, Fragment, FragmentId, Junction, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
 use super::similarity::Sense;
-use super::traversal::{Landmark, Motion, Traversal};
+use super::traversal::{Motion, Traversal};
 use super::turn::{NoSuchTurn, Turn};
+use tolman_robot::Landmark;
 
 /// One way to understand all that the robot has met: a map, and what it costs to believe in it.
 ///

@@ -7,8 +7,9 @@ use super::bearings::{Bearings, SHARP, between};
 use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::similarity::Sense;
-use super::traversal::{Landmark, Sighting};
+use super::traversal::Sighting;
 use super::turn::{NoSuchTurn, Turn};
+use tolman_robot::Landmark;
 
 /// Finds where a robot is, from one observation on: on which of several maps, in which fragment, walking which way.
 ///

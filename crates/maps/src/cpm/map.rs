@@ -6,8 +6,9 @@ use super::index::FragmentIndex;
 use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId, Version};
 use super::similarity::Matching;
-use super::traversal::{Landmark, Motion, Sighting};
+use super::traversal::{Motion, Sighting};
 use super::turn::Turn;
+use tolman_robot::Landmark;
 
 /// A fragment of a map. It stays the same as long as the fragment is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -9,8 +9,9 @@ use super::explorer::MOST_PORTS;
 use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
-use super::traversal::{Landmark, Motion};
+use super::traversal::Motion;
 use crate::file_header::{self, HeaderError};
+use tolman_robot::Landmark;
 
 /// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
 ///

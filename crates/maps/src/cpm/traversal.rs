@@ -6,18 +6,7 @@ use tolman_geom::{Interval, PointBox, PoseBox};
 
 use super::bearings::Bearings;
 use super::pattern::PatternId;
-
-/// What tells a place from others that have as many ports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Landmark {
-    /// Where the robot started.
-    Start,
-    /// Where it has to go.
-    Goal,
-    /// Another one that it can recognize, by a number of the caller's.
-    Numbered(u32),
-}
+use tolman_robot::Landmark;
 
 /// What the robot sees of a place that ends a fragment: a junction, a dead end (one port), or a landmark ("other
 /// CP (some extra landmarks) might also be used to divide fragment as well"), which may stand in a corridor (two ports).

@@ -21,7 +21,8 @@ pub use rover::{Noise, Outcome, Reckoning, Rover};
 
 use super::map::Sign;
 use super::pattern::{Dictionary, DictionaryError, PatternId};
-use super::traversal::{Landmark, Sighting};
+use super::traversal::Sighting;
+use tolman_robot::Landmark;
 
 /// A maze as a plane graph. Its places and corridors are numbered from 0.
 #[derive(Clone, Debug, PartialEq)]

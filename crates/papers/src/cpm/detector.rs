@@ -11,7 +11,7 @@ use tolman_robot::Robot as _;
 use tolman_robot::epuck::WheelSpeeds;
 use tolman_sim::robots::Epuck;
 
-use tolman_arena::agents::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
+use tolman_arena::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.

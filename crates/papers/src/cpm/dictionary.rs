@@ -1,6 +1,6 @@
 //! How many common patterns the robot learns: section 5, "31 clusters are obtained with 102 nodes".
 
-use tolman_arena::agents::cpm::{Venue, learn};
+use tolman_arena::cpm::{Venue, learn};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, Tolerance};
 
 /// The name of the table.

@@ -9,7 +9,7 @@ use tolman_maps::cpm::{
 use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 
-use tolman_arena::agents::cpm::{Fit, Layout};
+use tolman_arena::cpm::{Fit, Layout};
 use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series, Zone};
 
 /// Width of a plan, user units.

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Maze};
 
 use super::trials;
-use tolman_arena::agents::cpm::{CommonPatterns, TrueFragments, Venue, Way};
+use tolman_arena::cpm::{CommonPatterns, TrueFragments, Venue, Way};
 use tolman_arena::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 

@@ -3,7 +3,7 @@
 use tolman_maps::cpm::Done;
 
 use super::trials::{Place, Setting, better, cast, in_both_modes, modes, trial};
-use tolman_arena::agents::cpm::{CommonPatterns, Venue};
+use tolman_arena::cpm::{CommonPatterns, Venue};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.

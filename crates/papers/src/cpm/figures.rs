@@ -6,7 +6,7 @@ use tolman_maps::cpm::Landmark;
 use super::Cpm;
 use super::drawing;
 use super::trials::{BETTER, FIGURE_9};
-use tolman_arena::agents::cpm::{Record, Venue};
+use tolman_arena::cpm::{Record, Venue};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Field, Run};
 

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::{trials, venue};
-use tolman_arena::agents::cpm::{
+use tolman_arena::cpm::{
     Approach, CommonPatterns, KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck,
 };
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, run_seed};
@@ -260,7 +260,7 @@ pub(super) fn check(run: &Run) -> Result<(), BoxError> {
 mod tests {
     use super::super::venue;
     use super::*;
-    use tolman_arena::agents::cpm::learn;
+    use tolman_arena::cpm::learn;
 
     #[test]
     fn a_robot_put_down_finds_out_where_it_is() {

@@ -15,7 +15,7 @@ mod replay;
 mod trials;
 mod venue;
 
-use tolman_arena::agents::cpm::{CommonPatterns, Mode, Record, Venue, epuck, learn};
+use tolman_arena::cpm::{CommonPatterns, Mode, Record, Venue, epuck, learn};
 use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::Run;

@@ -1,7 +1,7 @@
 //! The diktiometry on the same robot in the same mazes: junctions and dead ends as places.
 
-use tolman_arena::agents::cpm::Venue;
-use tolman_arena::agents::diktiometry::{EpuckSurveyConfig, survey_maze};
+use tolman_arena::cpm::Venue;
+use tolman_arena::diktiometry::{EpuckSurveyConfig, survey_maze};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The name of the table.

@@ -5,7 +5,7 @@ use tolman_maps::cpm::{CpmConfig, Done};
 use std::sync::OnceLock;
 
 use super::venue;
-use tolman_arena::agents::cpm::{
+use tolman_arena::cpm::{
     CommonPatterns, Cpm, Episode, Lesson, RoundTrip, SimulatedEpuck, Step, Venue, Walker,
     WalkerConfig, learn_by, placed, slow_epuck, walker_config,
 };

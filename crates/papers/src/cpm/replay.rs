@@ -11,7 +11,7 @@ use tolman_sim::World;
 
 use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
-use tolman_arena::agents::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, slow_epuck};
+use tolman_arena::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, slow_epuck};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,

@@ -3,7 +3,7 @@
 use tolman_maps::cpm::CpmConfig;
 
 use super::venue;
-use tolman_arena::agents::cpm::{CommonPatterns, Likeness, Mode, Record, Trial, Venue, epuck};
+use tolman_arena::cpm::{CommonPatterns, Likeness, Mode, Record, Trial, Venue, epuck};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
 
 /// The table of figure 9.

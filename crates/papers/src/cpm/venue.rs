@@ -8,7 +8,7 @@ use tolman_maze::{Cell, Direction, Perfect};
 
 use super::trials::BETTER;
 use crate::maze_file;
-use tolman_arena::agents::cpm::{Likeness, Venue};
+use tolman_arena::cpm::{Likeness, Venue};
 use tolman_experiment::BoxError;
 
 /// Cells along each side of an aliased maze.

@@ -3,7 +3,7 @@
 use tolman_geom::Point;
 use tolman_sim::Bounds;
 
-use tolman_arena::agents::diktiometry::{Drawn, Office, Survey};
+use tolman_arena::diktiometry::{Drawn, Office, Survey};
 use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, Plan, Region, Series};
 
 /// Width of a plan, user units.

@@ -2,7 +2,7 @@
 
 use super::drawing::map_over_world;
 use super::settings::{Setting, Subject, Trial};
-use tolman_arena::agents::diktiometry::{Survey, WINDOW};
+use tolman_arena::diktiometry::{Survey, WINDOW};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Run};
 use tolman_stats::Interval;

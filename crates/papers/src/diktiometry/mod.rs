@@ -5,9 +5,7 @@ mod figures;
 mod replay;
 mod settings;
 
-use tolman_arena::agents::diktiometry::{
-    ErrorSummary, Isomorphism, NEAR, PlanTrial, Survey, TAIL, WINDOW,
-};
+use tolman_arena::diktiometry::{ErrorSummary, Isomorphism, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run,

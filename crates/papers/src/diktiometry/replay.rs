@@ -8,7 +8,7 @@ use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::settings::Setting;
-use tolman_arena::agents::diktiometry::{Reason, Survey, Surveyed};
+use tolman_arena::diktiometry::{Reason, Survey, Surveyed};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Belief, BeliefAt, Edge, Fact, MapGrowth, Node, NodeMove, Notes, Replay, Sample, Scenery,

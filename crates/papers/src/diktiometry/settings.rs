@@ -6,9 +6,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{Ablation, Config};
 
-use tolman_arena::agents::diktiometry::{
-    Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks,
-};
+use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
 

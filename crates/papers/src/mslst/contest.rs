@@ -9,9 +9,9 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use super::MAPS;
 use crate::venue::{self, Venue};
-use tolman_arena::agents::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
 use tolman_arena::agents::{Agent, Cast, Mind};
 use tolman_arena::episode::{self, Episode, Trial};
+use tolman_arena::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
 use tolman_experiment::{
     BoxError, Correction, Field, Fields, Job, Kind, Metric, Pairwise, Run, Table, Tolerance,
     run_seed,

@@ -2,8 +2,8 @@
 
 use tolman_maps::mslst_graph::{Edge, Zone};
 
-use tolman_arena::agents::mslst::Learned;
 use tolman_arena::course::Course;
+use tolman_arena::mslst::Learned;
 use tolman_arena::pioneer::{self, ROBOT_UNIT};
 use tolman_draw::{Drawing, Graph, GraphEdge, GraphNode, NodeMark, PolarPlot, Series, Tiles};
 

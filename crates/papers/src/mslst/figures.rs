@@ -6,7 +6,7 @@ use tolman_maps::mslst_graph::{DUMMY, Node};
 use super::contest::{Apprentice, Contest};
 use super::drawing::{self, SHOWN_ACTIONS};
 use super::{MAPS, Mslst};
-use tolman_arena::agents::mslst::Learned;
+use tolman_arena::mslst::Learned;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Field, Run};
 use tolman_stats::wilson_interval;

@@ -3,7 +3,7 @@
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::contest::Contest;
-use tolman_arena::agents::mslst::{MslstConfig, States, scans};
+use tolman_arena::mslst::{MslstConfig, States, scans};
 use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
 
 /// The rows of the paper: the maze, the threshold, the states.

@@ -10,9 +10,9 @@ mod settings;
 
 use alloc::sync::Arc;
 
-use tolman_arena::agents::mslst::{Mslst, learn};
 use tolman_arena::agents::{Agent, Cast, Mind};
 use tolman_arena::episode::{self, Episode, Trial};
+use tolman_arena::mslst::{Mslst, learn};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table, run_seed,

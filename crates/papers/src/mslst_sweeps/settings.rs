@@ -8,8 +8,8 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use super::drawings::{self, Corridors};
 use crate::venue;
-use tolman_arena::agents::mslst::MslstConfig;
 use tolman_arena::course::Course;
+use tolman_arena::mslst::MslstConfig;
 use tolman_arena::pioneer::{self, ROBOT_UNIT};
 use tolman_experiment::BoxError;
 

@@ -3,8 +3,8 @@
 use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
 use crate::venue;
-use tolman_arena::agents::mslst;
 use tolman_arena::course::Course;
+use tolman_arena::mslst;
 use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table, Tolerance};
 

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use tolman_arena::agents::mslst::{MapFile, MslstConfig, learn};
+use tolman_arena::mslst::{MapFile, MslstConfig, learn};
 use tolman_arena::pioneer::calibrated;
 
 use super::failure::OrBadInput;

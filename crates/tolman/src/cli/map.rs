@@ -11,8 +11,8 @@ use std::path::Path;
 
 use anyhow::Context;
 use clap::Subcommand;
-use tolman_arena::agents::diktiometry::SurveyFile;
-use tolman_arena::agents::mslst::MapFile;
+use tolman_arena::diktiometry::SurveyFile;
+use tolman_arena::mslst::MapFile;
 use tolman_maps::diktiometry::Action;
 use tolman_maze::Direction;
 

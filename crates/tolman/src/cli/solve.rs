@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use alloc::sync::Arc;
 
 use tolman_arena::agents::Mind;
-use tolman_arena::agents::mslst::Mslst;
+use tolman_arena::mslst::Mslst;
 
 use super::run::{self, Name, Outing};
 use super::{Failure, map};

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
-use tolman_arena::agents::diktiometry::{
+use tolman_arena::diktiometry::{
     Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig,
 };
 use tolman_maps::diktiometry::{JournalLength, Use};

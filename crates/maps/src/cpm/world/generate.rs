@@ -7,9 +7,9 @@ use tolman_geom::Point;
 
 use super::super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::super::similarity::{Matching, Similarity};
-use super::super::traversal::Landmark;
 use super::rover::uniform;
 use super::{World, WorldBuilder, WorldError};
+use tolman_robot::Landmark;
 
 /// What a random world shall be like.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use tolman_arena::agents::cpm::{Pair, Venue, distinctness, learn};
+use tolman_arena::cpm::{Pair, Venue, distinctness, learn};
 use tolman_maps::cpm::Sense;
 
 use super::learn::LEARNING_MAZE;

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tolman_arena::agents::cpm::{
+use tolman_arena::cpm::{
     CommonPatterns, Learned, MapFile, Progress, System, Trial, Venue, epuck, learn,
 };
 use tolman_maps::cpm::{Aim, Done, Landmark};

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use anyhow::{Context, Error};
 use clap::Subcommand;
-use tolman_arena::agents::cpm::{MapFile, TrialError, Venue};
+use tolman_arena::cpm::{MapFile, TrialError, Venue};
 
 use super::failure::OrBadInput;
 use super::{Failure, maze};

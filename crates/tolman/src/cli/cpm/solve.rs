@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::agents::cpm::{DriveFrom, Errand, MapFile, Trial, Venue, epuck};
+use tolman_arena::cpm::{DriveFrom, Errand, MapFile, Trial, Venue, epuck};
 use tolman_draw::Figure;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, Done};

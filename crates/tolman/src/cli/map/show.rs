@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::agents::cpm;
-use tolman_arena::agents::diktiometry::SurveyFile;
-use tolman_arena::agents::mslst::MapFile;
+use tolman_arena::cpm;
+use tolman_arena::diktiometry::SurveyFile;
+use tolman_arena::mslst::MapFile;
 use tolman_draw::Figure;
 use tolman_papers::mslst::drawing;
 

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::agents::cpm::MapFile;
+use tolman_arena::cpm::MapFile;
 use tolman_draw::Figure;
 use tolman_maps::cpm::{Landmark, Port};
 use tolman_papers::cpm::drawing;

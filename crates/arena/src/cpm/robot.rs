@@ -92,11 +92,11 @@ mod tests {
     use tolman_robot::Robot;
 
     use super::*;
-    use crate::agents::cpm::placed;
+    use crate::cpm::placed;
 
     #[test]
     fn sweeps_last_as_long_as_the_paper_says() {
-        let maze = include_str!("../../../mazes/cpm-1.maze");
+        let maze = include_str!("../../mazes/cpm-1.maze");
         let maze = tolman_maze::read(maze).unwrap().maze;
         let sweep = |robot: &EpuckConfig| {
             let body = placed(&maze, 0.25, robot.clone(), 1).unwrap();

@@ -18,7 +18,7 @@ use super::office::{PlaceKind, TruePlace};
 use super::planner::Planner;
 use super::rover::{Arrival, MapError, Mapped, RoutineOutcome, Rover};
 use super::score::{MapScore, Visit, score};
-use crate::agents::cpm::{
+use crate::cpm::{
     HeadingBy, SimulatedEpuck, TrialError, TrueFragments, Walk, WalkError, Walker, epuck, placed,
     walker_config,
 };
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn the_first_maze_is_mapped_place_by_place() {
-        let text = include_str!("../../../mazes/cpm-1.maze");
+        let text = include_str!("../../mazes/cpm-1.maze");
         let maze = tolman_maze::read(text).unwrap().maze;
         let config = EpuckSurveyConfig::usual(30);
         let survey = survey_maze(&maze, 0.25, &config, 1).unwrap();

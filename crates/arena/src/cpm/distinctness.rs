@@ -104,7 +104,7 @@ pub fn distinctness(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::agents::cpm::trial::tests::PATTERNS;
+    use crate::cpm::trial::tests::PATTERNS;
 
     #[test]
     fn a_straight_corridor_is_the_same_from_both_ends() {

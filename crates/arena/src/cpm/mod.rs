@@ -23,7 +23,7 @@
 //!
 //! use rand::SeedableRng;
 //! use rand_chacha::ChaCha8Rng;
-//! use tolman_arena::agents::cpm::{
+//! use tolman_arena::cpm::{
 //!     CommonPatterns, Cpm, Landmarked, Lesson, Walker, slow_epuck, soinn, walker_config, wander,
 //! };
 //! use tolman_control::epuck::TURN_STEP;

@@ -206,7 +206,7 @@ pub(super) mod tests {
     use super::*;
 
     /// Three ways between two crossings.
-    pub(in crate::agents::cpm) const THREE_WAYS: &str = "\
+    pub(in crate::cpm) const THREE_WAYS: &str = "\
 start = 0 1 east
 
 o---o---o---o---o---o

@@ -4,8 +4,8 @@ use tolman_geom::Point;
 use tolman_maps::mslst_graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
 use tolman_maze::Direction;
 
-use super::super::file_kind::{FileError, FileHeader, FileKind};
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
+use crate::file_kind::{FileError, FileHeader, FileKind};
 
 const KIND: FileKind = FileKind {
     format: "tolman-mslst-map",

@@ -76,7 +76,7 @@ mod tests {
     use tolman_sim::StepError;
 
     use super::*;
-    use crate::agents::cpm::{Body, epuck, walker_config};
+    use crate::cpm::{Body, epuck, walker_config};
 
     /// An e-puck whose sensors still tell of the hand that carried it, until its next time step.
     struct Carried {
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn what_it_sensed_before_it_was_put_down_is_no_part_of_what_it_sees() {
-        let maze = include_str!("../../../mazes/cpm-1.maze");
+        let maze = include_str!("../../mazes/cpm-1.maze");
         let maze = tolman_maze::read(maze).unwrap().maze;
         let world = Arc::new(world_of(&maze, 0.25).unwrap());
         let config = walker_config(&epuck(), 0.25).unwrap();
@@ -130,9 +130,9 @@ mod tests {
     #[test]
     fn every_walk_leads_to_the_next_place() {
         for text in [
-            include_str!("../../../mazes/cpm-1.maze"),
-            include_str!("../../../mazes/cpm-2.maze"),
-            include_str!("../../../mazes/cpm-3.maze"),
+            include_str!("../../mazes/cpm-1.maze"),
+            include_str!("../../mazes/cpm-2.maze"),
+            include_str!("../../mazes/cpm-3.maze"),
         ] {
             let maze = tolman_maze::read(text).unwrap().maze;
             let config = walker_config(&epuck(), 0.25).unwrap();

@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_robot_that_knows_nothing_again_gives_up_and_one_that_is_told_to_breaks_off() {
-        let maze = include_str!("../../../mazes/cpm-1.maze");
+        let maze = include_str!("../../mazes/cpm-1.maze");
         let maze = tolman_maze::read(maze).unwrap().maze;
         // Nothing is similar to anything.
         let matching = Matching::Positions(Similarity {

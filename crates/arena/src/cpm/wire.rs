@@ -146,7 +146,7 @@ impl Write for Line {
 }
 
 fn maze() -> Maze {
-    let text = include_str!("../../../mazes/cpm-1.maze");
+    let text = include_str!("../../mazes/cpm-1.maze");
     tolman_maze::read(text).unwrap().maze
 }
 

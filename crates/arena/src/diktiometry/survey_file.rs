@@ -6,11 +6,11 @@ use tolman_geom::Point;
 use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
 use tolman_maze::{Direction, MazeError, MazeFile};
 
-use super::super::file_kind::{FileError, FileHeader, FileKind};
 use super::office::{Office, OfficeConfig, OfficeError};
 use super::score::Visit;
 use super::survey::{Past, RunError, Survey, SurveyConfig};
 use super::surveyor::SurveyorConfig;
+use crate::file_kind::{FileError, FileHeader, FileKind};
 
 /// Since version 2 the map is one of version 2.
 const KIND: FileKind = FileKind {

@@ -480,7 +480,7 @@ mod tests {
 
     #[test]
     fn what_leads_to_no_goal_is_no_part_of_it() {
-        let text = include_str!("../../../mazes/j.maze");
+        let text = include_str!("../../mazes/j.maze");
         let file = tolman_maze::read(text).unwrap();
         let furniture = OfficeConfig {
             corridor_width: 0.95,

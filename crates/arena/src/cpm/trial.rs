@@ -412,7 +412,7 @@ pub(super) mod tests {
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
-    use crate::agents::cpm::{Approach, KnownMaze, PutDown};
+    use crate::cpm::{Approach, KnownMaze, PutDown};
 
     const WIDTH: f64 = 0.25;
 
@@ -421,8 +421,8 @@ pub(super) mod tests {
     }
 
     /// What a robot learns in the learning maze, for all tests of CPM.
-    pub(in crate::agents::cpm) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
-        let maze = read(include_str!("../../../mazes/cpm-learning.maze"));
+    pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
+        let maze = read(include_str!("../../mazes/cpm-learning.maze"));
         learn(&maze, WIDTH, 1).unwrap()
     });
 
@@ -443,7 +443,7 @@ pub(super) mod tests {
 
     #[test]
     fn the_second_episode_is_the_shorter_one_bit_for_bit() {
-        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let maze = read(include_str!("../../mazes/cpm-1.maze"));
         let record = play(&maze, epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
         assert!(record.is_map_right);
@@ -454,7 +454,7 @@ pub(super) mod tests {
 
     #[test]
     fn patterns_learned_on_the_way_do() {
-        let maze = read(include_str!("../../../mazes/cpm-2.maze"));
+        let maze = read(include_str!("../../mazes/cpm-2.maze"));
         let unlearned = Trial {
             mode: Mode::Unlearned(CpmConfig::robust()),
             ..trial(&maze, epuck())
@@ -476,7 +476,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_goal_that_is_walled_off_is_not_there() {
-        let mut maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let mut maze = read(include_str!("../../mazes/cpm-1.maze"));
         let goal = maze.goals()[0];
         for direction in Direction::ALL {
             maze.set_wall(goal, direction, true);
@@ -501,7 +501,7 @@ pub(super) mod tests {
 
     #[test]
     fn loops_that_stay_open_on_the_map_are_missed() {
-        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let maze = read(include_str!("../../mazes/cpm-1.maze"));
         // A robot to which nothing is similar closes none.
         let matching = Matching::Positions(Similarity {
             mu: 2.0,
@@ -531,7 +531,7 @@ pub(super) mod tests {
 
     #[test]
     fn sensors_that_fail_are_told() {
-        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let maze = read(include_str!("../../mazes/cpm-1.maze"));
         let faulty = |fault| EpuckConfig {
             proximity: vec![fault],
             ..epuck()
@@ -549,7 +549,7 @@ pub(super) mod tests {
 
     #[test]
     fn wheels_that_slip_by_half_end_where_the_record_says() {
-        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let maze = read(include_str!("../../mazes/cpm-1.maze"));
         let world = world_of(&maze, WIDTH).unwrap();
         for seed in 0..3 {
             let slipping = Trial {
@@ -570,7 +570,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_robot_put_down_amid_a_fragment_finds_out_where_it_is() {
-        let maze = read(include_str!("../../../mazes/cpm-1.maze"));
+        let maze = read(include_str!("../../mazes/cpm-1.maze"));
         let record = play(&maze, epuck());
         let known = [KnownMaze {
             maze: &maze,
@@ -614,7 +614,7 @@ pub(super) mod tests {
 
     #[test]
     fn on_the_way_back_a_shorter_way_is_found() {
-        let maze = read(include_str!("../../../mazes/cpm-real.maze"));
+        let maze = read(include_str!("../../mazes/cpm-real.maze"));
         // With this seed the first way is the longer one of two.
         let trip = Trial {
             seed: 900,

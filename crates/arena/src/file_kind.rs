@@ -4,20 +4,20 @@ use thiserror::Error;
 
 /// A kind of files that hold what an agent has learned: JSON that begins with its format and version.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FileKind {
+pub(crate) struct FileKind {
     /// What `format` says.
-    pub(super) format: &'static str,
+    pub(crate) format: &'static str,
     /// The version that is written; all versions up to it are read.
-    pub(super) version: u32,
+    pub(crate) version: u32,
     /// Such as "survey".
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     /// What makes one.
-    pub(super) command: &'static str,
+    pub(crate) command: &'static str,
 }
 
 /// How such a file begins, whatever its version.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct FileHeader {
+pub(crate) struct FileHeader {
     format: String,
     version: u32,
 }
@@ -85,7 +85,7 @@ pub enum FileError {
 }
 
 impl FileKind {
-    pub(super) fn header(&self) -> FileHeader {
+    pub(crate) fn header(&self) -> FileHeader {
         FileHeader {
             format: self.format.to_owned(),
             version: self.version,
@@ -93,7 +93,7 @@ impl FileKind {
     }
 
     /// Whether a text says that it is of this kind: of whatever version, sound, broken or cut off.
-    pub(super) fn claims(&self, text: &str) -> bool {
+    pub(crate) fn claims(&self, text: &str) -> bool {
         let header: Result<FileHeader, _> = serde_json::from_str(text);
         header.map_or_else(
             |_| text.contains(&format!("\"{}\"", self.format)),
@@ -105,7 +105,7 @@ impl FileKind {
     ///
     /// # Errors
     /// [`FileError::Unwritable`].
-    pub(super) fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
+    pub(crate) fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
         let name = self.name;
         serde_json::to_string(body)
             .map(|text| text + "\n")
@@ -116,7 +116,7 @@ impl FileKind {
     ///
     /// # Errors
     /// [`FileError`].
-    pub(super) fn parse<T: DeserializeOwned>(&self, text: &str) -> Result<T, FileError> {
+    pub(crate) fn parse<T: DeserializeOwned>(&self, text: &str) -> Result<T, FileError> {
         let Self {
             format,
             version,

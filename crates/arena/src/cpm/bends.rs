@@ -8,7 +8,7 @@ use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 /// and one that bends the same from both ends is not *asymmetrical* (section 4.3).
 ///
 /// ```
-/// use tolman_arena::agents::cpm::Likeness;
+/// use tolman_arena::cpm::Likeness;
 ///
 /// // Two ways round: each bends, from its other end, as the other does.
 /// let maze = tolman_maze::read("\
@@ -108,9 +108,9 @@ o---o---o---o---o---o---o
     #[test]
     fn the_mazes_of_the_paper_have_none() {
         for text in [
-            include_str!("../../../mazes/cpm-1.maze"),
-            include_str!("../../../mazes/cpm-2.maze"),
-            include_str!("../../../mazes/cpm-3.maze"),
+            include_str!("../../mazes/cpm-1.maze"),
+            include_str!("../../mazes/cpm-2.maze"),
+            include_str!("../../mazes/cpm-3.maze"),
         ] {
             let none = Likeness {
                 alike_pairs: 0,

@@ -250,9 +250,9 @@ o---o---o---o---o---o
     #[test]
     fn places_tell_no_less_than_bends() {
         let texts = [
-            include_str!("../../../mazes/cpm-1.maze"),
-            include_str!("../../../mazes/cpm-2.maze"),
-            include_str!("../../../mazes/cpm-3.maze"),
+            include_str!("../../mazes/cpm-1.maze"),
+            include_str!("../../mazes/cpm-2.maze"),
+            include_str!("../../mazes/cpm-3.maze"),
         ];
         let mazes = texts.map(spots);
         for here in 0..mazes.len() {

@@ -9,10 +9,10 @@ use super::fragments::{DIRECTIONS, along};
 /// by port, as far as they agree.
 ///
 /// ```
-/// use tolman_arena::agents::cpm::{Layout, learn, Mode, Trial, epuck};
+/// use tolman_arena::cpm::{Layout, learn, Mode, Trial, epuck};
 /// use tolman_maps::cpm::{CpmConfig, Landmark};
 ///
-/// # let text = include_str!("../../../mazes/cpm-1.maze");
+/// # let text = include_str!("../../mazes/cpm-1.maze");
 /// let maze = tolman_maze::read(text)?.maze;
 /// let patterns = learn(&maze, 0.25, 1)?;
 /// let mode = Mode::Paper(CpmConfig::online());

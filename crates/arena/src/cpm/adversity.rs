@@ -94,7 +94,7 @@ fn search<B: Body>(body: B, width: f64) -> Result<(Episode, bool), AgentError<B:
 
 #[test]
 fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
-    let text = include_str!("../../../mazes/cpm-1.maze");
+    let text = include_str!("../../mazes/cpm-1.maze");
     let maze = tolman_maze::read(text).unwrap().maze;
     let body = || placed(&maze, WIDTH, epuck(), 1).unwrap();
     let (mut blind_reached, mut stuck_told) = (0, 0);

@@ -1,0 +1,133 @@
+//! What a sensing can tell. A layer or a system names in its bounds what it needs, and so runs on every
+//! robot that senses it.
+
+use tolman_geom::Heading;
+
+use crate::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS};
+use crate::{CameraSensing, ColumnImage, LaserSensing, Odometry, Scan};
+
+/// Senses how far away the walls are.
+pub trait Ranges {
+    /// Returns the ranges of this time step, or `None` for a drop-out.
+    fn scan(&self) -> Option<&Scan>;
+}
+
+/// Senses its absolute heading.
+pub trait Compass {
+    /// Returns the heading, or `None` for a drop-out.
+    fn heading(&self) -> Option<Heading>;
+}
+
+/// Senses what its wheels rolled.
+pub trait Rolls {
+    /// Returns what the wheels rolled since the step before, or `None` for a drop-out.
+    fn odometry(&self) -> Option<Odometry>;
+}
+
+/// Sees all round.
+pub trait Sees {
+    /// Returns the image of this time step, or `None` for a drop-out.
+    fn image(&self) -> Option<&ColumnImage>;
+}
+
+/// Feels what it touches.
+pub trait Bumps {
+    /// Returns whether the body touched something in this time step, or `None` if nothing tells.
+    fn bump(&self) -> Option<bool>;
+}
+
+/// Has a clock.
+pub trait Clock {
+    /// Returns the microseconds since the robot was switched on.
+    fn time_us(&self) -> u64;
+}
+
+impl Ranges for LaserSensing {
+    fn scan(&self) -> Option<&Scan> {
+        self.scan.as_ref()
+    }
+}
+
+impl Compass for LaserSensing {
+    fn heading(&self) -> Option<Heading> {
+        self.compass
+    }
+}
+
+impl Rolls for LaserSensing {
+    fn odometry(&self) -> Option<Odometry> {
+        self.odometry
+    }
+}
+
+impl Bumps for LaserSensing {
+    fn bump(&self) -> Option<bool> {
+        self.bump
+    }
+}
+
+impl Clock for LaserSensing {
+    fn time_us(&self) -> u64 {
+        self.time_us
+    }
+}
+
+impl Ranges for CameraSensing {
+    fn scan(&self) -> Option<&Scan> {
+        self.laser.scan()
+    }
+}
+
+impl Compass for CameraSensing {
+    fn heading(&self) -> Option<Heading> {
+        self.laser.heading()
+    }
+}
+
+impl Rolls for CameraSensing {
+    fn odometry(&self) -> Option<Odometry> {
+        self.laser.odometry()
+    }
+}
+
+impl Bumps for CameraSensing {
+    fn bump(&self) -> Option<bool> {
+        self.laser.bump()
+    }
+}
+
+impl Clock for CameraSensing {
+    fn time_us(&self) -> u64 {
+        self.laser.time_us()
+    }
+}
+
+impl Sees for CameraSensing {
+    fn image(&self) -> Option<&ColumnImage> {
+        self.image.as_ref()
+    }
+}
+
+impl Rolls for EpuckSensing {
+    fn odometry(&self) -> Option<Odometry> {
+        let turns = self.encoders?;
+        let [left, right] = [turns.left, turns.right].map(|turn| turn * WHEEL_RADIUS);
+        let rolled = tolman_geom::Twist::of_wheels(left, right, TRACK);
+        Some(Odometry {
+            distance: rolled.linear,
+            turn: rolled.angular,
+        })
+    }
+}
+
+impl Bumps for EpuckSensing {
+    fn bump(&self) -> Option<bool> {
+        self.bump
+    }
+}
+
+impl Clock for EpuckSensing {
+    fn time_us(&self) -> u64 {
+        self.time_us
+    }
+}

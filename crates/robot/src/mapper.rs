@@ -1,0 +1,141 @@
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+
+use crate::Landmark;
+
+/// Learns a map from what a robot sensed and did. It watches and never drives, so it works on a log as
+/// on a robot.
+///
+/// Each mapper says in [`Observation`](Self::Observation) what it takes in at a time: MSLST a time step with
+/// its scan and the action under way, CPM a fragment walked from place to place, the diktiometry a move with
+/// bounds on its odometry. Whoever has a log makes these of it; what a mapper needs and a log does not
+/// have is a field that cannot be filled.
+pub trait Mapper {
+    /// What it takes in at a time.
+    type Observation;
+    /// Why it refuses an observation.
+    type Error;
+
+    /// Takes in one observation.
+    ///
+    /// # Errors
+    /// If the observation is no number, or cannot follow what was seen before. The map is then as before.
+    fn observe(&mut self, seen: &Self::Observation) -> Result<(), Self::Error>;
+
+    /// Returns what it has learned, as places and links that any scorer and any drawing can read. O(map).
+    fn map(&self) -> MapView;
+
+    /// Returns where it believes the robot to be, the likeliest first; empty if it does not ask.
+    fn belief(&self) -> Vec<Guess>;
+}
+
+/// A learned map as any scorer and any drawing can read it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MapView {
+    /// The places, by id.
+    pub places: Vec<MapPlace>,
+    /// The ways between them. A way that can be gone both ways stands here twice.
+    pub links: Vec<MapLink>,
+}
+
+/// A place of a learned map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPlace {
+    /// The name by which links and beliefs call it.
+    pub id: u32,
+    /// Where it lies, m, in the map's own frame; `None` where the map does not know.
+    pub position: Option<Point>,
+    /// The landmark that stands there.
+    pub landmark: Option<Landmark>,
+}
+
+/// A way from one place of a learned map to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MapLink {
+    /// The place it leaves.
+    pub from: u32,
+    /// The place it leads to.
+    pub to: u32,
+}
+
+/// A place where a robot may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guess {
+    /// Where.
+    pub at: Position,
+    /// How much it is believed, 0 … 1.
+    pub weight: f64,
+}
+
+/// A position as a robot knows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Position {
+    /// A point of the world, m.
+    Point(Point),
+    /// A place of the robot's map, by id, which need not know where it lies.
+    Place(u32),
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use super::*;
+
+    /// Knows every place that was named to it, in the order it was visited.
+    #[derive(Default)]
+    struct Visits(Vec<u32>);
+
+    impl Mapper for Visits {
+        type Observation = u32;
+        type Error = core::convert::Infallible;
+
+        fn observe(&mut self, seen: &u32) -> Result<(), Self::Error> {
+            self.0.push(*seen);
+            Ok(())
+        }
+
+        fn map(&self) -> MapView {
+            let mut places: Vec<u32> = self.0.clone();
+            places.sort_unstable();
+            places.dedup();
+            let place = |id| MapPlace {
+                id,
+                position: None,
+                landmark: None,
+            };
+            let link = |pair: &[u32]| MapLink {
+                from: pair[0],
+                to: pair[1],
+            };
+            MapView {
+                places: places.into_iter().map(place).collect(),
+                links: self.0.windows(2).map(link).collect(),
+            }
+        }
+
+        fn belief(&self) -> Vec<Guess> {
+            let guess = |id: &u32| Guess {
+                at: Position::Place(*id),
+                weight: 1.0,
+            };
+            self.0.last().map(guess).into_iter().collect()
+        }
+    }
+
+    #[test]
+    fn a_mapper_works_on_a_log() {
+        let mut visits = Visits::default();
+        for seen in [3, 1, 3] {
+            visits.observe(&seen).unwrap();
+        }
+        let map = visits.map();
+        assert_eq!(map.places.len(), 2);
+        assert_eq!(
+            map.links,
+            vec![MapLink { from: 3, to: 1 }, MapLink { from: 1, to: 3 }]
+        );
+        assert_eq!(visits.belief()[0].at, Position::Place(3));
+    }
+}

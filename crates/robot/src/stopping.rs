@@ -1,0 +1,78 @@
+use core::ops::Deref;
+
+use crate::{Landmark, Robot, SensesLandmarks};
+
+/// A robot that is told to stand still when this is dropped: at the end of a run, after an error, or when
+/// the program is interrupted.
+///
+/// ```
+/// use tolman_robot::{Robot, Stopping, TurnTranslate};
+///
+/// /// A robot that remembers what it was told.
+/// #[derive(Default)]
+/// struct Diary(Vec<TurnTranslate>);
+///
+/// impl Robot for Diary {
+///     type Command = TurnTranslate;
+///     type Sensing = ();
+///     type Error = core::convert::Infallible;
+///
+///     fn sensing(&self) -> &() {
+///         &()
+///     }
+///
+///     fn step(&mut self, command: &TurnTranslate) -> Result<(), Self::Error> {
+///         self.0.push(*command);
+///         Ok(())
+///     }
+/// }
+///
+/// let mut diary = Diary::default();
+/// let ahead = TurnTranslate { turn: 0.0, translate: 1.0 };
+/// Stopping::new(&mut diary).step(&ahead).unwrap();
+/// assert_eq!(diary.0, [ahead, TurnTranslate::STOP]);
+/// ```
+#[derive(Debug)]
+pub struct Stopping<R: Robot>(R);
+
+impl<R: Robot> Stopping<R> {
+    /// Takes charge of `robot`, which may be a mutable reference.
+    pub const fn new(robot: R) -> Self {
+        Self(robot)
+    }
+}
+
+impl<R: Robot> Deref for Stopping<R> {
+    type Target = R;
+
+    fn deref(&self) -> &R {
+        &self.0
+    }
+}
+
+impl<R: Robot> Robot for Stopping<R> {
+    type Command = R::Command;
+    type Sensing = R::Sensing;
+    type Error = R::Error;
+
+    fn sensing(&self) -> &R::Sensing {
+        self.0.sensing()
+    }
+
+    fn step(&mut self, command: &R::Command) -> Result<(), Self::Error> {
+        self.0.step(command)
+    }
+}
+
+impl<R: SensesLandmarks> SensesLandmarks for Stopping<R> {
+    fn landmark(&self) -> Option<Landmark> {
+        self.0.landmark()
+    }
+}
+
+impl<R: Robot> Drop for Stopping<R> {
+    fn drop(&mut self) {
+        // Nobody is left to be told that the robot no longer listens.
+        let _ = self.0.stop();
+    }
+}

@@ -1,0 +1,59 @@
+use alloc::string::String;
+
+use crate::{Landmark, Mapper, Robot};
+
+/// A mapper that also drives.
+///
+/// It is made with its seed and derives one random stream for each of its parts. What it needs of a robot
+/// stands in the bounds of its implementation, as [capabilities](crate::Ranges) and never as the name of a robot.
+pub trait System<R: Robot>: Mapper {
+    /// Why it cannot go on: the robot's error, or what its parts refuse.
+    type Failure;
+
+    /// Makes the next action of `task` with `robot`, a few time steps, and returns how the task stands. The
+    /// number of its time steps is bounded.
+    ///
+    /// # Errors
+    /// If the robot fails or the system cannot go on with it.
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure>;
+
+    /// Returns in a few words what it makes of its situation, such as `lost`; empty if there is nothing to
+    /// say. For whoever watches.
+    fn words(&self) -> String {
+        String::new()
+    }
+}
+
+/// What a system is asked to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Task {
+    /// To learn the world until it knows all of it, or as much as it wants to.
+    Explore,
+    /// To go to a goal.
+    Reach(Goal),
+    /// To find out where it is.
+    Localize,
+}
+
+/// Where a system is sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Goal {
+    /// To a landmark, which the robot senses when it is there.
+    Landmark(Landmark),
+    /// To a place of the system's own map, by id.
+    Place(u32),
+}
+
+/// How a task stands after an action.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It goes on.
+    UnderWay,
+    /// It is done, as far as the system can tell.
+    Done,
+    /// The system gave up.
+    GaveUp {
+        /// Why, in a sentence without a full stop.
+        why: String,
+    },
+}

@@ -1,0 +1,1 @@
+//! Brains without a map: the baselines of MSLST, and Q-learning.
