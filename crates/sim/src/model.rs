@@ -13,6 +13,13 @@ pub struct Motion {
     pub turn: f64,
 }
 
+impl tolman_robot::Standstill for Motion {
+    const STOP: Self = Self {
+        distance: 0.0,
+        turn: 0.0,
+    };
+}
+
 /// A kind of robot: its body, its motors, its sensors.
 ///
 /// The simulation calls [`motion`](Self::motion) and then [`sense`](Self::sense) once a step, each with
