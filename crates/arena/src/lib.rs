@@ -20,5 +20,6 @@ pub mod mms;
 pub mod mslst;
 pub mod pioneer;
 pub mod q_learning;
+pub mod run;
 
 pub use file_kind::FileError;

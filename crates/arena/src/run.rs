@@ -1,0 +1,249 @@
+//! The one loop that lets a system drive a robot.
+
+use thiserror::Error;
+use tolman_robot::{Landmark, Robot, SensesLandmarks, Standing, Stopping, System, Task};
+
+/// A robot in a run: its time steps are counted, limited and watched, and it stands still when the run is over.
+#[derive(Debug)]
+pub struct Watched<R: Robot, F> {
+    robot: Stopping<R>,
+    watch: F,
+    steps: u32,
+    step_limit: u32,
+}
+
+/// Why a robot in a run makes no step.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum WatchedError<E> {
+    /// The run has as many time steps as it may have.
+    #[error("the run ended after {steps} time steps")]
+    OutOfTime {
+        /// The number of time steps made.
+        steps: u32,
+    },
+    /// The robot failed.
+    #[error(transparent)]
+    Robot(#[from] E),
+}
+
+impl<R: Robot, F: FnMut(&R, &R::Command)> Watched<R, F> {
+    /// Returns `robot`, which may make `step_limit` time steps. `watch` is shown each of them and what the robot
+    /// was told, once it is made; nothing of the run depends on it.
+    pub const fn new(robot: R, step_limit: u32, watch: F) -> Self {
+        Self {
+            robot: Stopping::new(robot),
+            watch,
+            steps: 0,
+            step_limit,
+        }
+    }
+
+    /// Returns the robot.
+    pub fn robot(&self) -> &R {
+        &self.robot
+    }
+
+    /// Returns the number of time steps made so far.
+    pub const fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    /// Returns whether no further step may be made.
+    pub const fn is_out_of_time(&self) -> bool {
+        self.steps >= self.step_limit
+    }
+}
+
+impl<R: Robot, F: FnMut(&R, &R::Command)> Robot for Watched<R, F> {
+    type Command = R::Command;
+    type Sensing = R::Sensing;
+    type Error = WatchedError<R::Error>;
+
+    fn sensing(&self) -> &R::Sensing {
+        self.robot.sensing()
+    }
+
+    fn step(&mut self, command: &R::Command) -> Result<(), Self::Error> {
+        if self.is_out_of_time() {
+            return Err(WatchedError::OutOfTime { steps: self.steps });
+        }
+        self.robot.step(command)?;
+        self.steps += 1;
+        (self.watch)(&self.robot, command);
+        Ok(())
+    }
+}
+
+impl<R: SensesLandmarks, F: FnMut(&R, &R::Command)> SensesLandmarks for Watched<R, F> {
+    fn landmark(&self) -> Option<Landmark> {
+        self.robot.landmark()
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ended {
+    /// What became of the task.
+    pub end: End,
+    /// Actions that were begun.
+    pub actions: u32,
+    /// Time steps made in all runs of this robot so far.
+    pub steps: u32,
+}
+
+/// What became of the task of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The system says that it is done.
+    Done,
+    /// The system gave up.
+    GaveUp {
+        /// Why, in its words.
+        why: String,
+    },
+    /// The robot made as many time steps as it may.
+    OutOfTime,
+}
+
+/// Lets `system` pursue `task` with `robot` until it is done, gives up, or is out of time.
+///
+/// # Errors
+/// What the system says when the robot fails or it cannot go on.
+pub fn run<R, F, S>(
+    robot: &mut Watched<R, F>,
+    system: &mut S,
+    task: Task,
+) -> Result<Ended, S::Failure>
+where
+    R: Robot,
+    F: FnMut(&R, &R::Command),
+    S: System<Watched<R, F>>,
+{
+    let mut actions = 0;
+    let end = loop {
+        if robot.is_out_of_time() {
+            break End::OutOfTime;
+        }
+        actions += 1;
+        match system.act(robot, task) {
+            Ok(Standing::UnderWay) => {}
+            Ok(Standing::Done) => break End::Done,
+            Ok(Standing::GaveUp { why }) => break End::GaveUp { why },
+            // It broke off amid an action, as it had to.
+            Err(_) if robot.is_out_of_time() => break End::OutOfTime,
+            Err(failure) => return Err(failure),
+        }
+    };
+    Ok(Ended {
+        end,
+        actions,
+        steps: robot.steps(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use core::convert::Infallible;
+
+    use tolman_robot::{Goal, Guess, MapView, Mapper};
+
+    use super::*;
+
+    /// A robot on a rail.
+    #[derive(Debug, Default)]
+    struct Cart {
+        at: f64,
+        told: Vec<f64>,
+    }
+
+    impl Robot for Cart {
+        type Command = f64;
+        type Sensing = f64;
+        type Error = Infallible;
+
+        fn sensing(&self) -> &f64 {
+            &self.at
+        }
+
+        fn step(&mut self, command: &f64) -> Result<(), Infallible> {
+            self.at += command;
+            self.told.push(*command);
+            Ok(())
+        }
+    }
+
+    /// Rolls ahead three steps at a time until it is 7 m along.
+    struct Roller;
+
+    impl Mapper for Roller {
+        type Observation = ();
+        type Error = Infallible;
+
+        fn observe(&mut self, _seen: &()) -> Result<(), Infallible> {
+            Ok(())
+        }
+
+        fn map(&self) -> MapView {
+            MapView::default()
+        }
+
+        fn belief(&self) -> Vec<Guess> {
+            Vec::new()
+        }
+    }
+
+    impl<R: Robot<Command = f64, Sensing = f64>> System<R> for Roller {
+        type Failure = R::Error;
+
+        fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, R::Error> {
+            if task == Task::Localize {
+                let why = "it has no map".to_owned();
+                return Ok(Standing::GaveUp { why });
+            }
+            for _ in 0..3 {
+                robot.step(&1.0)?;
+                if *robot.sensing() >= 7.0 {
+                    return Ok(Standing::Done);
+                }
+            }
+            Ok(Standing::UnderWay)
+        }
+    }
+
+    const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
+
+    #[test]
+    fn a_run_ends_as_its_system_says_or_at_its_limit_and_the_robot_stands_still() {
+        for (task, limit, end, actions, steps) in [
+            (REACH, 100, End::Done, 3, 7),
+            (REACH, 5, End::OutOfTime, 2, 5),
+            (REACH, 6, End::OutOfTime, 2, 6),
+            (
+                Task::Localize,
+                5,
+                End::GaveUp {
+                    why: "it has no map".to_owned(),
+                },
+                1,
+                0,
+            ),
+        ] {
+            let mut cart = Cart::default();
+            let mut seen = 0;
+            let mut robot = Watched::new(&mut cart, limit, |_, _| seen += 1);
+            let ended = run(&mut robot, &mut Roller, task).unwrap();
+            drop(robot);
+            assert_eq!(
+                ended,
+                Ended {
+                    end,
+                    actions,
+                    steps
+                }
+            );
+            assert_eq!(seen, steps);
+            assert_eq!(cart.told.len() as u32, steps + 1);
+            assert_eq!(cart.told.last(), Some(&0.0));
+        }
+    }
+}
