@@ -4,6 +4,7 @@
 
 mod page;
 mod rules;
+mod size;
 
 use std::fs;
 
@@ -21,7 +22,8 @@ use rules::{Kind, Package};
 pub(crate) fn run() -> Result<()> {
     let page = read_page()?;
     let packages = packages()?;
-    let faults = rules::faults(&page, &packages);
+    let mut faults = rules::faults(&page, &packages);
+    faults.extend(size::faults(&workspace::root().join("crates"))?);
     if faults.is_empty() {
         let edges: usize = packages
             .iter()

@@ -1,0 +1,76 @@
+//! No crate grows into a house of its own.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+/// The largest share of all lines of `src` that one crate may have.
+const LARGEST_SHARE: f64 = 0.25;
+
+/// The breaches, each with the crate and its lines.
+///
+/// # Errors
+/// If a folder cannot be read.
+pub(super) fn faults(crates: &Path) -> Result<Vec<String>> {
+    let mut lines = Vec::new();
+    for entry in read(crates)? {
+        let source = entry.join("src");
+        if source.is_dir() {
+            lines.push((entry, lines_below(&source)?));
+        }
+    }
+    let all: usize = lines.iter().map(|(_, lines)| lines).sum();
+    let too_large = lines
+        .into_iter()
+        .filter(|(_, lines)| *lines as f64 > LARGEST_SHARE * all as f64);
+    let told = too_large.map(|(folder, lines)| {
+        format!(
+            "{} has {lines} of the {all} lines of src, more than a quarter: split it",
+            folder.display()
+        )
+    });
+    Ok(told.collect())
+}
+
+/// The lines of all Rust files in a folder and those below it.
+fn lines_below(folder: &Path) -> Result<usize> {
+    let mut lines = 0;
+    for path in read(folder)? {
+        if path.is_dir() {
+            lines += lines_below(&path)?;
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let text = fs::read_to_string(&path);
+            lines += text
+                .with_context(|| format!("cannot read {}", path.display()))?
+                .lines()
+                .count();
+        }
+    }
+    Ok(lines)
+}
+
+fn read(folder: &Path) -> Result<Vec<std::path::PathBuf>> {
+    let entries =
+        fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
+    entries.map(|entry| Ok(entry?.path())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crate_of_more_than_a_quarter_is_told() {
+        let crates = std::env::temp_dir().join(format!("xtask-size-{}", std::process::id()));
+        for (name, lines) in [("a", 10), ("b", 10), ("c", 10), ("d", 10), ("e", 15)] {
+            let source = crates.join(name).join("src");
+            fs::create_dir_all(&source).unwrap();
+            fs::write(source.join("lib.rs"), "\n".repeat(lines)).unwrap();
+        }
+        let found = faults(&crates).unwrap();
+        assert_eq!(found.len(), 1);
+        assert!(found[0].contains("e has 15 of the 55 lines"), "{found:?}");
+        fs::remove_dir_all(crates).unwrap();
+    }
+}
