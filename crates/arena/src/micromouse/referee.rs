@@ -1,8 +1,7 @@
 //! The rules of the paper's test program, to the letter.
 
 use tolman_maze::{Cell, Direction, Maze};
-
-use super::{Movement, Order, OrderError, Rotation, Sight};
+use tolman_systems::micromouse::{Brief, Movement, Order, OrderError, Rotation, Sight};
 
 /// Steps that both runs may take together.
 pub const MAX_STEPS: u32 = 1000;
@@ -17,7 +16,8 @@ const MOST_CELLS: i32 = 3;
 /// carried out. The goal is what the maze marks; in files of the paper's format that is the middle 2 × 2.
 ///
 /// ```
-/// use tolman_arena::micromouse::{Event, Order, Referee};
+/// use tolman_arena::micromouse::{Event, Referee};
+/// use tolman_systems::micromouse::Order;
 ///
 /// let maze = tolman_maze::read("+---+---+\n| G   G |\n+   +   +\n| S |   |\n+---+---+\n")?.maze;
 /// let mut referee = Referee::new(&maze)?;
@@ -94,6 +94,20 @@ pub enum RefereeError {
     /// The maze cannot be used.
     #[error(transparent)]
     Maze(#[from] tolman_maze::CheckError),
+}
+
+/// Returns what a mouse is told of `maze`: its size, its start and its goals.
+///
+/// # Errors
+/// [`RefereeError::NoStart`] if the maze has no start.
+pub fn brief(maze: &Maze) -> Result<Brief, RefereeError> {
+    let (start, heading) = maze.start().ok_or(RefereeError::NoStart)?;
+    Ok(Brief {
+        grid: maze.grid(),
+        start,
+        heading,
+        goals: maze.goals().to_vec(),
+    })
 }
 
 impl<'a> Referee<'a> {
