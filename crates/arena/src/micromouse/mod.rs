@@ -34,6 +34,8 @@
 mod certificate;
 mod judgement;
 pub mod noisy;
+#[cfg(test)]
+mod pioneer_tests;
 mod q_learning;
 mod referee;
 mod trial;

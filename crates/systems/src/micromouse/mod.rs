@@ -44,6 +44,7 @@ mod order;
 mod random;
 mod run_two;
 mod searcher;
+pub mod system;
 mod target;
 
 pub use brief::Brief;
