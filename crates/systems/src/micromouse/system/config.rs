@@ -1,4 +1,6 @@
 use thiserror::Error;
+use tolman_geom::Point;
+use tolman_maze::Cell;
 
 use super::super::MouseError;
 
@@ -35,6 +37,13 @@ pub enum MazeMouseError {
 }
 
 impl MazeMouseConfig {
+    /// Returns the middle of a cell, in the frame of the maze.
+    #[must_use]
+    pub fn middle(&self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
+        Point::new(along(cell.x), along(cell.y))
+    }
+
     pub(super) fn check(&self) -> Result<(), MazeMouseError> {
         let thin = (0.0..0.5 * self.pitch).contains(&self.wall_thickness);
         let fields = [

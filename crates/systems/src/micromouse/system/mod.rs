@@ -6,9 +6,11 @@
 //!
 //! Metres and radians; the origin is the south-western corner of the maze, and the compass reads 0 in the east.
 
+mod choice;
 mod config;
-mod drive;
+mod mapper;
 mod maze_mouse;
+mod pilot;
 mod sight;
 #[cfg(test)]
 mod tests;
