@@ -27,11 +27,12 @@ use tolman_systems::micromouse::competition::{
     CompetitionMouse, CompetitionNext, Exploration, ExploreError,
 };
 
-/// Lets a mouse that looks at the walls of its cell, and remembers all, explore a maze from its start, or from the
-/// south-western corner, looking north. O(cells driven · n) for n cells.
+/// Lets a mouse that looks at the walls of its cell, and remembers all, explore a maze from its
+/// start, or from the south-western corner, looking north. O(cells driven · n) for n cells.
 ///
 /// # Errors
-/// If the maze has no way to a goal, or is larger than 32 × 32, or the times of the moves are too far apart.
+/// If the maze has no way to a goal, or is larger than 32 × 32, or the times of the moves are too
+/// far apart.
 pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<Exploration, ExploreError> {
     let grid = maze.grid();
     // What is known takes its time to be looked through.

@@ -72,8 +72,8 @@ pub enum CertificateError {
 /// The most cells of a step, written down again: the checker takes nothing from the planners.
 const MOST_CELLS: u32 = 3;
 
-/// Whether the certificate holds in this maze: all it says of walls is so, its run is possible, and no run is shorter
-/// in any maze that agrees with it. Uses nothing but the maze types. O(cells).
+/// Whether the certificate holds in this maze: all it says of walls is so, its run is possible, and
+/// no run is shorter in any maze that agrees with it. Uses nothing but the maze types. O(cells).
 ///
 /// # Errors
 /// The first thing that is wrong.

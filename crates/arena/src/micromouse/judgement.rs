@@ -21,7 +21,8 @@ pub struct Judgement {
     pub optimum: u32,
     /// The score of a mouse that knows the maze: there, a reset, and there again.
     pub floor: f64,
-    /// Whether the mouse proved that its second run is the best, and the independent checker agrees.
+    /// Whether the mouse proved that its second run is the best, and the independent checker
+    /// agrees.
     pub certified: bool,
 }
 
@@ -66,7 +67,8 @@ impl Judgement {
     }
 }
 
-/// Sends a mouse with a search through `maze` and judges it; what the search draws follows from `seed`.
+/// Sends a mouse with a search through `maze` and judges it; what the search draws follows from
+/// `seed`.
 ///
 /// # Errors
 /// If the maze is none a mouse can run in.

@@ -1,7 +1,8 @@
-//! The paper's mouse on the continuous simulator (its section 6): walls have a thickness, wheels slip, ranges are noisy.
+//! The paper's mouse on the continuous simulator (its section 6): walls have a thickness, wheels
+//! slip, ranges are noisy.
 //!
-//! Rules and score are those of the paper. The mouse is a [`NoisyMouse`]; here are its body, its maze, and whoever sees
-//! where it really is.
+//! Rules and score are those of the paper. The mouse is a [`NoisyMouse`]; here are its body, its
+//! maze, and whoever sees where it really is.
 
 use thiserror::Error;
 use tolman_maps::wall_belief::PoseFilterConfig;
@@ -32,8 +33,8 @@ pub struct NoisyConfig {
 }
 
 impl NoisyConfig {
-    /// Ordinary noise times `level`: wheels slip by up to a tenth, as those of Webots do, and drift by 0.2 rad/m; ranges are off
-    /// by 3 mm and 2 %.
+    /// Ordinary noise times `level`: wheels slip by up to a tenth, as those of Webots do, and drift
+    /// by 0.2 rad/m; ranges are off by 3 mm and 2 %.
     #[must_use]
     pub fn ordinary(localization: Localization, level: f64) -> Self {
         Self {
@@ -45,7 +46,8 @@ impl NoisyConfig {
         }
     }
 
-    /// A body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step of 20 ms.
+    /// A body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step of 20
+    /// ms.
     fn robot(&self) -> LaserPioneerConfig {
         let slip = Fault::Slip(Slip { share: self.slip });
         let mut robot = LaserPioneerConfig {
@@ -157,8 +159,8 @@ pub enum NoisyError {
     Step(#[from] StepError),
 }
 
-/// Sends a mouse through `maze`: it explores until it believes to have proven its run, is put back to the start, and makes
-/// it.
+/// Sends a mouse through `maze`: it explores until it believes to have proven its run, is put back
+/// to the start, and makes it.
 ///
 /// # Errors
 /// If there is no such maze or mouse.

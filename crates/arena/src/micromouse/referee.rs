@@ -11,9 +11,10 @@ const MOST_CELLS: i32 = 3;
 
 /// Moves one mouse through one maze and keeps the time.
 ///
-/// The rules are those of the test program that came with the paper's task; they are independent of how any mouse
-/// thinks. Every order counts as a step before it is carried out, and an order beyond the last step is not
-/// carried out. The goal is what the maze marks; in files of the paper's format that is the middle 2 × 2.
+/// The rules are those of the test program that came with the paper's task; they are independent of
+/// how any mouse thinks. Every order counts as a step before it is carried out, and an order beyond
+/// the last step is not carried out. The goal is what the maze marks; in files of the paper's
+/// format that is the middle 2 × 2.
 ///
 /// ```
 /// use tolman_arena::micromouse::{Event, Referee};
@@ -58,8 +59,8 @@ pub enum Event {
     Moved,
     /// The mouse stands at the start again: the second run begins.
     RunTwo,
-    /// A reset that is not allowed, before the goal was reached or in the second run: nothing happened, the step
-    /// counts.
+    /// A reset that is not allowed, before the goal was reached or in the second run: nothing
+    /// happened, the step counts.
     ResetRefused,
     /// The movement ended on a goal in the second run: done.
     Finished,
@@ -129,8 +130,8 @@ impl<'a> Referee<'a> {
         })
     }
 
-    /// What the sensors see now: how many cells are open to the left, ahead and to the right, as far as the next
-    /// wall.
+    /// What the sensors see now: how many cells are open to the left, ahead and to the right, as
+    /// far as the next wall.
     #[must_use]
     pub fn sight(&self) -> Sight {
         let open = |direction| {

@@ -76,13 +76,14 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Presses the reset button after so many movements: `wasReset` is true from then on until the mouse
-    /// says `ackReset`.
+    /// Presses the reset button after so many movements: `wasReset` is true from then on until the
+    /// mouse says `ackReset`.
     pub fn reset_after(&mut self, movements: u64) {
         self.reset_after = Some(movements);
     }
 
-    /// Carries out one line of the mouse. Commands that only draw, and what is no command, get no reply.
+    /// Carries out one line of the mouse. Commands that only draw, and what is no command, get no
+    /// reply.
     pub fn answer(&mut self, line: &str) -> Option<String> {
         let mut words = line.split_ascii_whitespace();
         let command = words.next()?;

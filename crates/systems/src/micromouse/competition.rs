@@ -1,7 +1,7 @@
 //! The competition model of the micromouse: explore, prove, run as fast as can be.
 //!
-//! How the mouse decides is told in [`speed_run`](tolman_planners::speed_run). Here it keeps its map and its place, and
-//! answers what its wall sensors see with where to drive.
+//! How the mouse decides is told in [`speed_run`](tolman_planners::speed_run). Here it keeps its
+//! map and its place, and answers what its wall sensors see with where to drive.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid};
@@ -41,7 +41,8 @@ use super::Brief;
 /// What came of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exploration {
-    /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the start.
+    /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
+    /// start.
     pub cells: u32,
     /// The run that the mouse found.
     pub certificate: SpeedRunCertificate,
@@ -113,8 +114,9 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         })
     }
 
-    /// Returns what to do in the cell where the mouse stands. `open` says which of its sides no wall closes, in the
-    /// order of [`Direction::ALL`]. O(n) for n cells, and a search where the run hoped for is closed.
+    /// Returns what to do in the cell where the mouse stands. `open` says which of its sides no
+    /// wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search where the
+    /// run hoped for is closed.
     ///
     /// # Errors
     /// If the walls contradict what was seen before, or no way leads to a goal.

@@ -1,16 +1,19 @@
 //! The mice of "Plot and Navigate a Virtual Maze" (Wang), and of the competitions.
 //!
-//! A [`Brief`] is all that a mouse is told of a maze; none of them sees a wall but by its sensors. In the paper's rules a
-//! [`Mouse`] is told what its three sensors see and answers with an [`Order`]. In its first run it explores; once it has
-//! been at the goal it may ask to be put back to the start, and makes its second run.
+//! A [`Brief`] is all that a mouse is told of a maze; none of them sees a wall but by its sensors.
+//! In the paper's rules a [`Mouse`] is told what its three sensors see and answers with an
+//! [`Order`]. In its first run it explores; once it has been at the goal it may ask to be put back
+//! to the start, and makes its second run.
 //!
-//! A [`Driver`] is a mouse with a [`Search`] for its first run and a plan for its second, [`RunTwo`]. [`Certify`] stops
-//! when the best run is proven and hands out a [`Certificate`]; [`TargetSearch`], [`CounterSearch`] and [`RandomSearch`]
-//! are the paper's. A [`Searcher`] is one of them by name.
+//! A [`Driver`] is a mouse with a [`Search`] for its first run and a plan for its second,
+//! [`RunTwo`]. [`Certify`] stops when the best run is proven and hands out a [`Certificate`];
+//! [`TargetSearch`], [`CounterSearch`] and [`RandomSearch`] are the paper's. A [`Searcher`] is one
+//! of them by name.
 //!
-//! [`system`] puts the searches behind the interface of all systems, to drive a robot with a laser ring. [`noisy`] is
-//! the same mouse for wheels that slip and sensors that err, with a particle filter. [`competition`] explores for the
-//! fastest run instead of the shortest. [`mms`] plays in the simulator of that name, over its line protocol.
+//! [`system`] puts the searches behind the interface of all systems, to drive a robot with a laser
+//! ring. [`noisy`] is the same mouse for wheels that slip and sensors that err, with a particle
+//! filter. [`competition`] explores for the fastest run instead of the shortest. [`mms`] plays in
+//! the simulator of that name, over its line protocol.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid};

@@ -1,8 +1,8 @@
-//! A mouse for the simulator [mms](https://github.com/mackorone/mms): it explores, drives home, and makes the run that
-//! scores least.
+//! A mouse for the simulator [mms](https://github.com/mackorone/mms): it explores, drives home, and
+//! makes the run that scores least.
 //!
-//! [`play`] speaks the protocol of mms over any two streams: a command a line out, a reply a line in. The mouse's
-//! [`Place`] lies on a lattice of half-steps, since mms scores diagonals.
+//! [`play`] speaks the protocol of mms over any two streams: a command a line out, a reply a line
+//! in. The mouse's [`Place`] lies on a lattice of half-steps, since mms scores diagonals.
 
 mod error;
 mod link;

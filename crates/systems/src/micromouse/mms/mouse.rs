@@ -16,7 +16,8 @@ use super::{Heading, Place, PlayError};
 pub enum Until {
     /// When it has been at the goal.
     Goal,
-    /// When no run can score less than the best one it knows, whatever the walls nobody has looked at.
+    /// When no run can score less than the best one it knows, whatever the walls nobody has looked
+    /// at.
     Proof,
 }
 
@@ -37,18 +38,19 @@ const MOST_CRASHES: u32 = 8;
 /// What an observation may have to be taken back after a crash: that of the last two stops.
 const DOUBTFUL: usize = 2;
 
-/// Plays one maze, from `mazeWidth` to the end of the best run: `output` goes to the simulator, `input` comes from it, and
-/// `log` is for people.
+/// Plays one maze, from `mazeWidth` to the end of the best run: `output` goes to the simulator,
+/// `input` comes from it, and `log` is for people.
 ///
-/// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every cell where it
-/// stops it asks how far it sees to the four sides. It plans in what the simulator scores, diagonals
-/// included, and explores like the mouse of the [speed run](tolman_planners::speed_run): of the best run that can be hoped
-/// for it looks at the walls nobody has looked at, the nearest first. When the reset button is pressed it goes on from the
+/// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every
+/// cell where it stops it asks how far it sees to the four sides. It plans in what the simulator
+/// scores, diagonals included, and explores like the mouse of the [speed
+/// run](tolman_planners::speed_run): of the best run that can be hoped for it looks at the walls
+/// nobody has looked at, the nearest first. When the reset button is pressed it goes on from the
 /// start; after a crash too, without what it saw last.
 ///
 /// # Errors
-/// If the simulator goes away or talks nonsense, the maze has more than 32 columns or rows, or no way leads to
-/// its goal.
+/// If the simulator goes away or talks nonsense, the maze has more than 32 columns or rows, or no
+/// way leads to its goal.
 pub fn play(
     input: impl BufRead,
     output: impl Write,
@@ -164,7 +166,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }
     }
 
-    /// Takes in how far the mouse sees to the four sides, and draws the walls it has not seen before.
+    /// Takes in how far the mouse sees to the four sides, and draws the walls it has not seen
+    /// before.
     fn look(&mut self) -> Result<(), PlayError> {
         let cell = self.at.place.cell();
         let mut rays = Vec::with_capacity(4);
@@ -230,7 +233,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok((!targets.is_empty()).then_some(targets))
     }
 
-    /// The best run that can be hoped for. Walls make no run better, so one that is not blocked stays the best.
+    /// The best run that can be hoped for. Walls make no run better, so one that is not blocked
+    /// stays the best.
     fn replan(&mut self) -> Option<Plan> {
         let walls = &self.walls;
         let is_wall = |(cell, side): (Cell, _)| walls.knowledge(cell, side) == Knowledge::Wall;

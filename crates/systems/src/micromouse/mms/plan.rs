@@ -4,8 +4,9 @@ use tolman_planners::{Found, Passages, Unknown, a_star};
 use super::Place;
 use super::roads::{Roads, Stand, TurnsAtStart, edges};
 
-/// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in half-steps, without the tenth
-/// of all movements. Walls that are unknown count as standing; `None` if no way leads there. O(n log n) for n cells.
+/// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in
+/// half-steps, without the tenth of all movements. Walls that are unknown count as standing; `None`
+/// if no way leads there. O(n log n) for n cells.
 #[must_use]
 pub fn best_score(walls: &impl Walls) -> Option<f32> {
     let grid = walls.grid();
@@ -16,7 +17,8 @@ pub fn best_score(walls: &impl Walls) -> Option<f32> {
     Some(score(run.cost))
 }
 
-/// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the middle as well.
+/// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the
+/// middle as well.
 pub(super) fn ends_run(stand: Stand, goals: &[Cell]) -> bool {
     stand.place != Place::START && goals.contains(&stand.place.cell())
 }

@@ -66,8 +66,8 @@ impl MazeMouse<TargetSearch> {
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Returns a mouse in the middle of the start that has seen nothing. It explores by `search` and
-    /// runs by `run_two`.
+    /// Returns a mouse in the middle of the start that has seen nothing. It explores by `search`
+    /// and runs by `run_two`.
     ///
     /// # Errors
     /// If the maze is larger than [`SIDE`] or a number of `config` is out of its range.

@@ -38,7 +38,8 @@ const STRAIGHT: f64 = 0.99;
 /// A beam this far from the middle of its row, as a share of the pitch, may meet a post.
 const INTERIOR: f64 = 0.35;
 
-/// How far from where a wall can stand a range may end and still count as that wall, as a share of the pitch.
+/// How far from where a wall can stand a range may end and still count as that wall, as a share of
+/// the pitch.
 pub(super) const TOLERANCE: f64 = 0.2;
 
 /// The beams of a scan made at `pose` that look along the grid.
@@ -63,7 +64,8 @@ pub(super) fn beams(scan: &Scan, pose: Pose, pitch: f64) -> impl Iterator<Item =
 }
 
 impl Beam {
-    /// Whether the beam is well within its row of cells after `along` metres: what it meets there stands across.
+    /// Whether the beam is well within its row of cells after `along` metres: what it meets there
+    /// stands across.
     pub(super) fn is_inside(&self, along: f64, pitch: f64) -> bool {
         (self.aside + along * self.slope).abs() < INTERIOR * pitch
     }

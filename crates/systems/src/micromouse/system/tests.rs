@@ -1,4 +1,5 @@
-//! A mouse on a scripted robot: its ranges are computed, its wheels slip, and there is no simulator.
+//! A mouse on a scripted robot: its ranges are computed, its wheels slip, and there is no
+//! simulator.
 
 use core::convert::Infallible;
 

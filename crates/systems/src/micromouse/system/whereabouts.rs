@@ -9,8 +9,8 @@ use super::sight::{self, TOLERANCE};
 
 /// A pose kept by wheels, compass and walls.
 ///
-/// Walls stand on the lines of the grid. A range that ends near a line tells how far the robot is from it, so that
-/// the wheels need be right to less than half a cell between two walls.
+/// Walls stand on the lines of the grid. A range that ends near a line tells how far the robot is
+/// from it, so that the wheels need be right to less than half a cell between two walls.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Whereabouts(pub(super) Pose);
 
@@ -35,7 +35,8 @@ impl Whereabouts {
         }
     }
 
-    /// From where it believes to be to where the walls say it is: the mean over all beams that meet one, on each axis.
+    /// From where it believes to be to where the walls say it is: the mean over all beams that meet
+    /// one, on each axis.
     fn correction(&self, scan: &Scan, config: &MazeMouseConfig) -> Vector {
         let pitch = config.pitch;
         let (mut sum, mut count) = (Vector::zeros(), Vector::zeros());

@@ -1,71 +1,20 @@
-//! The paper's mouse on wheels that slip, with sensors that err, among walls that have a thickness (its section 6).
-//!
-//! Rules and search are those of the paper; but a step is driven by motors that miss, and the mouse
-//! knows where it is from its commands and its range sensors alone. It holds a [`PoseFilter`] on a [`WallBelief`] that
-//! grows with what it sees. It drives any robot that turns and translates, has range sensors and a bumper.
-
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use thiserror::Error;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
-use tolman_maps::wall_belief::{
-    FilterError, PoseFilter, PoseFilterConfig, RangeReading, WallBelief,
-};
-use tolman_maps::wall_map::TooLarge;
+use tolman_maps::wall_belief::{PoseFilter, RangeReading, WallBelief};
 use tolman_maze::{Cell, Direction};
 use tolman_planners::moves::{
-    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveExplorerConfigError,
-    MoveMap,
+    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
 };
 use tolman_planners::{Passages, Unknown};
 use tolman_robot::{Bumps, Ranges, Robot, TurnTranslate};
 
-use super::Brief;
+use super::{Localization, NoisyMouseConfig, NoisyMouseError};
+use crate::micromouse::Brief;
 
 /// The largest maze, columns or rows.
 const SIDE: usize = 16;
-
-/// What a noisy mouse knows of its body and its maze.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoisyMouseConfig {
-    /// How it knows where it is.
-    pub localization: Localization,
-    /// What its filter takes for noise.
-    pub filter: PoseFilterConfig,
-    /// From the middle of a cell to the next, m. > 0.
-    pub pitch: f64,
-    /// Thickness of a wall, m. ≥ 0.
-    pub wall_thickness: f64,
-    /// Turn made in a time step at the full command, rad. > 0.
-    pub turn_per_step: f64,
-    /// Way covered in a time step at the full command, m. > 0.
-    pub translate_per_step: f64,
-}
-
-/// How a mouse knows where it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Localization {
-    /// It believes that its wheels do what they are told.
-    DeadReckoning,
-    /// It compares what it sees with the walls it knows.
-    ParticleFilter,
-}
-
-/// Why there is no such mouse.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum NoisyMouseError {
-    /// The maze is larger than its map.
-    #[error(transparent)]
-    TooLarge(#[from] TooLarge),
-    /// It cannot localize.
-    #[error(transparent)]
-    Filter(#[from] FilterError),
-    /// It cannot search.
-    #[error(transparent)]
-    Search(#[from] MoveExplorerConfigError),
-}
 
 /// What a noisy mouse has done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,8 +103,7 @@ impl NoisyMouse {
     /// If the robot fails.
     pub fn look<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: Ranges + Bumps,
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
     {
         for _ in 0..LOOKS {
             self.time_step(robot, TurnTranslate::STOP)?;
@@ -172,8 +120,7 @@ impl NoisyMouse {
     /// If the robot fails.
     pub fn explore<R>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error>
     where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: Ranges + Bumps,
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
     {
         let at = self.cell();
         let decision = self.explorer.decide(&self.belief, &self.brief.goals, at);
@@ -186,14 +133,14 @@ impl NoisyMouse {
         Ok(NoisyNext::Stepped)
     }
 
-    /// Makes a step of the second run, planned anew at every stop. It is done when it believes to be at a goal.
+    /// Makes a step of the second run, planned anew at every stop. It is done when it believes to
+    /// be at a goal.
     ///
     /// # Errors
     /// If the robot fails.
     pub fn run<R>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error>
     where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: Ranges + Bumps,
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
     {
         if self.brief.goals.contains(&self.cell()) {
             return Ok(NoisyNext::Done);
@@ -236,8 +183,7 @@ impl NoisyMouse {
     /// One step of the paper's rules: a turn, then cells ahead or back.
     fn leap<R>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error>
     where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: Ranges + Bumps,
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
     {
         let mut looks = self.looks_to();
         let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
@@ -281,8 +227,7 @@ impl NoisyMouse {
 
     fn turn_to<R>(&mut self, robot: &mut R, side: Direction) -> Result<(), R::Error>
     where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: Ranges + Bumps,
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
     {
         for _ in 0..PATIENCE {
             let off = self.pose().heading.turn_to(heading_of(side));
@@ -301,8 +246,7 @@ impl NoisyMouse {
     /// One time step; whether the mouse touched a wall.
     fn time_step<R>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<bool, R::Error>
     where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: Ranges + Bumps,
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
     {
         robot.step(&command)?;
         let sensing = robot.sensing();
