@@ -115,3 +115,52 @@ fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> Ray {
         Ray::out_of_range(beam.side, open)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONFIG: MazeMouseConfig = MazeMouseConfig {
+        pitch: 0.5,
+        wall_thickness: 0.05,
+        turn_per_step: 1.0,
+        translate_per_step: 0.1,
+    };
+
+    #[test]
+    fn a_beam_tells_of_walls_across_it_and_of_no_others() {
+        let north = Direction::North;
+        for (along, met, slope, expected) in [
+            (0.225, true, 0.0, Ray::to_wall(north, 0)),
+            (0.725, true, 0.0, Ray::to_wall(north, 1)),
+            // Noise, and a range that ends nowhere near a wall.
+            (0.76, true, 0.0, Ray::to_wall(north, 1)),
+            (0.5, true, 0.0, Ray::out_of_range(north, 1)),
+            // It reaches no farther.
+            (0.725, false, 0.0, Ray::out_of_range(north, 1)),
+            (0.2, false, 0.0, Ray::out_of_range(north, 0)),
+            // Far away it meets the wall beside the corridor, or a post.
+            (1.225, true, 0.1, Ray::to_wall(north, 2)),
+            (1.725, true, 0.14, Ray::out_of_range(north, 2)),
+        ] {
+            let beam = Beam {
+                side: north,
+                along,
+                met,
+                slope,
+                aside: 0.0,
+            };
+            assert_eq!(ray(&beam, 0.0, &CONFIG), expected, "{along} m");
+        }
+    }
+
+    #[test]
+    fn beams_across_the_grid_are_left_out() {
+        let scan = Scan::clear(tolman_robot::Ring::full(72, 1.0));
+        let pose = Pose::new(CONFIG.middle(Cell::new(2, 1)), heading_of(Direction::East));
+        let beams: Vec<Beam> = beams(&scan, pose, CONFIG.pitch).collect();
+        // 0° and 5° to both sides, four times.
+        assert_eq!(beams.len(), 12);
+        assert!(beams.iter().all(|beam| beam.slope.abs() < 0.09));
+    }
+}
