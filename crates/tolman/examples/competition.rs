@@ -8,8 +8,9 @@ use std::path::Path;
 use std::{env, fs};
 
 use rayon::prelude::*;
-use tolman_arena::competition::{self, Exploration};
+use tolman_arena::competition;
 use tolman_planners::speed_run::SpeedRunConfig;
+use tolman_systems::micromouse::competition::Exploration;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);

@@ -4,8 +4,9 @@ use serde::Serialize;
 use tolman_maze::Maze;
 use tolman_planners::moves::MoveMap;
 use tolman_planners::{Passages, Unknown};
+use tolman_systems::micromouse::{Mouse, MouseError, SIDE, Searcher};
 
-use super::{Mouse, MouseError, SIDE, Searcher, Trial, TrialError, check};
+use super::{Trial, TrialError, brief, check};
 
 /// How good a trial was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -20,7 +21,8 @@ pub struct Judgement {
     pub optimum: u32,
     /// The score of a mouse that knows the maze: there, a reset, and there again.
     pub floor: f64,
-    /// Whether the mouse proved that its second run is the best, and the independent checker agrees.
+    /// Whether the mouse proved that its second run is the best, and the independent checker
+    /// agrees.
     pub certified: bool,
 }
 
@@ -65,15 +67,19 @@ impl Judgement {
     }
 }
 
-impl Searcher {
-    /// Sends a mouse with this search through `maze` and judges it.
-    ///
-    /// # Errors
-    /// If the maze is none a mouse can run in.
-    pub fn try_on(self, maze: &Maze, seed: u64) -> Result<(Trial, Judgement), JudgeError> {
-        let mut mouse = self.mouse(maze, seed)?;
-        let trial = Trial::play(maze, &mut *mouse)?;
-        let judgement = Judgement::of(maze, &*mouse, &trial);
-        Ok((trial, judgement))
-    }
+/// Sends a mouse with a search through `maze` and judges it; what the search draws follows from
+/// `seed`.
+///
+/// # Errors
+/// If the maze is none a mouse can run in.
+pub fn try_on(
+    maze: &Maze,
+    searcher: Searcher,
+    seed: u64,
+) -> Result<(Trial, Judgement), JudgeError> {
+    let brief = brief(maze).map_err(TrialError::from)?;
+    let mut mouse = searcher.mouse(&brief, seed)?;
+    let trial = Trial::play(maze, &mut *mouse)?;
+    let judgement = Judgement::of(maze, &*mouse, &trial);
+    Ok((trial, judgement))
 }

@@ -1,33 +1,21 @@
-//! The paper's mouse on the continuous simulator (its section 6): walls have a thickness, wheels slip, ranges are noisy.
+//! The paper's mouse on the continuous simulator (its section 6): walls have a thickness, wheels
+//! slip, ranges are noisy.
 //!
-//! Rules, search and score are those of the paper; but a step is driven by motors that miss, and the mouse
-//! knows where it is from its commands and three range sensors alone. It holds a [`PoseFilter`] on a [`WallBelief`] that
-//! grows with what it sees.
+//! Rules and score are those of the paper. The mouse is a [`NoisyMouse`]; here are its body, its
+//! maze, and whoever sees where it really is.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_control::heading_of;
-use tolman_geom::Pose;
-use tolman_maps::wall_belief::{
-    FilterError, PoseFilter, PoseFilterConfig, RangeReading, WallBelief,
-};
-use tolman_maps::wall_map::TooLarge;
-use tolman_maze::{Cell, Direction, Maze};
-use tolman_planners::moves::{
-    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveExplorerConfigError,
-    MoveMap,
-};
-use tolman_planners::{Passages, Unknown};
+use tolman_maps::wall_belief::PoseFilterConfig;
+use tolman_maze::Maze;
 use tolman_robot::{LaserSensing, Ring, Robot, TurnTranslate};
 use tolman_sim::noise::{Fault, Gaussian, Slip};
 use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
+use tolman_systems::micromouse::noisy::{
+    Localization, NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext,
+};
 
-use super::MAX_STEPS;
-
-/// The largest maze, columns or rows.
-const SIDE: usize = 16;
+use super::{MAX_STEPS, RefereeError, brief};
 
 /// How much a mouse's wheels and sensors err, and how it copes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,18 +32,9 @@ pub struct NoisyConfig {
     pub relative_range: f64,
 }
 
-/// How a mouse knows where it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Localization {
-    /// It believes that its wheels do what they are told.
-    DeadReckoning,
-    /// It compares what it sees with the walls it knows.
-    ParticleFilter,
-}
-
 impl NoisyConfig {
-    /// Ordinary noise times `level`: wheels slip by up to a tenth, as those of Webots do, and drift by 0.2 rad/m; ranges are off
-    /// by 3 mm and 2 %.
+    /// Ordinary noise times `level`: wheels slip by up to a tenth, as those of Webots do, and drift
+    /// by 0.2 rad/m; ranges are off by 3 mm and 2 %.
     #[must_use]
     pub fn ordinary(localization: Localization, level: f64) -> Self {
         Self {
@@ -67,7 +46,8 @@ impl NoisyConfig {
         }
     }
 
-    /// A body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step of 20 ms.
+    /// A body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step of 20
+    /// ms.
     fn robot(&self) -> LaserPioneerConfig {
         let slip = Fault::Slip(Slip { share: self.slip });
         let mut robot = LaserPioneerConfig {
@@ -89,6 +69,18 @@ impl NoisyConfig {
         robot.faults.motor_turn.push(slip);
         robot.faults.motor_distance.push(slip);
         robot
+    }
+
+    /// What the mouse is told of its body and its maze.
+    fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
+        NoisyMouseConfig {
+            localization: self.localization,
+            filter: self.filter(),
+            pitch: SIZE.pitch(),
+            wall_thickness: SIZE.wall_thickness,
+            turn_per_step: robot.turn_per_step,
+            translate_per_step: robot.translate_per_step,
+        }
     }
 
     /// What the filter takes for noise: what there is, and a little for what its model leaves out.
@@ -147,12 +139,12 @@ pub enum NoisyEnd {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NoisyError {
-    /// The maze is larger than its map.
-    #[error(transparent)]
-    TooLarge(#[from] TooLarge),
     /// The maze does not say where the mouse starts.
-    #[error("the maze has no start: mark a cell with S")]
-    NoStart,
+    #[error(transparent)]
+    Maze(#[from] RefereeError),
+    /// There is no such mouse.
+    #[error(transparent)]
+    Mouse(#[from] NoisyMouseError),
     /// The maze cannot be built.
     #[error(transparent)]
     World(#[from] WorldError),
@@ -165,16 +157,10 @@ pub enum NoisyError {
     /// It cannot drive.
     #[error(transparent)]
     Step(#[from] StepError),
-    /// It cannot localize.
-    #[error(transparent)]
-    Filter(#[from] FilterError),
-    /// It cannot search.
-    #[error(transparent)]
-    Search(#[from] MoveExplorerConfigError),
 }
 
-/// Sends a mouse through `maze`: it explores until it believes to have proven its run, is put back to the start, and makes
-/// it.
+/// Sends a mouse through `maze`: it explores until it believes to have proven its run, is put back
+/// to the start, and makes it.
 ///
 /// # Errors
 /// If there is no such maze or mouse.
@@ -184,57 +170,53 @@ pub fn send(maze: &Maze, config: &NoisyConfig, seed: u64) -> Result<NoisyTrial, 
     Ok(NoisyTrial {
         end,
         steps: outing.steps,
-        bumps: outing.bumps,
+        bumps: outing.body.bumps,
         mean_error: outing.errors / f64::from(outing.stops.max(1)),
     })
 }
 
 struct Outing<'a> {
     maze: &'a Maze,
-    start: (Cell, Direction),
-    solo: Solo<LaserPioneer>,
-    rates: (f64, f64),
-    localization: Localization,
-    filter: PoseFilter,
-    /// Where its wheels alone have brought it.
-    reckoned: Pose,
-    belief: WallBelief<SIDE>,
-    rng: ChaCha8Rng,
+    body: Body,
+    mouse: NoisyMouse,
     steps: u32,
-    bumps: u32,
     stops: u32,
     errors: f64,
 }
 
-/// Readings taken in a stop.
-const LOOKS: u32 = 4;
-/// A mouse nearer to a wall ahead does not drive on, from its middle, m.
-const TOO_NEAR: f64 = 0.055;
-/// A turn or a place this near is reached, rad and m.
-const CLOSE: (f64, f64) = (0.03, 0.004);
-/// Time steps after which a step of the paper's rules is given up.
-const PATIENCE: u32 = 200;
+/// The mouse's body, and how often it touched a wall.
+struct Body {
+    solo: Solo<LaserPioneer>,
+    bumps: u32,
+}
+
+impl Robot for Body {
+    type Command = TurnTranslate;
+    type Sensing = LaserSensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &LaserSensing {
+        self.solo.sensing()
+    }
+
+    fn step(&mut self, command: &TurnTranslate) -> Result<(), StepError> {
+        self.solo.step(command)?;
+        self.bumps += u32::from(self.solo.sensing().bump == Some(true));
+        Ok(())
+    }
+}
 
 impl<'a> Outing<'a> {
     fn new(maze: &'a Maze, config: &NoisyConfig, seed: u64) -> Result<Self, NoisyError> {
-        let start = maze.start().ok_or(NoisyError::NoStart)?;
-        let belief = WallBelief::new(maze.grid(), SIZE.pitch(), SIZE.wall_thickness)?;
-        let pose = Pose::new(belief.middle(start.0), heading_of(start.1));
-        let world = World::from_maze(maze, &SIZE)?;
         let robot = config.robot();
-        let rates = (robot.turn_per_step, robot.translate_per_step);
+        let mouse = NoisyMouse::new(brief(maze)?, config.mouse(&robot), seed)?;
+        let world = World::from_maze(maze, &SIZE)?;
+        let solo = Solo::new(world, LaserPioneer::new(robot)?, mouse.start(), seed)?;
         Ok(Self {
             maze,
-            start,
-            solo: Solo::new(world, LaserPioneer::new(robot)?, pose, seed)?,
-            rates,
-            localization: config.localization,
-            filter: PoseFilter::new(config.filter(), pose)?,
-            reckoned: pose,
-            belief,
-            rng: ChaCha8Rng::seed_from_u64(seed),
+            body: Body { solo, bumps: 0 },
+            mouse,
             steps: 0,
-            bumps: 0,
             stops: 0,
             errors: 0.0,
         })
@@ -246,197 +228,65 @@ impl<'a> Outing<'a> {
         }
         self.steps += 1;
         let run_1 = self.steps;
-        let pose = Pose::new(self.belief.middle(self.start.0), heading_of(self.start.1));
-        self.solo.place(pose)?;
-        self.filter.place(pose);
-        self.reckoned = pose;
+        self.body.solo.place(self.mouse.start())?;
+        self.mouse.put_back();
         self.run(run_1)
     }
 
     /// The first run; how it ended, if badly.
     fn explore(&mut self) -> Result<Option<NoisyEnd>, NoisyError> {
-        let mut explorer = MoveExplorer::<SIDE>::new(MoveExplorerConfig::tuned(), self.start.0)?;
         let mut was_at_goal = false;
         while self.steps < MAX_STEPS {
-            self.look()?;
+            self.stop()?;
             was_at_goal |= self.is_at_goal();
-            let decision = explorer.decide(&self.belief, self.maze.goals(), self.cell());
-            match decision {
-                MoveDecision::Drive(leap) => self.leap(leap)?,
-                MoveDecision::Turn => self.turn_to(self.looks_to().right())?,
-                MoveDecision::Finished { .. } if was_at_goal => return Ok(None),
-                MoveDecision::Finished { .. } => return Ok(Some(NoisyEnd::Mistaken)),
-                MoveDecision::Stuck => return Ok(Some(NoisyEnd::Stuck)),
+            match self.mouse.explore(&mut self.body)? {
+                NoisyNext::Stepped => self.steps += 1,
+                NoisyNext::Done if was_at_goal => return Ok(None),
+                NoisyNext::Done => return Ok(Some(NoisyEnd::Mistaken)),
+                NoisyNext::Stuck => return Ok(Some(NoisyEnd::Stuck)),
             }
-            self.steps += 1;
         }
         Ok(Some(NoisyEnd::OutOfSteps))
     }
 
-    /// The second run, planned anew at every stop.
+    /// The second run.
     fn run(&mut self, run_1: u32) -> Result<NoisyEnd, NoisyError> {
         while self.steps < MAX_STEPS {
-            self.look()?;
-            if self.maze.goals().contains(&self.cell()) {
-                let run_2 = self.steps - run_1;
-                return Ok(if self.is_at_goal() {
-                    NoisyEnd::Arrived { run_1, run_2 }
-                } else {
-                    NoisyEnd::Mistaken
-                });
+            self.stop()?;
+            match self.mouse.run(&mut self.body)? {
+                NoisyNext::Stepped => self.steps += 1,
+                NoisyNext::Done if self.is_at_goal() => {
+                    let run_2 = self.steps - run_1;
+                    return Ok(NoisyEnd::Arrived { run_1, run_2 });
+                }
+                NoisyNext::Done => return Ok(NoisyEnd::Mistaken),
+                NoisyNext::Stuck => return Ok(NoisyEnd::Stuck),
             }
-            let leap = [Unknown::Closed, Unknown::Open]
-                .into_iter()
-                .find_map(|unknown| {
-                    let passages = Passages::<SIDE>::new(&self.belief, unknown);
-                    let map = MoveMap::new(&passages, self.maze.goals().iter().copied());
-                    map.way(&passages, self.cell()).next()
-                });
-            let Some(leap) = leap else {
-                return Ok(NoisyEnd::Stuck);
-            };
-            self.leap(leap)?;
-            self.steps += 1;
         }
         Ok(NoisyEnd::OutOfSteps)
     }
 
-    fn pose(&self) -> Pose {
-        match self.localization {
-            Localization::DeadReckoning => self.reckoned,
-            Localization::ParticleFilter => self.filter.estimate(),
-        }
-    }
-
-    /// The cell the mouse thinks it is in; the start, if it thinks that it has left the maze.
-    fn cell(&self) -> Cell {
-        self.belief
-            .cell_at(self.pose().position)
-            .unwrap_or(self.start.0)
-    }
-
-    /// Where it looks, about.
-    fn looks_to(&self) -> Direction {
-        let pose = self.pose();
-        let off = |side: &Direction| pose.heading.turn_to(heading_of(*side)).abs();
-        Direction::ALL
-            .into_iter()
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
-            .unwrap_or(self.start.1)
-    }
-
-    /// Whether it really is in a goal.
-    fn is_at_goal(&self) -> bool {
-        let cell = self.belief.cell_at(self.solo.truth().pose.position);
-        cell.is_some_and(|cell| self.maze.goals().contains(&cell))
-    }
-
-    fn look(&mut self) -> Result<(), NoisyError> {
-        for _ in 0..LOOKS {
-            self.time_step(TurnTranslate::STOP)?;
-            for reading in readings(self.solo.sensing()) {
-                self.belief.observe(self.pose(), reading);
-            }
-        }
-        let off = self.pose().position - self.solo.truth().pose.position;
+    /// Lets the mouse look, and writes down how far it is from where it believes to be.
+    fn stop(&mut self) -> Result<(), NoisyError> {
+        self.mouse.look(&mut self.body)?;
+        let off = self.mouse.pose().position - self.body.solo.truth().pose.position;
         self.errors += off.norm();
         self.stops += 1;
         Ok(())
     }
 
-    /// One step of the paper's rules: a turn, then cells ahead or back.
-    fn leap(&mut self, leap: Leap) -> Result<(), NoisyError> {
-        let mut looks = self.looks_to();
-        let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
-        self.turn_to(looks)?;
-        let ahead = if cells < 0 { -1.0 } else { 1.0 };
-        let target = self.belief.middle(leap.end);
-        let along = heading_of(looks).unit();
-        let left = heading_of(looks.left()).unit();
-        for _ in 0..PATIENCE {
-            let pose = self.pose();
-            let away = target - pose.position;
-            let way = ahead * away.dot(&along);
-            let front = self
-                .solo
-                .sensing()
-                .scan
-                .as_ref()
-                .and_then(|scan| scan.ranges.get(1).copied());
-            let blocked = ahead > 0.0 && front.is_some_and(|range| range < TOO_NEAR);
-            if way < CLOSE.1 || blocked {
-                return Ok(());
-            }
-            // Towards the middle of the corridor, the more the farther from it.
-            let aside = (3.0 * away.dot(&left) / self.belief.pitch()).clamp(-0.4, 0.4);
-            let wanted = heading_of(looks).turned(ahead * aside);
-            let off = pose.heading.turn_to(wanted);
-            let touched = self.time_step(TurnTranslate {
-                turn: (off / self.rates.0).clamp(-1.0, 1.0),
-                translate: ahead * (way / self.rates.1).min(1.0),
-            })?;
-            if touched {
-                // Off the wall again, and look.
-                self.time_step(TurnTranslate {
-                    turn: 0.0,
-                    translate: -0.5 * ahead,
-                })?;
-                return Ok(());
-            }
-        }
-        Ok(())
+    /// Whether it really is in a goal.
+    fn is_at_goal(&self) -> bool {
+        let position = self.body.solo.truth().pose.position;
+        let cell = self.mouse.belief().cell_at(position);
+        cell.is_some_and(|cell| self.maze.goals().contains(&cell))
     }
-
-    fn turn_to(&mut self, side: Direction) -> Result<(), NoisyError> {
-        for _ in 0..PATIENCE {
-            let off = self.pose().heading.turn_to(heading_of(side));
-            if off.abs() < CLOSE.0 {
-                break;
-            }
-            self.time_step(TurnTranslate {
-                turn: (off / self.rates.0).clamp(-1.0, 1.0),
-                translate: 0.0,
-            })?;
-        }
-        Ok(())
-    }
-
-    /// One time step; whether the mouse touched a wall.
-    fn time_step(&mut self, command: TurnTranslate) -> Result<bool, NoisyError> {
-        self.solo.step(&command)?;
-        let sensing = self.solo.sensing();
-        let touched = sensing.bump == Some(true);
-        self.bumps += u32::from(touched);
-        let (turn, distance) = (
-            command.turn * self.rates.0,
-            command.translate * self.rates.1,
-        );
-        self.reckoned = self.reckoned.displaced(distance, turn);
-        if self.localization == Localization::ParticleFilter {
-            let readings = readings(sensing);
-            self.filter.drive(distance, turn, &mut self.rng);
-            self.filter.sense(&self.belief, &readings, &mut self.rng);
-        }
-        Ok(touched)
-    }
-}
-
-fn readings(sensing: &LaserSensing) -> Vec<RangeReading> {
-    let Some(scan) = &sensing.scan else {
-        return Vec::new();
-    };
-    (0..)
-        .zip(&scan.ranges)
-        .map(|(beam, range)| RangeReading {
-            bearing: scan.ring.bearing(beam),
-            range: *range,
-            max_range: scan.ring.max_range,
-        })
-        .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
     use tolman_maze::Braided;
 
     use super::*;

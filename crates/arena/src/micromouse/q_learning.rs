@@ -4,8 +4,8 @@ use tolman_maze::{Cell, Direction, Maze};
 
 use crate::q_learning::{Outcome, Task};
 
-/// A maze as a task: a step is one cell in some direction, against a wall it is none, and each costs 1. Cells are numbered by
-/// [`tolman_maze::Grid::index`].
+/// A maze as a task: a step is one cell in some direction, against a wall it is none, and each
+/// costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
 #[derive(Clone, Debug)]
 pub struct CellTask<'a> {
     maze: &'a Maze,

@@ -1,8 +1,7 @@
 //! The rules of the paper's test program, to the letter.
 
 use tolman_maze::{Cell, Direction, Maze};
-
-use super::{Movement, Order, OrderError, Rotation, Sight};
+use tolman_systems::micromouse::{Brief, Movement, Order, OrderError, Rotation, Sight};
 
 /// Steps that both runs may take together.
 pub const MAX_STEPS: u32 = 1000;
@@ -12,12 +11,14 @@ const MOST_CELLS: i32 = 3;
 
 /// Moves one mouse through one maze and keeps the time.
 ///
-/// The rules are those of the test program that came with the paper's task; they are independent of how any mouse
-/// thinks. Every order counts as a step before it is carried out, and an order beyond the last step is not
-/// carried out. The goal is what the maze marks; in files of the paper's format that is the middle 2 × 2.
+/// The rules are those of the test program that came with the paper's task; they are independent of
+/// how any mouse thinks. Every order counts as a step before it is carried out, and an order beyond
+/// the last step is not carried out. The goal is what the maze marks; in files of the paper's
+/// format that is the middle 2 × 2.
 ///
 /// ```
-/// use tolman_arena::micromouse::{Event, Order, Referee};
+/// use tolman_arena::micromouse::{Event, Referee};
+/// use tolman_systems::micromouse::Order;
 ///
 /// let maze = tolman_maze::read("+---+---+\n| G   G |\n+   +   +\n| S |   |\n+---+---+\n")?.maze;
 /// let mut referee = Referee::new(&maze)?;
@@ -58,8 +59,8 @@ pub enum Event {
     Moved,
     /// The mouse stands at the start again: the second run begins.
     RunTwo,
-    /// A reset that is not allowed, before the goal was reached or in the second run: nothing happened, the step
-    /// counts.
+    /// A reset that is not allowed, before the goal was reached or in the second run: nothing
+    /// happened, the step counts.
     ResetRefused,
     /// The movement ended on a goal in the second run: done.
     Finished,
@@ -96,6 +97,20 @@ pub enum RefereeError {
     Maze(#[from] tolman_maze::CheckError),
 }
 
+/// Returns what a mouse is told of `maze`: its size, its start and its goals.
+///
+/// # Errors
+/// [`RefereeError::NoStart`] if the maze has no start.
+pub fn brief(maze: &Maze) -> Result<Brief, RefereeError> {
+    let (start, heading) = maze.start().ok_or(RefereeError::NoStart)?;
+    Ok(Brief {
+        grid: maze.grid(),
+        start,
+        heading,
+        goals: maze.goals().to_vec(),
+    })
+}
+
 impl<'a> Referee<'a> {
     /// The mouse stands at the start, no step is done.
     ///
@@ -115,8 +130,8 @@ impl<'a> Referee<'a> {
         })
     }
 
-    /// What the sensors see now: how many cells are open to the left, ahead and to the right, as far as the next
-    /// wall.
+    /// What the sensors see now: how many cells are open to the left, ahead and to the right, as
+    /// far as the next wall.
     #[must_use]
     pub fn sight(&self) -> Sight {
         let open = |direction| {

@@ -1,8 +1,9 @@
 //! Both runs of one mouse in one maze.
 
 use tolman_maze::{Cell, Maze};
+use tolman_systems::micromouse::{Mouse, MouseError, Order, OrderError};
 
-use super::{Event, Mouse, MouseError, Order, OrderError, Referee, RefereeError, Verdict};
+use super::{Event, Referee, RefereeError, Verdict};
 
 /// What became of one mouse in one maze.
 #[derive(Clone, Debug, PartialEq)]

@@ -99,8 +99,8 @@ const LONGEST_LINE: u64 = 4096;
 /// Lines that may wait to be answered before the mouse has to.
 const LINES_AHEAD: usize = 256;
 
-/// Runs the program `words[0]` with the other words as arguments as a mouse in a maze, until it ends or a limit is
-/// reached; then it is killed.
+/// Runs the program `words[0]` with the other words as arguments as a mouse in a maze, until it
+/// ends or a limit is reached; then it is killed.
 ///
 /// # Errors
 /// [`HostError`] if it does not start. That it fails, or does not solve the maze, is a result.
@@ -152,8 +152,8 @@ pub fn host(words: &[String], maze: &Maze, limits: &Limits, log: Log) -> Result<
 
 /// Answers the mouse until it closes its stdout (`None`) or has to be stopped.
 ///
-/// Reading and writing have threads of their own, since a mouse that neither writes nor reads must not
-/// hold up the clock.
+/// Reading and writing have threads of their own, since a mouse that neither writes nor reads must
+/// not hold up the clock.
 fn converse(
     simulator: &mut Simulator<'_>,
     input: ChildStdin,
@@ -186,7 +186,8 @@ fn converse(
     }
 }
 
-/// Hands a reply on; false if the mouse reads nothing until the deadline. One that is gone needs none.
+/// Hands a reply on; false if the mouse reads nothing until the deadline. One that is gone needs
+/// none.
 fn send(replies: &SyncSender<String>, reply: String, deadline: Instant) -> bool {
     let mut waiting = reply;
     loop {
@@ -234,8 +235,8 @@ fn write(mut input: ChildStdin, to_mouse: &Receiver<String>) {
     }
 }
 
-/// Waits for a mouse that has closed its stdout; one that does not end in a second, or in what it was given
-/// if that is less, is killed.
+/// Waits for a mouse that has closed its stdout; one that does not end in a second, or in what it
+/// was given if that is less, is killed.
 fn wait(child: &mut Child, time: Duration) -> Result<Ended, HostError> {
     let deadline = Instant::now() + time.min(Duration::from_secs(1));
     loop {

@@ -1,9 +1,10 @@
-//! Both ends of the protocol of the simulator [mms](https://github.com/mackorone/mms), which most hobbyists use: a
-//! headless host, and a mouse.
+//! A headless host for mice that speak the protocol of the simulator
+//! [mms](https://github.com/mackorone/mms), which most hobbyists use.
 //!
-//! A mouse is a program that writes commands to stdout, a line each, and reads replies from stdin. The
-//! [`Simulator`] answers one command after the other, as mms does; the [`Score`] counts as mms does; [`host()`]
-//! starts the program and puts the two together, with a limit on time and on movements. [`play`] is a mouse of our own.
+//! A mouse is a program that writes commands to stdout, a line each, and reads replies from stdin.
+//! The [`Simulator`] answers one command after the other, as mms does; the [`Score`] counts as mms
+//! does; [`host()`] starts the program and puts the two together, with a limit on time and on
+//! movements. [`play`](tolman_systems::micromouse::mms::play) is a mouse of our own.
 //!
 //! ```
 //! use tolman_arena::mms::Simulator;
@@ -19,15 +20,11 @@
 //! ```
 
 mod host;
-mod link;
-mod mouse;
-mod place;
-mod roads;
+#[cfg(test)]
+mod mouse_tests;
 mod score;
 mod simulator;
 
 pub use host::{Ended, HostError, Hosted, Limits, Log, host};
-pub use mouse::{PlayError, Played, Until, play};
-pub use place::{Gate, Heading, Place};
 pub use score::{Figures, Score, Unit};
 pub use simulator::Simulator;

@@ -13,9 +13,9 @@ pub enum Unit {
 
 /// The figures that mms keeps of a mouse, in its single precision.
 ///
-/// A *run* goes from the start cell to the goal. The effective distance of a movement counts every unit
-/// after the second by half. The score is the best run's turns and effective distance, and a tenth of all
-/// turns and effective distance; less is better.
+/// A *run* goes from the start cell to the goal. The effective distance of a movement counts every
+/// unit after the second by half. The score is the best run's turns and effective distance, and a
+/// tenth of all turns and effective distance; less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Score {
     #[serde(skip)]
@@ -142,8 +142,8 @@ impl Score {
         (f64::from(best.cost()) + 0.1 * f64::from(self.total.cost())) as f32
     }
 
-    /// The reply to `getStat`: the figure of that name, −1 if it has none yet; none for a name that mms
-    /// does not know.
+    /// The reply to `getStat`: the figure of that name, −1 if it has none yet; none for a name that
+    /// mms does not know.
     #[must_use]
     pub fn stat(&self, name: &str) -> Option<String> {
         if name == "score" {

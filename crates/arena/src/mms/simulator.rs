@@ -1,8 +1,9 @@
 //! The simulator: one command in, one reply out.
 
 use tolman_maze::{Cell, Maze};
+use tolman_systems::micromouse::mms::{Gate, Heading, Place};
 
-use super::{Heading, Place, Score, Unit};
+use super::{Score, Unit};
 
 /// A mouse in a maze, moved by the commands of mms.
 ///
@@ -75,13 +76,14 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Presses the reset button after so many movements: `wasReset` is true from then on until the mouse
-    /// says `ackReset`.
+    /// Presses the reset button after so many movements: `wasReset` is true from then on until the
+    /// mouse says `ackReset`.
     pub fn reset_after(&mut self, movements: u64) {
         self.reset_after = Some(movements);
     }
 
-    /// Carries out one line of the mouse. Commands that only draw, and what is no command, get no reply.
+    /// Carries out one line of the mouse. Commands that only draw, and what is no command, get no
+    /// reply.
     pub fn answer(&mut self, line: &str) -> Option<String> {
         let mut words = line.split_ascii_whitespace();
         let command = words.next()?;
@@ -133,7 +135,7 @@ impl<'a> Simulator<'a> {
     fn is_wall_within(&self, half_steps: i32, heading: Heading) -> bool {
         let mut place = self.place;
         for _ in 0..half_steps.max(1) {
-            if place.is_blocked(heading, self.maze) {
+            if self.is_blocked(place, heading) {
                 return true;
             }
             place = place.ahead(heading);
@@ -141,8 +143,17 @@ impl<'a> Simulator<'a> {
         false
     }
 
+    /// Whether a wall or a post stands half a step ahead of a place.
+    fn is_blocked(&self, place: Place, heading: Heading) -> bool {
+        match place.gate(heading, self.maze.grid()) {
+            Gate::None => false,
+            Gate::Edge(cell, side) => !self.maze.is_open(cell, side),
+            Gate::Solid => true,
+        }
+    }
+
     fn move_on(&mut self, half_steps: i32) -> String {
-        if half_steps < 1 || self.place.is_blocked(self.heading, self.maze) {
+        if half_steps < 1 || self.is_blocked(self.place, self.heading) {
             self.crashes += 1;
             return "crash".to_owned();
         }
@@ -155,7 +166,7 @@ impl<'a> Simulator<'a> {
             score.move_on(half_steps);
         }
         let mut made = 0;
-        while made < half_steps && !self.place.is_blocked(self.heading, self.maze) {
+        while made < half_steps && !self.is_blocked(self.place, self.heading) {
             self.place = self.place.ahead(self.heading);
             made += 1;
         }

@@ -4,8 +4,9 @@ use tolman_maze::Maze;
 use tolman_planners::speed_run::SpeedRunConfig;
 
 use super::sets::MazeSet;
-use tolman_arena::competition::{self, ExploreError};
+use tolman_arena::competition;
 use tolman_experiment::{BoxError, Field, Fields, Kind, Metric, Row, Run, Table};
+use tolman_systems::micromouse::competition::ExploreError;
 
 /// The name of the table.
 pub(super) const COMPETITION: &str = "competition";

@@ -9,12 +9,12 @@ use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
 use tolman_planners::{Passages, Unknown};
 
 use super::Micromouse;
-use tolman_arena::micromouse::{
-    Certify, CounterSearch, Driver, Event, Mouse, Referee, RunTwo, SIDE, Search, Searcher,
-    TargetSearch,
-};
+use tolman_arena::micromouse::{Event, Referee, brief};
 use tolman_draw::{Drawing, Figure, Plan, Series, Shade};
 use tolman_experiment::{BoxError, Run};
+use tolman_systems::micromouse::{
+    Certify, CounterSearch, Driver, Mouse, RunTwo, SIDE, Search, Searcher, TargetSearch,
+};
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
@@ -29,7 +29,8 @@ pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, B
     let Some((_, maze)) = table.mazes().next() else {
         return Ok(Vec::new());
     };
-    let target = || Driver::new(maze, TargetSearch::new(), RunTwo::FewestCells);
+    let brief = brief(maze)?;
+    let target = || Driver::new(brief.clone(), TargetSearch::new(), RunTwo::FewestCells);
     let mut figures = vec![
         uncertainty(&known_after(maze, &mut target()?, 1)?, 1),
         uncertainty(&known_after(maze, &mut target()?, 60)?, 60),
@@ -43,7 +44,7 @@ pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, B
     });
     if let Some(run) = seed {
         let search = CounterSearch::new(50, ChaCha8Rng::seed_from_u64(run.seed));
-        let mut mouse = Driver::new(maze, search, RunTwo::FewestCells)?;
+        let mut mouse = Driver::new(brief, search, RunTwo::FewestCells)?;
         let map = known_after(maze, &mut mouse, u32::MAX)?;
         figures.push(counters(&map));
         figures.push(dead_ends(&map));
@@ -103,7 +104,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     };
     let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
     let search = Certify::new(explorer, Some(rollouts), maze.grid(), start)?;
-    let mut mouse = Driver::new(maze, search, RunTwo::FewestMoves)?;
+    let mut mouse = Driver::new(brief(maze)?, search, RunTwo::FewestMoves)?;
     let mut referee = Referee::new(maze)?;
     while !referee.is_over() {
         let order = mouse.next(referee.sight())?;

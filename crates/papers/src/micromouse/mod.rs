@@ -16,12 +16,13 @@ use tolman_maze::Maze;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use crate::data;
-use tolman_arena::micromouse::{MAX_STEPS, Searcher};
+use tolman_arena::micromouse::{MAX_STEPS, try_on};
 use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table, Tolerance,
 };
+use tolman_systems::micromouse::Searcher;
 
 use competition::COMPETITION;
 use paper::PaperTable;
@@ -208,7 +209,7 @@ impl Experiment for Micromouse {
             return Ok(fields);
         }
         let (searcher, maze, name) = self.cast(job).ok_or("there is no such run")?;
-        let (_, judgement) = searcher.try_on(maze, job.seed)?;
+        let (_, judgement) = try_on(maze, searcher, job.seed)?;
         let mut fields = Fields::new()
             .flag("finished", judgement.score.is_some())
             .flag("certified", judgement.certified)

@@ -5,9 +5,10 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
 use super::check_score;
-use tolman_arena::micromouse::noisy::{self, Localization, NoisyConfig, NoisyEnd};
+use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_systems::micromouse::noisy::Localization;
 
 /// The name of the table.
 pub(super) const NOISE: &str = "noise";

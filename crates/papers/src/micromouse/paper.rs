@@ -6,8 +6,8 @@ use tolman_maze::Maze;
 
 use super::{Metric, Row, Table, Tolerance, fields};
 use crate::maze_file;
-use tolman_arena::micromouse::Searcher;
 use tolman_experiment::BoxError;
+use tolman_systems::micromouse::Searcher;
 
 /// One of the paper's tables.
 #[derive(Debug)]

@@ -9,9 +9,9 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
 use crate::maze_file;
-use tolman_arena::micromouse::SIDE;
 use tolman_experiment::BoxError;
 use tolman_experiment::files::files_in;
+use tolman_systems::micromouse::SIDE;
 
 /// Mazes under one name.
 #[derive(Debug)]

@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
-use tolman_arena::micromouse::{Judgement, Searcher, Trial};
+use tolman_arena::micromouse::{self, Judgement, Trial};
 use tolman_maze::Maze;
+use tolman_systems::micromouse::Searcher;
 
 use super::failure::OrBadInput;
 use super::maze::Collection;
@@ -105,9 +106,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 
 impl Arguments {
     fn try_on(&self, file: &Path, maze: &Maze) -> Result<Tried, Failure> {
-        let (trial, judgement) = self
-            .search
-            .try_on(maze, self.seed)
+        let (trial, judgement) = micromouse::try_on(maze, self.search, self.seed)
             .with_context(|| maze::name(file))
             .or_bad_input()?;
         Ok(Tried {

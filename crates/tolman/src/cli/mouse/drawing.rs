@@ -34,7 +34,8 @@ fn put(lines: &mut [Vec<char>], maze: &Maze, cell: Cell, mark: char) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tolman_arena::micromouse::Searcher;
+    use tolman_arena::micromouse::try_on;
+    use tolman_systems::micromouse::Searcher;
 
     #[test]
     fn stops_are_marked() {
@@ -48,7 +49,7 @@ o   o   o---o
 o---o---o---o
 ";
         let maze = tolman_maze::read(text).unwrap().maze;
-        let (trial, judgement) = Searcher::Certify.try_on(&maze, 0).unwrap();
+        let (trial, judgement) = try_on(&maze, Searcher::Certify, 0).unwrap();
         assert_eq!(judgement.run_2, Some(2));
         let expect = "\
 o---o---o---o

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use tolman_arena::mms::{PlayError, Until, play};
+use tolman_systems::micromouse::mms::{PlayError, Until, play};
 
 use crate::cli::Failure;
 use crate::cli::failure::OrBadInput;

@@ -20,8 +20,8 @@ impl Stand {
     };
 }
 
-/// All movements on some passages: turns on the spot by 45° and 90°, and straights, which may be diagonal. Costs are those of
-/// the score in half-steps, counted in halves so that they are whole.
+/// All movements on some passages: turns on the spot by 45° and 90°, and straights, which may be
+/// diagonal. Costs are those of the score in half-steps, counted in halves so that they are whole.
 pub(super) struct Roads<'a, const N: usize> {
     grid: Grid,
     passages: &'a Passages<N>,

@@ -5,9 +5,9 @@ use tolman_planners::{Passages, StepMap, Unknown};
 use super::SIDE;
 use super::driver::{Next, Search, View};
 
-/// The paper's *target search* (section 3.3.2): "in each timestamp" to the nearest of the cells of largest uncertainty, by
-/// the shortest path, unknown walls taken for open. It ends when a goal was visited and the open path is as short as the
-/// close path, both in cells.
+/// The paper's *target search* (section 3.3.2): "in each timestamp" to the nearest of the cells of
+/// largest uncertainty, by the shortest path, unknown walls taken for open. It ends when a goal was
+/// visited and the open path is as short as the close path, both in cells.
 ///
 /// The paper leaves open which shortest path is taken: here one that goes on straight where it can.
 #[derive(Clone, Debug, Default)]

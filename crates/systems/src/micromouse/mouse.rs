@@ -49,7 +49,4 @@ pub enum MouseError {
     /// No way leads to a goal.
     #[error("the mouse has found that no way leads to a goal: open a wall")]
     Stuck,
-    /// The maze does not say where the mouse starts.
-    #[error("the maze has no start: mark a cell with S")]
-    NoStart,
 }

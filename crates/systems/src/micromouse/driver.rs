@@ -1,11 +1,11 @@
 //! What all our mice have in common: the map, the place, the two runs.
 
 use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
-use tolman_maze::{Cell, Direction, Maze, Walls};
+use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::{Leap, MouseStep};
 use tolman_planners::{Passages, Unknown};
 
-use super::{Certificate, Mouse, MouseError, Order, RunTwo, SIDE, Sight};
+use super::{Brief, Certificate, Mouse, MouseError, Order, RunTwo, SIDE, Sight};
 
 /// How to explore.
 pub trait Search {
@@ -45,8 +45,7 @@ pub struct Driver<S> {
     search: S,
     run_two: RunTwo,
     map: WallMap<SIDE>,
-    start: (Cell, Direction),
-    goals: Vec<Cell>,
+    brief: Brief,
     at: Cell,
     heading: Direction,
     /// The second run, what is left of it last first; none in the first.
@@ -55,22 +54,20 @@ pub struct Driver<S> {
 }
 
 impl<S: Search> Driver<S> {
-    /// A mouse at the start of a maze of which it knows the size, the start and the goals.
+    /// Returns a mouse at the start of a maze that it was told of by `brief`.
     ///
     /// # Errors
-    /// If the maze is larger than [`SIDE`] or has no start.
-    pub fn new(maze: &Maze, search: S, run_two: RunTwo) -> Result<Self, MouseError> {
-        let start = maze.start().ok_or(MouseError::NoStart)?;
-        let mut map = WallMap::new(maze.grid(), ClosedCells::Possible)?;
-        map.visit(start.0);
+    /// If the maze is larger than [`SIDE`].
+    pub fn new(brief: Brief, search: S, run_two: RunTwo) -> Result<Self, MouseError> {
+        let mut map = WallMap::new(brief.grid, ClosedCells::Possible)?;
+        map.visit(brief.start);
         Ok(Self {
             search,
             run_two,
             map,
-            start,
-            goals: maze.goals().to_vec(),
-            at: start.0,
-            heading: start.1,
+            at: brief.start,
+            heading: brief.heading,
+            brief,
             plan: None,
             certificate: None,
         })
@@ -105,12 +102,14 @@ impl<S: Search> Driver<S> {
     /// The first run is over.
     fn reset(&mut self) -> Result<Order, MouseError> {
         let known = Passages::new(&self.map, Unknown::Closed);
-        let plan = self.run_two.plan(&known, self.start.0, &self.goals);
+        let plan = self
+            .run_two
+            .plan(&known, self.brief.start, &self.brief.goals);
         let mut plan = plan.ok_or(MouseError::Stuck)?;
-        self.certificate = Certificate::of(&self.map, self.start.0, &self.goals, &plan);
+        self.certificate = Certificate::of(&self.map, self.brief.start, &self.brief.goals, &plan);
         plan.reverse();
         self.plan = Some(plan);
-        (self.at, self.heading) = self.start;
+        (self.at, self.heading) = (self.brief.start, self.brief.heading);
         Ok(Order::RESET)
     }
 }
@@ -125,8 +124,8 @@ impl<S: Search> Mouse for Driver<S> {
         let view = View {
             map: &self.map,
             at: self.at,
-            start: self.start.0,
-            goals: &self.goals,
+            start: self.brief.start,
+            goals: &self.brief.goals,
         };
         match self.search.next(&view) {
             Next::Drive(leap) => Ok(self.drive(leap)),

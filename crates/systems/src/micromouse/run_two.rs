@@ -11,8 +11,8 @@ use super::SIDE;
 pub enum RunTwo {
     /// The fewest steps.
     FewestMoves,
-    /// Among the paths of fewest cells the one of fewest steps (the paper, section 3.3.2: the value map of A*, several
-    /// shortest paths, "the one with minimum moves").
+    /// Among the paths of fewest cells the one of fewest steps (the paper, section 3.3.2: the value
+    /// map of A*, several shortest paths, "the one with minimum moves").
     FewestCells,
 }
 

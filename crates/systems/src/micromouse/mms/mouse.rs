@@ -2,21 +2,22 @@
 
 use std::io::{BufRead, Write};
 
-use thiserror::Error;
-use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
+use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
-use tolman_planners::{Found, Passages, StepMap, Unknown, a_star, costs_from};
+use tolman_planners::{Passages, StepMap, Unknown, costs_from};
 
 use super::link::{Driven, Link};
-use super::roads::{Roads, Stand, TurnsAtStart, edges};
-use super::{Heading, Place};
+use super::plan::{Plan, ends_run, plan, score};
+use super::roads::{Roads, Stand, TurnsAtStart};
+use super::{Heading, Place, PlayError};
 
 /// When a mouse has explored enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Until {
     /// When it has been at the goal.
     Goal,
-    /// When no run can score less than the best one it knows, whatever the walls nobody has looked at.
+    /// When no run can score less than the best one it knows, whatever the walls nobody has looked
+    /// at.
     Proof,
 }
 
@@ -31,66 +32,25 @@ pub struct Played {
     pub resets: u32,
 }
 
-/// Why a mouse cannot go on.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum PlayError {
-    /// The simulator has closed its end.
-    #[error("the simulator went away and left `{command}` without a reply")]
-    HostGone {
-        /// What it was asked last.
-        command: String,
-        /// Why, if the pipe says it.
-        source: Option<std::io::Error>,
-    },
-    /// The simulator says what it cannot say.
-    #[error("the simulator replied {reply:?} to `{command}`: {expected} was expected")]
-    Reply {
-        /// What it was asked.
-        command: String,
-        /// Its reply.
-        reply: String,
-        /// What it could have said.
-        expected: &'static str,
-    },
-    /// The maze is larger than the mouse's map.
-    #[error(transparent)]
-    TooLarge(#[from] TooLarge),
-    /// It sees walls where it has seen none, or the other way round.
-    #[error("the mouse sees what it knows to be different")]
-    Observe(#[from] ObserveError),
-    /// No way leads to the goal.
-    #[error("the mouse has found that no way leads to the goal")]
-    NoWay,
-    /// It runs against walls it does not see.
-    #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
-    Crashes {
-        /// How often.
-        crashes: u32,
-    },
-    /// The log cannot be written.
-    #[error("the mouse's log cannot be written")]
-    Log(#[source] std::io::Error),
-}
-
 /// Crashes after which a mouse no longer believes that its map comes right.
 const MOST_CRASHES: u32 = 8;
 
 /// What an observation may have to be taken back after a crash: that of the last two stops.
 const DOUBTFUL: usize = 2;
 
-/// Plays one maze, from `mazeWidth` to the end of the best run: `output` goes to the simulator, `input` comes from it, and
-/// `log` is for people.
+/// Plays one maze, from `mazeWidth` to the end of the best run: `output` goes to the simulator,
+/// `input` comes from it, and `log` is for people.
 ///
-/// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every cell where it
-/// stops it asks how far it sees to the four sides. It plans in what the simulator scores, diagonals
-/// included, and explores like the mouse of the [speed run](tolman_planners::speed_run): of the best run that can be hoped
-/// for it looks at the walls nobody has looked at, the nearest first. When the reset button is pressed it goes on from the
+/// The mouse starts in the south-west and looks north; its goal is the middle of the maze. In every
+/// cell where it stops it asks how far it sees to the four sides. It plans in what the simulator
+/// scores, diagonals included, and explores like the mouse of the [speed
+/// run](tolman_planners::speed_run): of the best run that can be hoped for it looks at the walls
+/// nobody has looked at, the nearest first. When the reset button is pressed it goes on from the
 /// start; after a crash too, without what it saw last.
 ///
 /// # Errors
-/// If the simulator goes away or talks nonsense, the maze has more than 32 columns or rows, or no way leads to
-/// its goal.
+/// If the simulator goes away or talks nonsense, the maze has more than 32 columns or rows, or no
+/// way leads to its goal.
 pub fn play(
     input: impl BufRead,
     output: impl Write,
@@ -124,22 +84,6 @@ struct Mouse<const N: usize, R, W, L> {
 enum Goal {
     Ahead,
     Visited,
-}
-
-/// Stands one movement apart, and what the movements cost, in halves.
-#[derive(Clone, Debug)]
-struct Plan {
-    stands: Vec<Stand>,
-    cost: u32,
-}
-
-impl Plan {
-    /// The sides of cells that it drives over.
-    fn edges(&self, grid: Grid) -> impl Iterator<Item = (Cell, Direction)> {
-        let later = self.stands.iter().skip(1);
-        let movements = self.stands.iter().zip(later);
-        movements.flat_map(move |(from, to)| edges(grid, *from, *to))
-    }
 }
 
 /// Whether the mouse is where it wanted to be.
@@ -222,7 +166,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }
     }
 
-    /// Takes in how far the mouse sees to the four sides, and draws the walls it has not seen before.
+    /// Takes in how far the mouse sees to the four sides, and draws the walls it has not seen
+    /// before.
     fn look(&mut self) -> Result<(), PlayError> {
         let cell = self.at.place.cell();
         let mut rays = Vec::with_capacity(4);
@@ -288,7 +233,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok((!targets.is_empty()).then_some(targets))
     }
 
-    /// The best run that can be hoped for. Walls make no run better, so one that is not blocked stays the best.
+    /// The best run that can be hoped for. Walls make no run better, so one that is not blocked
+    /// stays the best.
     fn replan(&mut self) -> Option<Plan> {
         let walls = &self.walls;
         let is_wall = |(cell, side): (Cell, _)| walls.knowledge(cell, side) == Knowledge::Wall;
@@ -304,9 +250,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         plan(&roads, Stand::START, |stand| self.is_goal(stand))
     }
 
-    /// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the middle as well.
     fn is_goal(&self, stand: Stand) -> bool {
-        stand.place != Place::START && self.goals.contains(&stand.place.cell())
+        ends_run(stand, &self.goals)
     }
 
     /// To where the mouse can look on, on known ground: the place from which a target is near.
@@ -438,206 +383,11 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
 /// What a cell costs, about, on a way nobody has seen, in halves.
 const ONE_CELL: u32 = 5;
 
-fn plan<const N: usize>(
-    roads: &Roads<'_, N>,
-    from: Stand,
-    is_goal: impl Fn(Stand) -> bool,
-) -> Option<Plan> {
-    let Found { path, cost, .. } = a_star(
-        roads,
-        roads.node(from),
-        |node| is_goal(roads.stand(node)),
-        |_| 0,
-    )?;
-    let stands = path.into_iter().map(|node| roads.stand(node)).collect();
-    Some(Plan { stands, cost })
-}
-
-/// As the simulator counts.
-fn score(halves: u32) -> f32 {
-    halves as f32 / 2.0
-}
-
 #[cfg(test)]
 mod tests {
-    use alloc::collections::VecDeque;
-    use alloc::rc::Rc;
-    use core::cell::RefCell;
-    use std::io::{self, BufReader, Read};
-
-    use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
-    use tolman_maze::{Braided, Maze};
+    use std::io;
 
     use super::*;
-    use crate::mms::Simulator;
-
-    /// A simulator at the other end of both pipes.
-    struct Host<'a> {
-        simulator: Simulator<'a>,
-        asked: Vec<u8>,
-        replies: VecDeque<u8>,
-        /// Replies it gives before it goes away.
-        left: usize,
-        /// What it does to the reply of a movement, by its number.
-        meddle: fn(u64, String) -> String,
-    }
-
-    #[derive(Clone)]
-    struct Wire<'a>(Rc<RefCell<Host<'a>>>);
-
-    impl Write for Wire<'_> {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            let mut host = self.0.borrow_mut();
-            for byte in bytes {
-                if *byte != b'\n' {
-                    host.asked.push(*byte);
-                    continue;
-                }
-                let line = String::from_utf8(core::mem::take(&mut host.asked)).unwrap();
-                let reply = host.simulator.answer(&line);
-                if let Some(mut reply) = reply
-                    && host.left > 0
-                {
-                    host.left -= 1;
-                    if line.starts_with("move") {
-                        reply = (host.meddle)(host.simulator.movements(), reply);
-                    }
-                    host.replies.extend(reply.bytes().chain([b'\n']));
-                }
-            }
-            Ok(bytes.len())
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    impl Read for Wire<'_> {
-        fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-            let mut host = self.0.borrow_mut();
-            let count = into.len().min(host.replies.len());
-            into.iter_mut()
-                .zip(host.replies.drain(..count))
-                .for_each(|(into, byte)| *into = byte);
-            Ok(count)
-        }
-    }
-
-    fn maze(width: u16, height: u16, seed: u64) -> Maze {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let braided = Braided {
-            width,
-            height,
-            share: 0.4,
-        };
-        braided.generate(&mut rng).unwrap()
-    }
-
-    fn host(maze: &Maze) -> Host<'_> {
-        Host {
-            simulator: Simulator::new(maze),
-            asked: Vec::new(),
-            replies: VecDeque::new(),
-            left: usize::MAX,
-            meddle: |_, reply| reply,
-        }
-    }
-
-    fn play_with<'a>(host: Host<'a>, until: Until) -> (Result<Played, PlayError>, Simulator<'a>) {
-        let wire = Wire(Rc::new(RefCell::new(host)));
-        let played = play(
-            BufReader::new(wire.clone()),
-            wire.clone(),
-            io::sink(),
-            until,
-        );
-        let simulator = wire.0.borrow().simulator.clone();
-        (played, simulator)
-    }
-
-    #[test]
-    fn the_run_is_the_best_of_all_and_scores_what_it_says() {
-        for (width, height, seed) in [(16, 16, 1), (5, 8, 2), (21, 6, 3), (2, 3, 4), (1, 7, 5)] {
-            let maze = maze(width, height, seed);
-            let (played, simulator) = play_with(host(&maze), Until::Proof);
-            let played = played.unwrap();
-            assert_eq!((simulator.crashes(), simulator.invalid()), (0, 0));
-            let best = simulator.score_in_half_steps().best.unwrap();
-            assert!((best.turns + best.effective_distance - played.run).abs() < 1e-3);
-            // As good as with all walls known.
-            let passages = Passages::<32>::new(&maze, Unknown::Closed);
-            let roads = Roads::new(maze.grid(), &passages, TurnsAtStart::Free);
-            let goals: Vec<Cell> = maze.grid().middle().collect();
-            let at_goal = |stand: Stand| goals.contains(&stand.place.cell());
-            let optimum = plan(&roads, Stand::START, at_goal).unwrap();
-            assert!((score(optimum.cost) - played.run).abs() < 1e-3);
-            assert!((played.possible - played.run).abs() < 1e-3);
-        }
-    }
-
-    #[test]
-    fn less_exploration_is_cheaper_and_its_run_no_better() {
-        let maze = maze(16, 16, 7);
-        let [goal, proof] = [Until::Goal, Until::Proof].map(|until| {
-            let (played, simulator) = play_with(host(&maze), until);
-            let distance = simulator.score_in_half_steps().total.distance;
-            (played.unwrap(), distance)
-        });
-        assert!(goal.0.run >= proof.0.run && goal.0.possible <= proof.0.possible);
-        assert!(goal.1 < proof.1, "or this maze shows nothing");
-    }
-
-    #[test]
-    fn the_reset_button_is_obeyed_at_any_time() {
-        let maze = maze(8, 8, 3);
-        let (_, whole) = play_with(host(&maze), Until::Proof);
-        for movements in (1..whole.movements()).step_by(3) {
-            let mut host = host(&maze);
-            host.simulator.reset_after(movements);
-            let (played, simulator) = play_with(host, Until::Proof);
-            assert!(simulator.score_in_half_steps().solved);
-            assert_eq!((played.unwrap().resets, simulator.crashes()), (1, 0));
-        }
-    }
-
-    #[test]
-    fn after_a_crash_it_goes_on_from_the_start() {
-        let maze = maze(8, 8, 4);
-        let mut once = host(&maze);
-        once.meddle = |movement, reply| {
-            if movement == 9 {
-                "crash".to_owned()
-            } else {
-                reply
-            }
-        };
-        let (played, simulator) = play_with(once, Until::Proof);
-        let played = played.unwrap();
-        assert!((played.possible - played.run).abs() < 1e-3);
-        assert_eq!((played.resets, simulator.crashes()), (1, 0));
-        let mut always = host(&maze);
-        always.meddle = |_, _| "crash".to_owned();
-        let (played, _) = play_with(always, Until::Proof);
-        assert!(matches!(played, Err(PlayError::Crashes { crashes: 9 })));
-    }
-
-    #[test]
-    fn a_simulator_that_goes_away_is_told_of() {
-        let maze = maze(4, 4, 5);
-        let mut replies = 0;
-        loop {
-            let mut host = host(&maze);
-            host.left = replies;
-            match play_with(host, Until::Proof).0 {
-                Ok(_) => break,
-                Err(error) => assert!(matches!(error, PlayError::HostGone { .. }), "{error}"),
-            }
-            replies += 1;
-        }
-        assert!(replies > 30, "it went away {replies} times");
-    }
 
     #[test]
     fn nonsense_is_refused() {

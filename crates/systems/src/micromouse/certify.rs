@@ -19,8 +19,8 @@ enum Explorer {
 }
 
 impl Certify {
-    /// A search in a maze of the size of `grid`, for runs from `start`, by a mouse that has seen nothing; with
-    /// rollouts or without.
+    /// A search in a maze of the size of `grid`, for runs from `start`, by a mouse that has seen
+    /// nothing; with rollouts or without.
     ///
     /// # Errors
     /// If a weight is out of its range.

@@ -8,7 +8,7 @@ use tolman_planners::moves::MouseStep;
 /// It is written as the paper's test program takes it, with one key for each:
 ///
 /// ```
-/// use tolman_arena::micromouse::{Movement, Order, Rotation};
+/// use tolman_systems::micromouse::{Movement, Order, Rotation};
 ///
 /// let order = Order { rotation: Rotation::Degrees(-90), movement: Movement::Cells(3) };
 /// assert_eq!(serde_json::to_string(&order)?, r#"{"rotation":-90,"movement":3}"#);

@@ -5,11 +5,10 @@ use core::str::FromStr;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maze::Maze;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use super::{
-    Certify, CounterSearch, Driver, Mouse, MouseError, RandomSearch, RunTwo, TargetSearch,
+    Brief, Certify, CounterSearch, Driver, Mouse, MouseError, RandomSearch, RunTwo, TargetSearch,
 };
 
 /// A search that a mouse can be given.
@@ -59,28 +58,37 @@ impl Searcher {
         matches!(self, Self::Certify | Self::CertifyPlain | Self::Target)
     }
 
-    /// A mouse with this search at the start of `maze`, of which it knows the size, the start and the goals.
+    /// Returns a mouse with this search at the start of a maze that it was told of by `brief`.
     ///
     /// # Errors
-    /// If the maze is too large or has no start.
-    pub fn mouse(self, maze: &Maze, seed: u64) -> Result<Box<dyn Mouse>, MouseError> {
+    /// If the maze is too large.
+    pub fn mouse(self, brief: &Brief, seed: u64) -> Result<Box<dyn Mouse>, MouseError> {
         let rng = || ChaCha8Rng::seed_from_u64(seed);
         let cells = RunTwo::FewestCells;
         Ok(match self {
-            Self::Certify => certify(maze, Some(RolloutConfig::tuned()))?,
-            Self::CertifyPlain => certify(maze, None)?,
-            Self::Target => Box::new(Driver::new(maze, TargetSearch::new(), cells)?),
-            Self::Counter50 => Box::new(Driver::new(maze, CounterSearch::new(50, rng()), cells)?),
-            Self::Counter75 => Box::new(Driver::new(maze, CounterSearch::new(75, rng()), cells)?),
-            Self::Random => Box::new(Driver::new(maze, RandomSearch::new(rng()), cells)?),
+            Self::Certify => certify(brief, Some(RolloutConfig::tuned()))?,
+            Self::CertifyPlain => certify(brief, None)?,
+            Self::Target => Box::new(Driver::new(brief.clone(), TargetSearch::new(), cells)?),
+            Self::Counter50 => Box::new(Driver::new(
+                brief.clone(),
+                CounterSearch::new(50, rng()),
+                cells,
+            )?),
+            Self::Counter75 => Box::new(Driver::new(
+                brief.clone(),
+                CounterSearch::new(75, rng()),
+                cells,
+            )?),
+            Self::Random => Box::new(Driver::new(brief.clone(), RandomSearch::new(rng()), cells)?),
         })
     }
 }
 
-fn certify(maze: &Maze, rollouts: Option<RolloutConfig>) -> Result<Box<dyn Mouse>, MouseError> {
-    let (start, _) = maze.start().ok_or(MouseError::NoStart)?;
-    let search = Certify::new(MoveExplorerConfig::tuned(), rollouts, maze.grid(), start)?;
-    Ok(Box::new(Driver::new(maze, search, RunTwo::FewestMoves)?))
+fn certify(brief: &Brief, rollouts: Option<RolloutConfig>) -> Result<Box<dyn Mouse>, MouseError> {
+    let (grid, start) = (brief.grid, brief.start);
+    let search = Certify::new(MoveExplorerConfig::tuned(), rollouts, grid, start)?;
+    let mouse = Driver::new(brief.clone(), search, RunTwo::FewestMoves)?;
+    Ok(Box::new(mouse))
 }
 
 impl fmt::Display for Searcher {

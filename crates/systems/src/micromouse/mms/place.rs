@@ -1,6 +1,6 @@
 //! Where a mouse of mms can be: on a lattice of half-steps.
 
-use tolman_maze::{Cell, Direction, Grid, Maze};
+use tolman_maze::{Cell, Direction, Grid};
 
 /// A place on the lattice of half-steps, from the south-west corner: middles of cells have two odd
 /// coordinates, middles of walls one, posts none.
@@ -29,16 +29,6 @@ impl Place {
         Self {
             x: self.x.wrapping_add_signed(east),
             y: self.y.wrapping_add_signed(north),
-        }
-    }
-
-    /// Whether a wall or a post stands half a step ahead.
-    #[must_use]
-    pub fn is_blocked(self, heading: Heading, maze: &Maze) -> bool {
-        match self.gate(heading, maze.grid()) {
-            Gate::None => false,
-            Gate::Edge(cell, side) => !maze.is_open(cell, side),
-            Gate::Solid => true,
         }
     }
 

@@ -1,0 +1,143 @@
+//! A micromouse as a system: it drives the simulated laser Pioneer of MSLST.
+
+use alloc::sync::Arc;
+
+use tolman_geom::Pose;
+use tolman_maze::{Cell, Maze};
+use tolman_robot::{Goal, Landmark, Task, TurnTranslate};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::{CorridorSize, Solo, World};
+use tolman_systems::micromouse::Search;
+use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
+
+use super::{brief, check};
+use crate::pioneer::{self, CORRIDOR_WIDTH};
+use crate::run::{End, Watched, run};
+
+const MAZE: &str = "\
+o---o---o---o---o
+|               |
+o   o---o---o   o
+|   |   |     G |
+o   o   o   o---o
+|   |       |   |
+o   o   o---o   o
+| S             |
+o---o---o---o---o
+";
+
+const START: Task = Task::Reach(Goal::Landmark(Landmark::Start));
+const GOAL: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
+
+/// How one mouse fared: the cells it really crossed, by task, and how each task ended.
+struct Outing {
+    cells: Vec<(Vec<Cell>, End)>,
+    /// Time steps in which the robot touched a wall.
+    bumps: u32,
+}
+
+fn config(robot: &LaserPioneerConfig, thickness: f64) -> MazeMouseConfig {
+    MazeMouseConfig {
+        pitch: CORRIDOR_WIDTH + thickness,
+        wall_thickness: thickness,
+        turn_per_step: robot.turn_per_step,
+        translate_per_step: robot.translate_per_step,
+    }
+}
+
+/// Lets a mouse pursue its tasks one after the other with a robot in a maze.
+fn send<S: Search>(
+    maze: &Maze,
+    thickness: f64,
+    robot: &LaserPioneerConfig,
+    mouse: &mut MazeMouse<S>,
+    tasks: &[Task],
+) -> Outing {
+    let size = CorridorSize {
+        corridor_width: CORRIDOR_WIDTH,
+        wall_thickness: thickness,
+    };
+    let world = Arc::new(World::from_maze(maze, &size).unwrap());
+    let (start, heading) = maze.start().unwrap();
+    let pose = Pose::new(
+        world.cell_centre(start),
+        tolman_control::heading_of(heading),
+    );
+    let body = LaserPioneer::new(robot.clone()).unwrap();
+    let mut solo = Solo::new(Arc::clone(&world), body, pose, 7).unwrap();
+    let mut outing = Outing {
+        cells: Vec::new(),
+        bumps: 0,
+    };
+    for task in tasks {
+        let mut cells = Vec::new();
+        let watch = |solo: &&mut Solo<LaserPioneer>, _: &TurnTranslate| {
+            let cell = world.cell_at(solo.truth().pose.position).unwrap();
+            if cells.last() != Some(&cell) {
+                cells.push(cell);
+            }
+            outing.bumps += u32::from(tolman_robot::Robot::sensing(solo).bump == Some(true));
+        };
+        let mut watched = Watched::new(&mut solo, 3000, watch);
+        let end = run(&mut watched, mouse, *task).unwrap().end;
+        drop(watched);
+        outing.cells.push((cells, end));
+    }
+    outing
+}
+
+#[test]
+fn it_explores_and_proves_and_runs_on_the_calibrated_pioneer() {
+    let maze = tolman_maze::read(MAZE).unwrap().maze;
+    for thickness in [0.0, 0.1] {
+        let robot = pioneer::calibrated();
+        let mut mouse =
+            MazeMouse::certify(brief(&maze).unwrap(), config(&robot, thickness)).unwrap();
+        let tasks = [Task::Explore, START, GOAL];
+        let outing = send(&maze, thickness, &robot, &mut mouse, &tasks);
+        let proof = mouse.certificate().unwrap();
+        assert_eq!(check(&proof, &maze), Ok(()));
+        let [(explored, end), (home, back), (run, done)] = &outing.cells[..] else {
+            panic!("three tasks");
+        };
+        assert_eq!([end, back, done], [&End::Done; 3]);
+        assert!(explored.contains(&Cell::new(3, 2)));
+        assert_eq!(home.last(), Some(&Cell::new(0, 0)));
+        // North three, east three, south one: the run that was proven, stop by stop.
+        assert_eq!(run.len(), 8);
+        assert!(proof.run.iter().all(|stop| run.contains(stop)));
+        assert_eq!(run.last(), Some(&Cell::new(3, 2)));
+        assert_eq!(outing.bumps, 0);
+    }
+}
+
+#[test]
+fn the_papers_target_search_runs_by_the_fewest_cells() {
+    let maze = tolman_maze::read(MAZE).unwrap().maze;
+    let robot = pioneer::calibrated();
+    let mut mouse = MazeMouse::target(brief(&maze).unwrap(), config(&robot, 0.0)).unwrap();
+    let outing = send(
+        &maze,
+        0.0,
+        &robot,
+        &mut mouse,
+        &[Task::Explore, START, GOAL],
+    );
+    let (run, end) = &outing.cells[2];
+    let shortest = maze.steps_to_goal()[0].unwrap() as usize;
+    assert_eq!((end, run.len() - 1), (&End::Done, shortest));
+}
+
+#[test]
+fn a_mouse_that_is_told_the_wrong_pitch_does_not_arrive() {
+    let maze = tolman_maze::read(MAZE).unwrap().maze;
+    let robot = pioneer::calibrated();
+    let told = MazeMouseConfig {
+        pitch: 0.7,
+        ..config(&robot, 0.0)
+    };
+    let mut mouse = MazeMouse::certify(brief(&maze).unwrap(), told).unwrap();
+    let outing = send(&maze, 0.0, &robot, &mut mouse, &[Task::Explore]);
+    assert!(matches!(outing.cells[0].1, End::GaveUp { .. }));
+    assert_eq!(mouse.certificate(), None);
+}

@@ -1,0 +1,74 @@
+//! The proof that no second run takes fewer steps.
+
+use tolman_maps::wall_map::WallMap;
+use tolman_maze::{Cell, Grid, Knowledge, Wall, Walls};
+use tolman_planners::moves::{Leap, MoveMap};
+use tolman_planners::{Passages, Unknown};
+
+use super::SIDE;
+
+/// What convinces others that a run is the best there can be, whatever the walls that nobody has
+/// looked at.
+///
+/// The run shows that it can be driven. That none is shorter is shown by a number for every cell:
+/// at most so many steps fewer than the run has are needed from here. Goals have 0, and no step
+/// over walls that are open or unknown leads to a cell whose number is smaller by more than one. So
+/// from a cell with number *k* the goal is at least *k* steps away, and all there is to check are
+/// single steps: no search.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Certificate {
+    /// The size of the maze.
+    pub grid: Grid,
+    /// Where the run begins.
+    pub start: Cell,
+    /// Where it may end.
+    pub goals: Vec<Cell>,
+    /// All walls that were looked at, and whether they stand, by number.
+    pub walls: Vec<(Wall, Knowledge)>,
+    /// The cells the run stops on, from the start to a goal.
+    pub run: Vec<Cell>,
+    /// The steps of the best run that is certain: those of `run`.
+    pub closed_cost: u32,
+    /// The steps of the best run that can be hoped for.
+    pub open_cost: u32,
+    /// For every cell, by [`Grid::index`], how many steps the goal is away at least.
+    pub at_least: Vec<u32>,
+}
+
+impl Certificate {
+    /// The proof that `run` is the best, if it is one.
+    pub(super) fn of(
+        map: &WallMap<SIDE>,
+        start: Cell,
+        goals: &[Cell],
+        run: &[Leap],
+    ) -> Option<Self> {
+        let grid = map.grid();
+        let hoped = Passages::<SIDE>::new(map, Unknown::Open);
+        let to_goal = MoveMap::new(&hoped, goals.iter().copied());
+        let open_cost = u32::from(to_goal.moves(start)?);
+        let closed_cost = u32::try_from(run.len()).ok()?;
+        if open_cost < closed_cost {
+            return None;
+        }
+        let walls = (0..grid.wall_count() as u32)
+            .map(|id| (Wall(id), map.wall(Wall(id))))
+            .filter(|(_, known)| known.is_known());
+        // What is farther than the start, or leads nowhere, needs no larger number than the start has.
+        let at_least = grid
+            .cells()
+            .map(|cell| to_goal.moves(cell).map_or(open_cost, u32::from));
+        Some(Self {
+            grid,
+            start,
+            goals: goals.to_vec(),
+            walls: walls.collect(),
+            run: core::iter::once(start)
+                .chain(run.iter().map(|leap| leap.end))
+                .collect(),
+            closed_cost,
+            open_cost,
+            at_least: at_least.map(|steps| steps.min(open_cost)).collect(),
+        })
+    }
+}

@@ -1,0 +1,175 @@
+//! The competition model of the micromouse: explore, prove, run as fast as can be.
+//!
+//! How the mouse decides is told in [`speed_run`](tolman_planners::speed_run). Here it keeps its
+//! map and its place, and answers what its wall sensors see with where to drive.
+//!
+//! ```
+//! use tolman_maze::{Cell, Direction, Grid};
+//! use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+//! use tolman_systems::micromouse::{Brief, competition::{CompetitionMouse, CompetitionNext}};
+//!
+//! let brief = Brief {
+//!     grid: Grid::new(1, 2),
+//!     start: Cell::new(0, 0),
+//!     heading: Direction::North,
+//!     goals: vec![Cell::new(0, 1)],
+//! };
+//! let config = SpeedRunConfig::classic();
+//! let times = SpeedRunTimes::<16>::new(&config)?;
+//! let mut mouse = CompetitionMouse::new(&brief, &config, &times)?;
+//! let open = |at| Direction::ALL.map(|side| side == at);
+//! assert_eq!(mouse.next(open(Direction::North))?, CompetitionNext::Drive(Direction::North));
+//! assert_eq!(mouse.next(open(Direction::South))?, CompetitionNext::Drive(Direction::South));
+//! let CompetitionNext::Finished(exploration) = mouse.next(open(Direction::North))? else {
+//!     return Err("it is home and knows all".into());
+//! };
+//! assert_eq!((exploration.cells, exploration.verdict), (2, Ok(())));
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+use thiserror::Error;
+use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
+use tolman_maze::{Cell, Direction, Walls};
+use tolman_planners::speed_run::{
+    CertificateError, Decision, SpeedRunCertificate, SpeedRunConfig, SpeedRunConfigError,
+    SpeedRunExplorer, SpeedRunTimes,
+};
+use tolman_planners::{Passages, Unknown};
+
+use super::Brief;
+
+/// What came of an exploration.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exploration {
+    /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
+    /// start.
+    pub cells: u32,
+    /// The run that the mouse found.
+    pub certificate: SpeedRunCertificate,
+    /// What the checker says to it: it sees the walls that the mouse knows, and no more.
+    pub verdict: Result<(), CertificateError>,
+}
+
+/// Why a maze cannot be explored.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ExploreError {
+    /// The mouse cannot be driven like that.
+    #[error("the mouse cannot be driven as its configuration says")]
+    Config(#[from] SpeedRunConfigError),
+    /// The maze has more than 32 columns or rows.
+    #[error("the maze does not fit into the mouse's map")]
+    TooLarge(#[from] TooLarge),
+    /// What is seen contradicts the map.
+    #[error("the mouse sees what it knows to be different")]
+    Observation(#[from] ObserveError),
+    /// The mouse knows no way to a goal.
+    #[error("the mouse in {at} sees no way to a goal any more")]
+    NoWay {
+        /// Where it is.
+        at: Cell,
+    },
+}
+
+/// What a mouse does next.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CompetitionNext {
+    /// It drives to the next cell on this side.
+    Drive(Direction),
+    /// It is back at the start, and no run is faster than the one it found.
+    Finished(Exploration),
+}
+
+/// A mouse that looks at the walls of its cell and remembers all.
+#[derive(Clone, Debug)]
+pub struct CompetitionMouse<'a, const N: usize> {
+    brief: &'a Brief,
+    config: &'a SpeedRunConfig,
+    explorer: SpeedRunExplorer<'a, N>,
+    walls: WallMap<N>,
+    at: Cell,
+    heading: Direction,
+    cells: u32,
+}
+
+impl<'a, const N: usize> CompetitionMouse<'a, N> {
+    /// Returns a mouse at the start that has seen nothing. `times` are those of `config`.
+    ///
+    /// # Errors
+    /// If the maze is larger than `N` × `N`.
+    pub fn new(
+        brief: &'a Brief,
+        config: &'a SpeedRunConfig,
+        times: &'a SpeedRunTimes<N>,
+    ) -> Result<Self, TooLarge> {
+        let (at, heading) = (brief.start, brief.heading);
+        Ok(Self {
+            brief,
+            config,
+            explorer: SpeedRunExplorer::new(times, at, heading, &brief.goals),
+            walls: WallMap::new(brief.grid, ClosedCells::Possible)?,
+            at,
+            heading,
+            cells: 0,
+        })
+    }
+
+    /// Returns what to do in the cell where the mouse stands. `open` says which of its sides no
+    /// wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search where the
+    /// run hoped for is closed.
+    ///
+    /// # Errors
+    /// If the walls contradict what was seen before, or no way leads to a goal.
+    pub fn next(&mut self, open: [bool; 4]) -> Result<CompetitionNext, ExploreError> {
+        self.walls.observe(self.at, &rays(open))?;
+        match self.explorer.decide(&self.walls, self.at, self.heading) {
+            Decision::Drive(side) => self.drive(side),
+            Decision::Finished { run_ms } => {
+                Ok(CompetitionNext::Finished(self.exploration(run_ms)))
+            }
+            Decision::Stuck => Err(ExploreError::NoWay { at: self.at }),
+        }
+    }
+
+    fn drive(&mut self, side: Direction) -> Result<CompetitionNext, ExploreError> {
+        let next = self.walls.grid().neighbour(self.at, side);
+        self.at = next.ok_or(ExploreError::NoWay { at: self.at })?;
+        self.heading = side;
+        self.cells += 1;
+        Ok(CompetitionNext::Drive(side))
+    }
+
+    fn exploration(&self, run_ms: u16) -> Exploration {
+        let Brief {
+            start,
+            heading,
+            ref goals,
+            ..
+        } = *self.brief;
+        let known = Passages::new(&self.walls, Unknown::Closed);
+        let run = self.explorer.planner().run(&known);
+        let certificate = SpeedRunCertificate {
+            start,
+            heading,
+            moves: run.map(|step| step.run_move).collect(),
+            time_ms: run_ms.into(),
+        };
+        Exploration {
+            cells: self.cells,
+            verdict: certificate.check(&self.walls, self.config, goals),
+            certificate,
+        }
+    }
+}
+
+/// What sensors see that look no farther than the walls of their own cell.
+fn rays(open: [bool; 4]) -> [Ray; 4] {
+    let mut open = open.into_iter();
+    Direction::ALL.map(|side| {
+        if open.next() == Some(true) {
+            Ray::out_of_range(side, 1)
+        } else {
+            Ray::to_wall(side, 0)
+        }
+    })
+}

@@ -1,0 +1,44 @@
+use thiserror::Error;
+use tolman_maps::wall_map::{ObserveError, TooLarge};
+
+/// Why a mouse cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlayError {
+    /// The simulator has closed its end.
+    #[error("the simulator went away and left `{command}` without a reply")]
+    HostGone {
+        /// What it was asked last.
+        command: String,
+        /// Why, if the pipe says it.
+        source: Option<std::io::Error>,
+    },
+    /// The simulator says what it cannot say.
+    #[error("the simulator replied {reply:?} to `{command}`: {expected} was expected")]
+    Reply {
+        /// What it was asked.
+        command: String,
+        /// Its reply.
+        reply: String,
+        /// What it could have said.
+        expected: &'static str,
+    },
+    /// The maze is larger than the mouse's map.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
+    /// It sees walls where it has seen none, or the other way round.
+    #[error("the mouse sees what it knows to be different")]
+    Observe(#[from] ObserveError),
+    /// No way leads to the goal.
+    #[error("the mouse has found that no way leads to the goal")]
+    NoWay,
+    /// It runs against walls it does not see.
+    #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
+    Crashes {
+        /// How often.
+        crashes: u32,
+    },
+    /// The log cannot be written.
+    #[error("the mouse's log cannot be written")]
+    Log(#[source] std::io::Error),
+}

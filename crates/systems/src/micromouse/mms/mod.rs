@@ -1,0 +1,17 @@
+//! A mouse for the simulator [mms](https://github.com/mackorone/mms): it explores, drives home, and
+//! makes the run that scores least.
+//!
+//! [`play`] speaks the protocol of mms over any two streams: a command a line out, a reply a line
+//! in. The mouse's [`Place`] lies on a lattice of half-steps, since mms scores diagonals.
+
+mod error;
+mod link;
+mod mouse;
+mod place;
+mod plan;
+mod roads;
+
+pub use error::PlayError;
+pub use mouse::{Played, Until, play};
+pub use place::{Gate, Heading, Place};
+pub use plan::best_score;

@@ -1,0 +1,61 @@
+use tolman_maze::{Cell, Direction, Grid, Walls};
+use tolman_planners::{Found, Passages, Unknown, a_star};
+
+use super::Place;
+use super::roads::{Roads, Stand, TurnsAtStart, edges};
+
+/// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in
+/// half-steps, without the tenth of all movements. Walls that are unknown count as standing; `None`
+/// if no way leads there. O(n log n) for n cells.
+#[must_use]
+pub fn best_score(walls: &impl Walls) -> Option<f32> {
+    let grid = walls.grid();
+    let passages = Passages::<32>::new(walls, Unknown::Closed);
+    let roads = Roads::new(grid, &passages, TurnsAtStart::Free);
+    let goals: Vec<Cell> = grid.middle().collect();
+    let run = plan(&roads, Stand::START, |stand| ends_run(stand, &goals))?;
+    Some(score(run.cost))
+}
+
+/// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the
+/// middle as well.
+pub(super) fn ends_run(stand: Stand, goals: &[Cell]) -> bool {
+    stand.place != Place::START && goals.contains(&stand.place.cell())
+}
+
+/// Stands one movement apart, and what the movements cost, in halves.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) stands: Vec<Stand>,
+    pub(super) cost: u32,
+}
+
+impl Plan {
+    /// The sides of cells that it drives over.
+    pub(super) fn edges(&self, grid: Grid) -> impl Iterator<Item = (Cell, Direction)> {
+        let later = self.stands.iter().skip(1);
+        let movements = self.stands.iter().zip(later);
+        movements.flat_map(move |(from, to)| edges(grid, *from, *to))
+    }
+}
+
+/// Returns the cheapest way from `from` to a stand that is a goal.
+pub(super) fn plan<const N: usize>(
+    roads: &Roads<'_, N>,
+    from: Stand,
+    is_goal: impl Fn(Stand) -> bool,
+) -> Option<Plan> {
+    let Found { path, cost, .. } = a_star(
+        roads,
+        roads.node(from),
+        |node| is_goal(roads.stand(node)),
+        |_| 0,
+    )?;
+    let stands = path.into_iter().map(|node| roads.stand(node)).collect();
+    Some(Plan { stands, cost })
+}
+
+/// Returns a cost in halves as the simulator counts it.
+pub(super) fn score(halves: u32) -> f32 {
+    halves as f32 / 2.0
+}

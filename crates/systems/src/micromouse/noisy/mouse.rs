@@ -1,0 +1,279 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_control::heading_of;
+use tolman_geom::Pose;
+use tolman_maps::wall_belief::{PoseFilter, RangeReading, WallBelief};
+use tolman_maze::{Cell, Direction};
+use tolman_planners::moves::{
+    Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
+};
+use tolman_planners::{Passages, Unknown};
+use tolman_robot::{Bumps, Ranges, Robot, TurnTranslate};
+
+use super::{Localization, NoisyMouseConfig, NoisyMouseError};
+use crate::micromouse::Brief;
+
+/// The largest maze, columns or rows.
+const SIDE: usize = 16;
+
+/// What a noisy mouse has done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoisyNext {
+    /// One step of the paper's rules.
+    Stepped,
+    /// Nothing: it believes to be done.
+    Done,
+    /// Nothing: it believes that no way leads to the goal.
+    Stuck,
+}
+
+/// A mouse that drives by what it believes.
+#[derive(Debug)]
+pub struct NoisyMouse {
+    config: NoisyMouseConfig,
+    brief: Brief,
+    filter: PoseFilter,
+    /// Where its wheels alone have brought it.
+    reckoned: Pose,
+    belief: WallBelief<SIDE>,
+    explorer: MoveExplorer<SIDE>,
+    rng: ChaCha8Rng,
+}
+
+/// Readings taken in a stop.
+const LOOKS: u32 = 4;
+/// A mouse nearer to a wall ahead does not drive on, from its middle, m.
+const TOO_NEAR: f64 = 0.055;
+/// A turn or a place this near is reached, rad and m.
+const CLOSE: (f64, f64) = (0.03, 0.004);
+/// Time steps after which a step of the paper's rules is given up.
+const PATIENCE: u32 = 200;
+
+impl NoisyMouse {
+    /// Returns a mouse at the start that has seen nothing; its filter draws from `seed`.
+    ///
+    /// # Errors
+    /// If the maze is too large or a number of the filter is out of its range.
+    pub fn new(brief: Brief, config: NoisyMouseConfig, seed: u64) -> Result<Self, NoisyMouseError> {
+        let belief = WallBelief::new(brief.grid, config.pitch, config.wall_thickness)?;
+        let pose = Pose::new(belief.middle(brief.start), heading_of(brief.heading));
+        Ok(Self {
+            config,
+            filter: PoseFilter::new(config.filter, pose)?,
+            reckoned: pose,
+            belief,
+            explorer: MoveExplorer::new(MoveExplorerConfig::tuned(), brief.start)?,
+            rng: ChaCha8Rng::seed_from_u64(seed),
+            brief,
+        })
+    }
+
+    /// Returns the pose in which runs begin, in the frame of the belief.
+    #[must_use]
+    pub fn start(&self) -> Pose {
+        let middle = self.belief.middle(self.brief.start);
+        Pose::new(middle, heading_of(self.brief.heading))
+    }
+
+    /// Tells the mouse that it was put back to the start.
+    pub fn put_back(&mut self) {
+        let pose = self.start();
+        self.filter.place(pose);
+        self.reckoned = pose;
+    }
+
+    /// Returns the walls it believes in.
+    #[must_use]
+    pub const fn belief(&self) -> &WallBelief<SIDE> {
+        &self.belief
+    }
+
+    /// Returns where it believes to be.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        match self.config.localization {
+            Localization::DeadReckoning => self.reckoned,
+            Localization::ParticleFilter => self.filter.estimate(),
+        }
+    }
+
+    /// Stands still and takes in what the range sensors see.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn look<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
+    where
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
+    {
+        for _ in 0..LOOKS {
+            self.time_step(robot, TurnTranslate::STOP)?;
+            for reading in readings(robot.sensing()) {
+                self.belief.observe(self.pose(), reading);
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes a step of the first run. It is done when it believes to have proven its run.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn explore<R>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error>
+    where
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
+    {
+        let at = self.cell();
+        let decision = self.explorer.decide(&self.belief, &self.brief.goals, at);
+        match decision {
+            MoveDecision::Drive(leap) => self.leap(robot, leap)?,
+            MoveDecision::Turn => self.turn_to(robot, self.looks_to().right())?,
+            MoveDecision::Finished { .. } => return Ok(NoisyNext::Done),
+            MoveDecision::Stuck => return Ok(NoisyNext::Stuck),
+        }
+        Ok(NoisyNext::Stepped)
+    }
+
+    /// Makes a step of the second run, planned anew at every stop. It is done when it believes to
+    /// be at a goal.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn run<R>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error>
+    where
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
+    {
+        if self.brief.goals.contains(&self.cell()) {
+            return Ok(NoisyNext::Done);
+        }
+        let Some(leap) = self.leap_to_goal() else {
+            return Ok(NoisyNext::Stuck);
+        };
+        self.leap(robot, leap)?;
+        Ok(NoisyNext::Stepped)
+    }
+
+    /// The next leap to a goal: over walls believed open, or else over those not believed to stand.
+    fn leap_to_goal(&self) -> Option<Leap> {
+        [Unknown::Closed, Unknown::Open]
+            .into_iter()
+            .find_map(|unknown| {
+                let passages = Passages::<SIDE>::new(&self.belief, unknown);
+                let map = MoveMap::new(&passages, self.brief.goals.iter().copied());
+                map.way(&passages, self.cell()).next()
+            })
+    }
+
+    /// The cell the mouse thinks it is in; the start, if it thinks that it has left the maze.
+    fn cell(&self) -> Cell {
+        self.belief
+            .cell_at(self.pose().position)
+            .unwrap_or(self.brief.start)
+    }
+
+    /// Where it looks, about.
+    fn looks_to(&self) -> Direction {
+        let pose = self.pose();
+        let off = |side: &Direction| pose.heading.turn_to(heading_of(*side)).abs();
+        Direction::ALL
+            .into_iter()
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .unwrap_or(self.brief.heading)
+    }
+
+    /// One step of the paper's rules: a turn, then cells ahead or back.
+    fn leap<R>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error>
+    where
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
+    {
+        let mut looks = self.looks_to();
+        let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
+        self.turn_to(robot, looks)?;
+        let ahead = if cells < 0 { -1.0 } else { 1.0 };
+        let target = self.belief.middle(leap.end);
+        let along = heading_of(looks).unit();
+        let left = heading_of(looks.left()).unit();
+        for _ in 0..PATIENCE {
+            let pose = self.pose();
+            let away = target - pose.position;
+            let way = ahead * away.dot(&along);
+            let front = robot
+                .sensing()
+                .scan()
+                .and_then(|scan| scan.ranges.get(1).copied());
+            let blocked = ahead > 0.0 && front.is_some_and(|range| range < TOO_NEAR);
+            if way < CLOSE.1 || blocked {
+                return Ok(());
+            }
+            // Towards the middle of the corridor, the more the farther from it.
+            let aside = (3.0 * away.dot(&left) / self.belief.pitch()).clamp(-0.4, 0.4);
+            let wanted = heading_of(looks).turned(ahead * aside);
+            let off = pose.heading.turn_to(wanted);
+            let command = TurnTranslate {
+                turn: (off / self.config.turn_per_step).clamp(-1.0, 1.0),
+                translate: ahead * (way / self.config.translate_per_step).min(1.0),
+            };
+            if self.time_step(robot, command)? {
+                // Off the wall again, and look.
+                let back = TurnTranslate {
+                    turn: 0.0,
+                    translate: -0.5 * ahead,
+                };
+                self.time_step(robot, back)?;
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    fn turn_to<R>(&mut self, robot: &mut R, side: Direction) -> Result<(), R::Error>
+    where
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
+    {
+        for _ in 0..PATIENCE {
+            let off = self.pose().heading.turn_to(heading_of(side));
+            if off.abs() < CLOSE.0 {
+                break;
+            }
+            let command = TurnTranslate {
+                turn: (off / self.config.turn_per_step).clamp(-1.0, 1.0),
+                translate: 0.0,
+            };
+            self.time_step(robot, command)?;
+        }
+        Ok(())
+    }
+
+    /// One time step; whether the mouse touched a wall.
+    fn time_step<R>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<bool, R::Error>
+    where
+        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
+    {
+        robot.step(&command)?;
+        let sensing = robot.sensing();
+        let (turn, distance) = (
+            command.turn * self.config.turn_per_step,
+            command.translate * self.config.translate_per_step,
+        );
+        self.reckoned = self.reckoned.displaced(distance, turn);
+        if self.config.localization == Localization::ParticleFilter {
+            let readings = readings(sensing);
+            self.filter.drive(distance, turn, &mut self.rng);
+            self.filter.sense(&self.belief, &readings, &mut self.rng);
+        }
+        Ok(sensing.bump() == Some(true))
+    }
+}
+
+fn readings(sensing: &impl Ranges) -> Vec<RangeReading> {
+    let Some(scan) = sensing.scan() else {
+        return Vec::new();
+    };
+    (0..)
+        .zip(&scan.ranges)
+        .map(|(beam, range)| RangeReading {
+            bearing: scan.ring.bearing(beam),
+            range: *range,
+            max_range: scan.ring.max_range,
+        })
+        .collect()
+}

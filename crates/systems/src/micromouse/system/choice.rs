@@ -1,0 +1,95 @@
+//! What a mouse does in a cell.
+
+use tolman_maze::{Cell, Direction};
+use tolman_planners::moves::Leap;
+use tolman_planners::{Passages, Unknown};
+use tolman_robot::{Goal, Landmark, Standing, Task};
+
+use super::MazeMouse;
+use crate::micromouse::{Next, Search, View};
+
+/// What to do in a cell.
+pub(super) enum Choice {
+    /// Leave it and the next ones by these sides, the last one first.
+    Drive(Vec<Direction>),
+    /// Turn right.
+    Turn,
+    /// Nothing more.
+    End(Standing),
+}
+
+impl<S: Search> MazeMouse<S> {
+    pub(super) fn choose(&mut self, task: Task) -> Choice {
+        match task {
+            Task::Explore => self.choose_to_explore(),
+            Task::Reach(goal) => match self.cells_of(goal) {
+                Some(targets) => self.choose_to_reach(&targets),
+                None => give_up("the mouse knows the start, the goals, and cells of the maze"),
+            },
+            Task::Localize => give_up("the mouse is told where it starts, and cannot find out"),
+        }
+    }
+
+    fn choose_to_explore(&mut self) -> Choice {
+        let view = View {
+            map: &self.walls,
+            at: self.at,
+            start: self.brief.start,
+            goals: &self.brief.goals,
+        };
+        match self.search.next(&view) {
+            Next::Drive(leap) => Choice::Drive(sides(&[leap])),
+            Next::Turn => Choice::Turn,
+            Next::Reset => Choice::End(Standing::Done),
+            Next::Stuck => give_up("no way leads to a goal"),
+        }
+    }
+
+    fn choose_to_reach(&self, targets: &[Cell]) -> Choice {
+        if targets.contains(&self.at) {
+            return Choice::End(Standing::Done);
+        }
+        if let Some(run) = self.run(Unknown::Closed, self.at, targets) {
+            return Choice::Drive(sides(&run));
+        }
+        // What it sees at the end of the first leap may change the rest.
+        match self.run(Unknown::Open, self.at, targets).as_deref() {
+            Some([leap, ..]) => Choice::Drive(sides(&[*leap])),
+            _ => give_up("no way leads there"),
+        }
+    }
+
+    /// The best run that is certain, or that can be hoped for.
+    pub(super) fn run(&self, unknown: Unknown, from: Cell, targets: &[Cell]) -> Option<Vec<Leap>> {
+        let passages = Passages::new(&self.walls, unknown);
+        self.run_two.plan(&passages, from, targets)
+    }
+
+    /// The cells where a goal is reached, if there are any.
+    fn cells_of(&self, goal: Goal) -> Option<Vec<Cell>> {
+        match goal {
+            Goal::Landmark(Landmark::Start) => Some(vec![self.brief.start]),
+            Goal::Landmark(Landmark::Goal) => Some(self.brief.goals.clone()),
+            Goal::Landmark(Landmark::Numbered(_)) => None,
+            Goal::Place(id) => {
+                let cell = self.brief.grid.cells().nth(id as usize)?;
+                Some(vec![cell])
+            }
+        }
+    }
+}
+
+fn give_up(why: &str) -> Choice {
+    let why = why.to_owned();
+    Choice::End(Standing::GaveUp { why })
+}
+
+/// The sides by which some leaps leave their cells, the first last.
+fn sides(leaps: &[Leap]) -> Vec<Direction> {
+    let sides = leaps
+        .iter()
+        .flat_map(|leap| (0..leap.cells).map(|_| leap.direction));
+    let mut sides: Vec<Direction> = sides.collect();
+    sides.reverse();
+    sides
+}

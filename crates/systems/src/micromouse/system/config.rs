@@ -1,0 +1,71 @@
+use thiserror::Error;
+use tolman_geom::Point;
+use tolman_maze::Cell;
+
+use super::super::MouseError;
+
+/// What a [`MazeMouse`](super::MazeMouse) knows of the maze and of its own drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MazeMouseConfig {
+    /// From the middle of a cell to the next, m. > 0.
+    pub pitch: f64,
+    /// Thickness of a wall, m. ≥ 0, below half of the pitch.
+    pub wall_thickness: f64,
+    /// Turn made in a time step at the full command, rad. > 0.
+    pub turn_per_step: f64,
+    /// Way covered in a time step at the full command, m. > 0.
+    pub translate_per_step: f64,
+}
+
+/// Why there is no such mouse.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MazeMouseError {
+    /// A number of the configuration is out of its range.
+    #[error(
+        "`{field}` is {value}; give a finite number in the range that its documentation states"
+    )]
+    Field {
+        /// The name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The mouse cannot hold the maze or search in it.
+    #[error(transparent)]
+    Mouse(#[from] MouseError),
+}
+
+impl MazeMouseConfig {
+    /// Returns the middle of a cell, in the frame of the maze.
+    #[must_use]
+    pub fn middle(&self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
+        Point::new(along(cell.x), along(cell.y))
+    }
+
+    pub(super) fn check(&self) -> Result<(), MazeMouseError> {
+        let thin = (0.0..0.5 * self.pitch).contains(&self.wall_thickness);
+        let fields = [
+            ("pitch", self.pitch, self.pitch > 0.0),
+            ("wall_thickness", self.wall_thickness, thin),
+            (
+                "turn_per_step",
+                self.turn_per_step,
+                self.turn_per_step > 0.0,
+            ),
+            (
+                "translate_per_step",
+                self.translate_per_step,
+                self.translate_per_step > 0.0,
+            ),
+        ];
+        let wrong = fields
+            .into_iter()
+            .find(|(_, value, holds)| !(*holds && value.is_finite()));
+        match wrong {
+            Some((field, value, _)) => Err(MazeMouseError::Field { field, value }),
+            None => Ok(()),
+        }
+    }
+}

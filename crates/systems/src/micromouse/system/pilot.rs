@@ -1,0 +1,130 @@
+//! The motion from cell to cell.
+
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::wall_map::Ray;
+use tolman_robot::{Compass, Ranges, Robot, Rolls, TurnTranslate};
+
+use super::whereabouts::Whereabouts;
+use super::{MazeMouseConfig, sight};
+
+/// Time steps that a way from cell to cell, or a turn, may take.
+pub(super) const PATIENCE: u32 = 100;
+
+/// Time steps in which it waits for ranges that dropped out.
+const LOOKS: u32 = 10;
+/// This near, as a share of the pitch, a place is reached.
+const CLOSE: f64 = 0.06;
+/// This near, rad, a heading is reached.
+const AIMED: f64 = 0.05;
+/// A robot that looks farther past its target than this turns before it drives, rad.
+const ASIDE: f64 = 0.15;
+/// The longest way of a time step, as a share of the pitch: the walls are to be seen meanwhile.
+const STRIDE: f64 = 0.25;
+
+/// A robot that a [`Pilot`] can drive.
+pub(super) trait Body:
+    Robot<Command = TurnTranslate, Sensing: Ranges + Compass + Rolls>
+{
+}
+
+impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Compass + Rolls>> Body for R {}
+
+/// Whether the robot came to where it was sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Arrival {
+    Arrived,
+    /// It is not there after [`PATIENCE`] time steps.
+    OutOfPatience,
+}
+
+/// Drives a robot on the grid, and knows where it is.
+#[derive(Clone, Debug)]
+pub(super) struct Pilot {
+    whereabouts: Whereabouts,
+    config: MazeMouseConfig,
+}
+
+impl Pilot {
+    pub(super) const fn new(pose: Pose, config: MazeMouseConfig) -> Self {
+        Self {
+            whereabouts: Whereabouts(pose),
+            config,
+        }
+    }
+
+    /// Returns where it believes the robot to be.
+    pub(super) const fn pose(&self) -> Pose {
+        self.whereabouts.0
+    }
+
+    /// Stands still and returns what is seen of the walls from the cell whose middle is `middle`;
+    /// `None` if the ranges stay away.
+    pub(super) fn look<R: Body>(
+        &mut self,
+        robot: &mut R,
+        middle: Point,
+    ) -> Result<Option<Vec<Ray>>, R::Error> {
+        for _ in 0..LOOKS {
+            self.step(robot, TurnTranslate::STOP)?;
+            if let Some(scan) = robot.sensing().scan() {
+                let rays = sight::rays(scan, self.pose(), middle, &self.config);
+                return Ok(Some(rays));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Turns in place to `heading`.
+    pub(super) fn turn_to<R: Body>(
+        &mut self,
+        robot: &mut R,
+        heading: Heading,
+    ) -> Result<Arrival, R::Error> {
+        for _ in 0..PATIENCE {
+            let off = self.pose().heading.turn_to(heading);
+            if off.abs() < AIMED {
+                return Ok(Arrival::Arrived);
+            }
+            self.step(robot, self.towards(off, 0.0))?;
+        }
+        Ok(Arrival::OutOfPatience)
+    }
+
+    /// Drives straight to `target`, a cell away or less.
+    pub(super) fn drive_to<R: Body>(
+        &mut self,
+        robot: &mut R,
+        target: Point,
+    ) -> Result<Arrival, R::Error> {
+        for _ in 0..PATIENCE {
+            let away = target - self.pose().position;
+            let way = away.norm();
+            if way < CLOSE * self.config.pitch {
+                return Ok(Arrival::Arrived);
+            }
+            let off = self.pose().heading.turn_to(Heading::of(away));
+            let stride = if off.abs() < ASIDE {
+                way.min(STRIDE * self.config.pitch)
+            } else {
+                0.0
+            };
+            self.step(robot, self.towards(off, stride))?;
+        }
+        Ok(Arrival::OutOfPatience)
+    }
+
+    /// The command that turns by `turn` rad and drives `distance` m, as far as a time step allows.
+    fn towards(&self, turn: f64, distance: f64) -> TurnTranslate {
+        TurnTranslate {
+            turn: (turn / self.config.turn_per_step).clamp(-1.0, 1.0),
+            translate: (distance / self.config.translate_per_step).min(1.0),
+        }
+    }
+
+    fn step<R: Body>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<(), R::Error> {
+        robot.step(&command)?;
+        self.whereabouts
+            .take_in(robot.sensing(), &command, &self.config);
+        Ok(())
+    }
+}
