@@ -58,7 +58,7 @@ pub use error::Error;
 pub use options::{Options, Program};
 pub use pairwise::{Pair, Pairwise};
 pub use progress::{Event, Progress, Remedy, Silent};
-pub use record::{Record, RecordError, RecordType};
+pub use record::{Record, RecordError, RecordType, require};
 pub use replay_file::write_replay;
 pub use replays::{Recorded, Replays};
 pub use run::{Fields, Job, Run};

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
-use super::{BoxError, Column, Fields};
+use super::{BoxError, Column, Fields, Run};
 
 /// What one run of a table measures. [`record!`](crate::record) declares the struct and its columns
 /// at once.
@@ -22,6 +22,17 @@ pub trait Record: Serialize + DeserializeOwned {
     /// What is wrong with it.
     fn check(&self) -> Result<(), String> {
         Ok(())
+    }
+
+    /// Returns the records of a row's runs, in their order.
+    ///
+    /// # Errors
+    /// [`RecordError::Read`] if one is no such record.
+    fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, RecordError> {
+        let own = runs
+            .iter()
+            .filter(|run| run.table == table && run.row == row);
+        own.map(Run::record).collect()
     }
 
     /// Returns the record as the fields of a run.
@@ -42,7 +53,7 @@ pub trait Record: Serialize + DeserializeOwned {
 /// serde among its dependencies.
 ///
 /// ```
-/// use tolman_experiment::{Metric, Record, Table, record};
+/// use tolman_experiment::{Metric, Record, Table, record, require};
 ///
 /// record! {
 ///     /// One throw.
@@ -57,10 +68,7 @@ pub trait Record: Serialize + DeserializeOwned {
 ///
 /// impl Throw {
 ///     fn is_possible(&self) -> Result<(), String> {
-///         match self.hit == self.miss.is_some() {
-///             true => Ok(()),
-///             false => Err("a dart has a distance where it hit, and only there".into()),
-///         }
+///         require(self.hit == self.miss.is_some(), "a dart has a distance where it hit")
 ///     }
 /// }
 ///
@@ -120,6 +128,17 @@ macro_rules! record {
             }
         }
     };
+}
+
+/// Says `why` a record cannot be, unless a relation between its fields `holds`.
+///
+/// # Errors
+/// `why`.
+pub fn require(holds: bool, why: &str) -> Result<(), String> {
+    match holds {
+        true => Ok(()),
+        false => Err(why.to_owned()),
+    }
 }
 
 /// Why a record and the fields of a run are not each other's.
@@ -289,10 +308,8 @@ mod tests {
 
     impl Throw {
         fn is_possible(&self) -> Result<(), String> {
-            match self.counts && self.hit.miss > 20.0 {
-                true => Err("it is counted beside the board".into()),
-                false => Ok(()),
-            }
+            let is_beside = self.hit.miss > 20.0;
+            require(!self.counts || !is_beside, "it is counted beside the board")
         }
     }
 
