@@ -3,8 +3,8 @@
 use alloc::collections::BTreeSet;
 
 use super::{
-    BoxError, Error, Experiment, Field, Kind, Measure, Metric, Options, Presence, Run, Settling,
-    Statistic, Tolerance, plots,
+    BoxError, Column, Error, Experiment, Kind, Metric, Options, Presence, Run, Settling, Statistic,
+    Table, Tolerance, plots,
 };
 use tolman_draw::Figure;
 
@@ -94,22 +94,16 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 "{place} is compared with {name:?}, which is no row"
             ));
         }
-        if let Some(name) = repeated(table.fields.iter().map(|field| &field.name)) {
-            return refuse(format!("{place} has two fields named {name:?}"));
-        }
-        let mut names = table.fields.iter().map(|field| &field.name);
-        if let Some(name) = names.find(|name| RESERVED.contains(&name.as_str())) {
-            return refuse(format!(
-                "{place} has a field {name:?}, which identifies a run"
-            ));
+        if let Some(what) = columns(table) {
+            return refuse(format!("{place}: {what}"));
         }
         for metric in &table.metrics {
             if let Some(what) = unsound(metric) {
                 return refuse(format!("{place} has the metric {:?} {what}", metric.name));
             }
             if let Statistic::Settling(Settling { curve, .. }) = &metric.statistic {
-                let is_it = |field: &Measure| field.name == *curve && field.kind == Kind::Curve;
-                if !table.fields.iter().any(is_it) {
+                let column = table.record.column(curve);
+                if column.is_none_or(|column| column.kind != Kind::Curve) {
                     return refuse(format!(
                         "{place} has the metric {:?} of {curve:?}, which is no curve",
                         metric.name
@@ -128,8 +122,8 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
                 Statistic::Settling(Settling { level, scale, .. }) => (&[level, scale], NUMERIC),
             };
             let measured = |name: &String| {
-                let mut fields = table.fields.iter();
-                fields.any(|field| field.name == *name && kinds.contains(&field.kind))
+                let column = table.record.column(name);
+                column.is_some_and(|column| kinds.contains(&column.kind))
             };
             if let Some(name) = fields.iter().find(|name| !measured(name)) {
                 return refuse(format!(
@@ -143,6 +137,22 @@ pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
         return refuse(what);
     }
     Ok(())
+}
+
+/// Says what is wrong with the columns of a table; `None` if nothing is.
+fn columns(table: &Table) -> Option<String> {
+    let columns = table.record.columns();
+    if let Some(name) = repeated(columns.iter().map(|column| &column.field)) {
+        return Some(format!("two fields are named {name:?}"));
+    }
+    let reserved = |column: &&Column| RESERVED.contains(&column.field.as_str());
+    if let Some(Column { field, .. }) = columns.iter().find(reserved) {
+        return Some(format!("the field {field:?} identifies a run"));
+    }
+    if let Some(Column { field, .. }) = columns.iter().find(|column| column.is_void()) {
+        return Some(format!("the range of {field:?} leaves no value"));
+    }
+    table.record.compare().err().map(|error| error.to_string())
 }
 
 /// What no value can be measured or judged by.
@@ -166,35 +176,31 @@ pub(super) const RESERVED: [&str; 4] = ["table", "row", "run", "seed"];
 
 const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
 
-/// Refuses a run, just played or read back, whose fields are not those of its table, which JSON cannot
-/// hold, or which the experiment cannot have measured.
+/// Refuses a run, just played or read back, that is no record of its table or has a value that none can
+/// have.
 pub(super) fn run(experiment: &dyn Experiment, run: &Run) -> Result<(), BoxError> {
     let mut tables = experiment.tables().iter();
-    let expected = tables
-        .find(|table| table.name == run.table)
-        .map_or(&[][..], |table| &table.fields);
+    let Some(table) = tables.find(|table| table.name == run.table) else {
+        return Err(format!("there is no table {:?}", run.table).into());
+    };
     for (name, field) in run.fields.iter() {
-        let Some(measure) = expected.iter().find(|measure| measure.name == name) else {
+        let Some(column) = table.record.column(name) else {
             return Err(format!("{name:?} is no field of the table's runs").into());
         };
-        if field.kind() != measure.kind {
-            return Err(format!("{name} is {field:?} and not a {:?}", measure.kind).into());
+        if field.kind() != column.kind {
+            return Err(format!("{name} is {field:?} and not a {:?}", column.kind).into());
         }
-        let numbers = match field {
-            Field::Number(value) => core::slice::from_ref(value),
-            Field::Curve(values) => values,
-            Field::Flag(_) | Field::Count(_) | Field::Text(_) => &[],
-        };
-        if let Some(value) = numbers.iter().find(|value| !value.is_finite()) {
-            return Err(format!("{name} is {value}; measured values must be finite").into());
+        if let Some(what) = field.numbers().find_map(|value| column.refusal(value)) {
+            return Err(what.into());
         }
     }
-    let lacking = expected.iter().find(|measure| {
-        measure.presence == Presence::Always && run.fields.get(&measure.name).is_none()
+    let mut needed = table.record.columns().iter();
+    let lacking = needed.find(|column| {
+        column.presence == Presence::Always && run.fields.get(&column.field).is_none()
     });
     match lacking {
-        Some(measure) => Err(format!("it has no field {:?}", measure.name).into()),
-        None => experiment.check(run),
+        Some(column) => Err(format!("it has no field {:?}", column.field).into()),
+        None => table.record.check(&run.fields),
     }
 }
 

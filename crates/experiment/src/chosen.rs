@@ -79,10 +79,6 @@ impl Experiment for Chosen {
         self.experiment.run(job)
     }
 
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        self.experiment.check(run)
-    }
-
     /// Those of the chosen tables; figures of several tables are left out.
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = self.experiment.figures(runs)?;

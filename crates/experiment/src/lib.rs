@@ -7,6 +7,11 @@
 //! Each run is keyed by table, row and index. Its seed comes from the master seed, the table and
 //! the index, *not* the row, so that every row of a table meets the same starts and the same noise
 //! and rows can be compared in pairs.
+//!
+//! What a run measures is a [`Record`]: a struct whose fields carry title, unit, direction of better,
+//! tolerance, range and definition, declared once by [`record!`]. Results that lie in a folder are
+//! reused only if they are in their ranges and pass [`Record::check`]; a run just played that does not
+//! is an error.
 
 extern crate alloc;
 
@@ -16,6 +21,7 @@ mod build;
 mod catalogue;
 mod check;
 mod chosen;
+mod column;
 mod compare;
 mod config_file;
 mod error;
@@ -26,6 +32,7 @@ mod options;
 mod pairwise;
 mod plots;
 mod progress;
+mod record;
 mod replay_file;
 mod replays;
 mod report;
@@ -45,21 +52,21 @@ mod verdict;
 pub use analysis::{Analysis, Contrast, Disagreement, Measured, MetricAnalysis, TableAnalysis};
 pub use build::Build;
 pub use catalogue::{Entry, open};
+pub use column::{Better, Column, Kind, Presence, Value};
 pub use compare::{Differences, compare};
 pub use error::Error;
 pub use options::{Options, Program};
 pub use pairwise::{Pair, Pairwise};
 pub use progress::{Event, Progress, Remedy, Silent};
+pub use record::{Record, RecordError, RecordType, require};
 pub use replay_file::write_replay;
 pub use replays::{Recorded, Replays};
-pub use run::{Field, Fields, Job, Kind, Run};
+pub use run::{Fields, Job, Run};
 pub use runner::{Outcome, execute};
 pub use seed::run_seed;
 pub use settling::{Reached, Settling};
 pub use summary::{P_TABLE, Summary, SummaryRow};
-pub use table::{
-    Comparison, Correction, Measure, Metric, PaperValue, Presence, Row, Statistic, Table, Tolerance,
-};
+pub use table::{Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance};
 pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text};
 pub use verdict::{Basis, Verdict};
@@ -77,7 +84,15 @@ pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 /// One paper's tables and how to fill them.
 ///
 /// ```
-/// use tolman_experiment::{BoxError, Experiment, Fields, Job, Kind, Metric, Row, Table};
+/// use tolman_experiment::{BoxError, Experiment, Fields, Job, Metric, Record, Row, Table, record};
+///
+/// record! {
+///     /// One game.
+///     struct Game {
+///         /// Tosses until the coin showed heads.
+///         tosses: u32 => neither("tosses").at_least(1),
+///     }
+/// }
 ///
 /// /// Tosses a coin until it shows heads.
 /// struct Coin {
@@ -101,17 +116,16 @@ pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 ///         Ok(toml::Table::new())
 ///     }
 ///     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-///         Ok(Fields::new().number("tosses", f64::from(job.seed.trailing_zeros() + 1)))
+///         Ok(Game { tosses: job.seed.trailing_zeros() + 1 }.fields()?)
 ///     }
 /// }
 ///
-/// let table = Table::new("1", "A fair coin")
-///     .field("tosses", Kind::Number)
-///     .metric(Metric::mean("tosses"))
+/// let table = Table::of::<Game>("1", "A fair coin")
+///     .metric(Metric::mean(Game::tosses))
 ///     .row(Row::new("fair"));
 /// let coin = Coin { tables: vec![table] };
 /// let job = Job { table: "1", row: "fair", run: 0, seed: 8 };
-/// assert_eq!(coin.run(&job)?, Fields::new().number("tosses", 4.0));
+/// assert_eq!(coin.run(&job)?.record::<Game>()?.tosses, 4);
 /// # Ok::<(), BoxError>(())
 /// ```
 pub trait Experiment: Sync {
@@ -156,17 +170,6 @@ pub trait Experiment: Sync {
     /// # Errors
     /// If the run cannot be played at all. That a robot does not arrive is a result, not an error.
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError>;
-
-    /// Refuses a run whose fields are of the right kinds but cannot be what [`Self::run`] measures.
-    /// Results that lie in a folder are reused only if they pass; a run just played that does not is
-    /// an error.
-    ///
-    /// # Errors
-    /// What is wrong with the run.
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        let _ = run;
-        Ok(())
-    }
 
     /// Pictures beside the box plots that every experiment gets. `runs` is complete and sorted by
     /// table, row and index; a run can be played again from its [`Run::job`].

@@ -1,6 +1,7 @@
 //! The box plots that every experiment gets.
 
-use super::{Experiment, Field, Metric, Run, Statistic, Table};
+use super::run::Field;
+use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
 /// One box plot for every field of which a metric is the mean or the median, in the order of tables and

@@ -1,8 +1,11 @@
 //! One run: what identifies it and what came of it.
 
 use alloc::collections::BTreeMap;
+use core::any::type_name;
 
 use serde::{Deserialize, Serialize};
+
+use super::{Column, Kind, Record, RecordError};
 
 /// A run to be played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,63 +46,71 @@ impl Run {
             seed: self.seed,
         }
     }
+
+    /// Returns what was measured, as the record of its table.
+    ///
+    /// # Errors
+    /// [`RecordError::Read`] if it is no such record.
+    pub fn record<T: Record>(&self) -> Result<T, RecordError> {
+        self.fields.record()
+    }
 }
 
-/// What one run measured, by name. Alphabetical, so that equal fields are written equally.
+/// What one run measured, by name: a [`Record`](super::Record) without its type. Alphabetical, so that
+/// equal fields are written equally.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Fields(BTreeMap<String, Field>);
 
 impl Fields {
-    /// No fields.
-    pub fn new() -> Self {
-        Self::default()
+    /// Returns the fields of a record; what is `None` is left out.
+    pub(super) fn of<T: Record + ?Sized>(record: &T) -> Result<Self, RecordError> {
+        let written = toml::Table::try_from(record).map_err(|source| RecordError::Write {
+            record: type_name::<T>(),
+            source,
+        })?;
+        let fields = written.into_iter().map(|(name, value)| {
+            let field = Field::read(&value).ok_or_else(|| RecordError::NoField {
+                field: name.clone(),
+                value: value.to_string(),
+            })?;
+            Ok((name, field))
+        });
+        fields.collect::<Result<_, _>>().map(Self)
     }
 
-    /// Adds a yes or no.
-    #[must_use]
-    pub fn flag(self, name: impl Into<String>, value: bool) -> Self {
-        self.field(name, Field::Flag(value))
+    /// Returns the record that has these fields.
+    ///
+    /// # Errors
+    /// [`RecordError::Read`] if a field is missing or of another kind.
+    pub fn record<T: Record>(&self) -> Result<T, RecordError> {
+        let fields = self.0.iter();
+        let table: toml::Table = fields
+            .map(|(name, field)| (name.clone(), field.written()))
+            .collect();
+        table.try_into().map_err(|source| RecordError::Read {
+            record: type_name::<T>(),
+            source,
+        })
     }
 
-    /// Adds a count.
-    #[must_use]
-    pub fn count(self, name: impl Into<String>, value: u64) -> Self {
-        self.field(name, Field::Count(value))
+    /// Returns one field for each column.
+    pub(super) fn sample(columns: &[Column]) -> Self {
+        let columns = columns.iter();
+        Self(
+            columns
+                .map(|column| (column.field.clone(), Field::sample(column.kind)))
+                .collect(),
+        )
     }
 
-    /// Adds a measured number. The runner refuses one that is not finite.
-    #[must_use]
-    pub fn number(self, name: impl Into<String>, value: f64) -> Self {
-        self.field(name, Field::Number(value))
-    }
-
-    /// Adds a word, such as an outcome.
-    #[must_use]
-    pub fn text(self, name: impl Into<String>, value: impl Into<String>) -> Self {
-        self.field(name, Field::Text(value.into()))
-    }
-
-    /// Adds numbers at equal steps. The runner refuses any that is not finite.
-    #[must_use]
-    pub fn curve(self, name: impl Into<String>, values: Vec<f64>) -> Self {
-        self.field(name, Field::Curve(values))
-    }
-
-    /// Adds any field, in place of one of the same name.
-    #[must_use]
-    pub fn field(mut self, name: impl Into<String>, field: Field) -> Self {
-        self.0.insert(name.into(), field);
-        self
-    }
-
-    /// The field of a name.
-    pub fn get(&self, name: &str) -> Option<&Field> {
+    /// Returns the field of a name.
+    pub(super) fn get(&self, name: &str) -> Option<&Field> {
         self.0.get(name)
     }
 
-    /// All fields, alphabetically.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &Field)> {
+    /// Returns all fields, alphabetically.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &Field)> {
         self.0.iter().map(|(name, field)| (name.as_str(), field))
     }
 }
@@ -107,7 +118,7 @@ impl Fields {
 /// One measured value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
-pub enum Field {
+pub(super) enum Field {
     /// Yes or no.
     Flag(bool),
     /// A count.
@@ -120,24 +131,56 @@ pub enum Field {
     Curve(Vec<f64>),
 }
 
-/// What a field holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// [`Field::Flag`].
-    Flag,
-    /// [`Field::Count`].
-    Count,
-    /// [`Field::Number`].
-    Number,
-    /// [`Field::Text`].
-    Text,
-    /// [`Field::Curve`].
-    Curve,
-}
-
 impl Field {
+    /// Returns the field that serde wrote as `value`; `None` if it is none.
+    fn read(value: &toml::Value) -> Option<Self> {
+        Some(match value {
+            toml::Value::Boolean(flag) => Self::Flag(*flag),
+            toml::Value::Integer(count) => Self::Count(u64::try_from(*count).ok()?),
+            toml::Value::Float(number) => Self::Number(*number),
+            toml::Value::String(text) => Self::Text(text.clone()),
+            toml::Value::Array(values) => {
+                let values = values.iter().map(toml::Value::as_float);
+                Self::Curve(values.collect::<Option<_>>()?)
+            }
+            toml::Value::Datetime(_) | toml::Value::Table(_) => return None,
+        })
+    }
+
+    /// Returns what serde reads as this field.
+    #[expect(
+        clippy::cast_possible_wrap,
+        reason = "counts of steps stay far below 2^63"
+    )]
+    fn written(&self) -> toml::Value {
+        match self {
+            Self::Flag(flag) => (*flag).into(),
+            Self::Count(count) => (*count as i64).into(),
+            Self::Number(number) => (*number).into(),
+            Self::Text(text) => text.as_str().into(),
+            Self::Curve(values) => values.clone().into(),
+        }
+    }
+
+    /// Returns the numbers that the range of a column is for.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let curve = self.as_curve().unwrap_or_default().iter().copied();
+        self.as_number().into_iter().chain(curve)
+    }
+
+    /// Returns any field of a kind.
+    fn sample(kind: Kind) -> Self {
+        match kind {
+            Kind::Flag => Self::Flag(false),
+            Kind::Count => Self::Count(1),
+            Kind::Number => Self::Number(0.5),
+            Kind::Text => Self::Text(String::new()),
+            Kind::Curve => Self::Curve(vec![0.5]),
+        }
+    }
+
     /// What it holds.
-    pub const fn kind(&self) -> Kind {
+    pub(super) const fn kind(&self) -> Kind {
         match self {
             Self::Flag(_) => Kind::Flag,
             Self::Count(_) => Kind::Count,
@@ -152,7 +195,7 @@ impl Field {
         clippy::cast_precision_loss,
         reason = "counts of steps stay far below 2^53"
     )]
-    pub fn as_number(&self) -> Option<f64> {
+    pub(super) fn as_number(&self) -> Option<f64> {
         match self {
             Self::Count(count) => Some(*count as f64),
             Self::Number(number) => Some(*number),
@@ -161,23 +204,15 @@ impl Field {
     }
 
     /// The flag.
-    pub fn as_flag(&self) -> Option<bool> {
+    pub(super) fn as_flag(&self) -> Option<bool> {
         match self {
             Self::Flag(flag) => Some(*flag),
             Self::Count(_) | Self::Number(_) | Self::Text(_) | Self::Curve(_) => None,
         }
     }
 
-    /// The word.
-    pub fn as_text(&self) -> Option<&str> {
-        match self {
-            Self::Text(text) => Some(text),
-            Self::Flag(_) | Self::Count(_) | Self::Number(_) | Self::Curve(_) => None,
-        }
-    }
-
     /// The numbers of a curve.
-    pub fn as_curve(&self) -> Option<&[f64]> {
+    pub(super) fn as_curve(&self) -> Option<&[f64]> {
         match self {
             Self::Curve(values) => Some(values),
             Self::Flag(_) | Self::Count(_) | Self::Number(_) | Self::Text(_) => None,

@@ -3,8 +3,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use super::run::Field;
 use super::settling::settles;
-use super::{Field, Reached, Run, Settling, Statistic};
+use super::{Reached, Run, Settling, Statistic};
 use tolman_stats::Interval;
 
 /// Resamples of the bootstrap.

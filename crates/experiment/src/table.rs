@@ -1,6 +1,6 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
-use super::{Kind, Pairwise, Settling};
+use super::{Better, Column, Pairwise, Record, RecordType, Settling};
 use tolman_stats::PValue;
 
 /// One table of a paper.
@@ -13,7 +13,7 @@ pub struct Table {
     /// The rows, in the order they are shown.
     pub rows: Vec<Row>,
     /// What its runs measure. A run with other fields is no run of this table.
-    pub fields: Vec<Measure>,
+    pub record: RecordType,
     /// What is measured of every row, in the order it is shown.
     pub metrics: Vec<Metric>,
     /// How many runs each of the paper's rows has, where it says so.
@@ -28,13 +28,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table.
-    pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
+    /// Returns an empty table whose runs measure a `T`.
+    pub fn of<T: Record>(name: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
             name: name.into(),
             title: title.into(),
             rows: Vec::new(),
-            fields: Vec::new(),
+            record: RecordType::of::<T>(),
             metrics: Vec::new(),
             paper_runs: None,
             comparison: None,
@@ -56,31 +56,26 @@ impl Table {
         self.rows.iter().any(|row| row.runs != Some(0))
     }
 
-    /// Says that every run has this field.
+    /// Refuses runs of this table with more than `high` of a field.
     #[must_use]
-    pub fn field(mut self, name: impl Into<String>, kind: Kind) -> Self {
-        self.fields.push(Measure {
-            name: name.into(),
-            kind,
-            presence: Presence::Always,
-        });
+    pub fn at_most(mut self, field: &str, high: impl Into<f64>) -> Self {
+        if let Some(column) = self.record.column_mut(field) {
+            column.high = Some(high.into());
+        }
         self
     }
 
-    /// Says that a run may have this field.
+    /// Adds a metric, which summarizes fields of the table. What it does not say of itself it takes
+    /// from the column of its field.
     #[must_use]
-    pub fn optional_field(mut self, name: impl Into<String>, kind: Kind) -> Self {
-        self.fields.push(Measure {
-            name: name.into(),
-            kind,
-            presence: Presence::Sometimes,
-        });
-        self
-    }
-
-    /// Adds a metric, which summarizes fields of the table.
-    #[must_use]
-    pub fn metric(mut self, metric: Metric) -> Self {
+    pub fn metric(mut self, mut metric: Metric) -> Self {
+        let field = metric.statistic.of();
+        if let Some(column) = field.and_then(|field| self.record.column(field)) {
+            metric.complete(column);
+        }
+        if metric.title.is_empty() {
+            metric.title.clone_from(&metric.name);
+        }
         self.metrics.push(metric);
         self
     }
@@ -115,26 +110,6 @@ impl Table {
         });
         self
     }
-}
-
-/// A field of a table's runs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Measure {
-    /// The name of the field.
-    pub name: String,
-    /// What it holds.
-    pub kind: Kind,
-    /// Whether every run has it.
-    pub presence: Presence,
-}
-
-/// Whether every run has a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Presence {
-    /// Every run has it.
-    Always,
-    /// Some runs have it.
-    Sometimes,
 }
 
 /// How the rows of a table are compared.
@@ -252,56 +227,92 @@ pub struct PaperValue {
 pub struct Metric {
     /// The name it has in `summary.json`, such as `success_percent`.
     pub name: String,
-    /// The name it has on a page, such as `success`.
+    /// The name it has on a page, such as `success`; empty until the table's column says it.
     pub title: String,
     /// The unit, shown behind the title; empty if there is none.
     pub unit: String,
     /// How the runs are summarized.
     pub statistic: Statistic,
-    /// How many decimals its values are shown with.
-    pub decimals: u8,
+    /// Which way its values are better; `None` until the table's column says it.
+    pub better: Option<Better>,
+    /// What is measured, in a sentence.
+    pub definition: String,
+    /// How many decimals its values are shown with; `None`: two, unless the column says it.
+    pub decimals: Option<u8>,
     /// How far our value may lie from the paper's and still match.
     pub tolerance: Option<Tolerance>,
 }
 
 impl Metric {
-    fn new(name: impl Into<String>, decimals: u8, statistic: Statistic) -> Self {
-        let name = name.into();
+    fn new(name: impl Into<String>, statistic: Statistic) -> Self {
         Self {
-            title: name.clone(),
-            name,
+            name: name.into(),
+            title: String::new(),
             unit: String::new(),
             statistic,
-            decimals,
+            better: None,
+            definition: String::new(),
+            decimals: None,
             tolerance: None,
         }
     }
 
+    /// Takes over what the column of its field says, where it says nothing itself.
+    fn complete(&mut self, column: &Column) {
+        self.better = self.better.or(Some(column.better));
+        if self.definition.is_empty() {
+            self.definition.clone_from(&column.definition);
+        }
+        // How many times a row's value is neither titled nor measured as the value is.
+        if matches!(self.statistic, Statistic::Multiple { .. }) {
+            return;
+        }
+        if self.title.is_empty() {
+            self.title.clone_from(&column.title);
+        }
+        if self.unit.is_empty() {
+            self.unit.clone_from(&column.unit);
+        }
+        self.decimals = self.decimals.or(column.decimals);
+        self.tolerance = self.tolerance.or(column.tolerance);
+    }
+
+    /// Returns the definition and which way is better, as a reader is told them.
+    pub fn explanation(&self) -> String {
+        let better = self.better.unwrap_or_default().sentence();
+        let sentences = [self.definition.as_str(), better];
+        let told: Vec<&str> = sentences.into_iter().filter(|s| !s.is_empty()).collect();
+        told.join(" ")
+    }
+
+    /// Returns the number of decimals shown.
+    pub(super) fn places(&self) -> usize {
+        usize::from(self.decimals.unwrap_or(2))
+    }
+
     /// The mean of the numeric field that bears the metric's name.
     pub fn mean(name: impl Into<String>) -> Self {
-        let name = name.into();
-        let field = name.clone();
-        Self::new(name, 2, Statistic::Mean { field })
+        let field = name.into();
+        Self::new(field.clone(), Statistic::Mean { field })
     }
 
     /// The median of a numeric field, by definition R-7; its interval is that of order statistics.
     pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
         let field = field.into();
-        Self::new(name, 2, Statistic::Median { field })
+        Self::new(name, Statistic::Median { field })
     }
 
     /// The least of a numeric field.
     pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
         let field = field.into();
-        Self::new(name, 2, Statistic::Least { field })
+        Self::new(name, Statistic::Least { field })
     }
 
     /// The percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
         let field = field.into();
-        let title = field.clone();
-        let metric = Self::new(name, 1, Statistic::Percent { field });
-        metric.titled(title).unit("%")
+        let metric = Self::new(name, Statistic::Percent { field });
+        metric.unit("%").decimals(1)
     }
 
     /// In how many of `whole` runs the flag named `field` is set, as a paper that made that many
@@ -317,9 +328,8 @@ impl Metric {
     /// ```
     pub fn count_of(name: impl Into<String>, field: impl Into<String>, whole: u32) -> Self {
         let field = field.into();
-        let title = field.clone();
-        let metric = Self::new(name, 1, Statistic::Count { field, whole });
-        metric.titled(title).unit(format!("of {whole}"))
+        let metric = Self::new(name, Statistic::Count { field, whole });
+        metric.unit(format!("of {whole}")).decimals(1)
     }
 
     /// The sum of one numeric field over all runs divided by the sum of another.
@@ -329,7 +339,7 @@ impl Metric {
         under: impl Into<String>,
     ) -> Self {
         let (over, under) = (over.into(), under.into());
-        Self::new(name, 2, Statistic::Ratio { over, under })
+        Self::new(name, Statistic::Ratio { over, under })
     }
 
     /// The sum of a numeric field over all runs divided by its sum over the runs of the row named `of` that
@@ -340,12 +350,20 @@ impl Metric {
         of: impl Into<String>,
     ) -> Self {
         let (field, of) = (field.into(), of.into());
-        Self::new(name, 2, Statistic::Multiple { field, of })
+        Self::new(name, Statistic::Multiple { field, of })
     }
 
     /// When the mean of the runs' curves settles.
     pub fn settling(name: impl Into<String>, settling: Settling) -> Self {
-        Self::new(name, 0, Statistic::Settling(settling))
+        let metric = Self::new(name, Statistic::Settling(settling));
+        metric.decimals(0).better(Better::Lower)
+    }
+
+    /// Sets the name in `summary.json`, where several metrics are of one field.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
     }
 
     /// Sets the name shown on a page.
@@ -362,10 +380,24 @@ impl Metric {
         self
     }
 
+    /// Sets which way values are better.
+    #[must_use]
+    pub const fn better(mut self, better: Better) -> Self {
+        self.better = Some(better);
+        self
+    }
+
+    /// Sets what is measured, in a sentence.
+    #[must_use]
+    pub fn defined(mut self, definition: impl Into<String>) -> Self {
+        self.definition = definition.into();
+        self
+    }
+
     /// Sets how many decimals values are shown with.
     #[must_use]
     pub const fn decimals(mut self, decimals: u8) -> Self {
-        self.decimals = decimals;
+        self.decimals = Some(decimals);
         self
     }
 
@@ -383,7 +415,7 @@ impl Metric {
 pub enum Statistic {
     /// 100 × the share of runs whose flag is set.
     Percent {
-        /// A field of [`Field::Flag`](crate::Field::Flag).
+        /// A field of [`Kind::Flag`](crate::Kind::Flag).
         field: String,
     },
     /// The mean of a field.
@@ -403,7 +435,7 @@ pub enum Statistic {
     },
     /// `whole` × the share of runs whose flag is set.
     Count {
-        /// A field of [`Field::Flag`](crate::Field::Flag).
+        /// A field of [`Kind::Flag`](crate::Kind::Flag).
         field: String,
         /// How many runs the paper counts in.
         whole: u32,
@@ -424,6 +456,21 @@ pub enum Statistic {
     },
     /// When the mean of curves settles; see [`Settling`].
     Settling(Settling),
+}
+
+impl Statistic {
+    /// Returns the one field whose column says what is measured; none of a ratio or a settling.
+    fn of(&self) -> Option<&str> {
+        match self {
+            Self::Percent { field }
+            | Self::Mean { field }
+            | Self::Median { field }
+            | Self::Least { field }
+            | Self::Count { field, .. }
+            | Self::Multiple { field, .. } => Some(field),
+            Self::Ratio { .. } | Self::Settling(_) => None,
+        }
+    }
 }
 
 /// How far our value may lie from the paper's and still match it.

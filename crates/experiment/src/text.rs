@@ -28,7 +28,7 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
 
 /// A value in the form of papers: `73.16 ± 70.23`, `68.0`.
 pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) -> String {
-    let decimals = usize::from(metric.decimals);
+    let decimals = metric.places();
     match sd {
         Some(sd) => format!("{value:.decimals$} ± {sd:.decimals$}"),
         None => format!("{value:.decimals$}"),

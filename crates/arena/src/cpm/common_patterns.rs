@@ -24,6 +24,8 @@ const LANDMARK: f64 = 100.0;
 
 /// How long a robot wanders to learn its common patterns.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Lesson {
     /// Until it has so many observations; the paper's simulated robot had 1000 (section 5).
     Observations(usize),

@@ -42,6 +42,8 @@ pub struct Trial<'a> {
 
 /// How a robot maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Mode {
     /// As the paper's: no dead reckoning.
     Paper(CpmConfig),

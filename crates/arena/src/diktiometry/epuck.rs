@@ -26,6 +26,7 @@ use crate::episode::stream;
 
 /// How an e-puck surveys a maze.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub struct EpuckSurveyConfig {
     /// How many moves are made, each from one place to the next.
     pub moves: u32,

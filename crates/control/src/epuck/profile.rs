@@ -26,6 +26,8 @@ pub(super) enum Met {
 
 /// How the eight vectors of a sweep become one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Alignment {
     /// Each sensor's vector is turned by the angle it is mounted at first, so that one bearing is averaged with itself.
     #[default]

@@ -45,6 +45,7 @@ pub struct Segment {
 
 /// How a profile is segmented.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SegmentConfig {
     /// δ: over how many samples a change is averaged, at least 1. The paper calls it the estimated error and gives no value.
     pub window: u32,

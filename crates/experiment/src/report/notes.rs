@@ -108,7 +108,7 @@ fn tolerances(metrics: &[&Metric]) -> String {
         let Some(tolerance) = metric.tolerance else {
             continue;
         };
-        let decimals = usize::from(metric.decimals);
+        let decimals = metric.places();
         let text = match (tolerance, &metric.statistic) {
             (Tolerance::Absolute(points), Statistic::Percent { .. }) => {
                 format!("{} within ± {points:.0} percentage points", metric.title)

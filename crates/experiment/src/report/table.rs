@@ -88,7 +88,11 @@ fn sortable(column: &str, title: &Markup) -> Markup {
 fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysis) -> Markup {
     html! {
         tbody data-metric=(metric.metric.name) {
-            tr.metric { th colspan=(columns.count()) scope="rowgroup" { (heading(&metric.metric)) } }
+            tr.metric {
+                th colspan=(columns.count()) scope="rowgroup" title=[explained(&metric.metric)] {
+                    (heading(&metric.metric))
+                }
+            }
             @for measured in &metric.rows {
                 @let place = analysis.table.rows.iter().position(|row| row.name == measured.row);
                 (row(columns, &metric.metric, measured, place.unwrap_or(0)))
@@ -97,8 +101,14 @@ fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysi
     }
 }
 
+/// What a reader is told who points at the heading of a metric; `None` if there is nothing.
+fn explained(metric: &Metric) -> Option<String> {
+    let explanation = metric.explanation();
+    (!explanation.is_empty()).then_some(explanation)
+}
+
 fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize) -> Markup {
-    let decimals = usize::from(metric.decimals);
+    let decimals = metric.places();
     let series = Series(u32::try_from(place).unwrap_or(0));
     let also = also(metric, measured);
     html! {
@@ -159,7 +169,7 @@ fn magnitude(a12: f64) -> &'static str {
 }
 
 fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
-    let decimals = usize::from(metric.decimals);
+    let decimals = metric.places();
     html! {
         @if let Some(Verdict { matches, accepted, .. }) = verdict {
             td.verdict data-column="verdict" data-value=(if matches { "matches" } else { "differs" }) {
@@ -178,7 +188,7 @@ fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
 
 /// The median beside a mean, the mean beside a median.
 fn also(metric: &Metric, measured: &Measured) -> Option<String> {
-    let decimals = usize::from(metric.decimals);
+    let decimals = metric.places();
     match metric.statistic {
         Statistic::Mean { .. } => measured
             .median

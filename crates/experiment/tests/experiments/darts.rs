@@ -4,7 +4,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_draw::{Figure, Plan, Series, Zone};
 use tolman_experiment::{
-    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Row, Run, Table, Tolerance,
+    Better, BoxError, Correction, Experiment, Fields, Job, Metric, Record, Row, Run, Table,
+    Tolerance, record,
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{Replay, Scenery, Track};
@@ -12,6 +13,20 @@ use tolman_robot::Body;
 
 /// The most darts of a run.
 const DARTS: u32 = 10;
+
+record! {
+    /// What a run measures.
+    pub(crate) struct Throws {
+        /// Whether a dart hit.
+        success: bool => higher("success").tolerance(Tolerance::Absolute(15.0)),
+        /// Number of darts thrown.
+        throws: u64 => lower("throws").at_least(1).at_most(DARTS).tolerance(Tolerance::Relative(0.35)),
+        /// How the run ended.
+        outcome: Option<String> => neither("outcome"),
+        /// Distance of the last dart from the middle.
+        miss: Option<f64> => lower("last miss").unit("m").at_least(0),
+    }
+}
 
 /// The experiment. Its fields are what tests change.
 pub(crate) struct Darts {
@@ -25,18 +40,15 @@ pub(crate) struct Darts {
 impl Darts {
     pub(crate) fn new() -> Self {
         let table = |name: &str, title: &str| {
-            Table::new(name, title)
-                .field("success", Kind::Flag)
-                .field("throws", Kind::Count)
-                .optional_field("outcome", Kind::Text)
-                .optional_field("miss", Kind::Number)
+            Table::of::<Throws>(name, title)
+                .metric(Metric::percent("success_percent", Throws::success))
+                .metric(Metric::mean(Throws::throws))
+                .metric(Metric::mean(Throws::miss))
                 .metric(
-                    Metric::percent("success_percent", "success")
-                        .tolerance(Tolerance::Absolute(15.0)),
+                    Metric::ratio("miss_per_throw", Throws::miss, Throws::throws)
+                        .titled("miss a throw")
+                        .better(Better::Lower),
                 )
-                .metric(Metric::mean("throws").tolerance(Tolerance::Relative(0.35)))
-                .metric(Metric::mean("miss").titled("last miss").unit("m"))
-                .metric(Metric::ratio("miss_per_throw", "miss", "throws").titled("miss a throw"))
                 .paper_runs(25)
                 .compared_with("Adept", Correction::Holm)
         };
@@ -132,18 +144,13 @@ impl Experiment for Darts {
         let throws = self.throws(job);
         let last = throws.last().copied();
         let hit = hits(last);
-        Ok(Fields::new()
-            .flag("success", hit)
-            .text("outcome", if hit { "Hit" } else { "OutOfDarts" })
-            .count("throws", throws.len() as u64)
-            .number("miss", last.map_or(0.0, |throw| throw.coords.norm())))
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        match run.fields.get("throws") {
-            Some(Field::Count(throws)) if (1..=u64::from(DARTS)).contains(throws) => Ok(()),
-            throws => Err(format!("{throws:?} throws of {DARTS} darts").into()),
-        }
+        let measured = Throws {
+            success: hit,
+            throws: throws.len() as u64,
+            outcome: Some(if hit { "Hit" } else { "OutOfDarts" }.to_owned()),
+            miss: Some(last.map_or(0.0, |throw| throw.coords.norm())),
+        };
+        Ok(measured.fields()?)
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

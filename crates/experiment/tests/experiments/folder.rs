@@ -2,12 +2,13 @@
 
 use std::fs;
 
+use serde::{Deserialize, Serialize};
 use tolman_experiment::{
-    BoxError, Build, Error, Event, Experiment, Fields, Job, Metric, Options, Progress, Silent,
-    Table, execute,
+    BoxError, Build, Column, Error, Event, Experiment, Fields, Job, Metric, Options, Progress,
+    Record, Silent, Table, execute, record,
 };
 
-use crate::darts::Darts;
+use crate::darts::{Darts, Throws};
 use crate::support::{Listener, build, fresh, options, read, run};
 
 #[test]
@@ -343,7 +344,7 @@ fn options_that_run_nothing_or_too_much_are_refused_before_anything_is_written()
 fn tables_that_contradict_themselves_are_refused() {
     let out = fresh("unsound").join("out");
     type Spoil = fn(&mut Vec<Table>);
-    let spoil: [(Spoil, &str); 12] = [
+    let spoil: [(Spoil, &str); 14] = [
         (|tables| tables.clear(), "no table"),
         (|tables| tables[1].name = "1 (near)".into(), "two tables"),
         (
@@ -376,12 +377,20 @@ fn tables_that_contradict_themselves_are_refused() {
             "no field of kind [Count, Number]",
         ),
         (
-            |tables| tables[0].fields[0].name = "throws".into(),
+            |tables| tables[0].record = Table::of::<Twice>("", "").record,
             "two fields",
         ),
         (
-            |tables| tables[0].fields[2].name = "run".into(),
+            |tables| tables[0].record = Table::of::<Named>("", "").record,
             "identifies a run",
+        ),
+        (
+            |tables| tables[0] = tables[0].clone().at_most(Throws::throws, 0),
+            "leaves no value",
+        ),
+        (
+            |tables| tables[0].record = Table::of::<Lacking>("", "").record,
+            "no field \"outcome\"",
         ),
     ];
     for (spoil, what) in spoil {
@@ -393,6 +402,33 @@ fn tables_that_contradict_themselves_are_refused() {
             "{error}"
         );
         assert!(!out.exists(), "refused before the first run");
+    }
+}
+
+/// A record with fewer fields than columns: those of [`Throws`] and others.
+macro_rules! miscast {
+    ($name:ident, $columns:expr) => {
+        #[derive(Serialize, Deserialize)]
+        struct $name {
+            success: bool,
+            throws: u64,
+        }
+        impl Record for $name {
+            fn columns() -> Vec<Column> {
+                [$columns, Throws::columns()].concat()
+            }
+        }
+    };
+}
+miscast!(Twice, vec![Column::of::<u64>("throws", "")]);
+miscast!(Named, vec![Column::of::<u64>("run", "")]);
+miscast!(Lacking, vec![]);
+
+record! {
+    /// A run with a part that no table has.
+    struct Strange {
+        /// What it bears twice.
+        seed: u64 => neither("seed"),
     }
 }
 
@@ -424,12 +460,27 @@ impl Experiment for Spoilt {
     }
 }
 
+/// A hit of which nothing else is told.
+fn hit() -> Throws {
+    Throws {
+        success: true,
+        throws: 1,
+        outcome: None,
+        miss: None,
+    }
+}
+
 #[test]
 fn a_run_that_measures_nonsense_is_named() {
+    let missed = |miss: f64| {
+        let miss = Some(miss);
+        Throws { miss, ..hit() }.fields().unwrap()
+    };
     for (i, (fields, what)) in [
-        (Fields::new().number("throws", f64::NAN), "NaN"),
-        (Fields::new().number("throws", f64::INFINITY), "inf"),
-        (Fields::new().count("seed", 3), "seed"),
+        (missed(f64::NAN), "NaN"),
+        (missed(f64::INFINITY), "inf"),
+        (missed(-1.0), "expected 0 or more"),
+        (Strange { seed: 3 }.fields().unwrap(), "seed"),
     ]
     .into_iter()
     .enumerate()
@@ -463,9 +514,8 @@ fn a_run_that_measures_nonsense_is_named() {
 #[test]
 fn a_field_that_some_runs_lack_is_measured_on_the_others() {
     let out = fresh("lacking").join("out");
-    let fields = Fields::new().flag("success", true).count("throws", 1);
     let outcome = run(
-        &Spoilt(fields),
+        &Spoilt(hit().fields().unwrap()),
         &Options {
             runs: None,
             ..options(&out)

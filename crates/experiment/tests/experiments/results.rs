@@ -3,13 +3,17 @@
 use std::fs;
 
 use tolman_experiment::{
-    Correction, Error, Ink, Metric, Options, Pair, Pairwise, Program, Row, Run, Tolerance,
+    Better, Correction, Error, Ink, Metric, Options, Pair, Pairwise, Program, Row, Run, Tolerance,
     tables_as_text, write_replay,
 };
 use tolman_stats::Method;
 
-use crate::darts::Darts;
+use crate::darts::{Darts, Throws};
 use crate::support::{fresh, options, read, run};
+
+fn throws_of(run: &Run) -> f64 {
+    run.record::<Throws>().unwrap().throws as f64
+}
 
 #[test]
 fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
@@ -43,7 +47,7 @@ fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
         .iter()
         .filter(|run| run.table == "1 (near)" && run.row == "Novice")
         .collect();
-    let throws = |run: &&Run| run.fields.get("throws").unwrap().as_number().unwrap();
+    let throws = |run: &&Run| throws_of(run);
     let mean = novice.iter().map(throws).sum::<f64>() / 40.0;
     assert!((rows[1]["value"].as_f64().unwrap() - mean).abs() < 1e-12);
     let variance = novice
@@ -55,7 +59,7 @@ fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
     assert!((rows[1]["sd"].as_f64().unwrap() - variance.sqrt()).abs() < 1e-12);
     let miss: f64 = novice
         .iter()
-        .map(|run| run.fields.get("miss").unwrap().as_number().unwrap())
+        .map(|run| run.record::<Throws>().unwrap().miss.unwrap())
         .sum();
     assert!((rows[3]["value"].as_f64().unwrap() - miss / (40.0 * mean)).abs() < 1e-12);
 }
@@ -80,7 +84,7 @@ fn medians_and_counts_are_those_of_the_runs() {
     };
     let mut throws: Vec<f64> = outcome.runs[..40]
         .iter()
-        .map(|run| run.fields.get("throws").unwrap().as_number().unwrap())
+        .map(|run| throws_of(run))
         .collect();
     throws.sort_by(f64::total_cmp);
 
@@ -125,9 +129,7 @@ fn rows_are_compared_each_with_each_and_with_one_among_them() {
     let outcome = run(&darts, &options(&out)).0.unwrap();
     let throws = |row: &str| -> Vec<f64> {
         let of_row = outcome.runs.iter().filter(|run| run.row == row);
-        of_row
-            .map(|run| run.fields.get("throws").unwrap().as_number().unwrap())
-            .collect()
+        of_row.map(|run| throws_of(run)).collect()
     };
     let pairs = &outcome.analysis.tables[0].pairs;
     let names: Vec<String> = pairs.iter().map(Pair::name).collect();
@@ -270,6 +272,36 @@ fn config_toml_holds_all_that_is_needed_to_run_again() {
     assert!(command.starts_with(
         "cargo xtask experiment darts --seed 7 --runs 40 --maze 'a maze.txt' --out '"
     ));
+}
+
+#[test]
+fn metrics_are_titled_explained_and_judged_by_their_columns() {
+    let out = fresh("columns").join("out");
+    run(&Darts::new(), &options(&out)).0.unwrap();
+    let page = read(&out, "report.html");
+    for (explanation, heading) in [
+        ("Whether a dart hit. Higher is better.", "success %"),
+        (
+            "Distance of the last dart from the middle. Lower is better.",
+            "last miss (m)",
+        ),
+        ("Lower is better.", "miss a throw"),
+    ] {
+        assert!(
+            page.contains(&format!("title=\"{explanation}\">{heading}</th>")),
+            "{heading}"
+        );
+    }
+    let table = &Darts::new().tables[0];
+    assert_eq!(table.metrics[1].tolerance, Some(Tolerance::Relative(0.35)));
+    let own = Metric::mean(Throws::throws)
+        .tolerance(Tolerance::Spread)
+        .titled("darts");
+    let own = &table.clone().metric(own.named("darts")).metrics[4];
+    assert_eq!(
+        (own.tolerance, own.title.as_str(), own.better),
+        (Some(Tolerance::Spread), "darts", Some(Better::Lower))
+    );
 }
 
 #[test]

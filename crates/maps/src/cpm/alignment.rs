@@ -7,6 +7,7 @@ use super::pattern::{Dictionary, PatternId};
 /// distance (Wagner, Fischer 1974) in which a pattern may also last longer in one of the two, as in dynamic time
 /// warping (Sakoe, Chiba 1978). Ours, not the paper's; costs are in parts of a whole pattern's mismatch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Alignment {
     /// What an observation costs that the other sequence does not have; 0 to 1.
     pub gap: f64,

@@ -6,6 +6,7 @@ use super::similarity::{Matching, Similarity};
 
 /// How an [`Explorer`](super::Explorer) maps and decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CpmConfig {
     /// When the map is looked at.
     pub mapping: Mapping,
@@ -22,6 +23,8 @@ pub struct CpmConfig {
 
 /// Which fragments of the map a new one is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Candidates {
     /// Each.
     All,
@@ -32,6 +35,8 @@ pub enum Candidates {
 
 /// When the map is optimized and looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Mapping {
     /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is optimized once the goal is
@@ -67,6 +72,8 @@ impl Mapping {
 
 /// What a robot does online at a junction that "has no unknown ports left".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Onward {
     /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,

@@ -7,6 +7,8 @@ use super::traversal::Motion;
 
 /// How two fragments are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Matching {
     /// Position by position, equations (3) to (5).
@@ -171,6 +173,7 @@ impl Matching {
 /// # Ok::<(), tolman_maps::cpm::DictionaryError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Similarity {
     /// What aⱼ − a'ⱼ is.
     pub difference: Difference,
@@ -186,6 +189,8 @@ pub struct Similarity {
 
 /// What the difference of two patterns, aⱼ − a'ⱼ in (4), is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Difference {
     /// The distance of their prototypes; d_max is the greatest of those.
     Prototypes,
@@ -195,6 +200,8 @@ pub enum Difference {
 
 /// Which positions are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Span {
     /// All of both: the shorter sequence is stretched over the longer one.
     Whole,
@@ -204,6 +211,8 @@ pub enum Span {
 
 /// How differences add up to ε_b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Sum {
     /// Their mean over the positions, which is what the sum and the division of (3) make, so that long fragments and short
     /// ones are measured alike.

@@ -12,13 +12,18 @@ use tolman_sim::robots::LaserPioneer;
 
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
 /// The table's name in `summary.json`.
 pub(super) const NAME: &str = "corridor detector";
 
-/// The one field of a run, and its metric.
-const CALLED: &str = "called_corridor_percent";
+record! {
+    /// Random poses in one kind of place.
+    struct CorridorRun {
+        /// Poses at which the detector takes the place for a corridor.
+        called_corridor_percent: f64 => neither("called corridor").percent(),
+    }
+}
 
 /// Random poses in one run.
 const POSES: u32 = 200;
@@ -39,9 +44,9 @@ const PLACES: [(&str, &[Direction]); 5] = [
 ];
 
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NAME, "What the corridor detector takes for a corridor")
-        .field(CALLED, Kind::Number)
-        .metric(Metric::mean(CALLED).titled("called corridor").unit("%"));
+    let title = "What the corridor detector takes for a corridor";
+    let mut table = Table::of::<CorridorRun>(NAME, title)
+        .metric(Metric::mean(CorridorRun::called_corridor_percent));
     for (name, _) in PLACES {
         table = table.row(Row::new(name));
     }
@@ -80,18 +85,11 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
             called += u32::from(detector.detect(View { scan, heading }).is_some());
         }
     }
-    let percent = 100.0 * f64::from(called) / f64::from(POSES);
-    Ok(Fields::new().number(CALLED, percent))
-}
-
-/// Refuses what is no percentage.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    match run.fields.get(CALLED).and_then(Field::as_number) {
-        Some(percent) if !(0.0..=100.0).contains(&percent) => {
-            Err(format!("{CALLED} is {percent}").into())
-        }
-        _ => Ok(()),
+    let called_corridor_percent = 100.0 * f64::from(called) / f64::from(POSES);
+    Ok(CorridorRun {
+        called_corridor_percent,
     }
+    .fields()?)
 }
 
 /// A place with straight arms in the directions it is open in; the goal lies at the end of one.

@@ -2,10 +2,10 @@
 
 use tolman_geom::Point;
 
-use super::{Baselines, ROWS, Venue};
+use super::{Baselines, MazeRun, ROWS, Venue};
 use tolman_arena::agents::Agent;
 use tolman_draw::{Figure, Series};
-use tolman_experiment::{BoxError, Field, Run};
+use tolman_experiment::{BoxError, Run};
 
 /// How many runs one plan shows at most.
 const SHOWN: usize = 25;
@@ -21,7 +21,7 @@ pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, Bo
                 .iter()
                 .filter(|run| run.table == venue.table && run.row == row)
                 .collect();
-            if let Some(middle) = middle(&of_row) {
+            if let Some(middle) = middle(&of_row)? {
                 let name = format!("plan-{number}-{}", series + 1);
                 figures.push(plan(
                     experiment,
@@ -38,14 +38,14 @@ pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, Bo
 }
 
 /// The run with the median number of steps.
-fn middle<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
-    let steps = |run: &Run| match run.fields.get("steps") {
-        Some(Field::Count(steps)) => *steps,
-        _ => u64::MAX,
-    };
-    let mut sorted = runs.to_vec();
-    sorted.sort_by_key(|run| (steps(run), run.run));
-    sorted.get(sorted.len() / 2).copied()
+fn middle<'a>(runs: &[&'a Run]) -> Result<Option<&'a Run>, BoxError> {
+    let steps = |run: &&'a Run| Ok((run.record::<MazeRun>()?.steps, *run));
+    let mut sorted = runs
+        .iter()
+        .map(steps)
+        .collect::<Result<Vec<_>, BoxError>>()?;
+    sorted.sort_by_key(|(steps, run)| (*steps, run.run));
+    Ok(sorted.get(sorted.len() / 2).map(|(_, run)| *run))
 }
 
 fn plan(
@@ -62,10 +62,7 @@ fn plan(
     }
     plan.trajectory(&way(experiment, middle)?, series);
     let row = &middle.row;
-    let steps = match middle.fields.get("steps") {
-        Some(Field::Count(steps)) => *steps,
-        _ => 0,
-    };
+    let MazeRun { steps, .. } = middle.record()?;
     let shown = runs.len().min(SHOWN);
     let description = format!(
         "Plan of {}: the ways of {shown} runs of {row}.",

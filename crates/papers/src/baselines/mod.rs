@@ -8,15 +8,18 @@ mod detector;
 mod figures;
 mod worlds;
 
+use alloc::collections::BTreeMap;
+
+use serde::Serialize;
 use tolman_sim::robots::LaserPioneerConfig;
 
-use crate::venue::{self, Venue};
+use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::agents::{Agent, Cast, Mind};
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Experiment, Fields, Job, Metric, Options, Run, Table, Tolerance,
+    BoxError, Correction, Experiment, Fields, Job, Metric, Options, Record, Run, Table, Tolerance,
 };
 use tolman_replay::Replay;
 
@@ -40,6 +43,13 @@ struct Baselines {
     skipped: Option<String>,
 }
 
+/// What the runs depend on.
+#[derive(Serialize)]
+struct Config<'a> {
+    robot: &'a LaserPioneerConfig,
+    worlds: BTreeMap<&'a str, World>,
+}
+
 /// Reads the worlds and sets the tables up.
 ///
 /// # Errors
@@ -60,17 +70,17 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
 
 fn table(venue: &Venue) -> Table {
     let mut table = venue
-        .table()
+        .table::<MazeRun>()
         .metric(
-            Metric::percent("success_percent", "reached")
-                .titled("success")
+            Metric::percent("success_percent", MazeRun::reached)
                 .tolerance(Tolerance::Absolute(15.0)),
         )
-        .metric(Metric::mean("actions"))
-        .metric(Metric::mean("steps").tolerance(Tolerance::Relative(0.35)))
+        .metric(Metric::mean(MazeRun::actions))
+        .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Relative(0.35)))
         .metric(
-            Metric::ratio("steps_per_action", "steps", "actions")
+            Metric::ratio("steps_per_action", MazeRun::steps, MazeRun::actions)
                 .titled("steps / action")
+                .defined("Time steps of all runs for each of their actions.")
                 .tolerance(Tolerance::Relative(0.2)),
         );
     for name in ROWS.map(Agent::name) {
@@ -138,27 +148,17 @@ impl Experiment for Baselines {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
-        config.insert("robot".into(), toml::Value::try_from(&self.robot)?);
-        let mut worlds = toml::Table::new();
-        for venue in &self.venues {
-            worlds.insert(venue.table.clone(), venue.config().into());
-        }
-        config.insert("worlds".into(), worlds.into());
-        Ok(config)
+        let worlds = self.venues.iter();
+        Ok(toml::Table::try_from(Config {
+            robot: &self.robot,
+            worlds: worlds.map(|venue| (&*venue.table, venue.world())).collect(),
+        })?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match self.episode(job)? {
-            Some(episode) => Ok(venue::fields(&episode)),
+            Some(episode) => Ok(MazeRun::of(&episode).fields()?),
             None => detector::run(job),
-        }
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        match self.venue(&run.table) {
-            Some((_, venue)) => venue.check(run),
-            None => detector::check(run),
         }
     }
 

@@ -4,6 +4,7 @@ use alloc::sync::Arc;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
 use tolman_control::epuck::{Alignment, Pilot, Place, Profile, SegmentConfig};
 use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
@@ -12,13 +13,15 @@ use tolman_robot::epuck::WheelSpeeds;
 use tolman_sim::robots::Epuck;
 
 use tolman_arena::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{
+    Better, BoxError, Fields, Job, Metric, Record, Row, Table, record, require,
+};
 
 /// The name of the table.
 pub(super) const DETECTOR: &str = "detector";
 
 /// How a row looks.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 struct Setting {
     name: &'static str,
     alignment: Alignment,
@@ -52,11 +55,96 @@ const OFF: f64 = 0.02;
 /// How far it looks askew at most, rad.
 const ASKEW: f64 = 0.15;
 
-/// What is told apart: its name, and which cells of a maze are such.
-const KINDS: [(&str, &str, Place); 2] = [
-    ("junction", "junctions", Place::Junction),
-    ("dead_end", "dead ends", Place::DeadEnd),
-];
+record! {
+    /// Looks at the places of all mazes.
+    #[check(DetectorRun::relations)]
+    struct DetectorRun {
+        /// Looks at places.
+        looks: u32 => neither("looks"),
+        /// Looks that counted the openings rightly.
+        counted: u32 => higher("counted"),
+        /// Looks that took a junction for one.
+        junctions_right: u32 => higher("junctions told rightly"),
+        /// Looks that took a place for a junction.
+        junctions_told: u32 => neither("junctions told"),
+        /// Junctions to be told.
+        junctions_there: u32 => neither("junctions there"),
+        /// Share of the junctions told that are junctions.
+        junction_precision: Option<f64> => higher("junctions: precision").share(),
+        /// Share of the junctions there that are told.
+        junction_recall: Option<f64> => higher("junctions: recall").share(),
+        /// Looks that took a dead end for one.
+        dead_ends_right: u32 => higher("dead ends told rightly"),
+        /// Looks that took a place for a dead end.
+        dead_ends_told: u32 => neither("dead ends told"),
+        /// Dead ends to be told.
+        dead_ends_there: u32 => neither("dead ends there"),
+        /// Share of the dead ends told that are dead ends.
+        dead_end_precision: Option<f64> => higher("dead ends: precision").share(),
+        /// Share of the dead ends there that are told.
+        dead_end_recall: Option<f64> => higher("dead ends: recall").share(),
+    }
+}
+
+impl DetectorRun {
+    fn relations(&self) -> Result<(), String> {
+        let counted = self.counted <= self.looks;
+        require(counted, "more looks counted rightly than were taken")?;
+        let junctions = Told {
+            right: self.junctions_right,
+            told: self.junctions_told,
+            there: self.junctions_there,
+        };
+        let dead_ends = Told {
+            right: self.dead_ends_right,
+            told: self.dead_ends_told,
+            there: self.dead_ends_there,
+        };
+        for (kind, precision, recall) in [
+            (junctions, self.junction_precision, self.junction_recall),
+            (dead_ends, self.dead_end_precision, self.dead_end_recall),
+        ] {
+            let Told { right, told, there } = kind;
+            let possible = right <= told.min(there) && told <= self.looks;
+            require(possible, "more places of a kind than there are")?;
+            let shares = [precision, recall] == [kind.precision(), kind.recall()];
+            require(shares, "precision or recall is not that of its counts")?;
+        }
+        Ok(())
+    }
+}
+
+/// What was told of one kind of place.
+#[derive(Clone, Copy, Default)]
+struct Told {
+    /// Told and true.
+    right: u32,
+    told: u32,
+    there: u32,
+}
+
+impl Told {
+    /// The share of what is told that is true; `None` where nothing is told.
+    fn precision(self) -> Option<f64> {
+        share(self.right, self.told)
+    }
+
+    /// The share of what is there that is told; `None` where nothing is there.
+    fn recall(self) -> Option<f64> {
+        share(self.right, self.there)
+    }
+
+    /// A place of this kind, or another, was taken for one of it, or another.
+    fn tell(&mut self, is_told: bool, is_there: bool) {
+        self.right += u32::from(is_told && is_there);
+        self.told += u32::from(is_told);
+        self.there += u32::from(is_there);
+    }
+}
+
+fn share(part: u32, whole: u32) -> Option<f64> {
+    (whole > 0).then(|| f64::from(part) / f64::from(whole))
+}
 
 /// The row of a robot that walks and looks again from the middle of what it takes for a place.
 const ON_THE_WAY: &str = "Ours, on the way";
@@ -76,24 +164,17 @@ fn row(setting: &Setting, width: Option<f64>) -> String {
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::new(DETECTOR, "Junctions and dead ends told by one sweep")
-        .field("looks", Kind::Count)
-        .field("counted", Kind::Count)
+    let right = Metric::ratio("openings_right", DetectorRun::counted, DetectorRun::looks);
+    let mut table = Table::of::<DetectorRun>(DETECTOR, "Junctions and dead ends told by one sweep")
         .metric(
-            Metric::ratio("openings_right", "counted", "looks").titled("openings counted rightly"),
-        );
-    for (name, title, _) in KINDS {
-        let [right, told, true_ones] = counts(name);
-        let [precision, recall] = shares(name);
-        table = table
-            .field(right, Kind::Count)
-            .field(told, Kind::Count)
-            .field(true_ones, Kind::Count)
-            .optional_field(&precision, Kind::Number)
-            .optional_field(&recall, Kind::Number)
-            .metric(Metric::mean(precision).titled(format!("{title}: precision")))
-            .metric(Metric::mean(recall).titled("recall"));
-    }
+            right
+                .titled("openings counted rightly")
+                .better(Better::Higher),
+        )
+        .metric(Metric::mean(DetectorRun::junction_precision))
+        .metric(Metric::mean(DetectorRun::junction_recall))
+        .metric(Metric::mean(DetectorRun::dead_end_precision))
+        .metric(Metric::mean(DetectorRun::dead_end_recall));
     for (setting, width) in settings() {
         table = table.row(Row::new(row(setting, width)));
     }
@@ -107,66 +188,73 @@ pub(super) fn table() -> Table {
 }
 
 /// What the runs depend on.
-pub(super) fn config() -> String {
-    format!("{SETTINGS:?}, {WIDE}, {OFF}, {ASKEW}")
-}
-
-/// The fields of a kind: told and true, told, true.
-fn counts(kind: &str) -> [String; 3] {
-    ["right", "told", "there"].map(|what| format!("{kind}s_{what}"))
-}
-
-/// The fields that are shares of those; none where nothing is told, or nothing there.
-fn shares(kind: &str) -> [String; 2] {
-    ["precision", "recall"].map(|what| format!("{kind}_{what}"))
+pub(super) fn config() -> impl Serialize {
+    #[derive(Serialize)]
+    struct Config {
+        settings: [Setting; SETTINGS.len()],
+        /// In metres.
+        wide: f64,
+        /// In metres.
+        off: f64,
+        /// In radians.
+        askew: f64,
+    }
+    Config {
+        settings: SETTINGS,
+        wide: WIDE,
+        off: OFF,
+        askew: ASKEW,
+    }
 }
 
 /// What was told of places, and what they were.
 #[derive(Default)]
 struct Tally {
-    looks: u64,
+    looks: u32,
     /// Looks that counted the openings rightly.
-    counted: u64,
-    /// For each kind: told and true, told, true.
-    kinds: [[u64; 3]; KINDS.len()],
+    counted: u32,
+    junctions: Told,
+    dead_ends: Told,
 }
 
 impl Tally {
     /// A place of so many openings looked as one of that many.
     fn told(&mut self, openings: usize, truth: usize) {
         self.looks += 1;
-        self.counted += u64::from(openings == truth);
-        for ((_, _, kind), [right, told, there]) in KINDS.iter().zip(&mut self.kinds) {
-            let (is_told, is_there) = (place_of(openings) == *kind, place_of(truth) == *kind);
-            *right += u64::from(is_told && is_there);
-            *told += u64::from(is_told);
-            *there += u64::from(is_there);
-        }
+        self.counted += u32::from(openings == truth);
+        self.place(Some(place_of(openings)), place_of(truth));
     }
 
     /// Nothing was told of a place.
     fn missed(&mut self, truth: usize) {
-        for ((_, _, kind), [_, _, there]) in KINDS.iter().zip(&mut self.kinds) {
-            *there += u64::from(place_of(truth) == *kind);
+        self.place(None, place_of(truth));
+    }
+
+    fn place(&mut self, told: Option<Place>, truth: Place) {
+        for (kind, tally) in [
+            (Place::Junction, &mut self.junctions),
+            (Place::DeadEnd, &mut self.dead_ends),
+        ] {
+            tally.tell(told == Some(kind), truth == kind);
         }
     }
 
-    fn fields(&self) -> Fields {
-        let mut fields = Fields::new()
-            .count("looks", self.looks)
-            .count("counted", self.counted);
-        for ((kind, ..), found) in KINDS.iter().zip(self.kinds) {
-            for (name, count) in counts(kind).into_iter().zip(found) {
-                fields = fields.count(name, count);
-            }
-            let [right, told, there] = found;
-            for (name, whole) in shares(kind).into_iter().zip([told, there]) {
-                if whole > 0 {
-                    fields = fields.number(name, right as f64 / whole as f64);
-                }
-            }
+    fn run(&self) -> DetectorRun {
+        let (junctions, dead_ends) = (self.junctions, self.dead_ends);
+        DetectorRun {
+            looks: self.looks,
+            counted: self.counted,
+            junctions_right: junctions.right,
+            junctions_told: junctions.told,
+            junctions_there: junctions.there,
+            junction_precision: junctions.precision(),
+            junction_recall: junctions.recall(),
+            dead_ends_right: dead_ends.right,
+            dead_ends_told: dead_ends.told,
+            dead_ends_there: dead_ends.there,
+            dead_end_precision: dead_ends.precision(),
+            dead_end_recall: dead_ends.recall(),
         }
-        fields
     }
 }
 
@@ -188,7 +276,7 @@ pub(super) fn run(venues: &[Venue], job: &Job<'_>) -> Result<Fields, BoxError> {
         };
         sweep_all(setting, &venue, job.seed, &mut rng, &mut tally)?;
     }
-    Ok(tally.fields())
+    Ok(tally.run().fields()?)
 }
 
 /// One sweep in every cell that the robot can come to.
@@ -253,30 +341,4 @@ const fn place_of(degree: usize) -> Place {
         2 => Place::Path,
         _ => Place::Junction,
     }
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    if number("counted") > number("looks") {
-        return Err("more looks counted rightly than were taken".into());
-    }
-    for (kind, ..) in KINDS {
-        let [right, told, there] = counts(kind).map(|name| number(&name));
-        if right > told || right > there || told > number("looks") {
-            return Err(format!("more {kind}s than there are").into());
-        }
-        for (name, whole) in shares(kind).into_iter().zip([told, there]) {
-            let expected = right.zip(whole).filter(|(_, whole)| *whole > 0.0);
-            let expected = expected.map(|(right, whole)| right / whole);
-            let is_that = match (number(&name), expected) {
-                (Some(found), Some(expected)) => (found - expected).abs() < 1e-9,
-                (found, expected) => found == expected,
-            };
-            if !is_that {
-                return Err(format!("{name} is not {expected:?}").into());
-            }
-        }
-    }
-    Ok(())
 }

@@ -10,7 +10,7 @@ use tolman_maze::{Cell, Maze};
 use super::trials;
 use tolman_arena::cpm::{CommonPatterns, TrueFragments, Venue, Way};
 use tolman_arena::q_learning::{Outcome, QLearner, QLearningConfig, Task};
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 
 /// The name of the table.
 pub(super) const EPISODES: &str = "episodes";
@@ -21,36 +21,58 @@ const MOST_EPISODES: u32 = 10_000;
 /// And fragments of one episode.
 const MOST_FRAGMENTS: u32 = 100_000;
 
-/// The three that are compared: the beginning of their fields' names, and that on a page.
-const LEARNERS: [(&str, &str); 3] = [
-    ("cpm", "CPM"),
-    ("q_learning", "Q-learning"),
-    ("random_walk", "random walk"),
-];
+record! {
+    /// A trial of CPM, and what its rivals need to do as well, where CPM solves it.
+    #[check(EpisodesRun::relations)]
+    struct EpisodesRun {
+        /// Cells of CPM's way in its second episode.
+        cells: Option<u32> => lower("CPM's second way").unit("cells"),
+        /// Cells of the shortest way.
+        shortest_cells: u32 => neither("the shortest").unit("cells"),
+        /// Episodes before CPM drives that way.
+        cpm_episodes: Option<u32> => lower("CPM: episodes").at_most(MOST_EPISODES),
+        /// Length of CPM's way in them.
+        cpm_metres: Option<f64> => lower("CPM: driven").unit("m").at_least(0),
+        /// Episodes before Q-learning's greedy way is as short.
+        q_learning_episodes: Option<u32> => lower("Q-learning: episodes").at_most(MOST_EPISODES),
+        /// Length of Q-learning's way in them.
+        q_learning_metres: Option<f64> => lower("Q-learning: driven").unit("m").at_least(0),
+        /// Episodes before the random walk happens to be as short.
+        random_walk_episodes: Option<u32> => lower("random walk: episodes").at_most(MOST_EPISODES),
+        /// Length of the random walk in them.
+        random_walk_metres: Option<f64> => lower("random walk: driven").unit("m").at_least(0),
+    }
+}
+
+impl EpisodesRun {
+    fn relations(&self) -> Result<(), String> {
+        let possible = self.cells.is_none_or(|cells| cells >= self.shortest_cells);
+        require(possible, "a way is shorter than the shortest")?;
+        for (episodes, metres) in [
+            (self.cpm_episodes, self.cpm_metres),
+            (self.q_learning_episodes, self.q_learning_metres),
+            (self.random_walk_episodes, self.random_walk_metres),
+        ] {
+            let together = episodes.is_some() == metres.is_some();
+            require(together, "episodes and metres come together")?;
+            let solved = episodes.is_none() || self.cells.is_some();
+            require(solved, "episodes are counted where CPM solves the run")?;
+        }
+        Ok(())
+    }
+}
 
 /// `venues` one row each.
 pub(super) fn table(venues: &[Venue]) -> Table {
-    let mut table = Table::new(EPISODES, "Episodes until the way is known")
-        .optional_field("cells", Kind::Count)
-        .field("shortest_cells", Kind::Count)
-        .metric(
-            Metric::mean("cells")
-                .titled("CPM's second way")
-                .unit("cells"),
-        )
-        .metric(
-            Metric::mean("shortest_cells")
-                .titled("the shortest")
-                .unit("cells"),
-        );
-    for (name, title) in LEARNERS {
-        let [episodes, metres] = [format!("{name}_episodes"), format!("{name}_metres")];
-        table = table
-            .optional_field(&episodes, Kind::Count)
-            .optional_field(&metres, Kind::Number)
-            .metric(Metric::mean(episodes).titled(format!("{title}: episodes")))
-            .metric(Metric::mean(metres).titled("driven").unit("m"));
-    }
+    let mut table = Table::of::<EpisodesRun>(EPISODES, "Episodes until the way is known")
+        .metric(Metric::mean(EpisodesRun::cells))
+        .metric(Metric::mean(EpisodesRun::shortest_cells))
+        .metric(Metric::mean(EpisodesRun::cpm_episodes))
+        .metric(Metric::mean(EpisodesRun::cpm_metres))
+        .metric(Metric::mean(EpisodesRun::q_learning_episodes))
+        .metric(Metric::mean(EpisodesRun::q_learning_metres))
+        .metric(Metric::mean(EpisodesRun::random_walk_episodes))
+        .metric(Metric::mean(EpisodesRun::random_walk_metres));
     for venue in venues {
         table = table.row(Row::new(&venue.name));
     }
@@ -75,11 +97,13 @@ pub(super) fn run(
     job: &Job<'_>,
 ) -> Result<Fields, BoxError> {
     let graph = JunctionTask::of(&venue.maze)?;
-    let shortest = graph.shortest().ok_or("no way leads to the goal")?;
-    let mut fields = Fields::new().count("shortest_cells", shortest.into());
+    let run = EpisodesRun {
+        shortest_cells: graph.shortest().ok_or("no way leads to the goal")?,
+        ..EpisodesRun::default()
+    };
     let record = trials::trial(venue, patterns, trials::faithful(), job.seed).play()?;
     if !record.is_solved() {
-        return Ok(fields);
+        return Ok(run.fields()?);
     }
     let world = venue.world()?;
     let second = record.path.get(record.second_from..).unwrap_or_default();
@@ -87,43 +111,30 @@ pub(super) fn run(
         .iter()
         .filter_map(|pose| world.cell_at(pose.position));
     let wanted = length_of(cells);
-    fields = fields.count("cells", wanted.into());
-    let results = [
-        Some(Learned {
-            episodes: 1,
-            metres: trials::metres(&record),
-        }),
-        q_learning(&graph, wanted, job.seed).map(|it| it.in_metres(venue)),
-        random_walk(&graph, wanted, job.seed).map(|it| it.in_metres(venue)),
-    ];
-    for ((name, _), result) in LEARNERS.iter().zip(results) {
-        if let Some(Learned { episodes, metres }) = result {
-            fields = fields
-                .count(format!("{name}_episodes"), episodes.into())
-                .number(format!("{name}_metres"), metres);
-        }
-    }
-    Ok(fields)
+    let q_learning = q_learning(&graph, wanted, job.seed);
+    let random_walk = random_walk(&graph, wanted, job.seed);
+    let run = EpisodesRun {
+        cells: Some(wanted),
+        cpm_episodes: Some(1),
+        cpm_metres: Some(trials::metres(&record)),
+        q_learning_episodes: q_learning.as_ref().map(|it| it.episodes),
+        q_learning_metres: q_learning.map(|it| it.metres(venue)),
+        random_walk_episodes: random_walk.as_ref().map(|it| it.episodes),
+        random_walk_metres: random_walk.map(|it| it.metres(venue)),
+        ..run
+    };
+    Ok(run.fields()?)
 }
 
-/// What it took.
-struct Learned {
-    episodes: u32,
-    metres: f64,
-}
-
-/// The same, as counted on a graph.
+/// What it took, as counted on a graph.
 struct Walked {
     episodes: u32,
     cells: u64,
 }
 
 impl Walked {
-    fn in_metres(&self, venue: &Venue) -> Learned {
-        Learned {
-            episodes: self.episodes,
-            metres: self.cells as f64 * venue.corridor_width,
-        }
+    fn metres(&self, venue: &Venue) -> f64 {
+        self.cells as f64 * venue.corridor_width
     }
 }
 
@@ -278,24 +289,4 @@ fn wander(graph: &JunctionTask, rng: &mut impl Rng) -> u64 {
         }
     }
     cells
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let solved = number("cells").is_some();
-    if solved && number("cells") < number("shortest_cells") {
-        return Err("a way is shorter than the shortest".into());
-    }
-    for (name, _) in LEARNERS {
-        let episodes = number(&format!("{name}_episodes"));
-        let metres = number(&format!("{name}_metres"));
-        if episodes.is_some() != metres.is_some() || episodes.is_some() && !solved {
-            return Err(format!("{name} has episodes and metres, where CPM solves the run").into());
-        }
-        if episodes > Some(f64::from(MOST_EPISODES)) || metres < Some(0.0) && metres.is_some() {
-            return Err(format!("{name} took {episodes:?} episodes of {metres:?} m").into());
-        }
-    }
-    Ok(())
 }

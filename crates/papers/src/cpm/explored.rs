@@ -2,9 +2,9 @@
 
 use tolman_maps::cpm::Done;
 
-use super::trials::{Place, Setting, better, cast, in_both_modes, modes, trial};
+use super::trials::{Modes, Place, Setting, better, cast, in_both_modes, modes, trial};
 use tolman_arena::cpm::{CommonPatterns, Venue};
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
@@ -14,6 +14,53 @@ const RUNS: u32 = 40;
 
 /// As many for a first look.
 const QUICK_RUNS: u32 = 3;
+
+record! {
+    /// A maze explored until no port of its map is unknown.
+    #[check(ExploredRun::relations)]
+    struct ExploredRun {
+        /// Whether the robot came to the end of its exploration.
+        finished: bool => higher("finished"),
+        /// Whether every junction and fragment is on the map once, all joined as they truly are.
+        map_right: bool => higher("map right"),
+        /// Fragments walked, each as often as it was.
+        traversals: u32 => lower("fragments walked"),
+        /// Fragments on the map.
+        fragments: u32 => neither("fragments"),
+        /// Fragments of the shortest walk from the start through all of them.
+        best: Option<u32> => neither("best covering walk"),
+        /// Fragments walked for each of the best covering walk.
+        traversals_to_best: Option<f64> => lower("walked / best"),
+        /// Time until the last fragment was walked.
+        seconds: Option<f64> => lower("all walked after").unit("s").at_least(0),
+        /// Time by which Theorem 1 says that all are walked.
+        bound: f64 => neither("Theorem 1").unit("s"),
+        /// Whether the last fragment was walked by then.
+        within_bound: bool => higher("within Theorem 1"),
+        /// Time steps in which the robot touched a wall.
+        bumps: u32 => lower("steps at a wall"),
+        /// What ended the exploration early.
+        trouble: Option<String> => neither("trouble"),
+    }
+}
+
+impl ExploredRun {
+    fn relations(&self) -> Result<(), String> {
+        let is_within = self.seconds.is_some_and(|seconds| seconds <= self.bound);
+        let told = "within_bound is not whether the seconds are within the bound";
+        require(self.within_bound == is_within, told)?;
+        let finished = !self.map_right || self.finished;
+        require(
+            finished,
+            "an exploration that is not finished has no right map",
+        )?;
+        let covered = !self.map_right || self.best.is_none_or(|best| self.traversals >= best);
+        require(
+            covered,
+            "a maze was explored by less than the best covering walk",
+        )
+    }
+}
 
 /// The table, and what is tried in each of its rows.
 #[derive(Debug)]
@@ -32,27 +79,16 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Explored 
             mode: better(),
         });
     }
-    let mut table = Table::new(EXPLORED, "Mazes explored to their end")
-        .field("finished", Kind::Flag)
-        .field("map_right", Kind::Flag)
-        .field("traversals", Kind::Count)
-        .field("fragments", Kind::Count)
-        .optional_field("best", Kind::Count)
-        .optional_field("traversals_to_best", Kind::Number)
-        .optional_field("seconds", Kind::Number)
-        .field("bound", Kind::Number)
-        .field("within_bound", Kind::Flag)
-        .field("bumps", Kind::Count)
-        .optional_field("trouble", Kind::Text)
-        .metric(Metric::percent("finished_percent", "finished"))
-        .metric(Metric::percent("map_right_percent", "map_right").titled("map right"))
-        .metric(Metric::mean("fragments"))
-        .metric(Metric::mean("traversals").titled("fragments walked"))
-        .metric(Metric::mean("best").titled("best covering walk"))
-        .metric(Metric::mean("traversals_to_best").titled("walked / best"))
-        .metric(Metric::mean("seconds").titled("all walked after").unit("s"))
-        .metric(Metric::mean("bound").titled("Theorem 1").unit("s"))
-        .metric(Metric::percent("within_bound_percent", "within_bound").titled("within it"))
+    let mut table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
+        .metric(Metric::percent("finished_percent", ExploredRun::finished))
+        .metric(Metric::percent("map_right_percent", ExploredRun::map_right))
+        .metric(Metric::mean(ExploredRun::fragments))
+        .metric(Metric::mean(ExploredRun::traversals))
+        .metric(Metric::mean(ExploredRun::best))
+        .metric(Metric::mean(ExploredRun::traversals_to_best))
+        .metric(Metric::mean(ExploredRun::seconds))
+        .metric(Metric::mean(ExploredRun::bound))
+        .metric(Metric::percent("within_bound_percent", ExploredRun::within_bound))
         .note(
             "The robot walks until no port of its map is unknown. The best covering walk is the shortest from the start through all fragments, \
              for who knows the maze. Theorem 1 bounds the time until the last fragment is walked, whether the robot knows it or not: \
@@ -67,7 +103,7 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Explored 
 
 impl Explored {
     /// Every row with the way it maps, for the configuration.
-    pub(super) fn modes(&self) -> toml::Table {
+    pub(super) fn modes(&self) -> Modes<'_> {
         modes(&self.settings)
     }
 
@@ -77,47 +113,20 @@ impl Explored {
         let found = trial(&venue, patterns, mode, job.seed).explore()?;
         let is_within = found.seconds.is_some_and(|seconds| seconds <= found.bound);
         let is_finished = found.done == Some(Done::Reached);
-        let mut fields = Fields::new()
-            .flag("finished", is_finished)
-            .flag("map_right", is_finished && found.is_map_right)
-            .count("traversals", found.traversals.into())
-            .count("fragments", found.fragments.into())
-            .number("bound", found.bound)
-            .flag("within_bound", is_within)
-            .count("bumps", found.bumps.into());
-        if let Some(best) = found.best {
-            fields = fields.count("best", best.into());
-            if is_finished {
-                let ratio = f64::from(found.traversals) / f64::from(best);
-                fields = fields.number("traversals_to_best", ratio);
-            }
-        }
-        if let Some(seconds) = found.seconds {
-            fields = fields.number("seconds", seconds);
-        }
-        if let Some(trouble) = found.trouble {
-            fields = fields.text("trouble", trouble);
-        }
-        Ok(fields)
+        let to_best = |best: u32| f64::from(found.traversals) / f64::from(best);
+        let run = ExploredRun {
+            finished: is_finished,
+            map_right: is_finished && found.is_map_right,
+            traversals: found.traversals,
+            fragments: found.fragments,
+            best: found.best,
+            traversals_to_best: found.best.filter(|_| is_finished).map(to_best),
+            seconds: found.seconds,
+            bound: found.bound,
+            within_bound: is_within,
+            bumps: found.bumps,
+            trouble: found.trouble,
+        };
+        Ok(run.fields()?)
     }
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);
-    let seconds = number("seconds");
-    let is_within = seconds.is_some() && seconds <= number("bound");
-    if flag("within_bound") != is_within {
-        return Err("within_bound is not whether the seconds are within the bound".into());
-    }
-    if flag("map_right") {
-        if !flag("finished") {
-            return Err("an exploration that is not finished has no right map".into());
-        }
-        if number("best").is_some() && number("traversals") < number("best") {
-            return Err("a maze was explored by less than the best covering walk".into());
-        }
-    }
-    Ok(())
 }

@@ -5,10 +5,10 @@ use tolman_maps::cpm::Landmark;
 
 use super::Cpm;
 use super::drawing;
-use super::trials::{BETTER, FIGURE_9};
+use super::trials::{BETTER, FIGURE_9, TrialRun};
 use tolman_arena::cpm::{Record, Venue};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, Field, Run};
+use tolman_experiment::{BoxError, RecordError, Run};
 
 pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
@@ -16,7 +16,11 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
         for (suffix, kind) in [("", "paper"), (BETTER, "better")] {
             let row = format!("{}{suffix}", venue.name);
             let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
-            let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
+            let runs = runs
+                .iter()
+                .filter(of_row)
+                .map(|run| Ok((run, run.record()?)));
+            let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, RecordError>>()?;
             let Some(longest) = longest(&runs) else {
                 continue;
             };
@@ -37,34 +41,26 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
 }
 
 /// The run with the longest first episode, of those that were solved if any was.
-fn longest<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
-    let key = |run: &Run| {
-        let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
-        (solved, number_of(run, "seconds_1").unwrap_or(0.0))
-    };
-    let order = |a: &&Run, b: &&Run| {
+fn longest<'a>(runs: &[(&'a Run, TrialRun)]) -> Option<&'a Run> {
+    let key = |trial: &TrialRun| (trial.solved, trial.seconds_1.unwrap_or(0.0));
+    let order = |(_, a): &&(&Run, TrialRun), (_, b): &&(&Run, TrialRun)| {
         let (a, b) = (key(a), key(b));
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
     };
-    runs.iter().copied().max_by(order)
-}
-
-fn number_of(run: &Run, field: &str) -> Option<f64> {
-    run.fields.get(field).and_then(Field::as_number)
+    runs.iter().max_by(order).map(|(run, _)| *run)
 }
 
 /// The paper's figure 9, panels (a) to (c): the seconds of both episodes by trial.
-fn times(row: &str, name: &str, runs: &[&Run]) -> Figure {
+fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
     let mut chart = Chart::new(
         Axis::linear("trial").whole_numbers(),
         Axis::linear("time, s").from_zero(),
     );
-    for (series, field, label) in [(0, "seconds_1", "episode 1"), (1, "seconds_2", "episode 2")] {
-        let point = |run: &&Run| {
-            Some(LinePoint::new(
-                f64::from(run.run + 1),
-                number_of(run, field)?,
-            ))
+    let seconds: [fn(&TrialRun) -> Option<f64>; 2] =
+        [|trial| trial.seconds_1, |trial| trial.seconds_2];
+    for ((series, label), seconds) in (0..).zip(["episode 1", "episode 2"]).zip(seconds) {
+        let point = |(run, trial): &(&Run, TrialRun)| {
+            Some(LinePoint::new(f64::from(run.run + 1), seconds(trial)?))
         };
         let points = runs.iter().filter_map(point).take(50).collect();
         chart.line(Line::new(label, Series(series), points));

@@ -6,7 +6,8 @@ use super::{trials, venue};
 use tolman_arena::cpm::{
     Approach, CommonPatterns, KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck,
 };
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, run_seed};
+use tolman_experiment::Record as _;
+use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require, run_seed};
 
 /// The name of the table.
 pub(super) const LOCALIZATION: &str = "localization";
@@ -32,20 +33,76 @@ const ALIASED: &str = "Aliased";
 /// What follows the name of a maze in a row of robots that turn round where they are not sure.
 const TO_AND_FRO: &str = " to and fro";
 
-/// What could be known before the first place: the name of the metric, and that on a page.
-const KNOWABLE: [(&str, &str); 2] = [
-    ("bends_percent", "could be known by bends"),
-    ("places_percent", "and by the places at the ends"),
-];
+record! {
+    /// A robot put down in mid-fragment.
+    #[check(LocalizationRun::relations)]
+    struct LocalizationRun {
+        /// Places that the robot came to until it was sure.
+        places: usize => lower("places come to").at_least(1).at_most(MOST_PLACES),
+        /// Time that it took.
+        seconds: f64 => lower("time").unit("s").at_least(0),
+        /// Chance that the best guess is right of an observer that sees every bend of the corridor.
+        bends_percent: f64 => neither("could be known by bends").percent().decimals(1),
+        /// The same of an observer that sees the places at the ends too.
+        places_percent: f64 => neither("and by the places at the ends").percent().decimals(1),
+        /// Whether the robot turned round.
+        turned_round: bool => neither("turned round"),
+        /// Whether it was right when the first place was in sight.
+        under_way: bool => higher("right before it enters a place"),
+        /// Whether it was right in the middle of the first place.
+        first_place: bool => higher("right in the middle of the first"),
+        /// Whether it was right within one further fragment.
+        one_further: bool => higher("right within one further fragment"),
+        /// Whether it was right at the last place.
+        last_place: bool => higher("right at the last"),
+        /// Whether SOINN-AM recalled the maze by the first fragment walked whole.
+        recalled: Option<bool> => higher("maze recalled by SOINN-AM"),
+    }
+}
 
-/// The yes or no of a run: the beginning of its metric's name, and that on a page.
-const FLAGS: [(&str, &str); 6] = [
-    ("turned_round", "turned round"),
-    ("under_way", "right before it enters a place"),
-    ("first_place", "in the middle of the first"),
-    ("one_further", "within one further fragment"),
-    ("last_place", "at the last"),
-    ("recalled", "maze recalled by SOINN-AM"),
+impl LocalizationRun {
+    fn of(record: &PutDownRecord) -> Self {
+        Self {
+            places: record.whereabouts.at_places.len(),
+            seconds: record.seconds,
+            bends_percent: 100.0 * record.knowable_by_bends,
+            places_percent: 100.0 * record.knowable_by_places,
+            turned_round: record.whereabouts.has_turned_round,
+            under_way: record.is_right_under_way,
+            first_place: record.is_right_at_first_place,
+            one_further: record.is_right_within_one_further,
+            last_place: record.is_right_at_last,
+            recalled: record.is_recalled,
+        }
+    }
+
+    fn relations(&self) -> Result<(), String> {
+        for knowable in [self.bends_percent, self.places_percent] {
+            // The best guess is wrong, or one of so many that are as good.
+            let guesses = 100.0 / knowable;
+            let possible = knowable <= 0.0 || (guesses - guesses.round()).abs() <= 1e-6;
+            let told = format!("a chance is {knowable} %, expected 0 or 100 over a whole number");
+            require(possible, &told)?;
+        }
+        let has_walked = self.places > 1 || self.turned_round;
+        let recalled = self.recalled.is_none() || has_walked;
+        require(
+            recalled,
+            "a maze is recalled, and no fragment was walked whole",
+        )?;
+        let alike = [self.last_place, self.one_further] == [self.first_place; 2];
+        require(self.places > 1 || alike, "the first place is the last one")
+    }
+}
+
+/// The yes or no of a run, in the order they are shown.
+const FLAGS: [&str; 6] = [
+    LocalizationRun::turned_round,
+    LocalizationRun::under_way,
+    LocalizationRun::first_place,
+    LocalizationRun::one_further,
+    LocalizationRun::last_place,
+    LocalizationRun::recalled,
 ];
 
 /// What the robot learned of each maze, several times, by whoever asks first.
@@ -62,26 +119,16 @@ fn cast(row: &str) -> (&str, Approach) {
 
 /// `quick`: for a first look.
 pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
-    let mut table = Table::new(LOCALIZATION, "Put down in mid-fragment of one of the mazes")
-        .field("places", Kind::Count)
-        .field("seconds", Kind::Number)
-        .field("bends_percent", Kind::Number)
-        .field("places_percent", Kind::Number)
-        .field("turned_round", Kind::Flag)
-        .field("under_way", Kind::Flag)
-        .field("first_place", Kind::Flag)
-        .field("one_further", Kind::Flag)
-        .field("last_place", Kind::Flag)
-        .optional_field("recalled", Kind::Flag);
-    for (name, title) in KNOWABLE {
-        table = table.metric(Metric::mean(name).titled(title).unit("%").decimals(1));
-    }
-    for (name, title) in FLAGS {
-        table = table.metric(Metric::percent(format!("{name}_percent"), name).titled(title));
+    let title = "Put down in mid-fragment of one of the mazes";
+    let mut table = Table::of::<LocalizationRun>(LOCALIZATION, title)
+        .metric(Metric::mean(LocalizationRun::bends_percent))
+        .metric(Metric::mean(LocalizationRun::places_percent));
+    for flag in FLAGS {
+        table = table.metric(Metric::percent(format!("{flag}_percent"), flag));
     }
     table = table
-        .metric(Metric::mean("places").titled("places come to"))
-        .metric(Metric::mean("seconds").titled("time").unit("s"));
+        .metric(Metric::mean(LocalizationRun::places))
+        .metric(Metric::mean(LocalizationRun::seconds));
     let runs = if quick { QUICK_RUNS } else { RUNS };
     let mazes = venues.iter().map(|venue| venue.name.as_str());
     for maze in mazes.chain([ALIASED]) {
@@ -165,7 +212,7 @@ impl Known {
         let record = put_down
             .play()?
             .ok_or("no fragment is long enough to stand amid")?;
-        Ok(measured(&record))
+        Ok(LocalizationRun::of(&record).fields()?)
     }
 }
 
@@ -190,7 +237,7 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
             seed: seed("localization"),
         };
         if let Some(record) = put_down.play()? {
-            return Ok(measured(&record));
+            return Ok(LocalizationRun::of(&record).fields()?);
         }
     }
     Err("no maze was solved that has a fragment to stand amid".into())
@@ -202,58 +249,6 @@ fn known<'a>(venue: &'a Venue, record: &'a Record) -> KnownMaze<'a> {
         map: &record.map,
         truth: &record.truth,
     }
-}
-
-fn measured(record: &PutDownRecord) -> Fields {
-    let places = record.whereabouts.at_places.len();
-    let mut fields = Fields::new()
-        .count("places", places as u64)
-        .number("seconds", record.seconds)
-        .number("bends_percent", 100.0 * record.knowable_by_bends)
-        .number("places_percent", 100.0 * record.knowable_by_places)
-        .flag("turned_round", record.whereabouts.has_turned_round)
-        .flag("under_way", record.is_right_under_way)
-        .flag("first_place", record.is_right_at_first_place)
-        .flag("one_further", record.is_right_within_one_further)
-        .flag("last_place", record.is_right_at_last);
-    if let Some(recalled) = record.is_recalled {
-        fields = fields.flag("recalled", recalled);
-    }
-    fields
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag);
-    let places = number("places").unwrap_or_default();
-    if !(1.0..=f64::from(MOST_PLACES)).contains(&places) {
-        return Err(format!("{places} places, expected 1 to {MOST_PLACES}").into());
-    }
-    for (name, _) in KNOWABLE {
-        let knowable = number(name).unwrap_or_default();
-        // The best guess is wrong, or one of so many that are as good.
-        let guesses = 100.0 / knowable;
-        if knowable > 0.0 && (guesses - guesses.round()).abs() > 1e-6 {
-            return Err(
-                format!("{name} is {knowable}, expected 0 or 100 over a whole number").into(),
-            );
-        }
-    }
-    let (_, approach) = cast(&run.row);
-    let has_turned = flag("turned_round") == Some(true);
-    if has_turned && approach == Approach::StraightOn {
-        return Err("a robot that goes straight on has turned round".into());
-    }
-    let has_walked = places > 1.5 || has_turned;
-    if flag("recalled").is_some() && !has_walked {
-        return Err("a maze is recalled, and no fragment was walked whole".into());
-    }
-    let is_as_at_first = |name| flag(name) == flag("first_place");
-    if places < 1.5 && !(is_as_at_first("last_place") && is_as_at_first("one_further")) {
-        return Err("the first place is the last one".into());
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -276,15 +271,9 @@ mod tests {
                 seed: 7,
             };
             let fields = known.run(&venues, &patterns, 1, &job).unwrap();
-            right += u32::from(fields.get("last_place") == Some(&Field::Flag(true)));
-            let run = Run {
-                table: job.table.into(),
-                row: job.row.into(),
-                run,
-                seed: 7,
-                fields,
-            };
-            check(&run).unwrap();
+            let run: LocalizationRun = fields.record().unwrap();
+            right += u32::from(run.last_place);
+            run.relations().unwrap();
         }
         assert!(right >= 2, "{right} of 3");
     }

@@ -15,7 +15,13 @@ mod replay;
 mod trials;
 mod venue;
 
+use alloc::collections::BTreeMap;
+
+use serde::Serialize;
+use tolman_sim::robots::EpuckConfig;
+
 use tolman_arena::cpm::{CommonPatterns, Mode, Record, Venue, epuck, learn};
+use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::Run;
@@ -23,13 +29,13 @@ use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Table};
 use tolman_replay::Replay;
 
 use detector::DETECTOR;
-use dictionary::DICTIONARY;
+use dictionary::{DICTIONARY, DictionaryRun};
 use episodes::EPISODES;
 use explored::{EXPLORED, Explored};
 use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::{FIGURE_11, Real};
-use trials::Trials;
+use trials::{Modes, Trials};
 
 /// The experiment, ready to run.
 #[derive(Debug)]
@@ -45,6 +51,19 @@ struct Cpm {
     known: Known,
     master_seed: u64,
     tables: Vec<Table>,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+struct Config<'a, R, D> {
+    robot: EpuckConfig,
+    real: R,
+    modes: BTreeMap<&'a str, Modes<'a>>,
+    q_learning: QLearningConfig,
+    places: EpuckSurveyConfig,
+    detector: D,
+    dictionary: DictionaryRun,
+    mazes: BTreeMap<&'a str, String>,
 }
 
 /// Reads the mazes, and lets the robot learn.
@@ -150,27 +169,23 @@ impl Experiment for Cpm {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
-        config.insert("robot".into(), toml::Value::try_from(epuck())?);
-        config.insert("real".into(), real::config()?);
+        let mut modes: BTreeMap<&str, Modes<'_>> = BTreeMap::new();
         for trials in &self.trials {
-            config.insert(trials.table.name.clone(), trials.modes().into());
+            modes.insert(&trials.table.name, trials.modes());
         }
-        config.insert(EXPLORED.into(), self.explored.modes().into());
-        let learner = format!("{:?}", QLearningConfig::usual());
-        config.insert("q_learning".into(), learner.into());
-        config.insert("places".into(), places::config().into());
-        config.insert("detector".into(), detector::config().into());
-        let mut dictionary = toml::Table::new();
-        dictionary.insert("units".into(), self.patterns.unit_count().into());
-        dictionary.insert("clusters".into(), self.patterns.cluster_count().into());
-        config.insert("dictionary".into(), dictionary.into());
-        let mut mazes = toml::Table::new();
-        for venue in self.venues.iter().chain([&self.learning, &self.real.venue]) {
-            mazes.insert(venue.name.clone(), venue.maze.to_string().into());
-        }
-        config.insert("mazes".into(), mazes.into());
-        Ok(config)
+        modes.insert(EXPLORED, self.explored.modes());
+        let mazes = self.venues.iter().chain([&self.learning, &self.real.venue]);
+        let mazes = mazes.map(|venue| (&*venue.name, venue.maze.to_string()));
+        Ok(toml::Table::try_from(Config {
+            robot: epuck(),
+            real: real::config(),
+            modes,
+            q_learning: QLearningConfig::usual(),
+            places: places::config(),
+            detector: detector::config(),
+            dictionary: DictionaryRun::of(&self.patterns),
+            mazes: mazes.collect(),
+        })?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
@@ -189,19 +204,6 @@ impl Experiment for Cpm {
                 Some(trials) => trials.run(&self.patterns, job),
                 None => Err(format!("there is no table {table:?}").into()),
             },
-        }
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        match run.table.as_str() {
-            FIGURE_11 => real::check(run),
-            EXPLORED => explored::check(run),
-            EPISODES => episodes::check(run),
-            LOCALIZATION => localization::check(run),
-            PLACES => places::check(run),
-            DICTIONARY => dictionary::check(run),
-            DETECTOR => detector::check(run),
-            _ => trials::check(run),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use tolman_arena::cpm::Venue;
 use tolman_arena::diktiometry::{EpuckSurveyConfig, survey_maze};
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 
 /// The name of the table.
 pub(super) const PLACES: &str = "places";
@@ -10,37 +10,47 @@ pub(super) const PLACES: &str = "places";
 /// Moves of a run: several times as many as a maze has ways.
 const MOVES: u32 = 40;
 
-/// The shares that a map is scored by.
-const SHARES: [(&str, &str); 5] = [
-    ("purity", "purity"),
-    ("share_once", "places with one node"),
-    ("link_precision", "links: precision"),
-    ("link_recall", "recall"),
-    ("bounded", "odometry within its bounds"),
-];
+record! {
+    /// A survey by the diktiometry.
+    #[check(PlacesRun::relations)]
+    struct PlacesRun {
+        /// Moves from one place to the next.
+        moves: u32 => neither("moves").at_most(MOVES),
+        /// Places on the map.
+        places: usize => neither("places on the map").decimals(1),
+        /// True places where the robot was.
+        visited: usize => neither("true places visited").decimals(1),
+        /// Share of the visits that were to the true place for which their place on the map stands.
+        purity: f64 => higher("purity").share(),
+        /// Share of the true places visited for which exactly one place on the map stands.
+        share_once: f64 => higher("places with one node").share(),
+        /// Share of the map's links that lead where their action truly leads.
+        link_precision: f64 => higher("links: precision").share(),
+        /// Share of all ways of the maze, each in both directions, that are on the map.
+        link_recall: f64 => higher("links: recall").share(),
+        /// Share of the moves at whose end odometry was within its bounds.
+        bounded: f64 => higher("odometry within its bounds").share(),
+        /// What ended the survey early.
+        trouble: Option<String> => neither("trouble"),
+    }
+}
+
+impl PlacesRun {
+    fn relations(&self) -> Result<(), String> {
+        let possible = self.visited <= self.moves as usize + 1;
+        require(possible, "more places were visited than moves lead to")
+    }
+}
 
 pub(super) fn table(venues: &[Venue]) -> Table {
-    let mut table = Table::new(PLACES, "The diktiometry on the e-puck")
-        .field("moves", Kind::Count)
-        .field("places", Kind::Count)
-        .field("visited", Kind::Count)
-        .optional_field("trouble", Kind::Text);
-    for (name, title) in SHARES {
-        table = table
-            .field(name, Kind::Number)
-            .metric(Metric::mean(name).titled(title));
-    }
-    table = table
-        .metric(
-            Metric::mean("places")
-                .titled("places on the map")
-                .decimals(1),
-        )
-        .metric(
-            Metric::mean("visited")
-                .titled("true places visited")
-                .decimals(1),
-        );
+    let mut table = Table::of::<PlacesRun>(PLACES, "The diktiometry on the e-puck")
+        .metric(Metric::mean(PlacesRun::purity))
+        .metric(Metric::mean(PlacesRun::share_once))
+        .metric(Metric::mean(PlacesRun::link_precision))
+        .metric(Metric::mean(PlacesRun::link_recall))
+        .metric(Metric::mean(PlacesRun::bounded))
+        .metric(Metric::mean(PlacesRun::places))
+        .metric(Metric::mean(PlacesRun::visited));
     for venue in venues {
         table = table.row(Row::new(&venue.name));
     }
@@ -52,43 +62,24 @@ pub(super) fn table(venues: &[Venue]) -> Table {
 }
 
 /// What the runs depend on.
-pub(super) fn config() -> String {
-    format!("{:?}", EpuckSurveyConfig::usual(MOVES))
+pub(super) const fn config() -> EpuckSurveyConfig {
+    EpuckSurveyConfig::usual(MOVES)
 }
 
 /// One survey.
 pub(super) fn run(venue: &Venue, job: &Job<'_>) -> Result<Fields, BoxError> {
-    let config = EpuckSurveyConfig::usual(MOVES);
-    let survey = survey_maze(&venue.maze, venue.corridor_width, &config, job.seed)?;
+    let survey = survey_maze(&venue.maze, venue.corridor_width, &config(), job.seed)?;
     let score = survey.score;
-    let bounded = f64::from(survey.bounded) / f64::from(survey.moves.max(1));
-    let fields = Fields::new()
-        .count("moves", survey.moves.into())
-        .count("places", score.places as u64)
-        .count("visited", score.visited as u64)
-        .number("purity", score.purity)
-        .number("share_once", score.share_once)
-        .number("link_precision", score.link_precision)
-        .number("link_recall", score.link_recall)
-        .number("bounded", bounded);
-    Ok(match survey.trouble {
-        Some(trouble) => fields.text("trouble", trouble),
-        None => fields,
-    })
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    for (name, _) in SHARES {
-        let share = number(name);
-        if share.is_none_or(|share| !(0.0..=1.0).contains(&share)) {
-            return Err(format!("{name} is {share:?}, which is no share of 1").into());
-        }
-    }
-    let moves = number("moves").unwrap_or_default();
-    if moves > f64::from(MOVES) || number("visited") > Some(moves + 1.0) {
-        return Err(format!("{moves} moves to {:?} places", number("visited")).into());
-    }
-    Ok(())
+    let run = PlacesRun {
+        moves: survey.moves,
+        places: score.places,
+        visited: score.visited,
+        purity: score.purity,
+        share_once: score.share_once,
+        link_precision: score.link_precision,
+        link_recall: score.link_recall,
+        bounded: f64::from(survey.bounded) / f64::from(survey.moves.max(1)),
+        trouble: survey.trouble,
+    };
+    Ok(run.fields()?)
 }

@@ -1,15 +1,17 @@
 //! The pair of figure 11: the maze of the real robot, walked to the goal and back, and driven again.
 
-use tolman_maps::cpm::{CpmConfig, Done};
-
 use std::sync::OnceLock;
+
+use serde::Serialize;
+use tolman_maps::cpm::{CpmConfig, Done};
+use tolman_sim::robots::EpuckConfig;
 
 use super::venue;
 use tolman_arena::cpm::{
     CommonPatterns, Cpm, Episode, Lesson, RoundTrip, SimulatedEpuck, Step, Venue, Walker,
     WalkerConfig, learn_by, placed, slow_epuck, walker_config,
 };
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 
 /// The name of the table.
 pub(super) const FIGURE_11: &str = "11";
@@ -29,12 +31,19 @@ pub(super) struct Real {
     patterns: OnceLock<CommonPatterns>,
 }
 
-pub(super) fn config() -> Result<toml::Value, BoxError> {
-    let mut config = toml::Table::new();
-    config.insert("robot".into(), toml::Value::try_from(slow_epuck())?);
-    config.insert("lesson".into(), format!("{LESSON:?}").into());
-    config.insert("stride_s".into(), STRIDE_S.into());
-    Ok(config.into())
+/// What the runs depend on.
+pub(super) fn config() -> impl Serialize {
+    #[derive(Serialize)]
+    struct Config {
+        robot: EpuckConfig,
+        lesson: Lesson,
+        stride_s: f64,
+    }
+    Config {
+        robot: slow_epuck(),
+        lesson: LESSON,
+        stride_s: STRIDE_S,
+    }
 }
 
 /// How it observes in the corridors of a venue.
@@ -92,59 +101,90 @@ impl Real {
     }
 }
 
+record! {
+    /// A way to the goal, back, and to the goal again.
+    #[check(RoundTripRun::relations)]
+    struct RoundTripRun {
+        /// Whether goal, start and goal again were reached.
+        solved: bool => higher("solved"),
+        /// Observations until the goal.
+        observations_1: Option<u32> => lower("observations to the goal").decimals(1),
+        /// Time until the goal.
+        seconds_1: Option<f64> => lower("time to the goal").unit("s").at_least(0).decimals(1),
+        /// Observations until the goal and back at the start.
+        observations_both_ways: Option<u32> => lower("observations there and back").decimals(1),
+        /// Observations until the goal by the map.
+        observations_2: Option<u32> => lower("observations in episode 2").decimals(1),
+        /// Time until the goal by the map.
+        seconds_2: Option<f64> => lower("time in episode 2").unit("s").at_least(0).decimals(1),
+        /// Observations that the second episode saves.
+        steps_reduction: Option<f64> => higher("observations saved").unit("%").at_most(100),
+        /// Time that the second episode saves.
+        time_reduction: Option<f64> => higher("time saved").unit("%").at_most(100),
+        /// Fragments that the robot looked into on its way back, since they may be shorter.
+        tried: u32 => neither("fragments tried on the way back"),
+        /// Those of them that it gave up.
+        given_up: u32 => neither("fragments given up"),
+    }
+}
+
+impl RoundTripRun {
+    fn relations(&self) -> Result<(), String> {
+        let observations = [self.observations_1, self.observations_2];
+        let observations = observations.map(|count| count.map(f64::from));
+        let seconds = [self.seconds_1, self.seconds_2];
+        for (name, [first, second], found) in [
+            (Self::steps_reduction, observations, self.steps_reduction),
+            (Self::time_reduction, seconds, self.time_reduction),
+        ] {
+            let expected = first
+                .zip(second)
+                .map(|(first, second)| less([first, second]));
+            let off = found
+                .zip(expected)
+                .map(|(found, expected)| (found - expected).abs());
+            let is_right = match self.solved {
+                true => off.is_some_and(|off| off < 1e-9),
+                false => found.or(expected).is_none(),
+            };
+            require(
+                is_right,
+                &format!("{name} is {found:?}, expected {expected:?}"),
+            )?;
+        }
+        let farther = !self.solved || self.observations_both_ways >= self.observations_1;
+        require(farther, "there and back is farther than there")?;
+        require(
+            self.given_up <= self.tried,
+            "more fragments given up than tried",
+        )
+    }
+}
+
 fn table(venue: &Venue) -> Table {
-    Table::new(FIGURE_11, "The maze of the real robot")
-        .field("solved", Kind::Flag)
-        .optional_field("observations_1", Kind::Count)
-        .optional_field("seconds_1", Kind::Number)
-        .optional_field("observations_both_ways", Kind::Count)
-        .optional_field("observations_2", Kind::Count)
-        .optional_field("seconds_2", Kind::Number)
-        .optional_field("steps_reduction", Kind::Number)
-        .optional_field("time_reduction", Kind::Number)
-        .field("tried", Kind::Count)
-        .field("given_up", Kind::Count)
-        .metric(Metric::percent("solved_percent", "solved"))
-        .metric(
-            Metric::mean("observations_1")
-                .titled("observations to the goal")
-                .decimals(1),
-        )
-        .metric(Metric::mean("seconds_1").titled("time").unit("s").decimals(1))
-        .metric(
-            Metric::mean("observations_both_ways")
-                .titled("with the way back")
-                .decimals(1),
-        )
-        .metric(
-            Metric::mean("observations_2")
-                .titled("in episode 2")
-                .decimals(1),
-        )
-        .metric(Metric::mean("seconds_2").titled("time").unit("s").decimals(1))
-        .metric(
-            Metric::mean("steps_reduction")
-                .titled("reduction of observations")
-                .unit("%"),
-        )
-        .metric(Metric::mean("time_reduction").titled("of time").unit("%"))
-        .metric(
-            Metric::mean("tried")
-                .titled("fragments tried on the way back"),
-        )
-        .metric(Metric::mean("given_up").titled("given up"))
+    Table::of::<RoundTripRun>(FIGURE_11, "The maze of the real robot")
+        .metric(Metric::percent("solved_percent", RoundTripRun::solved))
+        .metric(Metric::mean(RoundTripRun::observations_1))
+        .metric(Metric::mean(RoundTripRun::seconds_1))
+        .metric(Metric::mean(RoundTripRun::observations_both_ways))
+        .metric(Metric::mean(RoundTripRun::observations_2))
+        .metric(Metric::mean(RoundTripRun::seconds_2))
+        .metric(Metric::mean(RoundTripRun::steps_reduction))
+        .metric(Metric::mean(RoundTripRun::time_reduction))
+        .metric(Metric::mean(RoundTripRun::tried))
+        .metric(Metric::mean(RoundTripRun::given_up))
         .row(
             Row::new(&venue.name)
                 .paper("solved_percent", 100.0)
-                .paper("observations_1", 20.0)
-                .paper("seconds_1", 121.0)
-                .paper("observations_both_ways", 33.0)
-                .paper("observations_2", 4.0)
-                .paper("seconds_2", 44.0)
-                .paper("steps_reduction", 80.0)
-                .paper("time_reduction", 63.636)
-                .paper("tried", 1.0)
-                .paper("given_up", 1.0),
+                .paper(RoundTripRun::observations_1, 20.0)
+                .paper(RoundTripRun::seconds_1, 121.0)
+                .paper(RoundTripRun::observations_both_ways, 33.0)
+                .paper(RoundTripRun::observations_2, 4.0)
+                .paper(RoundTripRun::seconds_2, 44.0)
+                .paper(RoundTripRun::steps_reduction, 80.0)
+                .paper(RoundTripRun::time_reduction, 63.636)
+                .paper(RoundTripRun::tried, 1.0)
+                .paper(RoundTripRun::given_up, 1.0),
         )
         .note(
             "Figure 11's maze drawn anew: four fragments, two junctions. To the goal, back with a look at fragments that may be shorter, and to the \
@@ -157,62 +197,31 @@ fn measured(trip: &RoundTrip) -> Result<Fields, BoxError> {
     let reached = |episode: Option<Episode>| episode.filter(|one| one.done == Done::Reached);
     let (there, back) = (reached(Some(trip.there)), reached(trip.back));
     let again = reached(trip.again);
-    let solved = there.is_some() && back.is_some() && again.is_some();
-    let mut fields = Fields::new()
-        .flag("solved", solved)
-        .count("tried", trip.tried.into())
-        .count("given_up", trip.given_up.into());
-    if let Some(there) = there {
-        fields = fields
-            .count("observations_1", there.observations.into())
-            .number("seconds_1", there.seconds);
-    }
-    if let (Some(there), Some(back), Some(again)) = (there, back, again) {
-        let observations = [there, again].map(|episode| f64::from(episode.observations));
-        let both_ways = there.observations + back.observations;
-        fields = fields
-            .count("observations_both_ways", both_ways.into())
-            .count("observations_2", again.observations.into())
-            .number("seconds_2", again.seconds)
-            .number("steps_reduction", less(observations))
-            .number("time_reduction", less([there.seconds, again.seconds]));
-    }
-    Ok(fields)
+    let all = there.zip(back).zip(again);
+    let again = all.map(|(_, again)| again);
+    let both_ways =
+        |((there, back), _): ((Episode, Episode), Episode)| there.observations + back.observations;
+    let saved = |measure: fn(Episode) -> f64| {
+        all.map(|((there, _), again)| less([measure(there), measure(again)]))
+    };
+    let run = RoundTripRun {
+        solved: all.is_some(),
+        observations_1: there.map(|there| there.observations),
+        seconds_1: there.map(|there| there.seconds),
+        observations_both_ways: all.map(both_ways),
+        observations_2: again.map(|again| again.observations),
+        seconds_2: again.map(|again| again.seconds),
+        steps_reduction: saved(|episode| f64::from(episode.observations)),
+        time_reduction: saved(|episode| episode.seconds),
+        tried: trip.tried,
+        given_up: trip.given_up,
+    };
+    Ok(run.fields()?)
 }
 
 /// By how many percent of the first the second is less.
 fn less([first, second]: [f64; 2]) -> f64 {
     100.0 * (1.0 - second / first)
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
-    for (name, first, second) in [
-        ("steps_reduction", "observations_1", "observations_2"),
-        ("time_reduction", "seconds_1", "seconds_2"),
-    ] {
-        let expected = match (number(first), number(second)) {
-            (Some(first), Some(second)) => Some(less([first, second])),
-            _ => None,
-        };
-        let is_right = match (number(name), expected) {
-            (Some(found), Some(expected)) => solved && (found - expected).abs() < 1e-9,
-            (None, None) => !solved,
-            _ => false,
-        };
-        if !is_right {
-            return Err(format!("{name} is {:?}, expected {expected:?}", number(name)).into());
-        }
-    }
-    if number("observations_both_ways") < number("observations_1") && solved {
-        return Err("there and back is farther than there".into());
-    }
-    if number("given_up") > number("tried") {
-        return Err("more fragments given up than tried".into());
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -228,20 +237,13 @@ mod tests {
             run: 0,
             seed: 1,
         };
-        let fields = real.run(&job).unwrap();
-        assert_eq!(fields.get("solved"), Some(&Field::Flag(true)), "{fields:?}");
-        let run = Run {
-            table: job.table.into(),
-            row: job.row.into(),
-            run: 0,
-            seed: 1,
-            fields,
-        };
-        check(&run).unwrap();
-        let wrong = Run {
-            fields: run.fields.clone().number("time_reduction", 5.0),
+        let run: RoundTripRun = real.run(&job).unwrap().record().unwrap();
+        assert!(run.solved, "{run:?}");
+        run.relations().unwrap();
+        let wrong = RoundTripRun {
+            time_reduction: Some(5.0),
             ..run
         };
-        assert!(check(&wrong).is_err());
+        assert!(wrong.relations().is_err());
     }
 }

@@ -1,10 +1,13 @@
 //! The tables whose runs are trials: both episodes in one maze.
 
+use alloc::collections::BTreeMap;
+
 use tolman_maps::cpm::CpmConfig;
 
 use super::venue;
 use tolman_arena::cpm::{CommonPatterns, Likeness, Mode, Record, Trial, Venue, epuck};
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::Record as _;
+use tolman_experiment::{BoxError, Fields, Job, Metric, RecordError, Row, Table, record, require};
 
 /// The table of figure 9.
 pub(super) const FIGURE_9: &str = "9";
@@ -30,8 +33,8 @@ pub(super) struct Trials {
     pub(super) table: Table,
     settings: Vec<Setting>,
     solution: Solution,
-    /// Adds what this table measures beside what every trial does.
-    own: fn(Fields, &Venue, &Record) -> Fields,
+    /// The record of this table for what every trial measures.
+    own: fn(TrialRun, &Venue, &Record) -> Result<Fields, RecordError>,
 }
 
 /// What makes a trial solved.
@@ -82,37 +85,27 @@ pub(super) fn better() -> Mode {
 /// Figure 9; `papers`: the mazes are the paper's.
 pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
     let settings = in_both_modes(venues);
-    let table = fields(Table::new(
-        FIGURE_9,
-        "Time from the first to the second episode",
-    ))
-    .metric(Metric::percent("solved_percent", "solved"))
+    let least = Metric::least("reduction_min_percent", TrialRun::reduction);
+    let table = Table::of::<TrialRun>(FIGURE_9, "Time from the first to the second episode")
+    .metric(solved())
     .metric(as_it_lies())
     .metric(map_right())
-    .metric(
-        Metric::least("reduction_min_percent", "reduction")
-            .titled("least reduction")
-            .unit("%"),
-    )
-    .metric(named("reduction_percent", "reduction").titled("reduction").unit("%"))
-    .metric(Metric::percent("long_percent", "long").titled("long ones"))
-    .metric(
-        named("reduction_long_percent", "reduction_long")
-            .titled("reduction of long ones")
-            .unit("%"),
-    )
-    .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
-    .metric(Metric::mean("closure_recall").titled("recall"))
-    .metric(Metric::mean("seconds_1").titled("episode 1").unit("s"))
-    .metric(Metric::mean("seconds_2").titled("episode 2").unit("s"))
-    .metric(bumps())
+    .metric(least.titled("least time saved"))
+    .metric(reduction())
+    .metric(Metric::percent("long_percent", TrialRun::long))
+    .metric(Metric::mean(TrialRun::reduction_long).named("reduction_long_percent"))
+    .metric(Metric::mean(TrialRun::closure_precision))
+    .metric(Metric::mean(TrialRun::closure_recall))
+    .metric(Metric::mean(TrialRun::seconds_1))
+    .metric(Metric::mean(TrialRun::seconds_2))
+    .metric(Metric::mean(TrialRun::bumps))
     .paper_runs(10)
     .note(format!(
         "Solved: the goal was found, and found again by a way as short as any that could be known, where two visits are known to be of one \
-         junction if a fragment was walked twice that ends there. As it lies: as short as any over the same fragments as they truly lie. \
+         junction if a fragment was walked twice that ends there. Shortest on true map: as short as any over the same fragments as they truly lie. \
          Map right: each junction and fragment where the robot has been is on the map once, and all are joined as they truly are. \
-         Reductions are of solved runs; long ones drove {LONG} times the shortest path or more in the first episode. A run without a loop has \
-         precision and recall 1. In the paper the reduction is over 50 % in every trial, and up to 95 %. \
+         Time saved is of solved runs; some drove {LONG} times the shortest path or more in the first episode. A run without a loop has \
+         precision and recall 1. In the paper the time saved is over 50 % in every trial, and up to 95 %. \
          Its robot needs no more than two episodes either."
     ));
     let row = |setting: &Setting| {
@@ -129,7 +122,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
         table: with_rows(table, &settings, row),
         settings,
         solution: Solution::Way,
-        own: |fields, _, _| fields,
+        own: |trial, _, _| trial.fields(),
     }
 }
 
@@ -164,12 +157,12 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
             });
         }
     }
-    let table = fields(Table::new("offline", "Offline against online CPM"))
-        .metric(Metric::percent("solved_percent", "solved"))
-        .metric(Metric::mean("traversals").titled("fragments walked"))
-        .metric(Metric::mean("true_fragments").titled("different ones"))
-        .metric(Metric::mean("seconds_1").titled("episode 1").unit("s"))
-        .metric(Metric::mean("seconds_2").titled("episode 2").unit("s"))
+    let table = Table::of::<TrialRun>("offline", "Offline against online CPM")
+        .metric(solved())
+        .metric(Metric::mean(TrialRun::traversals))
+        .metric(Metric::mean(TrialRun::true_fragments))
+        .metric(Metric::mean(TrialRun::seconds_1))
+        .metric(Metric::mean(TrialRun::seconds_2))
         .note(
             "Offline the robot takes ports at random and looks at its map when the goal is found (section 4); online before each decision \
              (section 6). Rows of one maze meet the same chance.",
@@ -178,7 +171,7 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
         table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
         settings,
         solution: Solution::Way,
-        own: |fields, _, _| fields,
+        own: |trial, _, _| trial.fields(),
     }
 }
 
@@ -195,14 +188,13 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
             mode: Mode::Unlearned(CpmConfig::robust()),
         })
         .collect();
-    let table = fields(Table::new("unlearned", "Patterns learned on the way"))
-        .field("patterns", Kind::Count)
-        .metric(Metric::percent("solved_percent", "solved"))
+    let table = Table::of::<UnlearnedRun>("unlearned", "Patterns learned on the way")
+        .metric(solved())
         .metric(map_right())
-        .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
-        .metric(Metric::mean("closure_recall").titled("recall"))
-        .metric(named("reduction_percent", "reduction").titled("reduction").unit("%"))
-        .metric(Metric::mean("patterns"))
+        .metric(Metric::mean(TrialRun::closure_precision))
+        .metric(Metric::mean(TrialRun::closure_recall))
+        .metric(reduction())
+        .metric(Metric::mean(UnlearnedRun::patterns))
         .note(
             "The better robot, which has been in no learning maze: what it observes that is like no pattern it has becomes one, and what was \
              written before stays readable. Aliased: one random maze a run.",
@@ -211,7 +203,10 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
         table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
         settings,
         solution: Solution::Way,
-        own: |fields, _, record| fields.count("patterns", record.patterns.into()),
+        own: |trial, _, record| {
+            let patterns = record.patterns;
+            UnlearnedRun { trial, patterns }.fields()
+        },
     }
 }
 
@@ -228,24 +223,21 @@ pub(super) fn aliased(quick: bool) -> Trials {
         mode,
     });
     let settings = Vec::from(settings);
-    let table = fields(Table::new("aliased", "Mazes with fragments that look alike"))
-        .field("shortest_known", Kind::Flag)
-        .field("alike_pairs", Kind::Count)
-        .field("symmetrical", Kind::Count)
-        .metric(Metric::percent("solved_percent", "solved"))
+    let table = Table::of::<AliasedRun>("aliased", "Mazes with fragments that look alike")
+        .metric(solved())
         .metric(map_right())
-        .metric(Metric::percent("shortest_known_percent", "shortest_known").titled("as known"))
+        .metric(Metric::percent("shortest_known_percent", AliasedRun::shortest_known))
         .metric(as_it_lies())
-        .metric(Metric::mean("closure_precision").titled("loops closed: precision"))
-        .metric(Metric::mean("closure_recall").titled("recall"))
-        .metric(bumps())
-        .metric(Metric::mean("alike_pairs").titled("pairs alike"))
-        .metric(Metric::mean("symmetrical"))
+        .metric(Metric::mean(TrialRun::closure_precision))
+        .metric(Metric::mean(TrialRun::closure_recall))
+        .metric(Metric::mean(TrialRun::bumps))
+        .metric(Metric::mean(AliasedRun::alike_pairs))
+        .metric(Metric::mean(AliasedRun::symmetrical))
         .note(format!(
             "One random maze a run, the same for both rows, in which two fragments or more bend alike, cell by cell, from one end or the other; \
              symmetrical ones bend the same from both. Faithful is the paper's system, whose constraints they break, and gives up after {ALIASED_PATIENCE} fragments. Solved: the goal was \
-             found, and found again by a way as short as any that could be known (as known), and the map is right: each junction and fragment \
-             where the robot has been is on it once, and all are joined as they truly are. As it lies: the goal was found again by a way as short as any over the \
+             found, and found again by a way as short as any that could be known, and the map is right: each junction and fragment \
+             where the robot has been is on it once, and all are joined as they truly are. Shortest on true map: the goal was found again by a way as short as any over the \
              same fragments as they truly lie.",
         ));
     let mazes = if quick { ALIASED_QUICK } else { ALIASED_MAZES };
@@ -255,12 +247,15 @@ pub(super) fn aliased(quick: bool) -> Trials {
         }),
         settings,
         solution: Solution::WayAndMap,
-        own: |fields, venue, record| {
+        own: |trial, venue, record| {
             let likeness = Likeness::of(&venue.maze);
-            fields
-                .flag("shortest_known", record.is_solved())
-                .count("alike_pairs", likeness.alike_pairs.into())
-                .count("symmetrical", likeness.symmetrical.into())
+            let run = AliasedRun {
+                trial,
+                shortest_known: record.is_solved(),
+                alike_pairs: likeness.alike_pairs,
+                symmetrical: likeness.symmetrical,
+            };
+            run.fields()
         },
     }
 }
@@ -272,55 +267,95 @@ fn with_rows(mut table: Table, settings: &[Setting], row: impl Fn(&Setting) -> R
     table
 }
 
-/// Whether a thing is on the map once, and where it is.
-fn map_right() -> Metric {
-    Metric::percent("map_right_percent", "map_right").titled("map right")
+/// Trials that are solved.
+fn solved() -> Metric {
+    Metric::percent("solved_percent", TrialRun::solved)
 }
 
-/// Time steps in which the robot touched a wall.
-fn bumps() -> Metric {
-    Metric::mean("bumps").titled("steps at a wall")
+/// Trials whose map is right.
+fn map_right() -> Metric {
+    Metric::percent("map_right_percent", TrialRun::map_right)
 }
 
 /// The stricter yardstick.
 fn as_it_lies() -> Metric {
-    Metric::percent("shortest_as_it_lies_percent", "shortest_as_it_lies").titled("as it lies")
+    Metric::percent("shortest_as_it_lies_percent", TrialRun::shortest_as_it_lies)
 }
 
-/// The mean of a field under another name.
-fn named(name: &str, field: &str) -> Metric {
-    Metric {
-        name: name.into(),
-        ..Metric::mean(field)
+/// What the second episode saves.
+fn reduction() -> Metric {
+    Metric::mean(TrialRun::reduction).named("reduction_percent")
+}
+
+record! {
+    /// Both episodes in one maze.
+    #[check(TrialRun::relations)]
+    pub(super) struct TrialRun {
+        /// Whether the goal was found, and found again by a way as short as any that could be known.
+        solved: bool => higher("solved"),
+        /// Whether that way was as short as any over the same fragments as they truly lie.
+        shortest_as_it_lies: bool => higher("shortest on true map"),
+        /// Whether every junction and fragment is on the map once, all joined as they truly are.
+        map_right: bool => higher("map right"),
+        /// Time that the second episode saves, where the trial is solved.
+        reduction: Option<f64> => higher("time saved").unit("%").at_most(100),
+        /// Whether the first episode of a solved trial was ten times as long as the shortest path.
+        long: bool => neither("trials 10× the shortest"),
+        /// Time that the second episode of such a trial saves.
+        reduction_long: Option<f64> =>
+            higher("time saved, trials 10× the shortest").unit("%").at_most(100),
+        /// Share of the loops closed on the map that are closed in truth.
+        closure_precision: f64 => higher("loops closed: precision").share(),
+        /// Share of the loops closed in truth that are closed on the map.
+        closure_recall: f64 => higher("loops closed: recall").share(),
+        /// Time until the goal is found.
+        seconds_1: Option<f64> => lower("episode 1").unit("s").at_least(0),
+        /// Time until the goal is found again.
+        seconds_2: Option<f64> => lower("episode 2").unit("s").at_least(0),
+        /// Observations until the goal is found.
+        observations_1: Option<u32> => lower("observations in episode 1"),
+        /// Observations until the goal is found again.
+        observations_2: Option<u32> => lower("observations in episode 2"),
+        /// Fragments walked in the first episode, each as often as it was.
+        traversals: u32 => lower("fragments walked"),
+        /// Fragments on the map.
+        fragments: u32 => neither("fragments on the map"),
+        /// Different fragments walked.
+        true_fragments: u32 => neither("different fragments walked"),
+        /// Fragments that contradicted the map.
+        contradictions: u32 => lower("contradictions"),
+        /// Time steps in which the robot touched a wall.
+        bumps: u32 => lower("steps at a wall"),
+        /// What ended the trial early.
+        trouble: Option<String> => neither("trouble"),
     }
 }
 
-/// What every trial measures.
-fn fields(table: Table) -> Table {
-    table
-        .field("solved", Kind::Flag)
-        .field("shortest_as_it_lies", Kind::Flag)
-        .field("map_right", Kind::Flag)
-        .optional_field("reduction", Kind::Number)
-        .field("long", Kind::Flag)
-        .optional_field("reduction_long", Kind::Number)
-        .field("closure_precision", Kind::Number)
-        .field("closure_recall", Kind::Number)
-        .optional_field("seconds_1", Kind::Number)
-        .optional_field("seconds_2", Kind::Number)
-        .optional_field("observations_1", Kind::Count)
-        .optional_field("observations_2", Kind::Count)
-        .field("traversals", Kind::Count)
-        .field("fragments", Kind::Count)
-        .field("true_fragments", Kind::Count)
-        .field("contradictions", Kind::Count)
-        .field("bumps", Kind::Count)
-        .optional_field("trouble", Kind::Text)
+record! {
+    /// A trial of a robot that has been in no learning maze.
+    struct UnlearnedRun {
+        ..trial: TrialRun,
+        /// Common patterns at the end.
+        patterns: u32 => neither("patterns"),
+    }
+}
+
+record! {
+    /// A trial in a maze with fragments that look alike.
+    struct AliasedRun {
+        ..trial: TrialRun,
+        /// Whether the goal was found again by a way as short as any that could be known.
+        shortest_known: bool => higher("shortest that could be known"),
+        /// Pairs of fragments that bend alike.
+        alike_pairs: u32 => neither("pairs alike").at_least(1),
+        /// Fragments that bend the same from both ends.
+        symmetrical: u32 => neither("symmetrical"),
+    }
 }
 
 impl Trials {
     /// Every row with the way it maps, for the configuration.
-    pub(super) fn modes(&self) -> toml::Table {
+    pub(super) fn modes(&self) -> Modes<'_> {
         modes(&self.settings)
     }
 
@@ -333,16 +368,20 @@ impl Trials {
     pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (venue, mode) = self.cast(job)?;
         let record = trial(&venue, patterns, mode, job.seed).play()?;
-        let fields = measured(&venue, &record, self.solution)?;
-        Ok((self.own)(fields, &venue, &record))
+        let run = TrialRun::of(&venue, &record, self.solution);
+        Ok((self.own)(run, &venue, &record)?)
     }
 }
 
+/// Every row with the way it maps.
+pub(super) type Modes<'a> = BTreeMap<&'a str, Mode>;
+
 /// Every row with the way it maps, for the configuration.
-pub(super) fn modes(settings: &[Setting]) -> toml::Table {
+pub(super) fn modes(settings: &[Setting]) -> Modes<'_> {
     let settings = settings.iter();
-    let modes = settings.map(|Setting { row, mode, .. }| (row.clone(), format!("{mode:?}").into()));
-    modes.collect()
+    settings
+        .map(|setting| (&*setting.row, setting.mode))
+        .collect()
 }
 
 /// The maze and the way of mapping of a run in one of these rows.
@@ -374,46 +413,66 @@ pub(super) fn trial<'a>(
     }
 }
 
-fn measured(venue: &Venue, record: &Record, solution: Solution) -> Result<Fields, BoxError> {
-    let closures = record.closures;
-    let is_solved = solution.is_of(record);
-    let mut fields = Fields::new()
-        .flag("solved", is_solved)
-        .flag(
-            "shortest_as_it_lies",
-            record.is_solved() && record.is_shortest_as_it_lies,
-        )
-        .flag("map_right", record.is_map_right)
-        .number("closure_precision", share(closures.right, closures.wrong))
-        .number("closure_recall", share(closures.right, closures.missed))
-        .count("traversals", record.traversals.into())
-        .count("fragments", record.fragments.into())
-        .count("true_fragments", record.true_fragments.into())
-        .count("contradictions", record.contradictions.into())
-        .count("bumps", record.bumps.into());
-    let shortest = venue.shortest_metres();
-    let is_long = is_solved && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
-    fields = fields.flag("long", is_long);
-    if let Some(reduction) = record.reduction_percent().filter(|_| is_solved) {
-        fields = fields.number("reduction", reduction);
-        if is_long {
-            fields = fields.number("reduction_long", reduction);
+impl TrialRun {
+    fn of(venue: &Venue, record: &Record, solution: Solution) -> Self {
+        let closures = record.closures;
+        let solved = solution.is_of(record);
+        let shortest = venue.shortest_metres();
+        let long = solved && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
+        let reduction = record.reduction_percent().filter(|_| solved);
+        Self {
+            solved,
+            shortest_as_it_lies: record.is_solved() && record.is_shortest_as_it_lies,
+            map_right: record.is_map_right,
+            reduction,
+            long,
+            reduction_long: reduction.filter(|_| long),
+            closure_precision: share(closures.right, closures.wrong),
+            closure_recall: share(closures.right, closures.missed),
+            seconds_1: record.first.map(|episode| episode.seconds),
+            seconds_2: record.second.map(|episode| episode.seconds),
+            observations_1: record.first.map(|episode| episode.observations),
+            observations_2: record.second.map(|episode| episode.observations),
+            traversals: record.traversals,
+            fragments: record.fragments,
+            true_fragments: record.true_fragments,
+            contradictions: record.contradictions,
+            bumps: record.bumps,
+            trouble: record.trouble.clone(),
         }
     }
-    if let Some(first) = record.first {
-        fields = fields
-            .number("seconds_1", first.seconds)
-            .count("observations_1", first.observations.into());
+
+    fn relations(&self) -> Result<(), String> {
+        let (first, second) = (self.seconds_1, self.seconds_2);
+        let together = first.is_some() == self.observations_1.is_some()
+            && second.is_some() == self.observations_2.is_some();
+        require(together, "seconds and observations come together")?;
+        let after = second.is_none() || first.is_some();
+        require(after, "there is no second episode without a first")?;
+        let both = !self.solved || second.is_some();
+        require(both, "a run that is solved has two episodes")?;
+        let expected = first.zip(second).filter(|_| self.solved);
+        let expected = expected.map(|(first, second)| 100.0 * (1.0 - second / first));
+        let is_that = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
+            (Some(found), Some(expected)) => (found - expected).abs() < 1e-9,
+            (found, expected) => found.or(expected).is_none(),
+        };
+        let reduction = self.reduction;
+        let told = format!("reduction is {reduction:?}, expected {expected:?}");
+        require(is_that(reduction, expected), &told)?;
+        require(
+            !self.long || self.solved,
+            "a long run is one that is solved",
+        )?;
+        let of_long = expected.filter(|_| self.long);
+        let told = "the reduction of a long run, and of no other, is its reduction";
+        require(is_that(self.reduction_long, of_long), told)?;
+        let sound = !self.solved || self.trouble.is_none();
+        require(sound, "a run in trouble is not solved")?;
+        let most = [self.fragments, self.true_fragments, self.contradictions];
+        let walked = most.into_iter().all(|count| count <= self.traversals);
+        require(walked, "more fragments or contradictions than traversals")
     }
-    if let Some(second) = record.second {
-        fields = fields
-            .number("seconds_2", second.seconds)
-            .count("observations_2", second.observations.into());
-    }
-    if let Some(trouble) = &record.trouble {
-        fields = fields.text("trouble", trouble);
-    }
-    Ok(fields)
 }
 
 /// How far the robot drove in the first episode, m.
@@ -437,121 +496,61 @@ fn share(part: u32, rest: u32) -> f64 {
     }
 }
 
-/// What no trial can have measured.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let solved = run.fields.get("solved").and_then(Field::as_flag) == Some(true);
-    let is_long = run.fields.get("long").and_then(Field::as_flag) == Some(true);
-    if is_long && !solved {
-        return Err("a long run is one that is solved".into());
-    }
-    for name in ["closure_precision", "closure_recall"] {
-        let share = number(name);
-        if share.is_none_or(|share| !(0.0..=1.0).contains(&share)) {
-            return Err(format!("{name} is {share:?}, which is no share of 1").into());
-        }
-    }
-    for (seconds, observations) in [
-        ("seconds_1", "observations_1"),
-        ("seconds_2", "observations_2"),
-    ] {
-        if number(seconds).is_some() != number(observations).is_some() {
-            return Err(format!("{seconds} and {observations} come together").into());
-        }
-        if number(seconds).is_some_and(|seconds| seconds < 0.0) {
-            return Err(format!("{seconds} is less than 0").into());
-        }
-    }
-    let (first, second) = (number("seconds_1"), number("seconds_2"));
-    if second.is_some() && first.is_none() {
-        return Err("there is no second episode without a first".into());
-    }
-    let reduction = match (first, second) {
-        (Some(first), Some(second)) if solved => Some(100.0 * (1.0 - second / first)),
-        _ if solved => return Err("a run that is solved has two episodes".into()),
-        _ => None,
-    };
-    let is_that = |found: f64| reduction.is_some_and(|reduction| (found - reduction).abs() < 1e-9);
-    match number("reduction") {
-        Some(found) if !is_that(found) => {
-            return Err(format!("reduction is {found}, expected {reduction:?}").into());
-        }
-        None if solved => return Err("a run that is solved has a reduction".into()),
-        _ => {}
-    }
-    let of_long = number("reduction_long");
-    if of_long.is_some() != is_long || of_long.is_some_and(|found| !is_that(found)) {
-        return Err("the reduction of a long run, and of no other, is its reduction".into());
-    }
-    if number("alike_pairs").is_some_and(|pairs| pairs < 1.0) {
-        return Err("no two fragments of this maze are alike".into());
-    }
-    if solved && run.fields.get("trouble").is_some() {
-        return Err("a run in trouble is not solved".into());
-    }
-    for name in ["fragments", "true_fragments", "contradictions"] {
-        if number(name) > number("traversals") {
-            return Err(format!("more {name} than traversals").into());
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn run(fields: Fields) -> Run {
-        Run {
-            table: FIGURE_9.into(),
-            row: "Maze-1".into(),
-            run: 0,
-            seed: 1,
-            fields,
+    fn solved() -> TrialRun {
+        TrialRun {
+            solved: true,
+            shortest_as_it_lies: true,
+            map_right: true,
+            reduction: Some(75.0),
+            closure_precision: 1.0,
+            closure_recall: 0.5,
+            seconds_1: Some(200.0),
+            seconds_2: Some(50.0),
+            observations_1: Some(100),
+            observations_2: Some(5),
+            traversals: 9,
+            fragments: 4,
+            true_fragments: 5,
+            ..TrialRun::default()
         }
-    }
-
-    fn solved() -> Fields {
-        Fields::new()
-            .flag("solved", true)
-            .flag("shortest_as_it_lies", true)
-            .flag("map_right", true)
-            .number("closure_precision", 1.0)
-            .number("closure_recall", 0.5)
-            .number("seconds_1", 200.0)
-            .number("seconds_2", 50.0)
-            .count("observations_1", 100)
-            .count("observations_2", 5)
-            .number("reduction", 75.0)
-            .flag("long", false)
-            .count("traversals", 9)
-            .count("fragments", 4)
-            .count("true_fragments", 5)
-            .count("contradictions", 0)
-            .count("bumps", 0)
     }
 
     #[test]
     fn what_no_trial_measures_is_refused() {
-        let refused = |fields: Fields| check(&run(fields)).unwrap_err().to_string();
-        assert!(check(&run(solved())).is_ok());
-        let long = || solved().flag("long", true);
-        assert!(check(&run(long().number("reduction_long", 75.0))).is_ok());
-        for (fields, why) in [
-            (solved().number("closure_recall", 1.5), "no share"),
-            (solved().number("reduction", 70.0), "expected Some(75"),
-            (long().number("reduction_long", 70.0), "is its reduction"),
-            (long(), "is its reduction"),
+        solved().relations().unwrap();
+        let long = |reduction_long| TrialRun {
+            long: true,
+            reduction_long,
+            ..solved()
+        };
+        long(Some(75.0)).relations().unwrap();
+        let spoilt = |spoil: fn(&mut TrialRun)| {
+            let mut run = solved();
+            spoil(&mut run);
+            run
+        };
+        for (run, why) in [
+            (spoilt(|run| run.reduction = Some(70.0)), "expected Some(75"),
+            (long(Some(70.0)), "is its reduction"),
+            (long(None), "is its reduction"),
             (
-                solved().flag("solved", false).flag("long", true),
+                spoilt(|run| (run.solved, run.reduction, run.long) = (false, None, true)),
                 "long run",
             ),
-            (solved().flag("solved", false), "expected None"),
-            (solved().text("trouble", "lost"), "trouble"),
-            (solved().count("fragments", 10), "more fragments"),
+            (spoilt(|run| run.solved = false), "expected None"),
+            (spoilt(|run| run.seconds_2 = None), "come together"),
+            (spoilt(|run| run.trouble = Some("lost".into())), "trouble"),
+            (spoilt(|run| run.fragments = 10), "more fragments"),
         ] {
-            let found = refused(fields);
+            let found = run.relations().unwrap_err();
             assert!(found.contains(why), "{found}");
         }
+        let mut columns = TrialRun::columns().into_iter();
+        let recall = columns.find(|column| column.field == TrialRun::closure_recall);
+        assert_eq!(recall.unwrap().high, Some(1.0));
     }
 }

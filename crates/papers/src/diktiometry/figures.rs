@@ -1,10 +1,11 @@
 //! Errors against moves, as the paper's figures 3(b) and 3(c), and learned maps over their worlds, as figures 3(a) and 4.
 
+use super::SurveyRun;
 use super::drawing::map_over_world;
 use super::settings::{Setting, Subject, Trial};
 use tolman_arena::diktiometry::{Survey, WINDOW};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, Run};
+use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::Interval;
 
 /// Width of a chart, user units.
@@ -18,7 +19,7 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
         if trial.settings.len() > MOST_CURVES {
             continue;
         }
-        figures.push(errors(trial, runs));
+        figures.push(errors(trial, runs)?);
         let maps = trial.settings.iter().enumerate();
         for (number, setting) in maps.filter(|(_, setting)| setting.subject == Subject::Map) {
             let first =
@@ -31,20 +32,16 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
     Ok(figures)
 }
 
-fn errors(trial: &Trial, runs: &[Run]) -> Figure {
+fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
     let mut chart = Chart::new(
         Axis::linear("moves").from_zero(),
         Axis::linear("squared error a move, m²").from_zero(),
     )
     .sized(WIDTH, 340.0);
     for (series, setting) in (0..).map(Series).zip(&trial.settings) {
-        let own = runs
-            .iter()
-            .filter(|run| run.table == trial.name && run.row == setting.row);
-        let curves: Vec<&[f64]> = own
-            .filter_map(|run| run.fields.get("curve")?.as_curve())
-            .collect();
-        let windows = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
+        let of_row = SurveyRun::of_row(runs, trial.name, setting.row)?;
+        let curves: Vec<Vec<f64>> = of_row.into_iter().map(|run| run.curve).collect();
+        let windows = curves.iter().map(Vec::len).max().unwrap_or(0);
         let points = (0..windows).filter_map(|window| {
             let values: Vec<f64> = curves
                 .iter()
@@ -63,11 +60,10 @@ fn errors(trial: &Trial, runs: &[Run]) -> Figure {
         "{}: the error of each row against moves.",
         trial.title
     ));
-    Figure::new(format!("error-{}", slug(trial)), trial.title, drawing)
-        .caption(format!(
-            "Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles."
-        ))
-        .table(trial.name)
+    let figure = Figure::new(format!("error-{}", slug(trial)), trial.title, drawing);
+    let caption =
+        format!("Mean over runs of the mean over {WINDOW} moves; the bands hold the quartiles.");
+    Ok(figure.caption(caption).table(trial.name))
 }
 
 /// A table's name as part of a file's.

@@ -5,11 +5,13 @@ mod figures;
 mod replay;
 mod settings;
 
+use alloc::collections::BTreeMap;
+
 use tolman_arena::diktiometry::{ErrorSummary, Isomorphism, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run,
-    Settling, Table,
+    BoxError, Correction, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Settling,
+    Table, record,
 };
 use tolman_replay::Replay;
 
@@ -32,24 +34,59 @@ pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> 
     Ok(Box::new(Diktiometry { trials, tables }))
 }
 
-/// The shares that a map is scored by: the name of the field and metric, and the name on the page.
-const SHARES: [(&str, &str); 10] = [
-    ("purity", "purity"),
-    ("link_precision", "link precision"),
-    (
-        "believed_precision",
-        "precision of links that are believed now",
-    ),
-    ("remembered_precision", "of ways as they were last seen"),
-    ("link_recall", "link recall"),
-    ("share_once", "true places with one node"),
-    ("coverage", "moves that were expected"),
-    ("plans", "plans that work, to places that are there"),
-    (
-        "remembered_plans",
-        "plans by ways as they were last seen that work",
-    ),
-    ("plans_to_gone", "plans to places that are gone"),
+record! {
+    /// A walk through an office; of the row of odometry no more than its error.
+    pub(super) struct SurveyRun {
+        /// Mean squared error a move over the last moves.
+        ssd_asymptote: f64 => lower("squared error a move, at last").unit("m²").at_least(0).decimals(4),
+        /// The same by odometry alone.
+        odometry: Option<f64> => lower("odometry's error").unit("m²").at_least(0),
+        /// Squared error a move, each the mean of a window of moves.
+        curve: Vec<f64> => lower("squared error a move").unit("m²").at_least(0),
+        /// Share of a node's visits that were to its most frequent true place, over all nodes.
+        purity: Option<f64> => higher("purity").share().decimals(4),
+        /// Share of the map's links that lead where they say.
+        link_precision: Option<f64> => higher("link precision").share().decimals(4),
+        /// Share of the links believed now that lead where they say.
+        believed_precision: Option<f64> =>
+            higher("precision of links that are believed now").share().decimals(4),
+        /// Share of the ways as they were last seen that lead where they say.
+        remembered_precision: Option<f64> =>
+            higher("precision of ways as they were last seen").share().decimals(4),
+        /// Share of the true ways that the map has.
+        link_recall: Option<f64> => higher("link recall").share().decimals(4),
+        /// Share of the true places visited that have one node.
+        share_once: Option<f64> => higher("true places with one node").share().decimals(4),
+        /// Share of the last moves that the map expected.
+        coverage: Option<f64> => higher("moves that were expected").share().decimals(4),
+        /// Share of the plans to places that are there that work.
+        plans: Option<f64> => higher("plans that work, to places that are there").share().decimals(4),
+        /// Share of those plans that work by ways as they were last seen.
+        remembered_plans: Option<f64> =>
+            higher("plans by ways as they were last seen that work").share().decimals(4),
+        /// Share of all plans that lead to places that are gone.
+        plans_to_gone: Option<f64> => lower("plans to places that are gone").share().decimals(4),
+        /// Places on the map.
+        places: Option<usize> => neither("places on the map").decimals(1),
+        /// True places where the robot was.
+        visited: Option<usize> => neither("true places visited").decimals(1),
+        /// Whether the map has the true places visited and the ways between them, and no others.
+        isomorphic: Option<bool> => higher("map is the world"),
+    }
+}
+
+/// The shares that a map is scored by, in the order they are shown.
+const SHARES: [&str; 10] = [
+    SurveyRun::purity,
+    SurveyRun::link_precision,
+    SurveyRun::believed_precision,
+    SurveyRun::remembered_precision,
+    SurveyRun::link_recall,
+    SurveyRun::share_once,
+    SurveyRun::coverage,
+    SurveyRun::plans,
+    SurveyRun::remembered_plans,
+    SurveyRun::plans_to_gone,
 ];
 
 /// What became of the plans of a run.
@@ -83,49 +120,28 @@ impl Plans {
 
 fn table(trial: &Trial) -> Table {
     let reference = trial.settings.first().map_or("", |setting| setting.row);
-    let mut table = Table::new(trial.name, trial.title)
-        .field("ssd_asymptote", Kind::Number)
-        .field("curve", Kind::Curve)
-        .optional_field("odometry", Kind::Number)
-        .optional_field("places", Kind::Count)
-        .optional_field("visited", Kind::Count)
-        .optional_field("isomorphic", Kind::Flag)
-        .metric(
-            Metric::mean("ssd_asymptote")
-                .titled("squared error a move, at last")
-                .unit("m²")
-                .decimals(4),
-        );
+    let mut table = Table::of::<SurveyRun>(trial.name, trial.title)
+        .metric(Metric::mean(SurveyRun::ssd_asymptote));
     if trial.rows == Rows::OneWorld {
         let settling = Settling {
-            curve: "curve".to_owned(),
+            curve: SurveyRun::curve.to_owned(),
             step: WINDOW as f64,
-            level: "ssd_asymptote".to_owned(),
+            level: SurveyRun::ssd_asymptote.to_owned(),
             margin: NEAR,
-            scale: "odometry".to_owned(),
+            scale: SurveyRun::odometry.to_owned(),
             of: reference.to_owned(),
         };
         table = table
             .metric(Metric::settling("moves_to_asymptote", settling).titled("moves to asymptote"))
             .compared_with(reference, Correction::Holm);
     }
-    for (name, title) in SHARES {
-        table = table
-            .optional_field(name, Kind::Number)
-            .metric(Metric::mean(name).titled(title).decimals(4));
+    for share in SHARES {
+        table = table.metric(Metric::mean(share));
     }
     table = table
-        .metric(
-            Metric::mean("places")
-                .titled("places on the map")
-                .decimals(1),
-        )
-        .metric(
-            Metric::mean("visited")
-                .titled("true places visited")
-                .decimals(1),
-        )
-        .metric(Metric::percent("isomorphic_percent", "isomorphic").titled("map is the world"));
+        .metric(Metric::mean(SurveyRun::places))
+        .metric(Metric::mean(SurveyRun::visited))
+        .metric(Metric::percent("isomorphic_percent", SurveyRun::isomorphic));
     for setting in &trial.settings {
         table = table.row(Row::new(setting.row));
     }
@@ -143,6 +159,11 @@ fn table(trial: &Trial) -> Table {
         Rows::OwnWorlds => format!("{} {tail}", trial.note),
     };
     table.note(note)
+}
+
+/// A part of a whole; `None` of nothing.
+fn share(part: u32, whole: u32) -> Option<f64> {
+    (whole > 0).then(|| f64::from(part) / f64::from(whole))
 }
 
 impl Diktiometry {
@@ -180,25 +201,13 @@ impl Experiment for Diktiometry {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
+        let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
         for trial in &self.trials {
-            let mut rows = toml::Table::new();
-            for setting in &trial.settings {
-                let mut row = toml::Table::new();
-                let run = &setting.config;
-                row.insert("robot".into(), toml::Value::try_from(&run.robot)?);
-                row.insert("mapper".into(), toml::Value::try_from(&run.mapper)?);
-                row.insert("heed".into(), run.heed.into());
-                row.insert("moves".into(), run.moves.into());
-                row.insert("door_period".into(), run.door_period.into());
-                let (maze, furniture) = (setting.office.maze(), setting.office.config());
-                row.insert("maze".into(), maze.to_string().into());
-                row.insert("furniture".into(), toml::Value::try_from(furniture)?);
-                rows.insert(setting.row.into(), row.into());
-            }
-            config.insert(trial.name.into(), rows.into());
+            let rows = trial.settings.iter();
+            let rows = rows.map(|setting| (setting.row, setting.config()));
+            config.insert(trial.name, rows.collect());
         }
-        Ok(config)
+        Ok(toml::Table::try_from(config)?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
@@ -219,49 +228,33 @@ impl Experiment for Diktiometry {
         }
         let summary = ErrorSummary::of(survey.errors()).ok_or("no move was made")?;
         if setting.subject == Subject::Odometry {
-            return Ok(Fields::new()
-                .number("ssd_asymptote", summary.odometry)
-                .curve("curve", summary.odometry_curve));
+            let run = SurveyRun {
+                ssd_asymptote: summary.odometry,
+                curve: summary.odometry_curve,
+                ..SurveyRun::default()
+            };
+            return Ok(run.fields()?);
         }
         let score = survey.score();
-        let mut fields = Fields::new()
-            .number("ssd_asymptote", summary.asymptote)
-            .number("odometry", summary.odometry)
-            .curve("curve", summary.curve)
-            .number("coverage", summary.coverage)
-            .count("places", score.places as u64)
-            .count("visited", score.visited as u64)
-            .number("purity", score.purity)
-            .number("share_once", score.share_once)
-            .number("link_precision", score.link_precision)
-            .number("believed_precision", score.believed_precision)
-            .number("remembered_precision", survey.remembered_precision())
-            .number("link_recall", score.link_recall)
-            .flag("isomorphic", score.isomorphism == Isomorphism::Yes);
-        let share = |part: u32, whole: u32| f64::from(part) / f64::from(whole);
-        if plans.there > 0 {
-            fields = fields
-                .number("plans", share(plans.work, plans.there))
-                .number(
-                    "remembered_plans",
-                    share(plans.remembered_work, plans.there),
-                );
-        }
-        let all = plans.there + plans.gone;
-        if all > 0 {
-            fields = fields.number("plans_to_gone", share(plans.gone, all));
-        }
-        Ok(fields)
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        for (name, _) in SHARES {
-            let share = run.fields.get(name).and_then(Field::as_number);
-            if share.is_some_and(|share| !(0.0..=1.0).contains(&share)) {
-                return Err(format!("{name} is {share:?}").into());
-            }
-        }
-        Ok(())
+        let run = SurveyRun {
+            ssd_asymptote: summary.asymptote,
+            odometry: Some(summary.odometry),
+            curve: summary.curve,
+            purity: Some(score.purity),
+            link_precision: Some(score.link_precision),
+            believed_precision: Some(score.believed_precision),
+            remembered_precision: Some(survey.remembered_precision()),
+            link_recall: Some(score.link_recall),
+            share_once: Some(score.share_once),
+            coverage: Some(summary.coverage),
+            plans: share(plans.work, plans.there),
+            remembered_plans: share(plans.remembered_work, plans.there),
+            plans_to_gone: share(plans.gone, plans.there + plans.gone),
+            places: Some(score.places),
+            visited: Some(score.visited),
+            isomorphic: Some(score.isomorphism == Isomorphism::Yes),
+        };
+        Ok(run.fields()?)
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

@@ -4,6 +4,7 @@ use alloc::sync::Arc;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use serde::Serialize;
 use tolman_maps::diktiometry::{Ablation, Config};
 
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
@@ -39,6 +40,31 @@ pub(super) struct Setting {
     pub(super) office: Arc<Office>,
     pub(super) config: SurveyConfig,
     pub(super) subject: Subject,
+}
+
+impl Setting {
+    /// What the runs depend on.
+    pub(super) fn config(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Row<'a> {
+            robot: &'a SurveyorConfig,
+            mapper: &'a Config,
+            heed: f64,
+            moves: u32,
+            door_period: u32,
+            maze: String,
+            furniture: &'a OfficeConfig,
+        }
+        Row {
+            robot: &self.config.robot,
+            mapper: &self.config.mapper,
+            heed: self.config.heed,
+            moves: self.config.moves,
+            door_period: self.config.door_period,
+            maze: self.office.maze().to_string(),
+            furniture: self.office.config(),
+        }
+    }
 }
 
 /// What a row measures.

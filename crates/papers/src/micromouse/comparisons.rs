@@ -6,10 +6,10 @@ use tolman_maze::{Cell, Maze};
 use tolman_planners::{Found, Graph, a_star, best_first, path_to};
 
 use super::paper::PaperTable;
-use super::{Fields, Kind, Metric, Row, Run, Table};
+use super::{Fields, Metric, Row, Table};
 use tolman_arena::micromouse::{CellTask, MAX_STEPS};
 use tolman_arena::q_learning::{QLearner, QLearningConfig};
-use tolman_experiment::{BoxError, Field};
+use tolman_experiment::{BoxError, Record, record, require};
 
 /// The table of planners.
 pub(super) const PLANNERS: &str = "planners";
@@ -23,17 +23,47 @@ const LOOK: u32 = 100;
 
 const ROWS: [&str; 4] = ["breadth-first", "Dijkstra", "A*", "best-first"];
 
+record! {
+    /// A search in a known maze.
+    struct PlannerRun {
+        /// Steps from cell to cell of the path found.
+        path_cells: u32 => lower("path").unit("cells").at_least(1),
+        /// Cells whose neighbours were looked at, where the search counts them.
+        expanded: Option<u32> => lower("expanded").unit("cells"),
+    }
+}
+
+record! {
+    /// Q-learning in a known maze.
+    #[check(LearningRun::relations)]
+    struct LearningRun {
+        /// Whether a shortest path was learned within the time of a mouse.
+        learned_in_time: bool => higher("learned in time"),
+        /// Whether a shortest path was learned at all.
+        learned: bool => higher("learned"),
+        /// Steps until a shortest path was learned.
+        steps: Option<u32> => lower("steps to learn").at_most(MOST_STEPS),
+    }
+}
+
+impl LearningRun {
+    fn relations(&self) -> Result<(), String> {
+        let in_time = !self.learned_in_time || self.learned;
+        require(in_time, "what is learned in time is learned")?;
+        let learned = self.learned == self.steps.is_some();
+        require(learned, "what is learned was learned in some steps")
+    }
+}
+
 /// The tables, where the paper's mazes are.
 pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     let mazes = mazes(paper);
     if mazes.is_empty() {
         return Vec::new();
     }
-    let mut planners = Table::new(PLANNERS, "Searches in a known maze, by cells")
-        .field("path_cells", Kind::Count)
-        .optional_field("expanded", Kind::Count)
-        .metric(Metric::mean("path_cells").titled("path").unit("cells"))
-        .metric(Metric::mean("expanded").unit("cells"))
+    let mut planners = Table::of::<PlannerRun>(PLANNERS, "Searches in a known maze, by cells")
+        .metric(Metric::mean(PlannerRun::path_cells))
+        .metric(Metric::mean(PlannerRun::expanded))
         .note(
             "One run on each of the paper's mazes 1 to 3. A* and best-first guess by the Manhattan distance. Expanded \
              is how many cells' neighbours were looked at.",
@@ -41,15 +71,12 @@ pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     for row in ROWS {
         planners = planners.row(Row::new(row).runs(mazes.len() as u32));
     }
-    let mut learning = Table::new(Q_LEARNING, "Q-learning in a known maze")
-        .field("learned_in_time", Kind::Flag)
-        .field("learned", Kind::Flag)
-        .optional_field("steps", Kind::Count)
+    let mut learning = Table::of::<LearningRun>(Q_LEARNING, "Q-learning in a known maze")
         .metric(
-            Metric::percent("learned_in_time_percent", "learned_in_time")
+            Metric::percent("learned_in_time_percent", LearningRun::learned_in_time)
                 .titled(format!("learned in {MAX_STEPS} steps")),
         )
-        .metric(Metric::median("steps_to_learn", "steps").titled("steps to learn"))
+        .metric(Metric::median("steps_to_learn", LearningRun::steps))
         .note(format!(
             "Learned is a shortest path in cells. Looked at every {LOOK} steps, up to {MOST_STEPS}."
         ));
@@ -94,25 +121,6 @@ pub(super) fn run(
     }
 }
 
-/// What is wrong with a run of these tables; none of any other table.
-pub(super) fn check(run: &Run) -> Option<Result<(), BoxError>> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);
-    Some(match run.table.as_str() {
-        PLANNERS if number("path_cells").is_none_or(|cells| cells < 1.0) => {
-            Err("a path has a cell at least".into())
-        }
-        Q_LEARNING if flag("learned_in_time") && !flag("learned") => {
-            Err("what is learned in time is learned".into())
-        }
-        Q_LEARNING if flag("learned") != number("steps").is_some() => {
-            Err("what is learned was learned in some steps".into())
-        }
-        PLANNERS | Q_LEARNING => Ok(()),
-        _ => return None,
-    })
-}
-
 /// Cells as nodes, by [`tolman_maze::Grid::index`].
 struct Cells<'a>(&'a Maze);
 
@@ -151,16 +159,22 @@ fn planner(row: &str, maze: &Maze) -> Result<Fields, BoxError> {
     let found = match row {
         "breadth-first" => {
             let path = path_to(&cells, source, is_goal).ok_or("no way")?;
-            return Ok(Fields::new().count("path_cells", path.len() as u64 - 1));
+            let run = PlannerRun {
+                path_cells: path.len() as u32 - 1,
+                expanded: None,
+            };
+            return Ok(run.fields()?);
         }
         "Dijkstra" => a_star(&cells, source, is_goal, |_| 0),
         "A*" => a_star(&cells, source, is_goal, manhattan),
         _ => best_first(&cells, source, is_goal, manhattan),
     };
     let Found { cost, expanded, .. } = found.ok_or("no way")?;
-    Ok(Fields::new()
-        .count("path_cells", cost.into())
-        .count("expanded", expanded.into()))
+    let run = PlannerRun {
+        path_cells: cost,
+        expanded: Some(expanded),
+    };
+    Ok(run.fields()?)
 }
 
 fn learn(maze: &Maze, seed: u64) -> Result<Fields, BoxError> {
@@ -175,13 +189,13 @@ fn learn(maze: &Maze, seed: u64) -> Result<Fields, BoxError> {
         }
         steps += LOOK;
         if learner.greedy_cost() == shortest {
-            return Ok(Fields::new()
-                .flag("learned", true)
-                .flag("learned_in_time", steps <= MAX_STEPS)
-                .count("steps", steps.into()));
+            let run = LearningRun {
+                learned: true,
+                learned_in_time: steps <= MAX_STEPS,
+                steps: Some(steps),
+            };
+            return Ok(run.fields()?);
         }
     }
-    Ok(Fields::new()
-        .flag("learned", false)
-        .flag("learned_in_time", false))
+    Ok(LearningRun::default().fields()?)
 }

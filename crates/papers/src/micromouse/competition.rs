@@ -5,22 +5,47 @@ use tolman_planners::speed_run::SpeedRunConfig;
 
 use super::sets::MazeSet;
 use tolman_arena::competition;
-use tolman_experiment::{BoxError, Field, Fields, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Metric, Record, Row, Table, record, require};
 use tolman_systems::micromouse::competition::ExploreError;
 
 /// The name of the table.
 pub(super) const COMPETITION: &str = "competition";
 
+record! {
+    /// A maze explored for the speed run.
+    #[check(CompetitionRun::relations)]
+    struct CompetitionRun {
+        /// Name of the maze.
+        maze: String => neither("maze"),
+        /// Whether the known speed run is proved to be the fastest.
+        certified: bool => higher("certified"),
+        /// Cells driven until the mouse is back at the start.
+        cells: Option<u32> => lower("cells").at_least(2),
+        /// Time of the speed run.
+        run_ms: Option<u32> => neither("speed run").unit("ms"),
+    }
+}
+
+impl CompetitionRun {
+    fn relations(&self) -> Result<(), String> {
+        let explored = self.cells.is_some() == self.run_ms.is_some();
+        require(
+            explored,
+            "cells and the time of the speed run come together",
+        )?;
+        require(
+            !self.certified || self.cells.is_some(),
+            "a certified run was explored",
+        )
+    }
+}
+
 /// A run is a maze of the set.
 pub(super) fn table<'a>(sets: impl IntoIterator<Item = &'a MazeSet>) -> Table {
-    let mut table = Table::new(COMPETITION, "Explorations for the speed run")
-        .field("maze", Kind::Text)
-        .field("certified", Kind::Flag)
-        .optional_field("cells", Kind::Count)
-        .optional_field("run_ms", Kind::Count)
-        .metric(Metric::percent("certified_percent", "certified"))
-        .metric(Metric::mean("cells"))
-        .metric(Metric::mean("run_ms").titled("speed run").unit("ms"))
+    let mut table = Table::of::<CompetitionRun>(COMPETITION, "Explorations for the speed run")
+        .metric(Metric::percent("certified_percent", CompetitionRun::certified))
+        .metric(Metric::mean(CompetitionRun::cells))
+        .metric(Metric::mean(CompetitionRun::run_ms))
         .note(
             "One run a maze. Cells are all that the mouse drives from the start until it is back there with a speed \
              run that is certified to be the fastest; it has been at a goal then. Sets with mazes of more than 16 cells \
@@ -46,35 +71,20 @@ fn drive(set: &MazeSet) -> SpeedRunConfig {
 /// Explores one maze of a set.
 pub(super) fn run(set: &MazeSet, number: usize) -> Result<Fields, BoxError> {
     let (name, maze) = set.mazes.get(number).ok_or("there is no such run")?;
-    let fields = Fields::new().text("maze", name);
-    Ok(match competition::explore(maze, &drive(set)) {
-        Ok(exploration) => fields
-            .flag("certified", exploration.verdict.is_ok())
-            .count("cells", exploration.cells.into())
-            .count("run_ms", exploration.certificate.time_ms.into()),
+    let run = CompetitionRun {
+        maze: name.clone(),
+        ..CompetitionRun::default()
+    };
+    let run = match competition::explore(maze, &drive(set)) {
+        Ok(exploration) => CompetitionRun {
+            certified: exploration.verdict.is_ok(),
+            cells: Some(exploration.cells),
+            run_ms: Some(exploration.certificate.time_ms),
+            ..run
+        },
         // Such as a start that is open to the sides only.
-        Err(ExploreError::NoWay { .. }) => fields.flag("certified", false),
+        Err(ExploreError::NoWay { .. }) => run,
         Err(error) => return Err(error.into()),
-    })
-}
-
-/// What no run of this table can be.
-pub(super) fn check(set: &MazeSet, run: &Run) -> Result<(), BoxError> {
-    let (name, maze) = set
-        .mazes
-        .get(run.run as usize)
-        .ok_or("there is no such run")?;
-    if run.fields.get("maze").and_then(Field::as_text) != Some(name) {
-        return Err(format!("run {} is of {name}", run.run).into());
-    }
-    let start = maze.start().map(|(cell, _)| maze.grid().index(cell));
-    let steps = maze.steps_to_goal();
-    let way = start.and_then(|start| steps.get(start).copied().flatten());
-    let cells = run.fields.get("cells").and_then(Field::as_number);
-    let certified = run.fields.get("certified").and_then(Field::as_flag);
-    match (cells, way) {
-        (Some(cells), Some(way)) if cells >= 2.0 * f64::from(way) => Ok(()),
-        (None, _) if certified == Some(false) => Ok(()),
-        _ => Err("the mouse cannot have been at a goal and back in so few cells".into()),
-    }
+    };
+    Ok(run.fields()?)
 }

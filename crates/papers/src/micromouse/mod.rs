@@ -12,15 +12,19 @@ mod noise;
 mod paper;
 mod sets;
 
+use alloc::collections::BTreeMap;
+
+use serde::Serialize;
 use tolman_maze::Maze;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use crate::data;
-use tolman_arena::micromouse::{MAX_STEPS, try_on};
+use tolman_arena::micromouse::{Judgement, MAX_STEPS, try_on};
 use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table, Tolerance,
+    BoxError, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Table, Tolerance, record,
+    require,
 };
 use tolman_systems::micromouse::Searcher;
 
@@ -35,6 +39,15 @@ struct Micromouse {
     sets: Vec<MazeSet>,
     tables: Vec<Table>,
     skipped: Option<String>,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+struct Config {
+    search: MoveExplorerConfig,
+    rollouts: RolloutConfig,
+    q_learning: QLearningConfig,
+    mazes: BTreeMap<String, String>,
 }
 
 /// The name of the table of sets.
@@ -75,12 +88,11 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
 }
 
 fn sets_table(name: &str, title: &str, sets: &[MazeSet]) -> Table {
-    let mut table = fields(Table::new(name, title))
-        .field("maze", Kind::Text)
-        .metric(Metric::mean("score_minus_floor").titled("score − floor"))
-        .metric(Metric::percent("certified_percent", "certified"))
-        .metric(Metric::percent("finished_percent", "finished"))
-        .metric(Metric::mean("score"))
+    let mut table = Table::of::<SetRun>(name, title)
+        .metric(Metric::mean(MouseRun::score_minus_floor))
+        .metric(Metric::percent("certified_percent", MouseRun::certified))
+        .metric(Metric::percent("finished_percent", MouseRun::finished))
+        .metric(Metric::mean(MouseRun::score))
         .note(format!(
             "One run a maze. The floor is the score of a mouse that knows the maze. A mouse that has not \
              finished after {MAX_STEPS} steps has no score."
@@ -101,16 +113,62 @@ fn on_sets(table: &str) -> Option<Searcher> {
     }
 }
 
-/// What every run of this experiment measures.
-fn fields(table: Table) -> Table {
-    table
-        .field("finished", Kind::Flag)
-        .field("certified", Kind::Flag)
-        .field("optimum", Kind::Count)
-        .optional_field("run_1", Kind::Count)
-        .optional_field("move_length", Kind::Count)
-        .optional_field("score", Kind::Number)
-        .optional_field("score_minus_floor", Kind::Number)
+record! {
+    /// Both runs of a mouse in a maze.
+    #[check(MouseRun::relations)]
+    struct MouseRun {
+        /// Whether the mouse reached the goal in both runs within its steps.
+        finished: bool => higher("finished"),
+        /// Whether the second run is proved to be the best.
+        certified: bool => higher("certified"),
+        /// Steps of the best second run.
+        optimum: u32 => neither("optimum").unit("steps"),
+        /// Steps of the first run.
+        run_1: Option<u32> => lower("first run").unit("steps"),
+        /// Steps of the second run.
+        move_length: Option<u32> => lower("move length").tolerance(Tolerance::Relative(0.15)),
+        /// A thirtieth of the first run's steps and all of the second's.
+        score: Option<f64> => lower("score").tolerance(Tolerance::Relative(0.2)),
+        /// Score above that of a mouse that knows the maze.
+        score_minus_floor: Option<f64> => lower("score − floor"),
+    }
+}
+
+record! {
+    /// The same in a maze of a set.
+    struct SetRun {
+        ..run: MouseRun,
+        /// Name of the maze.
+        maze: String => neither("maze"),
+    }
+}
+
+impl MouseRun {
+    fn of(judgement: &Judgement) -> Self {
+        let runs = judgement.run_1.zip(judgement.run_2);
+        let scores = judgement.score.zip(judgement.above_floor());
+        Self {
+            finished: judgement.score.is_some(),
+            certified: judgement.certified,
+            optimum: judgement.optimum,
+            run_1: runs.map(|runs| runs.0),
+            move_length: runs.map(|runs| runs.1),
+            score: scores.map(|scores| scores.0),
+            score_minus_floor: scores.map(|scores| scores.1),
+        }
+    }
+
+    fn relations(&self) -> Result<(), String> {
+        let (run_1, run_2) = (self.run_1, self.move_length);
+        let finished = "a run that finished has a score, another has none";
+        require(self.finished == self.score.is_some(), finished)?;
+        require(run_1.is_some() == run_2.is_some(), finished)?;
+        check_score(run_1, run_2, self.score)?;
+        let possible = self.score.is_none() || run_2.is_none_or(|run_2| run_2 >= self.optimum);
+        require(possible, "the second run has fewer steps than the optimum")?;
+        let best = !self.certified || run_2 == Some(self.optimum);
+        require(best, "what is certified is the optimum")
+    }
 }
 
 impl Micromouse {
@@ -132,14 +190,19 @@ impl Micromouse {
 }
 
 /// Refuses a score that is not that of its runs, and runs that no mouse has the time for.
-fn check_score(run_1: f64, run_2: f64, score: f64) -> Result<(), BoxError> {
-    if (run_1 / 30.0 + run_2 - score).abs() > 1e-9 {
-        return Err(format!("{run_1} / 30 + {run_2} is not {score}").into());
-    }
-    if run_1 + run_2 > f64::from(MAX_STEPS) {
-        return Err(format!("{run_1} + {run_2} steps are more than {MAX_STEPS}").into());
-    }
-    Ok(())
+fn check_score(run_1: Option<u32>, run_2: Option<u32>, score: Option<f64>) -> Result<(), String> {
+    let (Some(run_1), Some(run_2), Some(score)) = (run_1, run_2, score) else {
+        return Ok(());
+    };
+    let expected = f64::from(run_1) / 30.0 + f64::from(run_2);
+    require(
+        (expected - score).abs() <= 1e-9,
+        "the score is not that of its runs",
+    )?;
+    require(
+        run_1 + run_2 <= MAX_STEPS,
+        "the runs have more steps than a mouse has",
+    )
 }
 
 impl Experiment for Micromouse {
@@ -168,32 +231,23 @@ impl Experiment for Micromouse {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
-        config.insert(
-            "search".into(),
-            format!("{:?}", MoveExplorerConfig::tuned()).into(),
-        );
-        config.insert(
-            "rollouts".into(),
-            format!("{:?}", RolloutConfig::tuned()).into(),
-        );
-        config.insert(
-            "q_learning".into(),
-            format!("{:?}", QLearningConfig::usual()).into(),
-        );
-        let mut mazes = toml::Table::new();
+        let mut mazes = BTreeMap::new();
         for table in &self.paper {
             for (row, maze) in table.mazes() {
-                mazes.insert(format!("{}, {row}", table.name), maze.to_string().into());
+                mazes.insert(format!("{}, {row}", table.name), maze.to_string());
             }
         }
         for set in &self.sets {
             for (name, maze) in &set.mazes {
-                mazes.insert(format!("{}, {name}", set.name), maze.to_string().into());
+                mazes.insert(format!("{}, {name}", set.name), maze.to_string());
             }
         }
-        config.insert("mazes".into(), mazes.into());
-        Ok(config)
+        Ok(toml::Table::try_from(Config {
+            search: MoveExplorerConfig::tuned(),
+            rollouts: RolloutConfig::tuned(),
+            q_learning: QLearningConfig::usual(),
+            mazes,
+        })?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
@@ -210,59 +264,12 @@ impl Experiment for Micromouse {
         }
         let (searcher, maze, name) = self.cast(job).ok_or("there is no such run")?;
         let (_, judgement) = try_on(maze, searcher, job.seed)?;
-        let mut fields = Fields::new()
-            .flag("finished", judgement.score.is_some())
-            .flag("certified", judgement.certified)
-            .count("optimum", judgement.optimum.into());
-        if let (Some(run_1), Some(run_2)) = (judgement.run_1, judgement.run_2) {
-            fields = fields
-                .count("run_1", run_1.into())
-                .count("move_length", run_2.into());
-        }
-        if let (Some(score), Some(above)) = (judgement.score, judgement.above_floor()) {
-            fields = fields
-                .number("score", score)
-                .number("score_minus_floor", above);
-        }
-        if on_sets(job.table).is_some() {
-            fields = fields.text("maze", name);
-        }
-        Ok(fields)
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        if run.table == COMPETITION {
-            let set = self.set(&run.row).ok_or("there is no such row")?;
-            return competition::check(set, run);
-        }
-        if run.table == noise::NOISE {
-            return noise::check(run);
-        }
-        if let Some(checked) = comparisons::check(run) {
-            return checked;
-        }
-        let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-        let flag = |name: &str| run.fields.get(name).and_then(Field::as_flag) == Some(true);
-        if let Some((_, _, name)) = self.cast(&run.job())
-            && on_sets(&run.table).is_some()
-            && run.fields.get("maze").and_then(Field::as_text) != Some(name)
-        {
-            return Err(format!("run {} is of {name}", run.run).into());
-        }
-        let (run_1, run_2) = (number("run_1"), number("move_length"));
-        if flag("finished") != number("score").is_some() || run_1.is_some() != run_2.is_some() {
-            return Err("a run that finished has a score, another has none".into());
-        }
-        if let (Some(run_1), Some(run_2), Some(score)) = (run_1, run_2, number("score")) {
-            check_score(run_1, run_2, score)?;
-            if number("optimum").is_none_or(|optimum| run_2 < optimum) {
-                return Err(format!("{run_2} steps are fewer than the optimum").into());
-            }
-        }
-        if flag("certified") && run_2 != number("optimum") {
-            return Err("what is certified is the optimum".into());
-        }
-        Ok(())
+        let run = MouseRun::of(&judgement);
+        let maze = name.to_owned();
+        Ok(match on_sets(job.table) {
+            Some(_) => SetRun { run, maze }.fields()?,
+            None => run.fields()?,
+        })
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

@@ -7,7 +7,7 @@ use tolman_maze::{Braided, Maze};
 use super::check_score;
 use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Run, Table, record, require};
 use tolman_systems::micromouse::noisy::Localization;
 
 /// The name of the table.
@@ -24,19 +24,45 @@ const LOCALIZATIONS: [(Localization, &str); 2] = [
 /// Mazes of each row, the same in all.
 const MAZES: u32 = 20;
 
+record! {
+    /// A maze that the mouse solved, or not, among thick walls.
+    #[check(NoiseRun::relations)]
+    struct NoiseRun {
+        /// Whether the mouse arrived in both runs.
+        arrived: bool => higher("arrived"),
+        /// Steps of the first run, where it arrived.
+        run_1: Option<u32> => lower("first run").unit("steps"),
+        /// Steps of the second run, where it arrived.
+        run_2: Option<u32> => lower("second run").unit("steps"),
+        /// A thirtieth of the first run's steps and all of the second's.
+        score: Option<f64> => lower("score"),
+        /// Time steps in which the mouse touched a wall.
+        bumps: u32 => lower("bumps"),
+        /// Mean distance between where the mouse thinks it is and where it is, at stops.
+        error_mm: f64 => lower("error at stops").unit("mm").at_least(0),
+    }
+}
+
+impl NoiseRun {
+    fn relations(&self) -> Result<(), String> {
+        let together = [
+            self.run_1.is_some(),
+            self.run_2.is_some(),
+            self.score.is_some(),
+        ];
+        let arrived = "a run that arrived has a score, another has none";
+        require(together == [self.arrived; 3], arrived)?;
+        check_score(self.run_1, self.run_2, self.score)
+    }
+}
+
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NOISE, "The mouse among thick walls, with noise")
-        .field("arrived", Kind::Flag)
-        .optional_field("run_1", Kind::Count)
-        .optional_field("run_2", Kind::Count)
-        .optional_field("score", Kind::Number)
-        .field("bumps", Kind::Count)
-        .field("error_mm", Kind::Number)
-        .metric(Metric::percent("arrived_percent", "arrived"))
-        .metric(Metric::mean("run_1").titled("first run").unit("steps"))
-        .metric(Metric::mean("run_2").titled("second run").unit("steps"))
-        .metric(Metric::mean("score"))
-        .metric(Metric::mean("error_mm").titled("error at stops").unit("mm"))
+    let mut table = Table::of::<NoiseRun>(NOISE, "The mouse among thick walls, with noise")
+        .metric(Metric::percent("arrived_percent", NoiseRun::arrived))
+        .metric(Metric::mean(NoiseRun::run_1))
+        .metric(Metric::mean(NoiseRun::run_2))
+        .metric(Metric::mean(NoiseRun::score))
+        .metric(Metric::mean(NoiseRun::error_mm))
         .note(
             "One run a maze of 12 × 12 cells, half-braided, on the continuous simulator. Noise 1: wheels slip by up to \
              10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \
@@ -79,28 +105,19 @@ fn maze(number: u32) -> Result<Maze, BoxError> {
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let config = config(job.row).ok_or("there is no such row")?;
     let trial = noisy::send(&maze(job.run)?, &config, job.seed)?;
-    let fields = Fields::new()
-        .flag("arrived", matches!(trial.end, NoisyEnd::Arrived { .. }))
-        .count("bumps", trial.bumps.into())
-        .number("error_mm", 1000.0 * trial.mean_error);
-    Ok(match trial.end {
-        NoisyEnd::Arrived { run_1, run_2 } => fields
-            .count("run_1", run_1.into())
-            .count("run_2", run_2.into())
-            .number("score", f64::from(run_1) / 30.0 + f64::from(run_2)),
-        _ => fields,
-    })
-}
-
-/// What no run of this table can be.
-pub(super) fn check(run: &Run) -> Result<(), BoxError> {
-    let number = |name: &str| run.fields.get(name).and_then(Field::as_number);
-    let arrived = run.fields.get("arrived").and_then(Field::as_flag) == Some(true);
-    match (number("run_1"), number("run_2"), number("score")) {
-        (Some(run_1), Some(run_2), Some(score)) if arrived => check_score(run_1, run_2, score),
-        (None, None, None) if !arrived => Ok(()),
-        _ => Err("a run that arrived has a score, another has none".into()),
-    }
+    let runs = match trial.end {
+        NoisyEnd::Arrived { run_1, run_2 } => Some((run_1, run_2)),
+        _ => None,
+    };
+    let run = NoiseRun {
+        arrived: runs.is_some(),
+        run_1: runs.map(|runs| runs.0),
+        run_2: runs.map(|runs| runs.1),
+        score: runs.map(|(run_1, run_2)| f64::from(run_1) / 30.0 + f64::from(run_2)),
+        bumps: trial.bumps,
+        error_mm: 1000.0 * trial.mean_error,
+    };
+    Ok(run.fields()?)
 }
 
 /// How often the mouse arrives, by noise.
@@ -111,18 +128,12 @@ pub(super) fn figure(runs: &[Run]) -> Figure {
     );
     for (series, (_, name)) in (0..).zip(LOCALIZATIONS) {
         let points = LEVELS.into_iter().filter_map(|level| {
-            let wanted = row(name, level);
-            let mut of_row = runs
-                .iter()
-                .filter(|run| run.table == NOISE && run.row == wanted)
-                .filter_map(|run| run.fields.get("arrived").and_then(Field::as_flag))
-                .peekable();
-            of_row.peek()?;
-            let (arrived, count) = of_row.fold((0, 0), |(arrived, count), flag| {
-                (arrived + u32::from(flag), count + 1)
-            });
-            let percent = 100.0 * f64::from(arrived) / f64::from(count);
-            Some(LinePoint::new(level, percent))
+            let of_row = NoiseRun::of_row(runs, NOISE, &row(name, level)).ok()?;
+            let arrived = of_row.iter().filter(|run| run.arrived).count();
+            (!of_row.is_empty()).then(|| {
+                let percent = 100.0 * arrived as f64 / of_row.len() as f64;
+                LinePoint::new(level, percent)
+            })
         });
         chart.line(Line::new(name, Series(series), points.collect()));
     }

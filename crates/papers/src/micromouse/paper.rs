@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tolman_maze::Maze;
 
-use super::{Metric, Row, Table, Tolerance, fields};
+use super::{Metric, MouseRun, Row, Table};
 use crate::maze_file;
 use tolman_experiment::BoxError;
 use tolman_systems::micromouse::Searcher;
@@ -127,29 +127,19 @@ pub(super) fn tables(folder: &Path) -> Result<Vec<PaperTable>, BoxError> {
 
 impl PaperTable {
     pub(super) fn table(&self) -> Table {
-        let average_score = Metric {
-            name: "average_score".into(),
-            ..Metric::mean("score")
-        };
-        let average_score = average_score
-            .titled("average score")
-            .tolerance(Tolerance::Relative(0.2));
-        let mut table = fields(Table::new(self.name, self.title))
-            .metric(
-                Metric::mean("move_length")
-                    .titled("move length")
-                    .tolerance(Tolerance::Relative(0.15)),
-            )
-            .metric(average_score)
-            .metric(Metric::percent("finished_percent", "finished"))
-            .metric(Metric::percent("certified_percent", "certified"))
+        let average_score = Metric::mean(MouseRun::score).named("average_score");
+        let mut table = Table::of::<MouseRun>(self.name, self.title)
+            .metric(Metric::mean(MouseRun::move_length))
+            .metric(average_score.titled("average score"))
+            .metric(Metric::percent("finished_percent", MouseRun::finished))
+            .metric(Metric::percent("certified_percent", MouseRun::certified))
             .note(self.note);
         table.paper_runs = Some(5);
         for line in &self.rows {
             let mut row = Row::new(line.name);
             if let Some((moves, score)) = line.paper {
                 row = row
-                    .paper("move_length", moves)
+                    .paper(MouseRun::move_length, moves)
                     .paper("average_score", score);
             }
             if line.searcher.is_deterministic() {

@@ -1,22 +1,54 @@
 //! Tables 2 and 3: the brains against each other in one world.
 
+use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 use std::sync::OnceLock;
 
+use serde::Serialize;
 use tolman_control::Outcome;
 use tolman_maze::Direction;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::MAPS;
-use crate::venue::{self, Venue};
+use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::agents::{Agent, Cast, Mind};
 use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
 use tolman_experiment::{
-    BoxError, Correction, Field, Fields, Job, Kind, Metric, Pairwise, Run, Table, Tolerance,
+    BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, Tolerance, record, require,
     run_seed,
 };
 use tolman_replay::Replay;
+
+record! {
+    /// A run of a brain that competes.
+    #[check(ContestRun::relations)]
+    pub(super) struct ContestRun {
+        ..run: MazeRun,
+        /// Actions that take back the one before, soon after another such.
+        bounces: u32 => lower("bounces"),
+        /// Number of the map by which MSLST navigates.
+        map: Option<u32> => neither("map").at_most(MAPS - 1),
+    }
+}
+
+impl ContestRun {
+    fn relations(&self) -> Result<(), String> {
+        require(
+            self.bounces <= self.run.actions,
+            "more bounces than actions",
+        )
+    }
+}
+
+/// What the runs in one world depend on.
+#[derive(Serialize)]
+pub(super) struct ContestConfig<'a> {
+    #[serde(flatten)]
+    world: World,
+    #[serde(flatten)]
+    mslst: BTreeMap<&'a str, MslstConfig>,
+}
 
 /// One world, the brains that compete in it, and what they share.
 #[derive(Debug)]
@@ -83,18 +115,19 @@ impl Contest {
         let unlocalized = Agent::UnlocalizedOracle.name();
         let mut table = self
             .venue
-            .table()
-            .field("bounces", Kind::Count)
-            .optional_field("map", Kind::Count)
-            .metric(Metric::percent("success_percent", "reached").titled("success"))
-            .metric(Metric::mean("actions").tolerance(Tolerance::Spread))
-            .metric(Metric::mean("steps").tolerance(Tolerance::Spread))
-            .metric(Metric::multiple("steps_of_oracle", "steps", oracle).titled("steps / Oracle's"))
+            .table::<ContestRun>()
+            .metric(Metric::percent("success_percent", MazeRun::reached))
+            .metric(Metric::mean(MazeRun::actions).tolerance(Tolerance::Spread))
+            .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Spread))
             .metric(
-                Metric::multiple("steps_of_unlocalized", "steps", unlocalized)
+                Metric::multiple("steps_of_oracle", MazeRun::steps, oracle)
+                    .titled("steps / Oracle's"),
+            )
+            .metric(
+                Metric::multiple("steps_of_unlocalized", MazeRun::steps, unlocalized)
                     .titled("steps / Unlocalized oracle's"),
             )
-            .metric(Metric::mean("bounces"));
+            .metric(Metric::mean(ContestRun::bounces));
         let (baselines, yardsticks) = OTHERS.split_at(2);
         let names = |agents: &[Agent]| -> Vec<String> {
             agents.iter().map(|agent| agent.name().to_owned()).collect()
@@ -119,7 +152,7 @@ impl Contest {
         );
         table
             .pairwise(Pairwise {
-                field: "steps".to_owned(),
+                field: MazeRun::steps.to_owned(),
                 rows: competitors,
                 correction: Correction::Bonferroni,
                 paper,
@@ -128,13 +161,12 @@ impl Contest {
     }
 
     /// What the runs depend on.
-    pub(super) fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut world = self.venue.config();
-        for apprentice in &self.apprentices {
-            let config = toml::Value::try_from(apprentice.config)?;
-            world.insert(apprentice.row.clone(), config);
+    pub(super) fn config(&self) -> ContestConfig<'_> {
+        let mslst = self.apprentices.iter();
+        ContestConfig {
+            world: self.venue.world(),
+            mslst: mslst.map(|one| (&*one.row, one.config)).collect(),
         }
-        Ok(world)
     }
 
     pub(super) fn apprentice(&self, row: &str) -> Option<&Apprentice> {
@@ -148,11 +180,12 @@ impl Contest {
         robot: &LaserPioneerConfig,
     ) -> Result<Fields, BoxError> {
         let (episode, bounces) = self.episode(job, robot)?;
-        let fields = venue::fields(&episode).count("bounces", u64::from(bounces));
-        Ok(match self.apprentice(job.row) {
-            Some(_) => fields.count("map", u64::from(job.run % MAPS)),
-            None => fields,
-        })
+        let run = ContestRun {
+            run: MazeRun::of(&episode),
+            bounces,
+            map: self.apprentice(job.row).map(|_| job.run % MAPS),
+        };
+        Ok(run.fields()?)
     }
 
     /// Where a run takes place, and who drives.
@@ -208,21 +241,6 @@ impl Contest {
             .as_ref()
             .map_or(&[][..], |learned| &learned.survey.positions);
         Ok(venue::replay(job, &trial, &mut mind, nodes)?)
-    }
-
-    /// Refuses what no run can measure.
-    pub(super) fn check(&self, run: &Run) -> Result<(), BoxError> {
-        self.venue.check(run)?;
-        let count = |name: &str| run.fields.get(name).and_then(Field::as_number);
-        if count("bounces") > count("actions") {
-            return Err("more bounces than actions".into());
-        }
-        let map = run.fields.get("map");
-        let expected = self.apprentice(&run.row).map(|_| run.run % MAPS);
-        if map != expected.map(|map| Field::Count(u64::from(map))).as_ref() {
-            return Err(format!("map is {map:?}, expected {expected:?}").into());
-        }
-        Ok(())
     }
 }
 

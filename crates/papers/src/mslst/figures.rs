@@ -6,9 +6,10 @@ use tolman_maps::mslst_graph::{DUMMY, Node};
 use super::contest::{Apprentice, Contest};
 use super::drawing::{self, SHOWN_ACTIONS};
 use super::{MAPS, Mslst};
+use crate::venue::MazeRun;
 use tolman_arena::mslst::Learned;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, Field, Run};
+use tolman_experiment::{BoxError, Run};
 use tolman_stats::wilson_interval;
 
 /// How many runs one plan shows at most.
@@ -87,7 +88,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
         let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
         for run in runs.iter().filter(of_row) {
             let (arrived, all) = &mut maps[(run.run % MAPS) as usize];
-            *arrived += u64::from(run.fields.get("reached").and_then(Field::as_flag) == Some(true));
+            *arrived += u64::from(run.record::<MazeRun>()?.reached);
             *all += 1;
         }
         maps.retain(|(_, all)| *all >= LEAST_RUNS);

@@ -9,6 +9,9 @@ pub mod drawing;
 mod figures;
 mod states;
 
+use alloc::collections::BTreeMap;
+
+use serde::Serialize;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::venue;
@@ -18,7 +21,7 @@ use tolman_experiment::P_TABLE;
 use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Run, Table};
 use tolman_replay::Replay;
 
-use contest::Contest;
+use contest::{Contest, ContestConfig};
 
 /// How many maps are learned of each world and threshold.
 const MAPS: u32 = 50;
@@ -29,6 +32,13 @@ struct Mslst {
     robot: LaserPioneerConfig,
     contests: Vec<Contest>,
     tables: Vec<Table>,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+struct Config<'a> {
+    robot: &'a LaserPioneerConfig,
+    worlds: BTreeMap<&'a str, ContestConfig<'a>>,
 }
 
 /// Reads the worlds and sets the tables up.
@@ -86,27 +96,18 @@ impl Experiment for Mslst {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
-        config.insert("robot".into(), toml::Value::try_from(&self.robot)?);
-        let mut worlds = toml::Table::new();
-        for contest in &self.contests {
-            worlds.insert(contest.venue.table.clone(), contest.config()?.into());
-        }
-        config.insert("worlds".into(), worlds.into());
-        Ok(config)
+        let worlds = self.contests.iter();
+        let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
+        Ok(toml::Table::try_from(Config {
+            robot: &self.robot,
+            worlds: worlds.collect(),
+        })?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match self.contest(job.table) {
             Some(contest) => contest.run(job, &self.robot),
             None => states::run(job, &self.contests, &self.robot),
-        }
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        match self.contest(&run.table) {
-            Some(contest) => contest.check(run),
-            None => Ok(()),
         }
     }
 

@@ -4,7 +4,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use super::contest::Contest;
 use tolman_arena::mslst::{MslstConfig, States, scans};
-use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
 /// The rows of the paper: the maze, the threshold, the states.
 const ROWS: [(&str, &str, f64, f64); 3] = [
@@ -13,16 +13,23 @@ const ROWS: [(&str, &str, f64, f64); 3] = [
     ("Large 50", "Large", 50.0, 26.0),
 ];
 
+record! {
+    /// A run of Phase I.
+    struct StatesRun {
+        /// Model scans of the equilibrium GNG.
+        states: usize => neither("states").at_least(1),
+    }
+}
+
 pub(super) fn table() -> Table {
-    let mut table = Table::new("1", "The states of Phase I")
-        .field("states", Kind::Count)
-        .metric(Metric::mean("states"))
+    let mut table = Table::of::<StatesRun>("1", "The states of Phase I")
+        .metric(Metric::mean(StatesRun::states))
         .note(
             "Every run wanders anew. The quantizer's one parameter that no source gives was chosen on the row Large 50; \
              the others are predictions.",
         );
     for (row, .., states) in ROWS {
-        table = table.row(Row::new(row).paper("states", states));
+        table = table.row(Row::new(row).paper(StatesRun::states, states));
     }
     table
 }
@@ -43,5 +50,6 @@ pub(super) fn run(
     let steps = MslstConfig::large(*threshold).scan_steps;
     let scans = scans(&contest.venue.course, robot, steps, job.seed)?;
     let states = States::learn(&scans, *threshold)?;
-    Ok(Fields::new().count("states", states.models().len() as u64))
+    let states = states.models().len();
+    Ok(StatesRun { states }.fields()?)
 }

@@ -37,6 +37,14 @@ pub(super) enum Corridors {
 }
 
 impl Corridors {
+    /// The name in a configuration.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Long => "Long",
+            Self::Short => "Short",
+        }
+    }
+
     /// Junctions, bends and dead ends lie on a lattice with so many columns and rows.
     const fn lattice(self) -> RangeInclusive<u32> {
         match self {

@@ -1,8 +1,9 @@
 //! One curve for each sweep: how often MSLST arrives, with the spread between maps.
 
+use super::SweepRun;
 use super::settings::Sweep;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{Field, Run};
+use tolman_experiment::{Record, Run};
 use tolman_stats::Interval;
 
 pub(super) fn of(sweeps: &[Sweep], runs: &[Run]) -> Vec<Figure> {
@@ -32,12 +33,8 @@ fn curve(sweep: &Sweep, runs: &[Run]) -> Vec<LinePoint> {
         .settings
         .iter()
         .filter_map(|setting| {
-            let of_row = |run: &&Run| run.table == sweep.name && run.row == setting.row;
-            let percents: Vec<f64> = runs
-                .iter()
-                .filter(of_row)
-                .filter_map(|run| run.fields.get("success_percent").and_then(Field::as_number))
-                .collect();
+            let of_row = SweepRun::of_row(runs, sweep.name, &setting.row).ok()?;
+            let percents: Vec<f64> = of_row.iter().map(|run| run.success_percent).collect();
             let quartiles = Interval {
                 low: tolman_stats::quantile(&percents, 0.25).ok()?,
                 high: tolman_stats::quantile(&percents, 0.75).ok()?,

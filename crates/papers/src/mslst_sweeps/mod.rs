@@ -8,6 +8,7 @@ mod drawings;
 mod figures;
 mod settings;
 
+use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
 use tolman_arena::agents::{Agent, Cast, Mind};
@@ -15,7 +16,7 @@ use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::{Mslst, learn};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table, run_seed,
+    BoxError, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Table, record, run_seed,
 };
 use tolman_robot::Body;
 
@@ -41,32 +42,32 @@ pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> 
     Ok(Box::new(Sweeps { sweeps, tables }))
 }
 
-/// Who is measured in every setting, and the prefix of its fields.
-const OTHERS: [(Agent, &str); 2] = [
-    (Agent::WallFollow, "wall_follow"),
-    (Agent::Oracle, "oracle"),
-];
+record! {
+    /// A map and [`STARTS`] starts by it.
+    pub(super) struct SweepRun {
+        /// States of the map.
+        states: usize => neither("states").at_least(1),
+        /// Nodes of the map.
+        nodes: usize => neither("nodes"),
+        /// Starts from which MSLST reaches the destination within the time limit.
+        success_percent: f64 => higher("MSLST arrives").percent(),
+        /// Mean time steps of MSLST.
+        steps: f64 => lower("steps").at_least(0),
+        /// Mean time steps of Wall-follow from the same starts.
+        wall_follow_steps: f64 => neither("steps of Wall-follow").at_least(0),
+        /// Mean time steps of the Oracle from the same starts.
+        oracle_steps: f64 => neither("steps of Oracle").at_least(0),
+    }
+}
 
 fn table(sweep: &Sweep) -> Table {
-    let mut table = Table::new(sweep.name, sweep.title)
-        .field("states", Kind::Count)
-        .field("nodes", Kind::Count)
-        .field("success_percent", Kind::Number)
-        .field("steps", Kind::Number)
-        .metric(Metric::mean("states"))
-        .metric(Metric::mean("nodes"))
-        .metric(
-            Metric::mean("success_percent")
-                .titled("MSLST arrives")
-                .unit("%"),
-        )
-        .metric(Metric::mean("steps"));
-    for (agent, field) in OTHERS {
-        let steps = format!("{field}_steps");
-        table = table
-            .field(&steps, Kind::Number)
-            .metric(Metric::mean(&steps).titled(format!("steps of {}", agent.name())));
-    }
+    let mut table = Table::of::<SweepRun>(sweep.name, sweep.title)
+        .metric(Metric::mean(SweepRun::states))
+        .metric(Metric::mean(SweepRun::nodes))
+        .metric(Metric::mean(SweepRun::success_percent))
+        .metric(Metric::mean(SweepRun::steps))
+        .metric(Metric::mean(SweepRun::wall_follow_steps))
+        .metric(Metric::mean(SweepRun::oracle_steps));
     for setting in &sweep.settings {
         table = table.row(Row::new(&setting.row));
     }
@@ -109,15 +110,13 @@ impl Experiment for Sweeps {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
+        let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
         for sweep in &self.sweeps {
-            let mut rows = toml::Table::new();
-            for setting in &sweep.settings {
-                rows.insert(setting.row.clone(), setting.config()?.into());
-            }
-            config.insert(sweep.name.into(), rows.into());
+            let rows = sweep.settings.iter();
+            let rows = rows.map(|setting| (&*setting.row, setting.config()));
+            config.insert(sweep.name, rows.collect());
         }
-        Ok(config)
+        Ok(toml::Table::try_from(config)?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
@@ -152,29 +151,22 @@ impl Experiment for Sweeps {
             steps += episode.steps;
         }
         let mean = |sum: u32| f64::from(sum) / f64::from(STARTS);
-        let mut fields = Fields::new()
-            .count("states", states as u64)
-            .count("nodes", nodes as u64)
-            .number("success_percent", 100.0 * mean(reached))
-            .number("steps", mean(steps));
-        for (agent, field) in OTHERS {
+        let others = |agent: Agent| -> Result<f64, BoxError> {
             let mut steps = 0;
             for start in 0..STARTS {
                 steps += play(&mut cast.mind(agent, &course, robot)?, start)?.steps;
             }
-            fields = fields.number(format!("{field}_steps"), mean(steps));
-        }
-        Ok(fields)
-    }
-
-    fn check(&self, run: &Run) -> Result<(), BoxError> {
-        let percent = run.fields.get("success_percent").and_then(Field::as_number);
-        match percent {
-            Some(percent) if !(0.0..=100.0).contains(&percent) => {
-                Err(format!("success_percent is {percent}").into())
-            }
-            _ => Ok(()),
-        }
+            Ok(mean(steps))
+        };
+        let run = SweepRun {
+            states,
+            nodes,
+            success_percent: 100.0 * mean(reached),
+            steps: mean(steps),
+            wall_follow_steps: others(Agent::WallFollow)?,
+            oracle_steps: others(Agent::Oracle)?,
+        };
+        Ok(run.fields()?)
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

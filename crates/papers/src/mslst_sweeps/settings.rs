@@ -2,6 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use serde::Serialize;
 use tolman_maze::{Braided, Cell, Grid, Maze, MazeFile, Perfect};
 use tolman_robot::Ring;
 use tolman_sim::robots::LaserPioneerConfig;
@@ -85,7 +86,7 @@ impl World {
     fn name(&self) -> String {
         match self {
             Self::Fixed { course, .. } => course.name.clone(),
-            Self::Redrawn(corridors) => format!("Large, redrawn: {corridors:?}"),
+            Self::Redrawn(corridors) => format!("Large, redrawn: {}", corridors.name()),
             Self::Perfect { side } => format!("perfect {side} × {side}"),
             Self::Braided { side } => format!("braided {side} × {side}"),
         }
@@ -98,17 +99,29 @@ impl Setting {
     }
 
     /// What its runs depend on.
-    pub(super) fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut table = toml::Table::new();
-        table.insert("mslst".into(), toml::Value::try_from(self.config)?);
-        table.insert("robot".into(), toml::Value::try_from(&self.robot)?);
-        table.insert("world".into(), self.world.name().into());
-        if let World::Fixed { course, steps } = &self.world {
-            table.insert("maze".into(), course.maze.to_string().into());
-            table.insert("corridor_width".into(), course.corridor_width.into());
-            table.insert("step_limit".into(), i64::from(*steps).into());
+    pub(super) fn config(&self) -> impl Serialize {
+        #[derive(Serialize)]
+        struct Config<'a> {
+            mslst: MslstConfig,
+            robot: &'a LaserPioneerConfig,
+            world: String,
+            #[serde(flatten)]
+            fixed: Option<venue::World>,
         }
-        Ok(table)
+        let fixed = match &self.world {
+            World::Fixed { course, steps } => Some(venue::World {
+                maze: course.maze.to_string(),
+                corridor_width: course.corridor_width,
+                step_limit: *steps,
+            }),
+            _ => None,
+        };
+        Config {
+            mslst: self.config,
+            robot: &self.robot,
+            world: self.world.name(),
+            fixed,
+        }
     }
 }
 

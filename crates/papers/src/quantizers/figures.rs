@@ -6,6 +6,7 @@ use tolman_geom::Point;
 use tolman_quantizers::{Network, Quantizer, UnitId};
 
 use super::any::ROWS;
+use super::shapes::ShapesRun;
 use super::states::Mazes;
 use super::{five, shapes, states};
 use tolman_arena::pioneer;
@@ -13,7 +14,7 @@ use tolman_draw::{
     Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, NodeMark, Points,
     PolarPlot, Series, Tiles,
 };
-use tolman_experiment::{BoxError, Field, Run};
+use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{Interval, quantile};
 
 /// How many data points a picture shows at most.
@@ -63,7 +64,7 @@ pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         .caption("Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.")
         .table(shapes::NAME),
     );
-    figures.push(errors(runs));
+    figures.push(errors(runs)?);
     Ok(figures)
 }
 
@@ -157,27 +158,26 @@ fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
 }
 
 /// The error of each quantizer after more and more inputs.
-fn errors(runs: &[Run]) -> Figure {
+fn errors(runs: &[Run]) -> Result<Figure, BoxError> {
     let mut chart = Chart::new(Axis::log("inputs"), Axis::log("RMS error"));
     for (series, row) in (0_u32..).zip(ROWS) {
-        let points = shapes::MARKS.iter().filter_map(|&inputs| {
-            let field = shapes::field(inputs);
-            let values: Vec<f64> = runs
-                .iter()
-                .filter(|run| run.table == shapes::NAME && run.row == row)
-                .filter_map(|run| run.fields.get(&field).and_then(Field::as_number))
-                .collect();
-            let at = |share| quantile(&values, share).ok();
-            let spread = Interval {
-                low: at(0.0)?,
-                high: at(1.0)?,
-            };
-            Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
-        });
+        let of_row = ShapesRun::of_row(runs, shapes::NAME, row)?;
+        let points = shapes::MARKS
+            .into_iter()
+            .enumerate()
+            .filter_map(|(mark, inputs)| {
+                let values: Vec<f64> = of_row.iter().map(|run| run.errors()[mark]).collect();
+                let at = |share| quantile(&values, share).ok();
+                let spread = Interval {
+                    low: at(0.0)?,
+                    high: at(1.0)?,
+                };
+                Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
+            });
         chart.line(Line::new(row, Series(series), points.collect()));
     }
     let drawing = chart.drawing("The error falls with the inputs, for each quantizer.");
-    Figure::new("errors", "Error against inputs", drawing)
-        .caption("Median over runs; bands from the least to the largest.")
-        .table(shapes::NAME)
+    let figure = Figure::new("errors", "Error against inputs", drawing);
+    let caption = "Median over runs; bands from the least to the largest.";
+    Ok(figure.caption(caption).table(shapes::NAME))
 }

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_quantizers::{Quantizer, SecondLayerConfig, Soinn, SoinnConfig};
 
 use super::streams::{self, Order, Point, REGIONS};
-use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 
 /// The table that the paper's own experiment makes; further ones vary it.
 pub(super) const NAME: &str = "five clusters";
@@ -73,51 +73,67 @@ const PROBES: u32 = 200;
 
 pub(super) fn tables() -> Vec<Table> {
     let rows = |table: Table| table.row(Row::new(LITERAL)).row(Row::new(CHOSEN));
-    let mut other = measured(Table::new(OTHER_STREAMS, "Five clusters in other streams"));
+    let mut other = measured(OTHER_STREAMS, "Five clusters in other streams");
     for stream in &STREAMS {
         other = other.row(Row::new(stream.row));
     }
     vec![
-        rows(measured(Table::new(
-            NAME,
-            "Five clusters in 10 % noise, points drawn from all",
-        )))
+        rows(measured(NAME, "Five clusters in 10 % noise, points drawn from all"))
         .note(format!(
             "{POINTS} points a run. A run is right if each region's own points fall, but for 5 %, into a cluster of \
              their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = 100, c = 1, second layer's threshold by \
              algorithm 3.3. SOINN: units judged by their age and age_dead = 20 in the first layer, λ = 500 and a \
              threshold of four mean edges of the first layer in the second."
         )),
-        rows(measured(Table::new(
+        rows(measured(
             ONE_AFTER_ANOTHER,
             "The same, one region after another, in seven phases",
-        ))),
+        )),
         other.note("The same SOINN; the row says what differs from the first table."),
     ]
 }
 
-fn measured(table: Table) -> Table {
-    table
-        .field("five", Kind::Flag)
-        .field("right", Kind::Flag)
-        .field("clusters", Kind::Count)
-        .field("first_clusters", Kind::Count)
-        .field("units", Kind::Count)
-        .field("first_units", Kind::Count)
-        .metric(Metric::count_of("five_of_twenty", "five", 20).titled("five clusters"))
-        .metric(Metric::count_of("right_of_twenty", "right", 20).titled("each its region"))
-        .metric(Metric::mean("clusters").decimals(1))
-        .metric(Metric::mean("units").decimals(0))
-        .metric(
-            Metric::mean("first_clusters")
-                .titled("clusters, first layer")
-                .decimals(1),
+record! {
+    /// A SOINN of two layers and what it found.
+    #[check(FiveRun::relations)]
+    struct FiveRun {
+        /// Whether the second layer has five clusters.
+        five: bool => higher("five clusters"),
+        /// Whether each of them holds the points of one region, but for 5 %.
+        right: bool => higher("each its region"),
+        /// Clusters of the second layer.
+        clusters: usize => neither("clusters").decimals(1),
+        /// Clusters of the first layer.
+        first_clusters: usize => neither("clusters, first layer").decimals(1),
+        /// Units of the second layer.
+        units: usize => neither("units").decimals(0),
+        /// Units of the first layer.
+        first_units: usize => neither("units, first layer").decimals(0),
+    }
+}
+
+impl FiveRun {
+    fn relations(&self) -> Result<(), String> {
+        let is_five = self.clusters == REGIONS as usize;
+        require(
+            self.five == is_five,
+            "five is not whether there are five clusters",
+        )?;
+        require(
+            self.five || !self.right,
+            "a run that is right has five clusters",
         )
-        .metric(
-            Metric::mean("first_units")
-                .titled("units, first layer")
-                .decimals(0),
-        )
+    }
+}
+
+fn measured(name: &str, title: &str) -> Table {
+    Table::of::<FiveRun>(name, title)
+        .metric(Metric::count_of("five_of_twenty", FiveRun::five, 20))
+        .metric(Metric::count_of("right_of_twenty", FiveRun::right, 20))
+        .metric(Metric::mean(FiveRun::clusters))
+        .metric(Metric::mean(FiveRun::units))
+        .metric(Metric::mean(FiveRun::first_clusters))
+        .metric(Metric::mean(FiveRun::first_units))
 }
 
 /// What one run learned.
@@ -164,14 +180,15 @@ pub(super) fn learn(job: &Job<'_>) -> Result<Learned, BoxError> {
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let Learned { first, second, .. } = learn(job)?;
     let clusters = second.network().clusters().count();
-    let count = |number: usize| number as u64;
-    Ok(Fields::new()
-        .flag("five", clusters == REGIONS as usize)
-        .flag("right", is_right(&second, job.seed)?)
-        .count("clusters", count(clusters))
-        .count("first_clusters", count(first.network().clusters().count()))
-        .count("units", count(second.network().len()))
-        .count("first_units", count(first.network().len())))
+    let run = FiveRun {
+        five: clusters == REGIONS as usize,
+        right: is_right(&second, job.seed)?,
+        clusters,
+        first_clusters: first.network().clusters().count(),
+        units: second.network().len(),
+        first_units: first.network().len(),
+    };
+    Ok(run.fields()?)
 }
 
 /// Whether there are five clusters, each with at least 95 % of one region's points.

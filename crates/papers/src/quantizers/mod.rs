@@ -9,7 +9,11 @@ mod sonar;
 mod states;
 mod streams;
 
+use alloc::collections::BTreeMap;
+
+use serde::Serialize;
 use tolman_quantizers::{GngConfig, SecondLayerConfig, SoinnConfig};
+use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::data;
 use tolman_arena::pioneer;
@@ -25,6 +29,24 @@ struct Quantizers {
     mazes: Mazes,
     log: Option<Log>,
     tables: Vec<Table>,
+}
+
+/// What the runs depend on.
+#[derive(Serialize)]
+struct Config<'a> {
+    robot: LaserPioneerConfig,
+    mazes: BTreeMap<&'a str, String>,
+    parameters: Parameters,
+}
+
+#[derive(Serialize)]
+struct Parameters {
+    mslst: GngConfig,
+    gng: GngConfig,
+    soinn_literal: SoinnConfig,
+    soinn: SoinnConfig,
+    second_layer_literal: SecondLayerConfig,
+    second_layer: SecondLayerConfig,
 }
 
 /// Reads what it needs and sets the tables up.
@@ -75,35 +97,20 @@ impl Experiment for Quantizers {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = toml::Table::new();
-        config.insert(
-            "robot".into(),
-            toml::Value::try_from(pioneer::calibrated())?,
-        );
-        let mut mazes = toml::Table::new();
-        for course in self.mazes.all() {
-            mazes.insert(course.name.clone(), course.maze.to_string().into());
-        }
-        config.insert("mazes".into(), mazes.into());
-        let mut parameters = toml::Table::new();
-        for (name, value) in [
-            ("mslst", format!("{:?}", GngConfig::mslst(50.0))),
-            ("gng", format!("{:?}", GngConfig::fritzke())),
-            (
-                "soinn_literal",
-                format!("{:?}", SoinnConfig::shen_hasegawa()),
-            ),
-            ("soinn", format!("{:?}", SoinnConfig::noisy())),
-            (
-                "second_layer_literal",
-                format!("{:?}", SecondLayerConfig::shen_hasegawa()),
-            ),
-            ("second_layer", format!("{:?}", SecondLayerConfig::noisy())),
-        ] {
-            parameters.insert(name.into(), value.into());
-        }
-        config.insert("parameters".into(), parameters.into());
-        Ok(config)
+        let mazes = self.mazes.all().into_iter();
+        let mazes = mazes.map(|course| (&*course.name, course.maze.to_string()));
+        Ok(toml::Table::try_from(Config {
+            robot: pioneer::calibrated(),
+            mazes: mazes.collect(),
+            parameters: Parameters {
+                mslst: GngConfig::mslst(50.0),
+                gng: GngConfig::fritzke(),
+                soinn_literal: SoinnConfig::shen_hasegawa(),
+                soinn: SoinnConfig::noisy(),
+                second_layer_literal: SecondLayerConfig::shen_hasegawa(),
+                second_layer: SecondLayerConfig::noisy(),
+            },
+        })?)
     }
 
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {

@@ -7,7 +7,7 @@ use tolman_quantizers::{Gng, GngConfig, Quantizer, Replay, ReplayConfig};
 
 use super::states::Mazes;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
 /// The table's name.
 pub(super) const NAME: &str = "order of inputs";
@@ -20,14 +20,24 @@ const REPLAYED: &str = "in time, replayed";
 const UNITS: usize = 40;
 const PASSES: u32 = 3;
 
+record! {
+    /// A quantizer that learned the scans in some order.
+    struct OrderRun {
+        /// Mean squared distance of a scan from the nearest unit.
+        mean_squared_error: f64 => lower("MSE").unit("robot units²").at_least(0),
+        /// Root of the mean squared distance of a scan from the nearest unit.
+        rms_error: f64 => lower("RMS error").unit("robot units").at_least(0),
+        /// Units of the network.
+        units: usize => neither("units").decimals(0),
+    }
+}
+
 pub(super) fn table() -> Table {
-    Table::new(NAME, "GNG on the scans of the Large maze, in two orders and with a memory")
-        .field("rms_error", Kind::Number)
-        .field("mean_squared_error", Kind::Number)
-        .field("units", Kind::Count)
-        .metric(Metric::mean("mean_squared_error").titled("MSE").unit("robot units²"))
-        .metric(Metric::mean("rms_error").titled("RMS error").unit("robot units"))
-        .metric(Metric::mean("units").decimals(0))
+    let title = "GNG on the scans of the Large maze, in two orders and with a memory";
+    Table::of::<OrderRun>(NAME, title)
+        .metric(Metric::mean(OrderRun::mean_squared_error))
+        .metric(Metric::mean(OrderRun::rms_error))
+        .metric(Metric::mean(OrderRun::units))
         .row(Row::new(SHUFFLED))
         .row(Row::new(IN_TIME))
         .row(Row::new(REPLAYED))
@@ -79,8 +89,10 @@ fn learn<'a>(
         quantizer.observe(scan)?;
     }
     let error = quantizer.network().quantization_error(scans)?;
-    Ok(Fields::new()
-        .number("mean_squared_error", error.mean_squared)
-        .number("rms_error", libm::sqrt(error.mean_squared))
-        .count("units", quantizer.network().len() as u64))
+    let run = OrderRun {
+        mean_squared_error: error.mean_squared,
+        rms_error: libm::sqrt(error.mean_squared),
+        units: quantizer.network().len(),
+    };
+    Ok(run.fields()?)
 }

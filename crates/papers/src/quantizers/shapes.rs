@@ -6,7 +6,7 @@ use tolman_quantizers::Quantizer;
 
 use super::any::{ROWS, quantizer};
 use super::streams::{Point, rings_and_squares};
-use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
 /// The table's name.
 pub(super) const NAME: &str = "rings and squares";
@@ -23,26 +23,47 @@ const UNITS: usize = 100;
 /// In squared units of the data: about 100 units in equilibrium.
 const THRESHOLD: f64 = 0.05;
 
-/// The name of the field for the error after so many inputs.
-pub(super) fn field(inputs: u32) -> String {
-    format!("rms_{inputs}")
+record! {
+    /// A quantizer that learned the points.
+    pub(super) struct ShapesRun {
+        /// Root of the mean squared distance of a point from the nearest unit after 100 inputs.
+        rms_100: f64 => lower("RMS error after 100").at_least(0),
+        /// The same after 300 inputs.
+        rms_300: f64 => lower("RMS error after 300").at_least(0),
+        /// The same after 1000 inputs.
+        rms_1000: f64 => lower("RMS error after 1000").at_least(0),
+        /// The same after 3000 inputs.
+        rms_3000: f64 => lower("RMS error after 3000").at_least(0),
+        /// The same after 10,000 inputs.
+        rms_10000: f64 => lower("RMS error after 10,000").at_least(0),
+        /// Root of the mean squared distance of a point from the nearest unit, at the end.
+        rms_30000: f64 => lower("RMS error").at_least(0).decimals(4),
+        /// Units of the network.
+        units: usize => neither("units").decimals(0),
+        /// Clusters of the network.
+        clusters: usize => neither("clusters").decimals(1),
+    }
+}
+
+impl ShapesRun {
+    /// The errors at [`MARKS`].
+    pub(super) const fn errors(&self) -> [f64; MARKS.len()] {
+        [
+            self.rms_100,
+            self.rms_300,
+            self.rms_1000,
+            self.rms_3000,
+            self.rms_10000,
+            self.rms_30000,
+        ]
+    }
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NAME, "Two rings and two squares");
-    for inputs in MARKS {
-        table = table.field(field(inputs), Kind::Number);
-    }
-    table = table
-        .field("units", Kind::Count)
-        .field("clusters", Kind::Count)
-        .metric(
-            Metric::mean(field(MARKS[MARKS.len() - 1]))
-                .titled("RMS error")
-                .decimals(4),
-        )
-        .metric(Metric::mean("units").decimals(0))
-        .metric(Metric::mean("clusters").decimals(1));
+    let mut table = Table::of::<ShapesRun>(NAME, "Two rings and two squares")
+        .metric(Metric::mean(ShapesRun::rms_30000))
+        .metric(Metric::mean(ShapesRun::units))
+        .metric(Metric::mean(ShapesRun::clusters));
     for row in ROWS {
         table = table.row(Row::new(row));
     }
@@ -56,22 +77,22 @@ pub(super) fn table() -> Table {
 pub(super) struct Learned {
     pub(super) quantizer: Box<dyn Quantizer<f64>>,
     pub(super) data: Vec<Point>,
-    errors: Vec<f64>,
+    errors: [f64; MARKS.len()],
 }
 
 pub(super) fn learn(job: &Job<'_>) -> Result<Learned, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
     let probes: Vec<Point> = (0..PROBES).map(|_| rings_and_squares(&mut rng)).collect();
     let mut quantizer = quantizer(job.row, 2, UNITS, THRESHOLD)?;
-    let (mut data, mut errors) = (Vec::new(), Vec::new());
-    for mark in MARKS {
+    let (mut data, mut errors) = (Vec::new(), [0.0; MARKS.len()]);
+    for (mark, rms) in MARKS.into_iter().zip(&mut errors) {
         while data.len() < mark as usize {
             let point = rings_and_squares(&mut rng);
             quantizer.observe(&point)?;
             data.push(point);
         }
         let error = quantizer.network().quantization_error(&probes)?;
-        errors.push(libm::sqrt(error.mean_squared));
+        *rms = libm::sqrt(error.mean_squared);
     }
     Ok(Learned {
         quantizer,
@@ -83,11 +104,16 @@ pub(super) fn learn(job: &Job<'_>) -> Result<Learned, BoxError> {
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let learned = learn(job)?;
     let network = learned.quantizer.network();
-    let mut fields = Fields::new()
-        .count("units", network.len() as u64)
-        .count("clusters", network.clusters().count() as u64);
-    for (mark, error) in MARKS.into_iter().zip(learned.errors) {
-        fields = fields.number(field(mark), error);
-    }
-    Ok(fields)
+    let [rms_100, rms_300, rms_1000, rms_3000, rms_10000, rms_30000] = learned.errors;
+    let run = ShapesRun {
+        rms_100,
+        rms_300,
+        rms_1000,
+        rms_3000,
+        rms_10000,
+        rms_30000,
+        units: network.len(),
+        clusters: network.clusters().count(),
+    };
+    Ok(run.fields()?)
 }

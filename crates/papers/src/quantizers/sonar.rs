@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::any::{ROWS, quantizer};
 use crate::data;
-use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
 /// The table's name.
 pub(super) const NAME: &str = "sonar ring";
@@ -109,29 +109,32 @@ impl Log {
             right += u32::from(votes.iter().position(|v| Some(v) == most) == Some(*action));
         }
         let error = network.quantization_error(asked.iter().map(|(ranges, _)| ranges))?;
-        Ok(Fields::new()
-            .count("units", network.len() as u64)
-            .number("rms_error", libm::sqrt(error.mean_squared))
-            .number(
-                "right_percent",
-                100.0 * f64::from(right) / asked.len() as f64,
-            ))
+        let run = SonarRun {
+            units: network.len(),
+            rms_error: libm::sqrt(error.mean_squared),
+            right_percent: 100.0 * f64::from(right) / asked.len() as f64,
+        };
+        Ok(run.fields()?)
+    }
+}
+
+record! {
+    /// A quantizer that learned three laps and was asked about the fourth.
+    struct SonarRun {
+        /// Units of the network.
+        units: usize => neither("units").decimals(0),
+        /// Root of the mean squared distance of an asked scan from the nearest unit.
+        rms_error: f64 => lower("RMS error").unit("m").at_least(0),
+        /// Asked scans whose nearest unit tells the robot's action.
+        right_percent: f64 => higher("action told").percent().decimals(1),
     }
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NAME, "A ring of 24 sonars on a wall-following robot")
-        .field("units", Kind::Count)
-        .field("rms_error", Kind::Number)
-        .field("right_percent", Kind::Number)
-        .metric(Metric::mean("rms_error").titled("RMS error").unit("m"))
-        .metric(Metric::mean("units").decimals(0))
-        .metric(
-            Metric::mean("right_percent")
-                .titled("action told")
-                .unit("%")
-                .decimals(1),
-        );
+    let mut table = Table::of::<SonarRun>(NAME, "A ring of 24 sonars on a wall-following robot")
+        .metric(Metric::mean(SonarRun::rms_error))
+        .metric(Metric::mean(SonarRun::units))
+        .metric(Metric::mean(SonarRun::right_percent));
     for row in ROWS {
         table = table.row(Row::new(row));
     }

@@ -6,7 +6,7 @@ use crate::venue;
 use tolman_arena::course::Course;
 use tolman_arena::mslst;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Kind, Metric, Row, Table, Tolerance};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, Tolerance, record};
 
 /// The table's name in `summary.json`.
 pub(super) const NAME: &str = "1";
@@ -44,21 +44,20 @@ const SETTINGS: [Setting; 3] = [
     },
 ];
 
+record! {
+    /// An equilibrium GNG that learned the scans of phase I.
+    struct NetworkRun {
+        /// Units of the network, each a state.
+        states: usize => neither("states").decimals(1).tolerance(Tolerance::Factor(1.5)),
+        /// Root of the mean squared distance of a scan from the nearest state.
+        rms_error: f64 => lower("RMS error").unit("robot units").at_least(0),
+    }
+}
+
 pub(super) fn table() -> Table {
-    let mut table = Table::new(NAME, "States of MSLST's equilibrium GNG")
-        .field("states", Kind::Count)
-        .field("rms_error", Kind::Number)
-        .metric(
-            Metric::median("states_median", "states")
-                .titled("states (median)")
-                .decimals(1)
-                .tolerance(Tolerance::Factor(1.5)),
-        )
-        .metric(
-            Metric::mean("rms_error")
-                .titled("RMS error")
-                .unit("robot units"),
-        )
+    let mut table = Table::of::<NetworkRun>(NAME, "States of MSLST's equilibrium GNG")
+        .metric(Metric::median("states_median", NetworkRun::states).titled("states (median)"))
+        .metric(Metric::mean(NetworkRun::rms_error))
         .paper_runs(1);
     for setting in &SETTINGS {
         table = table.row(Row::new(setting.row).paper("states_median", setting.states));
@@ -111,9 +110,11 @@ impl Mazes {
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (gng, scans) = self.learn(job)?;
         let error = gng.network().quantization_error(&scans)?;
-        Ok(Fields::new()
-            .count("states", gng.network().len() as u64)
-            .number("rms_error", libm::sqrt(error.mean_squared)))
+        let run = NetworkRun {
+            states: gng.network().len(),
+            rms_error: libm::sqrt(error.mean_squared),
+        };
+        Ok(run.fields()?)
     }
 }
 

@@ -1,18 +1,48 @@
-//! What a run measures: the episode as the fields of a table.
+//! What a run measures: an episode as the record of a table.
 
 use super::Venue;
 use tolman_arena::episode::Episode;
-use tolman_experiment::{BoxError, Field, Fields, Kind, Run, Table};
+use tolman_experiment::{Record, Table, record, require};
 
-/// The fields of an episode.
-pub(crate) fn fields(episode: &Episode) -> Fields {
-    Fields::new()
-        .flag("reached", episode.reached)
-        .text("outcome", outcome(episode.reached))
-        .count("actions", u64::from(episode.actions))
-        .count("failed_actions", u64::from(episode.failed_actions))
-        .count("steps", u64::from(episode.steps))
-        .count("bumps", u64::from(episode.bumps))
+record! {
+    /// A run of a brain in a maze.
+    #[check(MazeRun::relations)]
+    pub(crate) struct MazeRun {
+        /// Whether the robot's centre came to lie in the destination within the time limit.
+        reached: bool => higher("success"),
+        /// How the run ended, in words.
+        outcome: String => neither("outcome"),
+        /// Actions that the brain chose.
+        actions: u32 => lower("actions").at_least(1),
+        /// Actions that did not move the robot.
+        failed_actions: u32 => lower("failed actions"),
+        /// Time steps until the destination; the limit where it was not reached.
+        steps: u32 => lower("steps"),
+        /// Time steps in which the robot touched a wall.
+        bumps: u32 => lower("bumps"),
+    }
+}
+
+impl MazeRun {
+    pub(crate) fn of(episode: &Episode) -> Self {
+        Self {
+            reached: episode.reached,
+            outcome: outcome(episode.reached).to_owned(),
+            actions: episode.actions,
+            failed_actions: episode.failed_actions,
+            steps: episode.steps,
+            bumps: episode.bumps,
+        }
+    }
+
+    fn relations(&self) -> Result<(), String> {
+        let contradicted = "outcome and reached contradict each other";
+        require(self.outcome == outcome(self.reached), contradicted)?;
+        require(self.actions <= self.steps, "more actions than steps")?;
+        let failed = self.failed_actions <= self.actions;
+        require(failed, "more failed actions than actions")?;
+        require(self.bumps <= self.steps, "more bumps than steps")
+    }
 }
 
 /// How a run ended, in words.
@@ -21,15 +51,10 @@ const fn outcome(reached: bool) -> &'static str {
 }
 
 impl Venue {
-    /// The table of this world, with the [`fields`] of its runs.
-    pub(crate) fn table(&self) -> Table {
-        let table = Table::new(&self.table, &self.title)
-            .field("reached", Kind::Flag)
-            .field("outcome", Kind::Text)
-            .field("actions", Kind::Count)
-            .field("failed_actions", Kind::Count)
-            .field("steps", Kind::Count)
-            .field("bumps", Kind::Count)
+    /// The table of this world, of which each run has a [`MazeRun`] in its record.
+    pub(crate) fn table<T: Record>(&self) -> Table {
+        let table = Table::of::<T>(&self.table, &self.title)
+            .at_most(MazeRun::steps, self.step_limit)
             .note(format!(
                 "A run ends when the robot's centre lies in the destination, or fails after {} time steps, \
                  which then count as its steps.",
@@ -40,30 +65,5 @@ impl Venue {
         } else {
             table.paper_runs(25)
         }
-    }
-
-    /// Refuses a run whose [`fields`] no episode here can have.
-    pub(crate) fn check(&self, run: &Run) -> Result<(), BoxError> {
-        let count = |name: &str| match run.fields.get(name) {
-            Some(Field::Count(count)) => *count,
-            _ => 0,
-        };
-        let reached = run.fields.get("reached").and_then(Field::as_flag);
-        let told = run.fields.get("outcome").and_then(Field::as_text);
-        let (actions, steps) = (count("actions"), count("steps"));
-        if told != reached.map(outcome) {
-            return Err("outcome and reached contradict each other".into());
-        }
-        let limit = self.step_limit;
-        if steps > u64::from(limit) {
-            return Err(format!("steps is {steps}, the limit {limit}").into());
-        }
-        if !(1..=steps).contains(&actions) {
-            return Err(format!("actions is {actions} in {steps} steps").into());
-        }
-        if count("failed_actions") > actions || count("bumps") > steps {
-            return Err("more failed actions or bumps than actions or steps".into());
-        }
-        Ok(())
     }
 }

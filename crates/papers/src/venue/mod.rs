@@ -4,6 +4,7 @@ mod files;
 mod measured;
 mod paper;
 
+use serde::Serialize;
 use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
 
@@ -16,7 +17,7 @@ use tolman_experiment::{BoxError, Job, Row};
 use tolman_replay::Replay;
 
 pub(super) use files::{from_file, from_files};
-pub(super) use measured::fields;
+pub(super) use measured::MazeRun;
 pub(super) use paper::{LARGE_STEPS, PaperRow};
 
 /// One world with its table.
@@ -30,6 +31,16 @@ pub(super) struct Venue {
     pub(super) step_limit: u32,
     /// What the paper says of it.
     paper: &'static [PaperRow],
+}
+
+/// A world as it stands in a configuration.
+#[derive(Debug, Serialize)]
+pub(super) struct World {
+    pub(super) maze: String,
+    /// In metres.
+    pub(super) corridor_width: f64,
+    /// In time steps.
+    pub(super) step_limit: u32,
 }
 
 /// The paper's own worlds.
@@ -82,8 +93,8 @@ impl Venue {
         match self.paper(name) {
             Some(paper) => row
                 .paper("success_percent", paper.success_percent)
-                .paper_mean("actions", paper.actions.0, paper.actions.1)
-                .paper_mean("steps", paper.steps.0, paper.steps.1),
+                .paper_mean(MazeRun::actions, paper.actions.0, paper.actions.1)
+                .paper_mean(MazeRun::steps, paper.steps.0, paper.steps.1),
             None => row,
         }
     }
@@ -94,12 +105,12 @@ impl Venue {
     }
 
     /// What the runs here depend on.
-    pub(super) fn config(&self) -> toml::Table {
-        let mut world = toml::Table::new();
-        world.insert("maze".into(), self.course.maze.to_string().into());
-        world.insert("corridor_width".into(), self.course.corridor_width.into());
-        world.insert("step_limit".into(), i64::from(self.step_limit).into());
-        world
+    pub(super) fn world(&self) -> World {
+        World {
+            maze: self.course.maze.to_string(),
+            corridor_width: self.course.corridor_width,
+            step_limit: self.step_limit,
+        }
     }
 
     /// The run of a seed, from the start that belongs to it.

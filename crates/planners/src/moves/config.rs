@@ -5,6 +5,7 @@ use thiserror::Error;
 /// None of this touches the proof: whatever the weights, the explorer stops only when no better run is
 /// possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MoveExplorerConfig {
     /// While no way to the goal is known: how much a step on known ground counts against a step of the way
     /// that is hoped for beyond it. > 0.

@@ -12,6 +12,7 @@ use crate::{ConfigError, Scalar};
 
 /// How the second layer learns.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondLayerConfig {
     /// The layer itself; its threshold is computed, so what stands there does not count.
     pub layer: SoinnConfig,
@@ -23,6 +24,8 @@ pub struct SecondLayerConfig {
 
 /// The constant threshold T_c of the second layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SecondThreshold {
     /// The smallest distance between two clusters of the first layer that is at least the mean length of its edges (Shen and Hasegawa

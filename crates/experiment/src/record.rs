@@ -1,0 +1,465 @@
+//! Records: what a run measures, as a struct whose columns are declared beside its fields.
+
+use alloc::collections::BTreeSet;
+use core::any::type_name;
+use core::fmt;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use thiserror::Error;
+
+use super::{BoxError, Column, Fields, Run};
+
+/// What one run of a table measures. [`record!`](crate::record) declares the struct and its columns
+/// at once.
+pub trait Record: Serialize + DeserializeOwned {
+    /// Returns one column for each field that serde writes.
+    fn columns() -> Vec<Column>;
+
+    /// Refuses a record whose values are each in the range of their column, but not together.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn check(&self) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Returns the records of a row's runs, in their order.
+    ///
+    /// # Errors
+    /// [`RecordError::Read`] if one is no such record.
+    fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, RecordError> {
+        let own = runs
+            .iter()
+            .filter(|run| run.table == table && run.row == row);
+        own.map(Run::record).collect()
+    }
+
+    /// Returns the record as the fields of a run.
+    ///
+    /// # Errors
+    /// [`RecordError`] if a value is no field.
+    fn fields(&self) -> Result<Fields, RecordError> {
+        Fields::of(self)
+    }
+}
+
+/// Declares a [`Record`]: a struct with its columns, a line a field.
+///
+/// The doc comment of a field is the column's definition, its type says what it holds, and an
+/// `Option` that not every run has it. Behind `=>` stand the methods of [`Column`](crate::Column).
+/// Each field gives a constant of its name, by which metrics refer to it. `#[check(function)]` names
+/// the [check](Record::check); `..base: Base` takes in the fields of another record. The crate needs
+/// serde among its dependencies.
+///
+/// ```
+/// use tolman_experiment::{Metric, Record, Table, record, require};
+///
+/// record! {
+///     /// One throw.
+///     #[check(Throw::is_possible)]
+///     struct Throw {
+///         /// Whether the dart hit the board.
+///         hit: bool => higher("hits"),
+///         /// Distance from the middle, where it hit.
+///         miss: Option<f64> => lower("miss").unit("cm").at_least(0),
+///     }
+/// }
+///
+/// impl Throw {
+///     fn is_possible(&self) -> Result<(), String> {
+///         require(self.hit == self.miss.is_some(), "a dart has a distance where it hit")
+///     }
+/// }
+///
+/// let table = Table::of::<Throw>("1", "Throws").metric(Metric::mean(Throw::miss));
+/// assert_eq!((table.metrics[0].title.as_str(), table.metrics[0].unit.as_str()), ("miss", "cm"));
+/// let throw = Throw { hit: true, miss: Some(2.5) };
+/// assert_eq!(throw.fields()?.record::<Throw>()?, throw);
+/// # Ok::<(), tolman_experiment::RecordError>(())
+/// ```
+#[macro_export]
+macro_rules! record {
+    (
+        $(#[doc = $about:literal])*
+        $(#[check($check:path)])?
+        $vis:vis struct $name:ident {
+            $(..$base:ident: $base_type:ty,)?
+            $(
+                $(#[doc = $definition:literal])+
+                $field:ident: $type:ty => $($method:ident($($argument:expr),*)).+
+            ),+ $(,)?
+        }
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Clone, Debug, Default, PartialEq, ::serde::Serialize, ::serde::Deserialize)]
+        $vis struct $name {
+            $(
+                /// What it has in common with others.
+                #[serde(flatten)]
+                $vis $base: $base_type,
+            )?
+            $($(#[doc = $definition])+ $vis $field: $type,)+
+        }
+
+        #[allow(dead_code, non_upper_case_globals, reason = "one for each field, named as it is")]
+        impl $name {
+            $(
+                #[doc = concat!("Name of the field `", stringify!($field), "`.")]
+                $vis const $field: &'static str = stringify!($field);
+            )+
+        }
+
+        impl $crate::Record for $name {
+            fn columns() -> Vec<$crate::Column> {
+                let own = [$(
+                    $crate::Column::of::<$type>(stringify!($field), concat!($($definition),+))
+                        $(.$method($($argument),*))+
+                ),+];
+                let base: [Vec<$crate::Column>; _] =
+                    [$(<$base_type as $crate::Record>::columns())?];
+                base.into_iter().flatten().chain(own).collect()
+            }
+
+            fn check(&self) -> Result<(), String> {
+                $($crate::Record::check(&self.$base)?;)?
+                $($check(self)?;)?
+                Ok(())
+            }
+        }
+    };
+}
+
+/// Says `why` a record cannot be, unless a relation between its fields `holds`.
+///
+/// # Errors
+/// `why`.
+pub fn require(holds: bool, why: &str) -> Result<(), String> {
+    match holds {
+        true => Ok(()),
+        false => Err(why.to_owned()),
+    }
+}
+
+/// Why a record and the fields of a run are not each other's.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// A record that serde cannot write as fields.
+    #[error("the record {record} cannot be written as fields")]
+    Write {
+        /// Name of the type.
+        record: &'static str,
+        /// What serde says.
+        source: toml::ser::Error,
+    },
+    /// A value that no field can hold.
+    #[error("{field} is {value}; a field is a flag, a count, a number, a word or a curve")]
+    NoField {
+        /// Name of the field.
+        field: String,
+        /// Its value.
+        value: String,
+    },
+    /// Fields that are no such record.
+    #[error("the fields are no record {record}")]
+    Read {
+        /// Name of the type.
+        record: &'static str,
+        /// What serde says.
+        source: toml::de::Error,
+    },
+    /// A struct with a field that no column describes.
+    #[error("the record {record} has a field {field:?} without a column; add it to `columns`")]
+    NoColumn {
+        /// Name of the type.
+        record: &'static str,
+        /// Name of the field.
+        field: String,
+    },
+    /// A column of a field that the struct has not, or has with another type.
+    #[error("the record {record} has no field {field:?} of the kind that its column tells")]
+    NoSuchField {
+        /// Name of the type.
+        record: &'static str,
+        /// Name of the field.
+        field: String,
+    },
+}
+
+/// The record of a table, without its type.
+#[derive(Clone)]
+pub struct RecordType {
+    name: &'static str,
+    columns: Vec<Column>,
+    check: fn(&Fields) -> Result<(), BoxError>,
+    compare: fn(&[Column]) -> Result<(), RecordError>,
+}
+
+impl RecordType {
+    pub(super) fn of<T: Record>() -> Self {
+        Self {
+            name: type_name::<T>(),
+            columns: T::columns(),
+            check: |fields| Ok(fields.record::<T>()?.check()?),
+            compare: compare::<T>,
+        }
+    }
+
+    /// Returns the column of a field.
+    pub fn column(&self, field: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.field == field)
+    }
+
+    /// Returns the columns, in the order of their declaration.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    pub(super) fn column_mut(&mut self, field: &str) -> Option<&mut Column> {
+        let mut columns = self.columns.iter_mut();
+        columns.find(|column| column.field == field)
+    }
+
+    /// Refuses fields that are no such record, or one that [`Record::check`] refuses.
+    pub(super) fn check(&self, fields: &Fields) -> Result<(), BoxError> {
+        (self.check)(fields)
+    }
+
+    /// Refuses columns that are not those of the struct.
+    pub(super) fn compare(&self) -> Result<(), RecordError> {
+        (self.compare)(&self.columns)
+    }
+}
+
+impl fmt::Debug for RecordType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut debug = f.debug_struct(self.name);
+        debug.field("columns", &self.columns).finish()
+    }
+}
+
+impl PartialEq for RecordType {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name && self.columns == other.columns
+    }
+}
+
+/// Compares columns with what serde reads and writes of a struct: a sample that has every column must
+/// come back from it with the same fields of the same kinds, and no other.
+fn compare<T: Record>(columns: &[Column]) -> Result<(), RecordError> {
+    let record = type_name::<T>();
+    let sample = Fields::sample(columns);
+    let read = sample.record::<T>()?;
+    let written = read.fields()?;
+    // What is absent is written as null here, and not at all in fields.
+    let named = serde_json::to_value(&read).unwrap_or_default();
+    let named: BTreeSet<String> = match named {
+        serde_json::Value::Object(fields) => fields.into_iter().map(|(name, _)| name).collect(),
+        _ => BTreeSet::new(),
+    };
+    if let Some(field) = named.into_iter().find(|name| sample.get(name).is_none()) {
+        return Err(RecordError::NoColumn { record, field });
+    }
+    let strange = |column: &&Column| {
+        let written = written.get(&column.field);
+        written.map(super::run::Field::kind) != Some(column.kind)
+    };
+    match columns.iter().find(strange) {
+        Some(column) => Err(RecordError::NoSuchField {
+            record,
+            field: column.field.clone(),
+        }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::{Deserialize, Serialize};
+
+    use super::*;
+    use crate::{Better, Kind, Presence};
+
+    record! {
+        /// Where a dart hit.
+        struct Hit {
+            /// Distance from the middle.
+            miss: f64 => lower("miss").unit("cm").at_least(0),
+        }
+    }
+
+    record! {
+        /// A throw.
+        #[check(Throw::is_possible)]
+        struct Throw {
+            ..hit: Hit,
+            /// Number of throws before,
+            /// of the same player.
+            before: u32 => neither("throws before"),
+            /// Whether it counts.
+            counts: bool => higher("counted"),
+            /// What the player said.
+            said: Option<String> => neither("words"),
+            /// The way of the dart.
+            way: Vec<f64> => neither("way"),
+        }
+    }
+
+    impl Throw {
+        fn is_possible(&self) -> Result<(), String> {
+            let is_beside = self.hit.miss > 20.0;
+            require(!self.counts || !is_beside, "it is counted beside the board")
+        }
+    }
+
+    fn throw() -> Throw {
+        Throw {
+            hit: Hit { miss: 2.0 },
+            before: 7,
+            counts: true,
+            said: None,
+            way: vec![1.0, 0.1],
+        }
+    }
+
+    #[test]
+    fn fields_are_written_alphabetically_without_what_is_absent() {
+        let text = |throw: &Throw| serde_json::to_string(&throw.fields().unwrap()).unwrap();
+        let expect = r#"{"before":7,"counts":true,"miss":2.0,"way":[1.0,0.1]}"#;
+        assert_eq!(text(&throw()), expect);
+        let said = Throw {
+            said: Some("ha".into()),
+            way: vec![],
+            ..throw()
+        };
+        let expect = r#"{"before":7,"counts":true,"miss":2.0,"said":"ha","way":[]}"#;
+        assert_eq!(text(&said), expect);
+    }
+
+    #[test]
+    fn fields_go_back_into_their_record() {
+        for throw in [
+            throw(),
+            Throw {
+                said: Some("ha".into()),
+                way: vec![],
+                ..throw()
+            },
+        ] {
+            assert_eq!(throw.fields().unwrap().record::<Throw>().unwrap(), throw);
+        }
+        let read = Hit { miss: 1.0 }.fields().unwrap().record::<Throw>();
+        assert!(matches!(read, Err(RecordError::Read { .. })));
+    }
+
+    #[test]
+    fn a_number_that_is_not_finite_stays_one_for_the_runner_to_refuse() {
+        let fields = Hit { miss: f64::NAN }.fields().unwrap();
+        assert!(fields.get("miss").unwrap().as_number().unwrap().is_nan());
+    }
+
+    #[test]
+    fn columns_are_declared_beside_the_fields() {
+        let columns = Throw::columns();
+        let names: Vec<&str> = columns.iter().map(|column| column.field.as_str()).collect();
+        assert_eq!(names, ["miss", "before", "counts", "said", "way"]);
+        assert_eq!((Throw::before, Hit::miss), ("before", "miss"));
+        let [miss, before, _, said, way] = &columns[..] else {
+            panic!("five columns");
+        };
+        assert_eq!((miss.better, miss.low), (Better::Lower, Some(0.0)));
+        assert_eq!(
+            before.definition,
+            "Number of throws before, of the same player."
+        );
+        assert_eq!((before.kind, way.kind), (Kind::Count, Kind::Curve));
+        assert_eq!(said.presence, Presence::Sometimes);
+        RecordType::of::<Throw>().compare().unwrap();
+    }
+
+    #[test]
+    fn the_check_is_that_of_the_type_and_of_its_base() {
+        let kind = RecordType::of::<Throw>();
+        let wide = Throw {
+            hit: Hit { miss: 30.0 },
+            ..throw()
+        };
+        kind.check(&throw().fields().unwrap()).unwrap();
+        let refused = kind.check(&wide.fields().unwrap()).unwrap_err();
+        assert_eq!(refused.to_string(), "it is counted beside the board");
+    }
+
+    /// A record whose columns are what a test says.
+    fn compared<T: Record>() -> String {
+        RecordType::of::<T>().compare().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_field_without_a_column_is_refused() {
+        #[derive(Serialize, Deserialize)]
+        struct Lacking {
+            here: f64,
+            missed: Option<f64>,
+        }
+        impl Record for Lacking {
+            fn columns() -> Vec<Column> {
+                vec![Column::of::<f64>("here", "")]
+            }
+        }
+        assert!(compared::<Lacking>().contains("a field \"missed\" without a column"));
+
+        #[derive(Serialize, Deserialize)]
+        struct Needing {
+            here: f64,
+            missed: f64,
+        }
+        impl Record for Needing {
+            fn columns() -> Vec<Column> {
+                vec![Column::of::<f64>("here", "")]
+            }
+        }
+        assert!(compared::<Needing>().contains("are no record"));
+    }
+
+    #[test]
+    fn a_column_without_a_field_is_refused_and_one_of_another_kind() {
+        #[derive(Serialize, Deserialize)]
+        struct Short {
+            here: f64,
+        }
+        impl Record for Short {
+            fn columns() -> Vec<Column> {
+                let gone = Column::of::<Option<f64>>("gone", "");
+                vec![Column::of::<f64>("here", ""), gone]
+            }
+        }
+        assert!(compared::<Short>().contains("no field \"gone\""));
+
+        #[derive(Serialize, Deserialize)]
+        struct Strange {
+            here: f64,
+        }
+        impl Record for Strange {
+            fn columns() -> Vec<Column> {
+                vec![Column::of::<u64>("here", "")]
+            }
+        }
+        assert!(compared::<Strange>().contains("no field \"here\" of the kind"));
+    }
+
+    #[test]
+    fn a_value_that_is_no_field_is_refused() {
+        #[derive(Serialize, Deserialize)]
+        struct Nested {
+            here: (f64, bool),
+        }
+        impl Record for Nested {
+            fn columns() -> Vec<Column> {
+                Vec::new()
+            }
+        }
+        let error = Nested { here: (1.0, true) }.fields().unwrap_err();
+        assert!(matches!(error, RecordError::NoField { field, .. } if field == "here"));
+    }
+}
