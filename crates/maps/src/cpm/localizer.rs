@@ -18,7 +18,7 @@ use tolman_robot::Landmark;
 /// turn moves on, and begins with the first observation.
 ///
 /// ```
-/// use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
+/// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// for pattern in 0..8 {
@@ -28,11 +28,11 @@ use tolman_robot::Landmark;
 /// // Two environments of one corridor each.
 /// let mut maps = Vec::new();
 /// for patterns in [[0, 1, 2, 3], [4, 5, 2, 7]] {
-///     let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
+///     let mut mapper = CpMapper::new(CpMapperConfig::online(), Sighting::plain(1))?;
 ///     let patterns = patterns.map(PatternId).to_vec();
 ///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(1), bearings: None };
-///     explorer.arrive(Turn::BACK, &walk, &dictionary)?;
-///     maps.push(explorer.map().clone());
+///     mapper.arrive(Turn::BACK, &walk, &dictionary)?;
+///     maps.push(mapper.map().clone());
 /// }
 /// let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual())?;
 /// localizer.observe(PatternId(5))?;
@@ -74,7 +74,7 @@ pub struct Location {
     pub map: usize,
     /// The fragment, by the end it was entered at.
     pub enter: End,
-    /// The port it leads to or, at a junction, has led to: what [`Explorer::place`](super::Explorer::place) has to be told there.
+    /// The port it leads to or, at a junction, has led to: what [`CpMapper::place`](super::CpMapper::place) has to be told there.
     pub ahead: Port,
     /// How likely that is; 0 to 1.
     pub probability: f64,

@@ -3,10 +3,9 @@
 use std::sync::OnceLock;
 
 use super::{trials, venue};
-use tolman_arena::cpm::{
-    Approach, CommonPatterns, KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck,
-};
+use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table, run_seed};
+use tolman_systems::cpm::{Approach, CommonPatterns};
 
 /// The name of the table.
 pub(super) const LOCALIZATION: &str = "localization";

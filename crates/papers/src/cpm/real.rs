@@ -1,15 +1,15 @@
 //! The pair of figure 11: the maze of the real robot, walked to the goal and back, and driven again.
 
-use tolman_maps::cpm::{CpmConfig, Done};
+use tolman_systems::cpm::{CpmConfig, Done};
 
 use std::sync::OnceLock;
 
 use super::venue;
 use tolman_arena::cpm::{
-    CommonPatterns, Cpm, Episode, Lesson, RoundTrip, SimulatedEpuck, Step, Venue, Walker,
-    WalkerConfig, learn_by, placed, slow_epuck, walker_config,
+    RoundTrip, SimulatedEpuck, Venue, learn_by, placed, slow_epuck, walker_config,
 };
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_systems::cpm::{CommonPatterns, Episode, Lesson, Reasoner, Step, Walker, WalkerConfig};
 
 /// The name of the table.
 pub(super) const FIGURE_11: &str = "11";
@@ -69,7 +69,7 @@ impl Real {
     pub(super) fn play(
         &self,
         job: &Job<'_>,
-        see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+        see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
     ) -> Result<RoundTrip, BoxError> {
         let Venue {
             maze,

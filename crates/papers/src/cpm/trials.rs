@@ -1,10 +1,11 @@
 //! The tables whose runs are trials: both episodes in one maze.
 
-use tolman_maps::cpm::CpmConfig;
+use tolman_systems::cpm::CpmConfig;
 
 use super::venue;
-use tolman_arena::cpm::{CommonPatterns, Likeness, Mode, Record, Trial, Venue, epuck};
+use tolman_arena::cpm::{Likeness, Record, Trial, Venue, epuck};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_systems::cpm::{CommonPatterns, Mode};
 
 /// The table of figure 9.
 pub(super) const FIGURE_9: &str = "9";

@@ -2,8 +2,8 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_maps::cpm::{CpMap, LocalizeError, Localizer, LocalizerConfig, Location, Turn};
 
-use super::body::Body;
 use super::common_patterns::CommonPatterns;
+use super::robot::CpmRobot;
 use super::walker::{BeforePlace, Observation, Prospect, Walk, WalkError, Walker};
 
 /// How a robot goes to the first place that was put down amid a fragment.
@@ -56,7 +56,7 @@ const SURE: f64 = 0.95;
 ///
 /// # Errors
 /// [`WhereaboutsError`].
-pub fn find_out<B: Body>(
+pub fn find_out<B: CpmRobot>(
     walker: &mut Walker<B>,
     maps: &[CpMap],
     patterns: &CommonPatterns,
