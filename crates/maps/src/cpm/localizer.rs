@@ -54,6 +54,15 @@ pub struct Localizer<'a> {
     stage: Stage,
 }
 
+/// What a [`Localizer`] believes, without the maps that it is of.
+#[derive(Clone, Debug)]
+pub struct RestingLocalizer {
+    config: LocalizerConfig,
+    tracks: Vec<Track>,
+    anywhere: Vec<f64>,
+    stage: Stage,
+}
+
 /// How a [`Localizer`] judges; probabilities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalizerConfig {
@@ -255,6 +264,30 @@ impl<'a> Localizer<'a> {
         };
         localizer.spread(1.0);
         Ok(localizer)
+    }
+
+    /// Returns what it believes, without maps and dictionary.
+    #[must_use]
+    pub fn rest(self) -> RestingLocalizer {
+        RestingLocalizer {
+            config: self.config,
+            tracks: self.tracks,
+            anywhere: self.anywhere,
+            stage: self.stage,
+        }
+    }
+
+    /// Goes on with what was believed, on the same maps and with their dictionary.
+    #[must_use]
+    pub fn wake(resting: RestingLocalizer, maps: &'a [CpMap], dictionary: &'a Dictionary) -> Self {
+        Self {
+            maps,
+            dictionary,
+            config: resting.config,
+            tracks: resting.tracks,
+            anywhere: resting.anywhere,
+            stage: resting.stage,
+        }
     }
 
     /// One observation on the way. O(all sequences' lengths and the distances of prototypes).
