@@ -14,7 +14,6 @@ pub mod cpm;
 pub mod diktiometry;
 pub mod drive;
 pub mod episode;
-mod file_kind;
 pub mod micromouse;
 pub mod mms;
 pub mod mslst;
@@ -22,4 +21,4 @@ pub mod pioneer;
 pub mod q_learning;
 pub mod run;
 
-pub use file_kind::FileError;
+use tolman_systems::file_kind;

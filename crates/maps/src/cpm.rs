@@ -6,40 +6,31 @@
 //! - a [`Dictionary`] holds the common patterns (CPs), which a quantizer has found; a [`PatternId`] is one of them;
 //! - a [`Traversal`] is what a robot observed along one fragment, between two [`Sighting`]s of junctions, dead ends or landmarks;
 //! - a [`Turn`] (Δ) is what it did at a junction;
-//! - an [`Explorer`] takes both in and decides what to do next, as a [`CpmConfig`] says;
+//! - a [`CpMapper`] takes both in, as a [`CpMapperConfig`] says;
 //! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`Matching`], are one;
 //! - a [`Plan`] is a way through it;
 //! - a [`Localizer`] finds where on some maps a robot is that was put somewhere;
 //! - a `MapFile` (feature `serde`) keeps a map with its dictionary;
 //! - [`Environments`] recall the path and the environment that a sequence belongs to.
 //!
-//! [`world`] has mazes of corridors and junctions to try all this in without a robot, in microseconds.
-//!
 //! ```
-//! use rand::SeedableRng;
-//! use rand_chacha::ChaCha8Rng;
-//! use tolman_maps::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Landmark};
-//! use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
-//!
-//! let mut rng = ChaCha8Rng::seed_from_u64(1);
-//! let world = World::random(&MazeConfig::small(), &mut rng)?;
-//! let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
-//! let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting())?;
-//! let done = loop {
-//!     match explorer.decide(Aim::Find(Landmark::Goal), &mut rng) {
-//!         Decision::Done(done) => break done,
-//!         Decision::Go(leg) => match rover.go(leg.turn, leg.give_up_after, &mut rng)? {
-//!             Outcome::Arrived(walk) => {
-//!                 explorer.arrive(leg.turn, &walk, world.dictionary())?;
-//!             }
-//!             Outcome::TurnedBack(patterns) => {
-//!                 explorer.turned_back(leg.turn, patterns.len() as u32)?;
-//!             }
-//!         },
-//!     }
+//! use tolman_maps::cpm::{
+//!     Arrival, CpMapper, CpMapperConfig, Dictionary, Sighting, Traversal, Turn,
 //! };
-//! assert_eq!(done, Done::Reached);
-//! assert!(explorer.map().has_goal());
+//!
+//! let mut dictionary = Dictionary::new(1);
+//! let wall = dictionary.learn(&[1.0], &[1.0], 0.1)?;
+//! let door = dictionary.learn(&[0.0], &[0.0], 0.1)?;
+//! // From one dead end to the other, and back.
+//! let mut mapper = CpMapper::new(CpMapperConfig::online(), Sighting::plain(1))?;
+//! let mut walk = |patterns: [_; 3]| {
+//!     let (patterns, sighting) = (patterns.to_vec(), Sighting::plain(1));
+//!     let walk = Traversal { patterns, motion: None, sighting, bearings: None };
+//!     mapper.arrive(Turn::BACK, &walk, &dictionary)
+//! };
+//! assert_eq!(walk([wall, wall, door])?, Arrival::New);
+//! assert_eq!(walk([door, wall, wall])?, Arrival::Known);
+//! assert_eq!(mapper.map().fragments().len(), 1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -47,8 +38,8 @@ mod alignment;
 mod beam;
 mod bearings;
 mod config;
+mod cp_mapper;
 mod environments;
-mod explorer;
 mod geometry;
 mod hypothesis;
 mod index;
@@ -66,14 +57,13 @@ mod theorem;
 mod traversal;
 mod turn;
 mod unify;
-pub mod world;
 
 pub use alignment::Alignment;
 pub use bearings::{Bearings, BearingsError};
-pub use config::{Candidates, CpmConfig, Mapping, Onward};
+pub use config::{Candidates, CpMapperConfig, Mapping};
+pub use cp_mapper::{Arrival, CpMapper, CpmError};
 pub use environments::{Environments, RecallError, Recollection};
-pub use explorer::{Aim, Arrival, CpmError, Decision, Done, Explorer, Leg};
-pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
+pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location, RestingLocalizer};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 #[cfg(feature = "serde")]
 pub use map_file::{MapFile, MapFileError};
@@ -81,7 +71,6 @@ pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
 pub use plan::{Plan, PlanLeg};
 pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};
 pub use theorem::theorem_1;
-pub use tolman_robot::Landmark;
 pub use traversal::{Motion, Sighting, Traversal};
 pub use turn::{NoSuchTurn, Turn};
 pub use unify::Conflict;

@@ -8,5 +8,6 @@ extern crate alloc;
 pub mod baselines;
 pub mod cpm;
 pub mod diktiometry;
+pub mod file_kind;
 pub mod micromouse;
 pub mod mslst;

@@ -7,18 +7,20 @@ use core::f64::consts::{PI, TAU};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose, Vector};
-use tolman_maps::cpm::{Aim, CpmConfig, Done, Landmark};
 use tolman_robot::Robot;
 use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
+use tolman_robot::{Landmark, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_sim::{Area, StepError, Wall, World, Zone};
+use tolman_systems::cpm::{Aim, CpmConfig, Done};
 
-use super::agent::{AgentError, Cpm, Episode};
-use super::body::{Body, SimulatedEpuck};
-use super::robot::{epuck, walker_config};
+use super::robots::{epuck, walker_config};
+use super::simulated::SimulatedEpuck;
 use super::trial::placed;
 use super::trial::tests::PATTERNS;
-use super::walker::{Walker, WalkerConfig};
+use tolman_systems::cpm::CpmRobot;
+use tolman_systems::cpm::{Episode, Reasoner, ReasonerError};
+use tolman_systems::cpm::{Walker, WalkerConfig};
 
 const WIDTH: f64 = 0.25;
 
@@ -68,14 +70,14 @@ impl Robot for OneSensor {
     }
 }
 
-impl Body for OneSensor {
+impl SensesLandmarks for OneSensor {
     fn landmark(&self) -> Option<Landmark> {
         self.body.landmark()
     }
 }
 
 /// The first episode, and whether the robot truly stands at the goal at its end.
-fn search<B: Body>(body: B, width: f64) -> Result<(Episode, bool), AgentError<B::Error>> {
+fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), ReasonerError<B::Error>> {
     // Enough for worlds of this size.
     let config = CpmConfig {
         most_traversals: 20,
@@ -85,7 +87,7 @@ fn search<B: Body>(body: B, width: f64) -> Result<(Episode, bool), AgentError<B:
         longest_fragment: 150,
         ..walker_config(&epuck(), width).unwrap()
     };
-    let mut agent = Cpm::begin(Walker::new(body, walker), &PATTERNS, config)?;
+    let mut agent = Reasoner::begin(Walker::new(body, walker), &PATTERNS, config)?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let episode = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
     let is_there = agent.walker().body().landmark() == Some(Landmark::Goal);

@@ -3,14 +3,16 @@ use core::ops::ControlFlow;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Aim, Arrival, CpMap, CpmConfig, Done, Landmark, Location};
+use tolman_maps::cpm::{Arrival, CpMap, Location};
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, CpmConfig, Done};
 
-use super::agent::{Begun, Cpm, Episode, Step};
-use super::body::SimulatedEpuck;
-use super::common_patterns::CommonPatterns;
 use super::fragments::TrueFragments;
+use super::simulated::SimulatedEpuck;
 use super::trial::{Trial, TrialError, world_of};
-use super::whereabouts::{Approach, Whereabouts, find_out};
+use tolman_systems::cpm::CommonPatterns;
+use tolman_systems::cpm::{Approach, Whereabouts, find_out};
+use tolman_systems::cpm::{Begun, Episode, Reasoner, Step};
 
 /// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.
 #[derive(Clone, Debug)]
@@ -43,7 +45,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+    fn see(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, step: &Step) {
         self.walks = agent.explorer().traversals();
         self.fragments = agent.explorer().map().fragments().len() as u32;
         self.seconds = agent.walker().time_us() as f64 * 1e-6;
@@ -142,7 +144,7 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`], also if the map has no way to a goal, or does not begin where the robot stands.
     pub fn drive(&self, map: CpMap) -> Result<Errand, TrialError> {
-        let mut agent = Cpm::resume(self.set_up()?, self.patterns, self.mode.config(), map)?;
+        let mut agent = Reasoner::resume(self.set_up()?, self.patterns, self.mode.config(), map)?;
         let plan = agent.explorer().plan(Landmark::Goal);
         let plan = plan.ok_or(TrialError::NoPlan)?;
         let episode = agent.drive_plan(&plan)?;
@@ -177,7 +179,7 @@ impl Trial<'_> {
             let has_these_ways =
                 map.degree(believed.ahead.junction) as usize == walker.branches().len();
             let config = self.mode.config();
-            let mut agent = Cpm::resume_at(walker, patterns, config, map, believed.ahead)?;
+            let mut agent = Reasoner::resume_at(walker, patterns, config, map, believed.ahead)?;
             let plan = agent.explorer().plan(Landmark::Goal);
             let plan = plan.ok_or(TrialError::NoPlan)?;
             let done = if has_these_ways {
@@ -200,7 +202,7 @@ impl Trial<'_> {
 }
 
 impl Errand {
-    fn of(agent: &Cpm<'_, SimulatedEpuck>, episode: Episode) -> Self {
+    fn of(agent: &Reasoner<'_, SimulatedEpuck>, episode: Episode) -> Self {
         let body = agent.walker().body();
         Self {
             episode,
@@ -214,11 +216,13 @@ impl Errand {
 
 #[cfg(test)]
 mod tests {
-    use tolman_maps::cpm::{Done, Matching, Similarity};
+    use tolman_maps::cpm::{Matching, Similarity};
+    use tolman_systems::cpm::Done;
 
-    use super::super::robot::epuck;
-    use super::super::trial::{Mode, tests::PATTERNS};
+    use super::super::robots::epuck;
+    use super::super::trial::tests::PATTERNS;
     use super::*;
+    use tolman_systems::cpm::Mode;
 
     #[test]
     fn a_robot_that_knows_nothing_again_gives_up_and_one_that_is_told_to_breaks_off() {

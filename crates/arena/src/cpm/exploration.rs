@@ -1,11 +1,12 @@
 use alloc::collections::BTreeSet;
 
+use super::world::{WorldBuilder, WorldError};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
-use tolman_maps::cpm::world::{WorldBuilder, WorldError};
-use tolman_maps::cpm::{Aim, Dictionary, Done, theorem_1};
+use tolman_maps::cpm::{Dictionary, theorem_1};
 use tolman_maze::{Cell, Maze};
+use tolman_systems::cpm::{Aim, Done};
 
 use super::fragments::{TrueFragments, along};
 use super::score::Score;

@@ -2,8 +2,8 @@ use alloc::collections::BTreeMap;
 use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::{Heading, Vector};
-use tolman_maps::cpm::Landmark;
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::Landmark;
 
 /// The fragments that a maze really has, for scoring; no robot knows them.
 #[derive(Clone, Debug)]

@@ -1,7 +1,8 @@
 use alloc::collections::{BTreeMap, VecDeque};
 
-use tolman_maps::cpm::{CpMap, End, FragmentId, JunctionId, Landmark, Port, PortState, Sign};
+use tolman_maps::cpm::{CpMap, End, FragmentId, JunctionId, Port, PortState, Sign};
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::Landmark;
 
 use super::fragments::{DIRECTIONS, along};
 
@@ -9,8 +10,10 @@ use super::fragments::{DIRECTIONS, along};
 /// by port, as far as they agree.
 ///
 /// ```
-/// use tolman_arena::cpm::{Layout, learn, Mode, Trial, epuck};
-/// use tolman_maps::cpm::{CpmConfig, Landmark};
+/// use tolman_arena::cpm::{Layout, learn, Trial, epuck};
+/// use tolman_systems::cpm::Mode;
+/// use tolman_systems::cpm::CpmConfig;
+/// use tolman_robot::Landmark;
 ///
 /// # let text = include_str!("../../mazes/cpm-1.maze");
 /// let maze = tolman_maze::read(text)?.maze;

@@ -41,7 +41,8 @@ fn is_like(junction: &Junction, maze: &Maze, cell: Cell) -> bool {
 #[cfg(test)]
 mod tests {
     use serde_json::{Value, json};
-    use tolman_maps::cpm::{Dictionary, Landmark, MapFile};
+    use tolman_maps::cpm::{Dictionary, MapFile};
+    use tolman_robot::Landmark;
 
     use super::super::fragments::tests::THREE_WAYS;
     use super::*;

@@ -1,13 +1,15 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Aim, CpMap, CpmConfig, Landmark};
+use tolman_maps::cpm::CpMap;
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, CpmConfig};
 
-use super::agent::{Cpm, Episode, Step};
-use super::body::SimulatedEpuck;
-use super::common_patterns::CommonPatterns;
+use super::simulated::SimulatedEpuck;
 use super::trial::{Trial, TrialError};
-use super::walker::{Walk, Walker};
+use tolman_systems::cpm::CommonPatterns;
+use tolman_systems::cpm::{Episode, Reasoner, Step};
+use tolman_systems::cpm::{Walk, Walker};
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
 /// path-fragment" as long as it may be shorter than the known way.
@@ -61,10 +63,10 @@ impl RoundTrip {
         patterns: &CommonPatterns,
         config: CpmConfig,
         seed: u64,
-        mut see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+        mut see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
     ) -> Result<Self, TrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut agent = Cpm::begin(walker, patterns, config)?;
+        let mut agent = Reasoner::begin(walker, patterns, config)?;
         let there = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, &mut see)?;
         let mut trip = Self {
             there,

@@ -1,17 +1,18 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, Explorer, FragmentId, JunctionId, Port, Sign, Turn};
+use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Port, Sign, Turn};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::{Arcs, costs_from};
 use tolman_sim::World;
+use tolman_systems::cpm::Explorer;
 
-use super::agent::{Cpm, Step};
-use super::body::SimulatedEpuck;
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
 use super::map_right::is_map_right;
-use super::walker::Walk;
+use super::simulated::SimulatedEpuck;
+use tolman_systems::cpm::Walk;
+use tolman_systems::cpm::{Reasoner, Step};
 
 /// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -82,13 +83,13 @@ impl<'a> Score<'a> {
         }
     }
 
-    pub(super) fn begin(&mut self, agent: &Cpm<'_, SimulatedEpuck>, start: Pose) {
+    pub(super) fn begin(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, start: Pose) {
         let cell = agent.walker().body().world().cell_at(start.position);
         self.begin_at(agent.explorer().at(), cell);
     }
 
     /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
-    pub(super) fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+    pub(super) fn see(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, step: &Step) {
         let (Some(arrival), Walk::Arrived { observations, .. }) = (step.arrival, &step.walk) else {
             return;
         };
@@ -262,7 +263,8 @@ impl<'a> Score<'a> {
 #[cfg(test)]
 mod tests {
     use tolman_geom::Heading;
-    use tolman_maps::cpm::{CpmConfig, Dictionary, PatternId, Sighting, Traversal};
+    use tolman_maps::cpm::{Dictionary, PatternId, Sighting, Traversal};
+    use tolman_systems::cpm::CpmConfig;
 
     use super::*;
 

@@ -2,14 +2,14 @@ use alloc::collections::BTreeMap;
 
 use tolman_control::heading_of;
 use tolman_geom::Pose;
-use tolman_maps::cpm::Landmark;
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::Landmark;
 use tolman_sim::World;
 
 use super::fragments::{
     Quarters, TrueFragments, Way, along, bends, headings, landmark_at, quarters,
 };
-use super::whereabouts::Approach;
+use tolman_systems::cpm::Approach;
 
 /// Where a robot may be put down: in the middle of a cell between the places at the ends of a fragment, looking along it.
 #[derive(Clone, Debug)]

@@ -7,10 +7,10 @@ use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 
-use super::body::SimulatedEpuck;
 use super::fragments::{TrueFragments, Way};
+use super::simulated::SimulatedEpuck;
 use super::trial::{TrialError, world_of};
-use super::walker::{Observation, Walk, WalkError, Walker, WalkerConfig};
+use tolman_systems::cpm::{Observation, Walk, WalkError, Walker, WalkerConfig};
 
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
@@ -70,13 +70,13 @@ pub fn survey(
 
 #[cfg(test)]
 mod tests {
-    use tolman_maps::cpm::Landmark;
     use tolman_robot::Robot;
     use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
+    use tolman_robot::{Landmark, SensesLandmarks};
     use tolman_sim::StepError;
 
     use super::*;
-    use crate::cpm::{Body, epuck, walker_config};
+    use crate::cpm::{epuck, walker_config};
 
     /// An e-puck whose sensors still tell of the hand that carried it, until its next time step.
     struct Carried {
@@ -99,7 +99,7 @@ mod tests {
         }
     }
 
-    impl Body for Carried {
+    impl SensesLandmarks for Carried {
         fn landmark(&self) -> Option<Landmark> {
             self.body.landmark()
         }

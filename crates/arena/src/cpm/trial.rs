@@ -7,20 +7,24 @@ use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Aim, CpMap, CpmConfig, Done, FragmentId, Landmark, RecallError};
+use tolman_maps::cpm::{CpMap, FragmentId, RecallError};
 use tolman_maze::{Cell, Maze};
+use tolman_robot::Landmark;
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
+use tolman_systems::cpm::{Aim, CpmConfig, Done};
 
-use super::agent::{AgentError, Cpm, Episode, Step};
-use super::body::SimulatedEpuck;
-use super::common_patterns::{CommonPatterns, LearnError, Lesson, wander};
 use super::fragments::Way;
-use super::robot::{epuck, soinn, walker_config};
+use super::robots::{epuck, walker_config};
 use super::score::{Closures, Score};
-use super::walker::{HeadingBy, WalkError, Walker, WalkerConfig};
-use super::whereabouts::WhereaboutsError;
+use super::simulated::SimulatedEpuck;
+use tolman_systems::cpm::Mode;
+use tolman_systems::cpm::WhereaboutsError;
+use tolman_systems::cpm::soinn;
+use tolman_systems::cpm::{CommonPatterns, LearnError, Lesson, wander};
+use tolman_systems::cpm::{Episode, Reasoner, ReasonerError, Step};
+use tolman_systems::cpm::{WalkError, Walker, WalkerConfig};
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.
@@ -38,30 +42,6 @@ pub struct Trial<'a> {
     pub mode: Mode,
     /// The seed of all chance.
     pub seed: u64,
-}
-
-/// How a robot maps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Mode {
-    /// As the paper's: no dead reckoning.
-    Paper(CpmConfig),
-    /// With dead reckoning.
-    Reckoned(CpmConfig),
-    /// With dead reckoning, and without any patterns but those that it learns on its way.
-    Unlearned(CpmConfig),
-}
-
-/// How far from all patterns an observation is that becomes one on the way.
-const NOVELTY: f64 = 30.0;
-
-impl Mode {
-    pub(super) const fn config(self) -> CpmConfig {
-        match self {
-            Self::Paper(config) | Self::Reckoned(config) | Self::Unlearned(config) => config,
-        }
-    }
 }
 
 /// What came of a trial.
@@ -204,10 +184,7 @@ impl Trial<'_> {
         start: Pose,
     ) -> Result<Walker<SimulatedEpuck>, TrialError> {
         let mut config = walker_config(&self.robot, self.corridor_width)?;
-        config.heading = match self.mode {
-            Mode::Paper(_) => HeadingBy::Encoders,
-            Mode::Reckoned(_) | Mode::Unlearned(_) => HeadingBy::Walls,
-        };
+        config.heading = self.mode.heading();
         let robot = Epuck::new(self.robot.clone())?;
         let body = SimulatedEpuck::new(Arc::new(world), robot, start, self.seed)?;
         Ok(Walker::new(body, config))
@@ -218,10 +195,10 @@ impl Trial<'_> {
         &self,
         walker: Walker<SimulatedEpuck>,
         config: CpmConfig,
-    ) -> Result<Cpm<'_, SimulatedEpuck>, AgentError<StepError>> {
-        match self.mode {
-            Mode::Unlearned(_) => Cpm::begin_unlearned(walker, NOVELTY, config),
-            Mode::Paper(_) | Mode::Reckoned(_) => Cpm::begin(walker, self.patterns, config),
+    ) -> Result<Reasoner<'_, SimulatedEpuck>, ReasonerError<StepError>> {
+        match self.mode.novelty() {
+            Some(novelty) => Reasoner::begin_unlearned(walker, novelty, config),
+            None => Reasoner::begin(walker, self.patterns, config),
         }
     }
 
@@ -239,7 +216,7 @@ impl Trial<'_> {
     /// [`TrialError`] if it cannot be begun.
     pub fn watch(
         &self,
-        see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+        see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
     ) -> Result<Record, TrialError> {
         let walker = self.set_up()?;
         let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
@@ -264,11 +241,11 @@ impl Trial<'_> {
 
     fn episodes(
         &self,
-        agent: &mut Cpm<'_, SimulatedEpuck>,
+        agent: &mut Reasoner<'_, SimulatedEpuck>,
         start: Pose,
         rng: &mut ChaCha8Rng,
         record: &mut Record,
-        mut see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+        mut see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
     ) -> Result<(), TrialError> {
         let mut score = Score::of(self.maze);
         score.begin(agent, start);
@@ -344,7 +321,7 @@ pub enum TrialError {
     Epuck(#[from] EpuckError),
     /// The maze makes no graph of places.
     #[error(transparent)]
-    Graph(#[from] tolman_maps::cpm::world::WorldError),
+    Graph(#[from] super::world::WorldError),
     /// A fragment was not walked from end to end.
     #[error(
         "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",
@@ -377,7 +354,7 @@ pub enum TrialError {
     Recall(#[from] RecallError),
     /// An episode broke off.
     #[error(transparent)]
-    Agent(#[from] AgentError<StepError>),
+    Agent(#[from] ReasonerError<StepError>),
 }
 
 impl TrialError {
@@ -391,7 +368,7 @@ impl TrialError {
             | Self::Epuck(_)
             | Self::NoPlan
             | Self::Place(_)
-            | Self::Agent(AgentError::NoStart | AgentError::NotTheStart { .. }) => true,
+            | Self::Agent(ReasonerError::NoStart | ReasonerError::NotTheStart { .. }) => true,
             Self::BrokenOff { .. }
             | Self::Unwalked { .. }
             | Self::Curve(_)
@@ -414,7 +391,8 @@ pub(super) mod tests {
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
-    use crate::cpm::{Approach, KnownMaze, PutDown};
+    use crate::cpm::{KnownMaze, PutDown};
+    use tolman_systems::cpm::Approach;
 
     const WIDTH: f64 = 0.25;
 

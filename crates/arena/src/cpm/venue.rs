@@ -7,7 +7,7 @@ use tolman_geom::Pose;
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_sim::World;
 
-use super::robot::epuck;
+use super::robots::epuck;
 use super::trial::{TrialError, start_of, world_of};
 
 /// A maze with a start, and how wide its corridors are for an e-puck.

@@ -9,18 +9,22 @@ use std::io::{self, ErrorKind, Read, Write};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_control::epuck::{Alignment, Pilot, Profile, TURN_STEP};
-use tolman_maps::cpm::{Aim, CpMap, CpmConfig, Done, Landmark};
+use tolman_maps::cpm::CpMap;
 use tolman_maze::Maze;
 use tolman_robot::Robot;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
+use tolman_robot::{Landmark, SensesLandmarks};
+use tolman_systems::cpm::{Aim, CpmConfig, Done};
 
-use super::agent::{AgentError, Cpm, Episode};
-use super::body::{Body, Landmarked, SimulatedEpuck};
-use super::robot::{epuck, walker_config};
+use super::robots::{epuck, walker_config};
+use super::simulated::SimulatedEpuck;
 use super::trial::placed;
 use super::trial::tests::PATTERNS;
-use super::walker::{WalkError, Walker, WalkerConfig};
+use tolman_robot::Landmarked;
+use tolman_systems::cpm::CpmRobot;
+use tolman_systems::cpm::{Episode, Reasoner, ReasonerError};
+use tolman_systems::cpm::{WalkError, Walker, WalkerConfig};
 
 const WIDTH: f64 = 0.25;
 
@@ -109,7 +113,8 @@ impl Line {
     /// Opens the driver on it; a landmark is what the simulation says.
     fn robot(
         &self,
-    ) -> Result<impl Body<Error = SerialError, Sensing = EpuckSensing> + use<>, SerialError> {
+    ) -> Result<impl CpmRobot<Error = SerialError, Sensing = EpuckSensing> + use<>, SerialError>
+    {
         let (clock, watcher) = (self.clone(), self.clone());
         let wait = move |_: Duration| clock.0.borrow_mut().pass();
         let robot = SerialEpuck::open(self.clone(), epuck().step_us, wait)?;
@@ -191,13 +196,13 @@ fn it_sweeps_and_follows_as_on_the_simulator() {
 }
 
 /// Finds the goal, is lifted to the start by `lift`, and goes to the goal again.
-fn play<B: Body>(
+fn play<B: CpmRobot>(
     body: B,
     config: WalkerConfig,
     seed: u64,
     lift: impl FnOnce(&mut B),
-) -> Result<([Episode; 2], CpMap), AgentError<B::Error>> {
-    let mut agent = Cpm::begin(Walker::new(body, config), &PATTERNS, CpmConfig::online())?;
+) -> Result<([Episode; 2], CpMap), ReasonerError<B::Error>> {
+    let mut agent = Reasoner::begin(Walker::new(body, config), &PATTERNS, CpmConfig::online())?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let first = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
     agent.optimize()?;

@@ -18,11 +18,9 @@ use super::office::{PlaceKind, TruePlace};
 use super::planner::Planner;
 use super::rover::{Arrival, MapError, Mapped, RoutineOutcome, Rover};
 use super::score::{MapScore, Visit, score};
-use crate::cpm::{
-    HeadingBy, SimulatedEpuck, TrialError, TrueFragments, Walk, WalkError, Walker, epuck, placed,
-    walker_config,
-};
+use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, epuck, placed, walker_config};
 use crate::episode::stream;
+use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
 
 /// How an e-puck surveys a maze.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -58,6 +58,21 @@ where
         }
     }
 
+    /// Returns a pilot that goes on with this robot where its layer 1 left off.
+    pub const fn resume(robot: R, config: PilotConfig, forward: Forward) -> Self {
+        Self {
+            keep_off: KeepOff::new(config.keep_off),
+            forward,
+            robot,
+            config,
+        }
+    }
+
+    /// Returns layer 1 as it is now.
+    pub const fn forward(&self) -> &Forward {
+        &self.forward
+    }
+
     /// The robot.
     pub const fn robot(&self) -> &R {
         &self.robot

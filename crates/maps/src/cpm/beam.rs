@@ -237,7 +237,7 @@ fn hypotheses(children: Vec<Child>) -> Vec<Hypothesis> {
 mod tests {
     use tolman_geom::{Interval, Point, PointBox};
 
-    use super::super::config::CpmConfig;
+    use super::super::config::CpMapperConfig;
     use super::super::map::{Port, PortState};
     use super::super::pattern::{Dictionary, PatternId};
     use super::super::traversal::{Motion, Sighting};
@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn a_wide_beam_grows_narrow_while_all_is_understood() {
-        let (dictionary, config) = (dictionary(), CpmConfig::robust());
+        let (dictionary, config) = (dictionary(), CpMapperConfig::robust());
         let judge = config.comparison(&dictionary);
         let mut beam = Beam::new(Mapper::new(START), 2);
         beam.width = 8;
@@ -301,7 +301,7 @@ mod tests {
     /// The way seems to lead to the start, whose only port has another fragment.
     #[test]
     fn what_nothing_explains_hangs_on_nothing() {
-        let (dictionary, config) = (dictionary(), CpmConfig::robust());
+        let (dictionary, config) = (dictionary(), CpMapperConfig::robust());
         let judge = config.comparison(&dictionary);
         let mut beam = Beam::new(Mapper::new(START), 4);
         let start = beam.best().at;

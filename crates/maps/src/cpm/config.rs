@@ -4,21 +4,16 @@ use super::pattern::Dictionary;
 use super::scores::Scores;
 use super::similarity::{Matching, Similarity};
 
-/// How an [`Explorer`](super::Explorer) maps and decides.
+/// How a [`CpMapper`](super::CpMapper) maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct CpmConfig {
-    /// When the map is looked at.
+pub struct CpMapperConfig {
+    /// When the map is optimized.
     pub mapping: Mapping,
     /// How fragments are compared.
     pub matching: Matching,
     /// Which fragments are compared.
     pub candidates: Candidates,
-    /// What to do at a junction without unknown ports.
-    pub onward: Onward,
-    /// The end of all patience: after so many fragments the explorer gives up and says so. Where it knows nothing again that it has
-    /// walked, each of them lengthens its map, and nothing else ends the exploration.
-    pub most_traversals: u32,
 }
 
 /// Which fragments of the map a new one is compared with.
@@ -70,19 +65,7 @@ impl Mapping {
     }
 }
 
-/// What a robot does online at a junction that "has no unknown ports left".
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Onward {
-    /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
-    ShortestKnownWay,
-    /// "It continues forward until reaching a junction that has some remaining unknown ports", to the letter: by a port taken
-    /// at random, which can go round in circles and breaks the proof of Theorem 1.
-    GoOn,
-}
-
-impl CpmConfig {
+impl CpMapperConfig {
     pub(super) fn comparison<'a>(&'a self, dictionary: &'a Dictionary) -> Comparison<'a> {
         Comparison {
             matching: &self.matching,
@@ -92,16 +75,13 @@ impl CpmConfig {
         }
     }
 
-    /// Section 6, online CPM: positions compared with μ = 0.9. Gives up after 1000 fragments, of which the paper says nothing: by Theorem 1 a
-    /// maze of 44 fragments takes at most 990, and in practice one of 500 that many.
+    /// Section 6, online CPM: positions compared with μ = 0.9.
     #[must_use]
     pub const fn online() -> Self {
         Self {
             mapping: Mapping::Online,
             matching: Matching::Positions(Similarity::paper()),
             candidates: Candidates::All,
-            onward: Onward::ShortestKnownWay,
-            most_traversals: 1000,
         }
     }
 
@@ -112,7 +92,6 @@ impl CpmConfig {
             mapping: Mapping::Hypotheses { width: 16 },
             matching: Matching::Alignment(Alignment::tuned()),
             candidates: Candidates::Best(64),
-            ..Self::online()
         }
     }
 

@@ -15,7 +15,7 @@ use super::similarity::Sense;
 /// a code of each fragment: the prototypes at [`SAMPLES`](Self::SAMPLES) places along it.
 ///
 /// ```
-/// use tolman_maps::cpm::{CpmConfig, Dictionary, Environments, Explorer, PatternId, Sighting, Traversal, Turn};
+/// use tolman_maps::cpm::{CpMapperConfig, Dictionary, Environments, CpMapper, PatternId, Sighting, Traversal, Turn};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// for pattern in 0..12 {
@@ -23,13 +23,13 @@ use super::similarity::Sense;
 ///     dictionary.learn(&prototype, &prototype, 0.1)?;
 /// }
 /// let mut environments = Environments::new(&dictionary)?;
-/// let mut explorer = Explorer::new(CpmConfig::offline(), Sighting::plain(1))?;
+/// let mut mapper = CpMapper::new(CpMapperConfig::offline(), Sighting::plain(1))?;
 /// for (turn, patterns) in [(0, [0, 1, 2]), (1, [5, 4, 3]), (2, [9, 9, 11])] {
 ///     let patterns = patterns.map(PatternId).to_vec();
 ///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(3), bearings: None };
-///     explorer.arrive(Turn(turn), &walk, &dictionary)?;
+///     mapper.arrive(Turn(turn), &walk, &dictionary)?;
 /// }
-/// let map = explorer.map();
+/// let map = mapper.map();
 /// let path: Vec<_> = map.fragments().map(|(fragment, _)| tolman_maps::cpm::End {
 ///     fragment,
 ///     sign: tolman_maps::cpm::Sign::Minus,

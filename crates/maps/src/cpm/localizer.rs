@@ -18,7 +18,7 @@ use tolman_robot::Landmark;
 /// turn moves on, and begins with the first observation.
 ///
 /// ```
-/// use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
+/// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, Localizer, LocalizerConfig, PatternId, Sighting, Traversal, Turn};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// for pattern in 0..8 {
@@ -28,11 +28,11 @@ use tolman_robot::Landmark;
 /// // Two environments of one corridor each.
 /// let mut maps = Vec::new();
 /// for patterns in [[0, 1, 2, 3], [4, 5, 2, 7]] {
-///     let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
+///     let mut mapper = CpMapper::new(CpMapperConfig::online(), Sighting::plain(1))?;
 ///     let patterns = patterns.map(PatternId).to_vec();
 ///     let walk = Traversal { patterns, motion: None, sighting: Sighting::plain(1), bearings: None };
-///     explorer.arrive(Turn::BACK, &walk, &dictionary)?;
-///     maps.push(explorer.map().clone());
+///     mapper.arrive(Turn::BACK, &walk, &dictionary)?;
+///     maps.push(mapper.map().clone());
 /// }
 /// let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual())?;
 /// localizer.observe(PatternId(5))?;
@@ -50,6 +50,15 @@ pub struct Localizer<'a> {
     config: LocalizerConfig,
     tracks: Vec<Track>,
     /// How likely the robot is at one place of each map before anything is known.
+    anywhere: Vec<f64>,
+    stage: Stage,
+}
+
+/// What a [`Localizer`] believes, without the maps that it is of.
+#[derive(Clone, Debug)]
+pub struct RestingLocalizer {
+    config: LocalizerConfig,
+    tracks: Vec<Track>,
     anywhere: Vec<f64>,
     stage: Stage,
 }
@@ -74,7 +83,7 @@ pub struct Location {
     pub map: usize,
     /// The fragment, by the end it was entered at.
     pub enter: End,
-    /// The port it leads to or, at a junction, has led to: what [`Explorer::place`](super::Explorer::place) has to be told there.
+    /// The port it leads to or, at a junction, has led to: what [`CpMapper::place`](super::CpMapper::place) has to be told there.
     pub ahead: Port,
     /// How likely that is; 0 to 1.
     pub probability: f64,
@@ -255,6 +264,30 @@ impl<'a> Localizer<'a> {
         };
         localizer.spread(1.0);
         Ok(localizer)
+    }
+
+    /// Returns what it believes, without maps and dictionary.
+    #[must_use]
+    pub fn rest(self) -> RestingLocalizer {
+        RestingLocalizer {
+            config: self.config,
+            tracks: self.tracks,
+            anywhere: self.anywhere,
+            stage: self.stage,
+        }
+    }
+
+    /// Goes on with what was believed, on the same maps and with their dictionary.
+    #[must_use]
+    pub fn wake(resting: RestingLocalizer, maps: &'a [CpMap], dictionary: &'a Dictionary) -> Self {
+        Self {
+            maps,
+            dictionary,
+            config: resting.config,
+            tracks: resting.tracks,
+            anywhere: resting.anywhere,
+            stage: resting.stage,
+        }
     }
 
     /// One observation on the way. O(all sequences' lengths and the distances of prototypes).

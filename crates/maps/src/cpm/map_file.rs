@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use thiserror::Error;
 
 use super::bearings::{Bearings, BearingsError};
-use super::explorer::MOST_PORTS;
+use super::cp_mapper::MOST_PORTS;
 use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
@@ -16,18 +16,18 @@ use tolman_robot::Landmark;
 /// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
 ///
 /// ```
-/// use tolman_maps::cpm::{CpmConfig, Dictionary, Explorer, MapFile, PatternId, Sighting, Traversal, Turn};
+/// use tolman_maps::cpm::{CpMapperConfig, Dictionary, CpMapper, MapFile, PatternId, Sighting, Traversal, Turn};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// let wall = dictionary.learn(&[1.0], &[1.0], 0.1)?;
-/// let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1))?;
+/// let mut mapper = CpMapper::new(CpMapperConfig::online(), Sighting::plain(1))?;
 /// let walk = Traversal { patterns: vec![wall; 4], motion: None, sighting: Sighting::plain(3), bearings: None };
-/// explorer.arrive(Turn::BACK, &walk, &dictionary)?;
+/// mapper.arrive(Turn::BACK, &walk, &dictionary)?;
 ///
-/// let text = serde_json::to_string(&MapFile::of(explorer.map(), &dictionary)?)?;
+/// let text = serde_json::to_string(&MapFile::of(mapper.map(), &dictionary)?)?;
 /// let read: MapFile = serde_json::from_str(&text)?;
 /// assert_eq!(read.dictionary()?, dictionary);
-/// assert_eq!(&read.map(&dictionary)?, explorer.map());
+/// assert_eq!(&read.map(&dictionary)?, mapper.map());
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use super::config::{Candidates, CpmConfig};
+use super::config::{Candidates, CpMapperConfig};
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, Port, PortState};
 use super::pattern::{Dictionary, PatternId};
 use super::scores::Scores;
@@ -224,7 +224,7 @@ impl Comparison<'_> {
 /// How an online robot judges a fragment that it knows: it trusts the map unless another fragment fits what it has observed, and
 /// this one does not.
 pub(super) fn trusts(
-    config: &CpmConfig,
+    config: &CpMapperConfig,
     dictionary: &Dictionary,
     map: &CpMap,
     walk: &Traversal,

@@ -3,10 +3,9 @@
 use core::fmt::Write;
 
 use tolman_geom::{Point, Pose, Vector};
-use tolman_maps::cpm::{
-    CpMap, End, Fragment, FragmentId, Junction, JunctionId, Landmark, PortState, Sign,
-};
+use tolman_maps::cpm::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, PortState, Sign};
 use tolman_maze::{Cell, Maze};
+use tolman_robot::Landmark;
 use tolman_sim::World;
 
 use tolman_arena::cpm::{Fit, Layout};

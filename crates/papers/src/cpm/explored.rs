@@ -1,10 +1,11 @@
 //! Mazes explored to their end: how far from the best the robot's walk is, and Theorem 1's bound with the times it took.
 
-use tolman_maps::cpm::Done;
+use tolman_systems::cpm::Done;
 
 use super::trials::{Modes, Place, Setting, better, cast, in_both_modes, modes, trial};
-use tolman_arena::cpm::{CommonPatterns, Venue};
+use tolman_arena::cpm::Venue;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_systems::cpm::CommonPatterns;
 
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";

@@ -1,7 +1,7 @@
 //! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both episodes.
 
 use tolman_geom::Point;
-use tolman_maps::cpm::Landmark;
+use tolman_robot::Landmark;
 
 use super::Cpm;
 use super::drawing;

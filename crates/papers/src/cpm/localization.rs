@@ -3,11 +3,10 @@
 use std::sync::OnceLock;
 
 use super::{trials, venue};
-use tolman_arena::cpm::{
-    Approach, CommonPatterns, KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck,
-};
+use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require, run_seed};
+use tolman_systems::cpm::{Approach, CommonPatterns};
 
 /// The name of the table.
 pub(super) const LOCALIZATION: &str = "localization";

@@ -20,13 +20,14 @@ use alloc::collections::BTreeMap;
 use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
-use tolman_arena::cpm::{CommonPatterns, Mode, Record, Venue, epuck, learn};
+use tolman_arena::cpm::{Record, Venue, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::Run;
 use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Table};
 use tolman_replay::Replay;
+use tolman_systems::cpm::{CommonPatterns, Mode};
 
 use detector::DETECTOR;
 use dictionary::{DICTIONARY, DictionaryRun};

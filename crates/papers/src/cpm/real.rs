@@ -3,15 +3,14 @@
 use std::sync::OnceLock;
 
 use serde::Serialize;
-use tolman_maps::cpm::{CpmConfig, Done};
 use tolman_sim::robots::EpuckConfig;
 
 use super::venue;
 use tolman_arena::cpm::{
-    CommonPatterns, Cpm, Episode, Lesson, RoundTrip, SimulatedEpuck, Step, Venue, Walker,
-    WalkerConfig, learn_by, placed, slow_epuck, walker_config,
+    RoundTrip, SimulatedEpuck, Venue, learn_by, placed, slow_epuck, walker_config,
 };
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_systems::cpm::{CommonPatterns, CpmConfig, Done, Episode, Lesson, Reasoner, Step, Walker, WalkerConfig};
 
 /// The name of the table.
 pub(super) const FIGURE_11: &str = "11";
@@ -78,7 +77,7 @@ impl Real {
     pub(super) fn play(
         &self,
         job: &Job<'_>,
-        see: impl FnMut(&Cpm<'_, SimulatedEpuck>, &Step),
+        see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
     ) -> Result<RoundTrip, BoxError> {
         let Venue {
             maze,

@@ -11,12 +11,13 @@ use tolman_sim::World;
 
 use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
-use tolman_arena::cpm::{Cpm, Layout, SimulatedEpuck, Step, Trial, Venue, slow_epuck};
+use tolman_arena::cpm::{Layout, SimulatedEpuck, Trial, Venue, slow_epuck};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,
     Track,
 };
+use tolman_systems::cpm::{Reasoner, Step};
 
 /// Plays a trial again and watches it.
 pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
@@ -125,7 +126,7 @@ impl<'a> Watch<'a> {
             .fact("seed", job.seed.to_string())
     }
 
-    fn see(&mut self, agent: &Cpm<'_, SimulatedEpuck>, step: &Step) {
+    fn see(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, step: &Step) {
         let now = agent.walker().body().path().len().saturating_sub(1) as u32;
         let word = match step.arrival {
             Some(arrival) => word_for(arrival),

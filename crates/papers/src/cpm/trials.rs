@@ -2,12 +2,11 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_maps::cpm::CpmConfig;
-
 use super::venue;
-use tolman_arena::cpm::{CommonPatterns, Likeness, Mode, Record, Trial, Venue, epuck};
+use tolman_arena::cpm::{Likeness, Record, Trial, Venue, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Metric, RecordError, Row, Table, record, require};
+use tolman_systems::cpm::{CommonPatterns, CpmConfig, Mode};
 
 /// The table of figure 9.
 pub(super) const FIGURE_9: &str = "9";

@@ -8,11 +8,11 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tolman_arena::cpm::{
-    CommonPatterns, Learned, MapFile, Progress, System, Trial, Venue, epuck, learn,
-};
-use tolman_maps::cpm::{Aim, Done, Landmark};
+use tolman_arena::cpm::{Learned, Progress, Trial, Venue, epuck, learn};
 use tolman_maze::Cell;
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, Done};
+use tolman_systems::cpm::{CommonPatterns, MapFile, Preset};
 
 use super::{classify, venue};
 use crate::cli::{Failure, file, interrupt};
@@ -81,16 +81,16 @@ pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-le
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let venue = venue(&arguments.maze)?;
     let system = match arguments.system {
-        Choice::Faithful => System::Faithful,
-        Choice::Better => System::Better,
-        Choice::Unlearned => System::Unlearned,
+        Choice::Faithful => Preset::Faithful,
+        Choice::Better => Preset::Better,
+        Choice::Unlearned => Preset::Unlearned,
     };
     let patterns = match system {
-        System::Faithful | System::Better => {
+        Preset::Faithful | Preset::Better => {
             let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
             learn(&learning.maze, learning.corridor_width, arguments.seed)?
         }
-        System::Unlearned => CommonPatterns::none()?,
+        Preset::Unlearned => CommonPatterns::none()?,
     };
     let trial = Trial {
         maze: &venue.maze,
@@ -136,11 +136,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         )));
     }
     let dictionary = match system {
-        System::Faithful | System::Better => {
+        Preset::Faithful | Preset::Better => {
             let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
             format!("a dictionary of {units} units in {clusters} clusters")
         }
-        System::Unlearned => format!(
+        Preset::Unlearned => format!(
             "a dictionary of {} patterns",
             errand.patterns.dictionary().len()
         ),

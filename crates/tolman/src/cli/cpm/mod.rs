@@ -9,7 +9,8 @@ use std::path::Path;
 
 use anyhow::{Context, Error};
 use clap::Subcommand;
-use tolman_arena::cpm::{MapFile, TrialError, Venue};
+use tolman_arena::cpm::{TrialError, Venue};
+use tolman_systems::cpm::MapFile;
 
 use super::failure::OrBadInput;
 use super::{Failure, maze};

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::cpm::{DriveFrom, Errand, MapFile, Trial, Venue, epuck};
+use tolman_arena::cpm::{DriveFrom, Errand, Trial, Venue, epuck};
 use tolman_draw::Figure;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{CpMap, Done};
+use tolman_maps::cpm::CpMap;
 use tolman_papers::cpm::drawing;
 use tolman_sim::World;
+use tolman_systems::cpm::Done;
+use tolman_systems::cpm::MapFile;
 
 use super::{classify, parse, venue};
 use crate::cli::failure::OrBadInput;

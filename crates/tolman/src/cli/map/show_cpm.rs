@@ -4,10 +4,11 @@ use std::io::Write;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::cpm::MapFile;
 use tolman_draw::Figure;
-use tolman_maps::cpm::{Landmark, Port};
+use tolman_maps::cpm::Port;
 use tolman_papers::cpm::drawing;
+use tolman_robot::Landmark;
+use tolman_systems::cpm::MapFile;
 
 use super::show::Arguments;
 use crate::cli::failure::OrBadInput;

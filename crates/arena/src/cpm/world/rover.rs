@@ -3,12 +3,12 @@ use alloc::vec::Vec;
 use rand::{Rng, RngExt};
 use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
 
-use super::super::bearings::Bearings;
-use super::super::map::Sign;
-use super::super::pattern::PatternId;
-use super::super::traversal::{Motion, Sighting, Traversal};
-use super::super::turn::{NoSuchTurn, Turn};
 use super::{Corridor, CorridorEnd, World, WorldPort};
+use tolman_maps::cpm::Bearings;
+use tolman_maps::cpm::PatternId;
+use tolman_maps::cpm::Sign;
+use tolman_maps::cpm::{Motion, Sighting, Traversal};
+use tolman_maps::cpm::{NoSuchTurn, Turn};
 
 /// How a rover's senses err.
 #[derive(Clone, Copy, Debug, PartialEq)]

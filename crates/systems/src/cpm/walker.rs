@@ -2,20 +2,28 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use thiserror::Error;
 use tolman_control::epuck::{
-    Alignment, FEATURES, MeetPointConfig, Pilot, PilotConfig, PilotError, Place, Profile,
-    ProfileError, SegmentConfig, SegmentError, Segments,
+    FEATURES, Forward, Pilot, PilotError, Place, Profile, ProfileError, SegmentError, Segments,
 };
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::cpm::{Bearings, Landmark, Sighting};
+use tolman_maps::cpm::{Bearings, Sighting};
+use tolman_robot::{Landmark, SensesLandmarks};
 
-use super::body::{Body, Reckoned};
+use super::reckoned::Reckoned;
+use super::robot::CpmRobot;
+use super::walker_config::{HeadingBy, WalkerConfig};
 
 /// Walks fragments: what the lower layers do from the moment layer 3 has chosen a way until the next junction, dead end or landmark
 /// wakes it up again (section 4).
 #[derive(Debug)]
-pub struct Walker<B: Body> {
+pub struct Walker<B: CpmRobot> {
     pilot: Pilot<Reckoned<B>>,
     config: WalkerConfig,
+    memory: Memory,
+}
+
+/// What a walker remembers from one fragment to the next.
+#[derive(Clone, Debug)]
+struct Memory {
     /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
     /// Where it was after each stride since it set off, in the frame in which it began.
@@ -25,36 +33,13 @@ pub struct Walker<B: Body> {
     departed: Pose,
 }
 
-/// How a walker observes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WalkerConfig {
-    /// The robot's layers.
-    pub pilot: PilotConfig,
-    /// How the vectors of a sweep are averaged.
-    pub alignment: Alignment,
-    /// How they are segmented to tell junctions from paths.
-    pub segments: SegmentConfig,
-    /// How they are segmented to make features.
-    pub features: SegmentConfig,
-    /// How the middle of a junction is looked for.
-    pub meet_point: MeetPointConfig,
-    /// From wall to wall, m.
-    pub corridor_width: f64,
-    /// How long the robot drives from one observation to the next, s; the paper's 0.5.
-    pub stride_s: f64,
-    /// What dead reckoning takes headings from.
-    pub heading: HeadingBy,
-    /// The end of all patience: so many observations of one fragment, of which the paper says nothing.
-    pub longest_fragment: u32,
-}
-
-/// What dead reckoning takes headings from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HeadingBy {
-    /// The encoders alone.
-    Encoders,
-    /// The encoders, and the walls where they are seen, which stand at right angles to each other.
-    Walls,
+/// A [`Walker`] that rests between fragments, without the robot that it walks with.
+#[derive(Clone, Debug)]
+pub struct RestingWalker {
+    memory: Memory,
+    forward: Forward,
+    pose: Pose,
+    driven: f64,
 }
 
 /// One observation.
@@ -194,17 +179,39 @@ const TOO_NEAR: f64 = 220.0;
 /// Near enough to the middle, m.
 const NEAR: f64 = 0.015;
 
-impl<B: Body> Walker<B> {
+impl<B: CpmRobot> Walker<B> {
     /// A walker that stands where its body stands.
     pub fn new(body: B, config: WalkerConfig) -> Self {
         Self {
             pilot: Pilot::new(Reckoned::new(body), config.pilot.clone()),
             config,
-            branches: Vec::new(),
-            trail: Vec::new(),
-            observations: 0,
-            departed_us: 0,
-            departed: Pose::IDENTITY,
+            memory: Memory {
+                branches: Vec::new(),
+                trail: Vec::new(),
+                observations: 0,
+                departed_us: 0,
+                departed: Pose::IDENTITY,
+            },
+        }
+    }
+
+    /// Goes on with the robot, which has not been moved since the walker was given its [rest](Self::rest).
+    pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
+        let body = Reckoned::resume(body, resting.pose, resting.driven);
+        Self {
+            pilot: Pilot::resume(body, config.pilot.clone(), resting.forward),
+            config,
+            memory: resting.memory,
+        }
+    }
+
+    /// Gives the robot back and keeps all else.
+    pub fn rest(self) -> RestingWalker {
+        RestingWalker {
+            forward: *self.pilot.forward(),
+            pose: self.pose(),
+            driven: self.driven(),
+            memory: self.memory,
         }
     }
 
@@ -230,23 +237,23 @@ impl<B: Body> Walker<B> {
 
     /// How many observations it has made.
     pub const fn observations(&self) -> u32 {
-        self.observations
+        self.memory.observations
     }
 
     /// Where it looked when it had turned into the fragment that it walked last.
     pub const fn departed(&self) -> Pose {
-        self.departed
+        self.memory.departed
     }
 
     /// Which of the poses after every step is that in which it had turned into the fragment that it walked last.
     pub fn departed_at(&self, path: &[Pose]) -> Option<Pose> {
-        let step = self.departed_us / self.config.pilot.step_us;
+        let step = self.memory.departed_us / self.config.pilot.step_us;
         path.get(usize::try_from(step).ok()?).copied()
     }
 
     /// The branches of the place it stands at, rad, relative to its heading: counter-clockwise from the way it came by.
     pub fn branches(&self) -> &[f64] {
-        &self.branches
+        &self.memory.branches
     }
 
     /// How far it drove so far, m.
@@ -292,8 +299,8 @@ impl<B: Body> Walker<B> {
         // It may have been carried here.
         self.pilot.stand()?;
         let begun = self.pose().position;
-        self.trail.clear();
-        self.trail.push(begun);
+        self.memory.trail.clear();
+        self.memory.trail.push(begun);
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         let is_place = match view.segments.place() {
@@ -345,10 +352,14 @@ impl<B: Body> Walker<B> {
         skip: u32,
         give_up_after: Option<u32>,
     ) -> Result<Walk, WalkError<B::Error>> {
-        let branch = *self.branches.get(number).ok_or(WalkError::NoBranch {
-            number,
-            branches: self.branches.len(),
-        })?;
+        let branch = *self
+            .memory
+            .branches
+            .get(number)
+            .ok_or(WalkError::NoBranch {
+                number,
+                branches: self.memory.branches.len(),
+            })?;
         self.pilot.turn(branch)?;
         self.depart();
         let course = self.course(Some(self.pose().position), skip);
@@ -356,14 +367,14 @@ impl<B: Body> Walker<B> {
     }
 
     fn depart(&mut self) {
-        (self.departed_us, self.departed) = (self.time_us(), self.pose());
+        (self.memory.departed_us, self.memory.departed) = (self.time_us(), self.pose());
     }
 
     /// A course from a place with its middle there, or from amid a fragment.
     fn course(&mut self, origin: Option<Point>, skip: u32) -> Course {
         let here = self.pose().position;
-        self.trail.clear();
-        self.trail.push(here);
+        self.memory.trail.clear();
+        self.memory.trail.push(here);
         Course {
             origin,
             begun: self.driven() - origin.map_or(0.0, |origin| (here - origin).norm()),
@@ -404,7 +415,7 @@ impl<B: Body> Walker<B> {
             });
         }
         self.pilot.follow(self.config.stride_s)?;
-        self.trail.push(self.pose().position);
+        self.memory.trail.push(self.pose().position);
         course.strides += 1;
         if course.strides <= course.skip {
             return Ok(None);
@@ -566,16 +577,16 @@ impl<B: Body> Walker<B> {
             self.pilot.go_to(middle)?;
             view = self.look()?;
         }
-        self.branches = view.segments.spaces().collect();
+        self.memory.branches = view.segments.spaces().collect();
         if let Some(entry) = self.entry(self.pose().position) {
-            count_from(entry, &mut self.branches);
+            count_from(entry, &mut self.memory.branches);
         }
-        if self.branches.is_empty() {
+        if self.memory.branches.is_empty() {
             // Whoever came in can get out.
-            self.branches.push(PI);
+            self.memory.branches.push(PI);
         }
         let sighting = Sighting {
-            degree: self.branches.len() as u32,
+            degree: self.memory.branches.len() as u32,
             landmark,
         };
         Ok(Seen { glimpse, sighting })
@@ -599,14 +610,14 @@ impl<B: Body> Walker<B> {
     /// The ways out of the place where it stands, counted from the one by which it came; none before it has come to one.
     pub fn bearings(&self) -> Option<Bearings> {
         // Branches are found counter-clockwise.
-        Bearings::of_directions(&self.branches).ok()
+        Bearings::of_directions(&self.memory.branches).ok()
     }
 
     /// The direction of the way by which it came to a place, rad, relative to its heading: where it was before it came into it. Behind a bend
     /// the robot may stand askew in the middle of a junction, so that another branch is nearer to behind it.
     fn entry(&self, place: Point) -> Option<f64> {
         let width = self.config.corridor_width;
-        let mut before = self.trail.iter().rev();
+        let mut before = self.memory.trail.iter().rev();
         let outside = before.find(|point| (**point - place).norm() > PLACE * width)?;
         let here = self.pose().inverse();
         let back = here.transform(*outside) - here.transform(place);
@@ -628,7 +639,7 @@ impl<B: Body> Walker<B> {
 
     fn look(&mut self) -> Result<View, WalkError<B::Error>> {
         let sweep = self.pilot.sweep()?;
-        self.observations += 1;
+        self.memory.observations += 1;
         let profile = Profile::of(&sweep, self.config.alignment)?;
         let segments = profile.segments(&self.config.segments)?;
         self.true_up(&profile);

@@ -1,16 +1,6 @@
-use core::f64::consts::TAU;
-
-use tolman_control::epuck::{
-    Alignment, ForwardConfig, KeepOffConfig, MeetPointConfig, PilotConfig, RangeCurve,
-    RangeCurveError, SegmentConfig,
-};
-use tolman_quantizers::{Denoising, SoinnConfig};
+use tolman_control::epuck::{RangeCurve, RangeCurveError};
 use tolman_sim::robots::EpuckConfig;
-
-use super::walker::{HeadingBy, WalkerConfig};
-
-/// "The robot samples the sensor value … 100 times" (section 4.1).
-const SAMPLES: u32 = 100;
+use tolman_systems::cpm::{EpuckMeasures, WalkerConfig};
 
 /// A sweep at 4.83 rad/s, just below what the wheels can, takes one sample a step.
 const STEP_US: u64 = 13_000;
@@ -43,46 +33,24 @@ pub fn slow_epuck() -> EpuckConfig {
     }
 }
 
-/// SOINN as in the paper, λ = age_dead = 20; no unit with a neighbour counts as noise.
-#[must_use]
-pub fn soinn() -> SoinnConfig {
-    SoinnConfig {
-        denoising: Denoising::FewWins { c: 0.0 },
-        ..SoinnConfig::cpm()
-    }
-}
-
-/// The least turn that the simulated encoders tell, rad, which count no steps.
-const EXACT: f64 = 1e-9;
-
-/// How the paper's robot drives and observes in corridors of this width, m: a sample of a sweep a time step, so that the time step says how
-/// fast it sweeps.
+/// Returns how the paper's robot drives and observes in corridors of this width, m: a sample of a sweep a time step, so that the time
+/// step says how fast it sweeps.
 ///
 /// # Errors
 /// If the response curve cannot be turned round.
 pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, RangeCurveError> {
+    Ok(WalkerConfig::paper(measures(robot)?, width))
+}
+
+/// Returns what of a simulated e-puck the system has to know.
+fn measures(robot: &EpuckConfig) -> Result<EpuckMeasures, RangeCurveError> {
     let reach = libm::round(robot.response.reach() * 1e3) as u32;
     let millimetres = (0..=reach).map(|millimetre| f64::from(millimetre) * 1e-3);
     let points = millimetres.map(|range| (range, robot.response.at(range).value));
-    Ok(WalkerConfig {
-        pilot: PilotConfig {
-            step_us: robot.step_us,
-            samples: SAMPLES,
-            sweep_speed: TAU / f64::from(SAMPLES) / (robot.step_us as f64 * 1e-6),
-            most_wheel_speed: robot.most_wheel_speed,
-            turn_tolerance: EXACT,
-            curve: RangeCurve::new(points.collect())?,
-            forward: ForwardConfig::for_width(width),
-            keep_off: KeepOffConfig::ours(),
-        },
-        alignment: Alignment::Mounts,
-        segments: SegmentConfig::cut(),
-        features: SegmentConfig::joined(),
-        meet_point: MeetPointConfig::for_width(width),
-        corridor_width: width,
-        stride_s: 0.5,
-        heading: HeadingBy::Encoders,
-        longest_fragment: 2000,
+    Ok(EpuckMeasures {
+        curve: RangeCurve::new(points.collect())?,
+        step_us: robot.step_us,
+        most_wheel_speed: robot.most_wheel_speed,
     })
 }
 

@@ -2,8 +2,8 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{Likeness, MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
-use tolman_maps::cpm::{Aim, CpmConfig, Done, Explorer};
+use tolman_arena::cpm::world::{Likeness, MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer};
 
 use super::explorations::pursue;
 

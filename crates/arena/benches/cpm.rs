@@ -5,11 +5,9 @@ use core::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World};
-use tolman_maps::cpm::{
-    Aim, Alignment, CpmConfig, Decision, Explorer, Localizer, LocalizerConfig, Matching,
-    Similarity, Turn,
-};
+use tolman_arena::cpm::world::{Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+use tolman_maps::cpm::{Alignment, Localizer, LocalizerConfig, Matching, Similarity, Turn};
+use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer};
 
 fn world(columns: u32, rows: u32) -> World {
     let mut rng = ChaCha8Rng::seed_from_u64(1);

@@ -19,9 +19,9 @@ pub use check::MapCheck;
 pub use generate::{Likeness, MazeConfig, MazeError};
 pub use rover::{Noise, Outcome, Reckoning, Rover};
 
-use super::map::Sign;
-use super::pattern::{Dictionary, DictionaryError, PatternId};
-use super::traversal::Sighting;
+use tolman_maps::cpm::Sighting;
+use tolman_maps::cpm::Sign;
+use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
 use tolman_robot::Landmark;
 
 /// A maze as a plane graph. Its places and corridors are numbered from 0.
@@ -100,8 +100,9 @@ impl Corridor {
 ///
 /// ```
 /// use tolman_geom::Point;
-/// use tolman_maps::cpm::{Dictionary, Landmark, PatternId, Turn};
-/// use tolman_maps::cpm::world::{Noise, Outcome, Reckoning, Rover, WorldBuilder};
+/// use tolman_maps::cpm::{Dictionary, PatternId, Turn};
+/// use tolman_robot::Landmark;
+/// use tolman_arena::cpm::world::{Noise, Outcome, Reckoning, Rover, WorldBuilder};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// let wall = dictionary.learn(&[0.0], &[0.0], 0.1)?;

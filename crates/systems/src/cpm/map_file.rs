@@ -1,9 +1,9 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use tolman_maps::cpm::{self, CpMap, CpmConfig};
+use tolman_maps::cpm::{self, CpMap};
 
 use super::common_patterns::CommonPatterns;
-use super::trial::Mode;
+use super::preset::Preset;
 use crate::file_kind::{FileError, FileKind};
 
 /// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the bit.
@@ -14,35 +14,11 @@ pub struct MapFile {
     /// The seed it was learned from.
     pub seed: u64,
     /// How the robot mapped.
-    pub system: System,
+    pub system: Preset,
     /// What it knew of patterns.
     pub patterns: CommonPatterns,
     /// The map.
     pub map: CpMap,
-}
-
-/// The ways of mapping that have a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum System {
-    /// The paper's, online.
-    Faithful,
-    /// Ours: with dead reckoning, for fragments that look alike too.
-    Better,
-    /// The same without a learning maze.
-    Unlearned,
-}
-
-impl System {
-    /// How it maps.
-    #[must_use]
-    pub const fn mode(self) -> Mode {
-        match self {
-            Self::Faithful => Mode::Paper(CpmConfig::online()),
-            Self::Better => Mode::Reckoned(CpmConfig::robust()),
-            Self::Unlearned => Mode::Unlearned(CpmConfig::robust()),
-        }
-    }
 }
 
 const KIND: FileKind = FileKind {
@@ -71,7 +47,7 @@ struct Body {
     map: cpm::MapFile,
     maze: String,
     seed: u64,
-    system: System,
+    system: Preset,
     /// Of SOINN.
     units: u32,
     clusters: u32,

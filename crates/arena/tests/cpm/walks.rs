@@ -2,12 +2,13 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use tolman_arena::cpm::world::{MapCheck, Noise, Outcome, Reckoning, Rover, World, WorldBuilder};
 use tolman_geom::Point;
-use tolman_maps::cpm::world::{MapCheck, Noise, Outcome, Reckoning, Rover, World, WorldBuilder};
 use tolman_maps::cpm::{
-    Aim, Arrival, CpmConfig, Decision, Dictionary, Done, End, Explorer, FragmentId, Landmark,
-    Mapping, Onward, PatternId, Sighting, Sign, Traversal, Turn,
+    Arrival, Dictionary, End, FragmentId, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
 };
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Onward};
 
 use super::explorations::pursue;
 

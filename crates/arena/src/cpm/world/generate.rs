@@ -5,10 +5,10 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_geom::Point;
 
-use super::super::pattern::{Dictionary, DictionaryError, PatternId};
-use super::super::similarity::{Matching, Similarity};
 use super::rover::uniform;
 use super::{World, WorldBuilder, WorldError};
+use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
+use tolman_maps::cpm::{Matching, Similarity};
 use tolman_robot::Landmark;
 
 /// What a random world shall be like.

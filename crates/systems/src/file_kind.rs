@@ -1,23 +1,25 @@
+//! Files that hold what a system has learned: JSON that begins with its format and version.
+
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A kind of files that hold what an agent has learned: JSON that begins with its format and version.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FileKind {
+pub struct FileKind {
     /// What `format` says.
-    pub(crate) format: &'static str,
+    pub format: &'static str,
     /// The version that is written; all versions up to it are read.
-    pub(crate) version: u32,
+    pub version: u32,
     /// Such as "survey".
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// What makes one.
-    pub(crate) command: &'static str,
+    pub command: &'static str,
 }
 
 /// How such a file begins, whatever its version.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct FileHeader {
+pub struct FileHeader {
     format: String,
     version: u32,
 }
@@ -85,7 +87,9 @@ pub enum FileError {
 }
 
 impl FileKind {
-    pub(crate) fn header(&self) -> FileHeader {
+    /// Returns how a file of this kind begins.
+    #[must_use]
+    pub fn header(&self) -> FileHeader {
         FileHeader {
             format: self.format.to_owned(),
             version: self.version,
@@ -93,7 +97,8 @@ impl FileKind {
     }
 
     /// Whether a text says that it is of this kind: of whatever version, sound, broken or cut off.
-    pub(crate) fn claims(&self, text: &str) -> bool {
+    #[must_use]
+    pub fn claims(&self, text: &str) -> bool {
         let header: Result<FileHeader, _> = serde_json::from_str(text);
         header.map_or_else(
             |_| text.contains(&format!("\"{}\"", self.format)),
@@ -105,7 +110,7 @@ impl FileKind {
     ///
     /// # Errors
     /// [`FileError::Unwritable`].
-    pub(crate) fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
+    pub fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
         let name = self.name;
         serde_json::to_string(body)
             .map(|text| text + "\n")
@@ -116,7 +121,7 @@ impl FileKind {
     ///
     /// # Errors
     /// [`FileError`].
-    pub(crate) fn parse<T: DeserializeOwned>(&self, text: &str) -> Result<T, FileError> {
+    pub fn parse<T: DeserializeOwned>(&self, text: &str) -> Result<T, FileError> {
         let Self {
             format,
             version,

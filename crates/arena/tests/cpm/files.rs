@@ -3,10 +3,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
-use tolman_maps::cpm::{
-    Aim, CpMap, CpmConfig, Decision, Dictionary, Explorer, MapFile, MapFileError,
-};
+use tolman_arena::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+use tolman_maps::cpm::{CpMap, Dictionary, MapFile, MapFileError};
+use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer};
 
 /// The map of an explored world, with dead reckoning.
 fn explored() -> (CpMap, Dictionary) {

@@ -2,14 +2,16 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_geom::Point;
-use tolman_maps::cpm::world::{
+use tolman_arena::cpm::world::{
     MapCheck, MazeConfig, MazeError, Noise, Reckoning, Rover, World, WorldBuilder, WorldError,
 };
+use tolman_geom::Point;
 use tolman_maps::cpm::{
-    Aim, Bearings, CpmConfig, CpmError, Dictionary, DictionaryError, Done, Environments, Explorer,
-    Landmark, PatternId, RecallError, Sighting, Traversal, Turn,
+    Bearings, CpmError, Dictionary, DictionaryError, Environments, PatternId, RecallError,
+    Sighting, Traversal, Turn,
 };
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer};
 
 use super::explorations::pursue;
 use super::walks::dictionary;

@@ -1,12 +1,9 @@
-use alloc::vec::Vec;
-
-use rand::{Rng, RngExt};
 use thiserror::Error;
 
 use super::beam::{Beam, Understood};
-use super::config::{CpmConfig, Mapping, Onward};
+use super::config::{CpMapperConfig, Mapping};
 use super::hypothesis::Belief;
-use super::map::{CpMap, End, JunctionId, Port, PortState};
+use super::map::{CpMap, Junction, Port};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
 use super::plan::Plan;
@@ -14,16 +11,12 @@ use super::traversal::{Sighting, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
-/// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
+/// Learns a [`CpMap`] from walks along its fragments: the "path-fragment representation" of layer 3.
 ///
-/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark, perform the turn, walk to the next one, and tell it
-/// what the walk was like: [`arrive`](Self::arrive), or [`turned_back`](Self::turned_back) where the decision said to give up.
-///
-/// Chance and the dictionary belong to the caller; whatever the robot meets, an exploration ends after at most
-/// [`CpmConfig::most_traversals`].
+/// Tells where on the map the robot is. Where to go next is for whoever drives.
 #[derive(Clone, Debug)]
-pub struct Explorer {
-    config: CpmConfig,
+pub struct CpMapper {
+    config: CpMapperConfig,
     knowledge: Knowledge,
     traversals: u32,
     before_duplicate: Option<u32>,
@@ -60,50 +53,6 @@ impl Knowledge {
             Self::Beam(beam) => beam.best_map_mut(),
         }
     }
-}
-
-/// What the robot wants.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Aim {
-    /// To be at a landmark: by the shortest known way if it is on the map, else by exploring.
-    Find(Landmark),
-    /// To have been through every port of the map ("the task is to obtain the complete map").
-    Explore,
-    /// To be at the start again, trying unknown ports that might make the way between start and goal shorter (section 6).
-    WayBack,
-    /// To be sure that no way between start and goal is shorter than the shortest of the map; ours.
-    Shortest,
-}
-
-/// What to do at a junction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decision {
-    /// Turn and follow the path.
-    Go(Leg),
-    /// Nothing more to do for this aim.
-    Done(Done),
-}
-
-/// One fragment to walk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Leg {
-    /// Δ, to perform first.
-    pub turn: Turn,
-    /// The end of the fragment it enters, if that is on the map.
-    pub known: Option<End>,
-    /// After so many observations without an end of the fragment, turn round and come back; for ever on if none.
-    pub give_up_after: Option<u32>,
-}
-
-/// Why there is nothing more to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Done {
-    /// The aim is reached.
-    Reached,
-    /// All that can be reached was explored, and what was looked for is not there.
-    NotThere,
-    /// [`CpmConfig::most_traversals`] fragments were walked.
-    OutOfPatience,
 }
 
 /// What an arrival taught.
@@ -158,7 +107,7 @@ pub enum CpmError {
 /// Of one junction.
 pub(super) const MOST_PORTS: u32 = 1000;
 
-impl Explorer {
+impl CpMapper {
     /// Begins at a place that ends fragments, as if the robot had come in by port 0: that of a dead end; else the first opening
     /// counter-clockwise from straight behind it.
     ///
@@ -166,7 +115,7 @@ impl Explorer {
     ///
     /// # Errors
     /// [`CpmError`] if the place has no ports.
-    pub fn new(config: CpmConfig, start: Sighting) -> Result<Self, CpmError> {
+    pub fn new(config: CpMapperConfig, start: Sighting) -> Result<Self, CpmError> {
         check(start)?;
         Ok(Self {
             config,
@@ -181,7 +130,7 @@ impl Explorer {
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the map has no such port.
-    pub fn resume(config: CpmConfig, map: CpMap, at: Port) -> Result<Self, CpmError> {
+    pub fn resume(config: CpMapperConfig, map: CpMap, at: Port) -> Result<Self, CpmError> {
         Turn::BACK.exit(at.number, map.degree(at.junction))?;
         Ok(Self {
             config,
@@ -220,28 +169,6 @@ impl Explorer {
     #[must_use]
     pub const fn contradictions(&self) -> u32 {
         self.contradictions
-    }
-
-    /// What to do here. Asking changes nothing but the generator. O(fragments · log fragments); [`Aim::WayBack`] and
-    /// [`Aim::Shortest`] junctions times that.
-    pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> Decision {
-        if let Some(done) = self.is_done(aim) {
-            return Decision::Done(done);
-        }
-        if self.traversals >= self.config.most_traversals {
-            return Decision::Done(Done::OutOfPatience);
-        }
-        let leg = match aim {
-            Aim::Find(landmark) => self.towards(landmark).or_else(|| self.explore(rng)),
-            Aim::Explore => self.explore(rng),
-            Aim::WayBack => self.way_back(rng),
-            Aim::Shortest => self.towards_helpful(rng),
-        };
-        match (leg, aim) {
-            (Some(leg), _) => Decision::Go(leg),
-            (None, Aim::Explore | Aim::Shortest) => Decision::Done(Done::Reached),
-            (None, _) => Decision::Done(Done::NotThere),
-        }
     }
 
     /// Takes in a walk: the turn that was performed, and what was met. O(fragments) comparisons.
@@ -317,10 +244,19 @@ impl Explorer {
         })
     }
 
+    /// Returns whether the map is optimized now, and worth being looked at: offline CPM is blind until its
+    /// patience ends.
+    #[must_use]
+    pub const fn looks_at_map(&self) -> bool {
+        self.config.mapping.looks_at_map(self.traversals)
+    }
+
     /// The shortest known way from here to a landmark; none if none is known.
     #[must_use]
     pub fn plan(&self, landmark: Landmark) -> Option<Plan> {
-        self.map().plan(self.at(), |id| self.has(id, landmark))
+        let map = self.map();
+        let landmark_at = |id| map.junction(id).and_then(|place: &Junction| place.landmark);
+        map.plan(self.at(), |id| landmark_at(id) == Some(landmark))
     }
 
     /// The robot has been put at a place of the map, with this port behind it.
@@ -334,147 +270,6 @@ impl Explorer {
         self.knowledge = Knowledge::new(self.config.mapping, Mapper { map, at });
         Ok(())
     }
-
-    fn is_done(&self, aim: Aim) -> Option<Done> {
-        let here = self.at().junction;
-        let reached = match aim {
-            Aim::Find(landmark) => self.has(here, landmark),
-            Aim::WayBack => self.has(here, Landmark::Start),
-            Aim::Explore | Aim::Shortest => false,
-        };
-        reached.then_some(Done::Reached)
-    }
-
-    fn has(&self, junction: JunctionId, landmark: Landmark) -> bool {
-        let place = self.map().junction(junction);
-        place.is_some_and(|place| place.landmark == Some(landmark))
-    }
-
-    /// The first leg of the shortest known way to a landmark.
-    fn towards(&self, landmark: Landmark) -> Option<Leg> {
-        self.first_leg(|id| self.has(id, landmark))
-    }
-
-    fn first_leg(&self, wanted: impl Fn(JunctionId) -> bool) -> Option<Leg> {
-        let plan = self.map().plan(self.at(), wanted)?;
-        let first = plan.legs.first()?;
-        Some(Leg {
-            turn: first.turn,
-            known: Some(first.enter),
-            give_up_after: None,
-        })
-    }
-
-    fn explore(&self, rng: &mut impl Rng) -> Option<Leg> {
-        if !self.config.mapping.looks_at_map(self.traversals) {
-            return self.wander(rng);
-        }
-        let here = self.map().junction(self.at().junction)?;
-        let open: Vec<u32> = here.open_ports().collect();
-        // "1) If the current junction has some remaining unknown ports, it randomly chooses one and moves on."
-        if let Some(number) = choose(&open, rng) {
-            return self.leg_to(number, None);
-        }
-        // 2) "No unknown ports left".
-        let has_open = |id: JunctionId| {
-            let place = self.map().junction(id);
-            place.is_some_and(|place| place.open_ports().next().is_some())
-        };
-        let way = self.first_leg(has_open)?;
-        match self.config.onward {
-            Onward::ShortestKnownWay => Some(way),
-            Onward::GoOn => self.wander(rng),
-        }
-    }
-
-    /// A port at random, but not the one behind; out of a dead end there is no other.
-    fn wander(&self, rng: &mut impl Rng) -> Option<Leg> {
-        let degree = self.map().junction(self.at().junction)?.degree();
-        let turn = if degree == 1 {
-            Turn::BACK
-        } else {
-            Turn(rng.random_range(1..degree))
-        };
-        let port = self.knowledge.mapper().exit(turn).ok()?;
-        self.leg_to(port.number, None)
-    }
-
-    fn leg_to(&self, number: u32, give_up_after: Option<u32>) -> Option<Leg> {
-        let at = self.at();
-        let degree = self.map().junction(at.junction)?.degree();
-        let port = Port { number, ..at };
-        Some(Leg {
-            turn: Turn::between(at.number, number, degree).ok()?,
-            known: self.map().end_at(port),
-            give_up_after,
-        })
-    }
-
-    /// "Before the robot follows the map …, the robot tries to enter another different path-fragment … As long as the new
-    /// path length is less than the old path length, the robot continues moving along the new path."
-    fn way_back(&self, rng: &mut impl Rng) -> Option<Leg> {
-        let home = self
-            .map()
-            .plan(self.at(), |id| self.has(id, Landmark::Start));
-        // "It does not try the new path-fragment because the junction connects to A_s."
-        let is_last = home.as_ref().is_some_and(|plan| plan.legs.len() == 1);
-        if !is_last && let Some(leg) = self.shortcut(Landmark::Goal, rng) {
-            return Some(leg);
-        }
-        match home {
-            Some(_) => self.towards(Landmark::Start),
-            // The start is not on the map; a robot that has not come from there has to look for it.
-            None => self.explore(rng),
-        }
-    }
-
-    /// An unknown port here that may lead to a shorter way between start and goal.
-    fn shortcut(&self, from: Landmark, rng: &mut impl Rng) -> Option<Leg> {
-        let here = self.at().junction;
-        let room = self.room(here, from)?;
-        let ports = (0..).zip(&self.map().junction(here)?.ports);
-        let helpful: Vec<u32> = ports
-            .filter(|(_, port)| matches!(port, PortState::Open { at_least } if *at_least < room))
-            .map(|(number, _)| number)
-            .collect();
-        self.leg_to(choose(&helpful, rng)?, Some(room))
-    }
-
-    /// How many observations an unknown fragment at a junction has to stay below to shorten the way between start and goal, of
-    /// which the part on this side of it begins at one of them; none if none can. Where no way is known, all may.
-    fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
-        let is_goal = |id| self.has(id, Landmark::Goal);
-        // A start in a corridor may be on the map twice; the first is where the robot will be put again.
-        let start = self.map().landmarks(Landmark::Start).next()?;
-        let length = |from, wanted: &dyn Fn(JunctionId) -> bool| {
-            let port = Port {
-                junction: from,
-                number: 0,
-            };
-            self.map().plan(port, wanted).map(|plan| plan.length)
-        };
-        let near = match from {
-            Landmark::Goal => length(junction, &is_goal)?,
-            _ => length(start, &|id| id == junction)?,
-        };
-        let known = length(start, &is_goal).unwrap_or(u32::MAX);
-        known.checked_sub(near).filter(|room| *room > 1)
-    }
-
-    /// The nearest unknown port that may lead to a shorter way between start and goal.
-    fn towards_helpful(&self, rng: &mut impl Rng) -> Option<Leg> {
-        if let Some(leg) = self.shortcut(Landmark::Start, rng) {
-            return Some(leg);
-        }
-        let helps = |id: JunctionId| {
-            let place = self.map().junction(id);
-            let mut ports = place.map_or(&[][..], |place| &place.ports).iter();
-            self.room(id, Landmark::Start).is_some_and(|room| {
-                ports.any(|port| matches!(port, PortState::Open { at_least } if *at_least < room))
-            })
-        };
-        self.first_leg(helps)
-    }
 }
 
 /// Offline and online: on the one map there is, what is similar is the same.
@@ -482,7 +277,7 @@ fn reason(
     mapper: &mut Mapper,
     turn: Turn,
     walk: &Traversal,
-    config: &CpmConfig,
+    config: &CpMapperConfig,
     is_online: bool,
     dictionary: &Dictionary,
 ) -> Result<Arrival, NoSuchTurn> {
@@ -537,13 +332,4 @@ fn check_bearings(walk: &Traversal) -> Result<(), CpmError> {
         }),
         _ => Ok(()),
     }
-}
-
-fn choose(ports: &[u32], rng: &mut impl Rng) -> Option<u32> {
-    if ports.is_empty() {
-        return None;
-    }
-    ports
-        .get(rng.random_range(0..ports.len() as u32) as usize)
-        .copied()
 }

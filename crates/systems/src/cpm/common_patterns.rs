@@ -2,9 +2,9 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_control::epuck::FEATURES;
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
-use tolman_quantizers::{ConfigError, InputError, Quantizer, Soinn, SoinnConfig};
+use tolman_quantizers::{ConfigError, Denoising, InputError, Quantizer, Soinn, SoinnConfig};
 
-use super::body::Body;
+use super::robot::CpmRobot;
 use super::walker::{Observation, Walk, WalkError, Walker};
 
 /// C: the common patterns. In the paper "a representative vector of each cluster is a common-pattern CP" (section 4.1); ours
@@ -22,6 +22,15 @@ pub struct CommonPatterns {
 /// it makes d_max, and so says how alike fragments have to be. The paper gives no value.
 const LANDMARK: f64 = 100.0;
 
+/// Returns SOINN as in the paper, λ = age_dead = 20; no unit with a neighbour counts as noise.
+#[must_use]
+pub fn soinn() -> SoinnConfig {
+    SoinnConfig {
+        denoising: Denoising::FewWins { c: 0.0 },
+        ..SoinnConfig::cpm()
+    }
+}
+
 /// How long a robot wanders to learn its common patterns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -38,7 +47,7 @@ pub enum Lesson {
 ///
 /// # Errors
 /// [`WalkError`].
-pub fn wander<B: Body>(
+pub fn wander<B: CpmRobot>(
     walker: &mut Walker<B>,
     lesson: Lesson,
     rng: &mut impl Rng,

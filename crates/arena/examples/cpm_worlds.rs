@@ -9,12 +9,11 @@ use core::error::Error;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{
+use tolman_arena::cpm::world::{
     Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
 };
-use tolman_maps::cpm::{
-    Aim, Alignment, CpmConfig, Decision, Explorer, Mapping, Matching, Onward, Similarity,
-};
+use tolman_maps::cpm::{Alignment, Mapping, Matching, Similarity};
+use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer, Onward};
 
 const MAZES: u32 = 200;
 

@@ -2,8 +2,8 @@ use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::super::map::{CpMap, JunctionId, Port};
 use super::{World, WorldPort};
+use tolman_maps::cpm::{CpMap, JunctionId, Port};
 
 /// How a map compares with the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

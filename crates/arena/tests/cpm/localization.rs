@@ -2,14 +2,15 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{
+use tolman_arena::cpm::world::{
     CorridorEnd, Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort,
 };
 use tolman_maps::cpm::{
-    Aim, CpMap, CpmConfig, Dictionary, DictionaryError, End, Environments, Explorer, Landmark,
-    LocalizeError, Localizer, LocalizerConfig, Location, PatternId, Port, Sighting, Sign,
-    Traversal, Turn,
+    CpMap, Dictionary, DictionaryError, End, Environments, LocalizeError, Localizer,
+    LocalizerConfig, Location, PatternId, Port, Sighting, Sign, Traversal, Turn,
 };
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
 
 use super::explorations::pursue;
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort};
+use tolman_arena::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort};
 use tolman_maps::cpm::{Alignment, Dictionary, Matching, PatternId, Sense, Similarity, Sum, Turn};
 
 /// A sequence as seen, and the corridor it was.

@@ -5,13 +5,14 @@ use alloc::collections::BTreeSet;
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::cpm::world::{
+use tolman_arena::cpm::world::{
     Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
 };
 use tolman_maps::cpm::{
-    Aim, Arrival, Candidates, CpmConfig, Decision, Dictionary, Done, Explorer, JunctionId,
-    Landmark, Mapping, Onward, PatternId, theorem_1,
+    Arrival, Candidates, Dictionary, JunctionId, Mapping, PatternId, theorem_1,
 };
+use tolman_robot::Landmark;
+use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Onward};
 
 /// Lets an explorer pursue an aim.
 pub(crate) fn pursue(

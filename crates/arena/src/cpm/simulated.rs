@@ -1,0 +1,102 @@
+use alloc::sync::Arc;
+
+use tolman_geom::Pose;
+use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
+use tolman_robot::{Landmark, Robot, SensesLandmarks};
+use tolman_sim::robots::Epuck;
+use tolman_sim::{PlaceError, Solo, StepError, Truth, World, Zone};
+
+/// The simulated e-puck. Its maze's zones `start` and `destination` are its landmarks.
+#[derive(Debug)]
+pub struct SimulatedEpuck {
+    solo: Solo<Epuck>,
+    landmarks: Vec<(Landmark, Zone)>,
+    path: Vec<Pose>,
+    bumps: u32,
+}
+
+impl SimulatedEpuck {
+    /// Puts the robot at `start`.
+    ///
+    /// # Errors
+    /// If it cannot stand there.
+    pub fn new(
+        world: Arc<World>,
+        robot: Epuck,
+        start: Pose,
+        seed: u64,
+    ) -> Result<Self, PlaceError> {
+        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
+        let landmarks = names
+            .into_iter()
+            .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())))
+            .collect();
+        Ok(Self {
+            solo: Solo::new(world, robot, start, seed)?,
+            landmarks,
+            path: vec![start],
+            bumps: 0,
+        })
+    }
+
+    /// What really is, for scoring.
+    #[must_use]
+    pub fn truth(&self) -> &Truth {
+        self.solo.truth()
+    }
+
+    /// Where it was after every step.
+    #[must_use]
+    pub fn path(&self) -> &[Pose] {
+        &self.path
+    }
+
+    /// In how many steps it touched something.
+    #[must_use]
+    pub const fn bumps(&self) -> u32 {
+        self.bumps
+    }
+
+    /// Lifts it and sets it down elsewhere.
+    ///
+    /// # Errors
+    /// If it cannot stand there.
+    pub fn place(&mut self, pose: Pose) -> Result<(), PlaceError> {
+        self.solo.place(pose)
+    }
+
+    /// The world it is in.
+    #[must_use]
+    pub fn world(&self) -> &World {
+        self.solo.simulation().world()
+    }
+}
+
+impl Robot for SimulatedEpuck {
+    type Command = WheelSpeeds;
+    type Sensing = EpuckSensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &EpuckSensing {
+        self.solo.sensing()
+    }
+
+    fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
+        self.solo.step(command)?;
+        let truth = self.solo.truth();
+        self.bumps += u32::from(truth.bump);
+        self.path.push(truth.pose);
+        Ok(())
+    }
+}
+
+impl SensesLandmarks for SimulatedEpuck {
+    fn landmark(&self) -> Option<Landmark> {
+        let here = self.solo.truth().pose.position;
+        let mut at = self
+            .landmarks
+            .iter()
+            .filter(|(_, zone)| zone.contains(here));
+        at.next().map(|(landmark, _)| *landmark)
+    }
+}

@@ -1,0 +1,68 @@
+use tolman_maps::cpm::{Candidates, CpMapperConfig, Mapping, Matching};
+
+/// How CPM maps and decides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CpmConfig {
+    /// When the map is looked at.
+    pub mapping: Mapping,
+    /// How fragments are compared.
+    pub matching: Matching,
+    /// Which fragments are compared.
+    pub candidates: Candidates,
+    /// What to do at a junction without unknown ports.
+    pub onward: Onward,
+    /// Maximum number of fragments walked before the explorer gives up and says so. A robot that
+    /// recognizes nothing lengthens its map with each, and nothing else ends its exploration.
+    pub most_traversals: u32,
+}
+
+/// What a robot does online at a junction that "has no unknown ports left".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Onward {
+    /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
+    ShortestKnownWay,
+    /// "It continues forward until reaching a junction that has some remaining unknown ports", to the letter: by a port taken
+    /// at random, which can go round in circles and breaks the proof of Theorem 1.
+    GoOn,
+}
+
+impl CpmConfig {
+    /// Returns how the map is made.
+    #[must_use]
+    pub const fn mapper(&self) -> CpMapperConfig {
+        CpMapperConfig {
+            mapping: self.mapping,
+            matching: self.matching,
+            candidates: self.candidates,
+        }
+    }
+
+    /// Returns section 6's, online CPM: [`CpMapperConfig::online`]. Gives up after 1000 fragments, of which the paper says nothing:
+    /// by Theorem 1 a maze of 44 fragments takes at most 990, and in practice one of 500 that many.
+    #[must_use]
+    pub const fn online() -> Self {
+        Self::with(CpMapperConfig::online())
+    }
+
+    /// Returns all that we know better than the paper: [`CpMapperConfig::robust`].
+    #[must_use]
+    pub const fn robust() -> Self {
+        Self::with(CpMapperConfig::robust())
+    }
+
+    /// Returns section 4's, offline CPM: [`CpMapperConfig::offline`].
+    #[must_use]
+    pub const fn offline() -> Self {
+        Self::with(CpMapperConfig::offline())
+    }
+
+    const fn with(mapper: CpMapperConfig) -> Self {
+        Self {
+            mapping: mapper.mapping,
+            matching: mapper.matching,
+            candidates: mapper.candidates,
+            onward: Onward::ShortestKnownWay,
+            most_traversals: 1000,
+        }
+    }
+}

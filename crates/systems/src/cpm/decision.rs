@@ -1,0 +1,46 @@
+use tolman_maps::cpm::{End, Turn};
+use tolman_robot::Landmark;
+
+/// What the robot wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// To be at a landmark: by the shortest known way if it is on the map, else by exploring.
+    Find(Landmark),
+    /// To have been through every port of the map ("the task is to obtain the complete map").
+    Explore,
+    /// To be at the start again, trying unknown ports that might make the way between start and goal shorter (section 6).
+    WayBack,
+    /// To be sure that no way between start and goal is shorter than the shortest of the map; ours.
+    Shortest,
+}
+
+/// What to do at a junction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decision {
+    /// Turn and follow the path.
+    Go(Leg),
+    /// Nothing more to do for this aim.
+    Done(Done),
+}
+
+/// One fragment to walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leg {
+    /// Δ, to perform first.
+    pub turn: Turn,
+    /// The end of the fragment it enters, if that is on the map.
+    pub known: Option<End>,
+    /// After so many observations without an end of the fragment, turn round and come back; for ever on if none.
+    pub give_up_after: Option<u32>,
+}
+
+/// Why there is nothing more to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Done {
+    /// The aim is reached.
+    Reached,
+    /// All that can be reached was explored, and what was looked for is not there.
+    NotThere,
+    /// [`CpmConfig::most_traversals`] fragments were walked.
+    OutOfPatience,
+}

@@ -1,0 +1,40 @@
+use super::decision::Done;
+use super::robot::CpmRobot;
+use super::walker::Walker;
+
+/// What became of an episode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Episode {
+    /// Why it ended.
+    pub done: Done,
+    /// How long it took, s.
+    pub seconds: f64,
+    /// How many observations were made.
+    pub observations: u32,
+}
+
+/// When an episode began.
+#[derive(Clone, Copy, Debug)]
+pub struct Begun {
+    time_us: u64,
+    observations: u32,
+}
+
+impl Begun {
+    /// Returns now.
+    pub fn now<B: CpmRobot>(walker: &Walker<B>) -> Self {
+        Self {
+            time_us: walker.time_us(),
+            observations: walker.observations(),
+        }
+    }
+
+    /// Returns the episode that has ended now.
+    pub fn ended<B: CpmRobot>(&self, done: Done, walker: &Walker<B>) -> Episode {
+        Episode {
+            done,
+            seconds: (walker.time_us() - self.time_us) as f64 * 1e-6,
+            observations: walker.observations() - self.observations,
+        }
+    }
+}

@@ -1,0 +1,45 @@
+use super::config::CpmConfig;
+use super::walker_config::HeadingBy;
+
+/// How a robot maps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mode {
+    /// As the paper's: no dead reckoning.
+    Paper(CpmConfig),
+    /// With dead reckoning.
+    Reckoned(CpmConfig),
+    /// With dead reckoning, and without any patterns but those that it learns on its way.
+    Unlearned(CpmConfig),
+}
+
+/// How far from all patterns an observation is that becomes one on the way.
+const NOVELTY: f64 = 30.0;
+
+impl Mode {
+    /// Returns how it maps and decides.
+    #[must_use]
+    pub const fn config(self) -> CpmConfig {
+        match self {
+            Self::Paper(config) | Self::Reckoned(config) | Self::Unlearned(config) => config,
+        }
+    }
+
+    /// Returns what dead reckoning takes headings from.
+    #[must_use]
+    pub const fn heading(self) -> HeadingBy {
+        match self {
+            Self::Paper(_) => HeadingBy::Encoders,
+            Self::Reckoned(_) | Self::Unlearned(_) => HeadingBy::Walls,
+        }
+    }
+
+    /// Returns how far from all patterns an observation is that becomes one on the way; `None` where all
+    /// are learned before.
+    #[must_use]
+    pub const fn novelty(self) -> Option<f64> {
+        match self {
+            Self::Unlearned(_) => Some(NOVELTY),
+            Self::Paper(_) | Self::Reckoned(_) => None,
+        }
+    }
+}

@@ -1,0 +1,241 @@
+use core::ops::ControlFlow;
+
+use rand::{Rng, RngExt};
+use tolman_maps::cpm::{CpMap, LocalizeError, Localizer, LocalizerConfig, RestingLocalizer, Turn};
+
+use super::common_patterns::CommonPatterns;
+use super::robot::CpmRobot;
+use super::walker::{BeforePlace, Prospect, Walk, WalkError, Walker};
+use super::whereabouts::{Approach, SURE, Whereabouts, WhereaboutsError};
+
+/// Walks of this robot along one fragment differ by less than one stride in twenty.
+const CONFIG: LocalizerConfig = LocalizerConfig {
+    slip: 0.05,
+    ..LocalizerConfig::usual()
+};
+
+/// A robot that was put down anywhere, also in mid-fragment, and finds out on which of some maps it is, and where
+/// (section 8, "the start point is changed").
+///
+/// It comes to the place ahead by its approach and then, at random, along further fragments that its maps have. It ends when it
+/// is sure, or has come to so many places after the first. The paper's robot begins to observe at that first place; ours does at once.
+#[derive(Clone, Debug)]
+pub struct Search<'a> {
+    patterns: &'a CommonPatterns,
+    localizer: Localizer<'a>,
+    progress: Progress,
+}
+
+/// A [`Search`] between two fragments, without the maps that it is on.
+#[derive(Clone, Debug)]
+pub struct RestingSearch {
+    localizer: RestingLocalizer,
+    progress: Progress,
+}
+
+#[derive(Clone, Debug)]
+struct Progress {
+    approach: Approach,
+    /// Places that it may come to after the first.
+    last: usize,
+    found: Whereabouts,
+    /// The ways out of the place it has come to.
+    degree: u32,
+}
+
+impl<'a> Search<'a> {
+    /// Returns a search on `maps` that ends after `most_places` places, at least one.
+    ///
+    /// # Errors
+    /// [`LocalizeError`] if the maps are empty or have other patterns.
+    pub fn new(
+        maps: &'a [CpMap],
+        patterns: &'a CommonPatterns,
+        approach: Approach,
+        most_places: u32,
+    ) -> Result<Self, LocalizeError> {
+        Ok(Self {
+            patterns,
+            localizer: Localizer::new(maps, patterns.dictionary(), CONFIG)?,
+            progress: Progress {
+                approach,
+                last: most_places.saturating_sub(1) as usize,
+                found: Whereabouts::default(),
+                degree: 0,
+            },
+        })
+    }
+
+    /// Returns all that it knows, without maps and patterns.
+    #[must_use]
+    pub fn rest(self) -> RestingSearch {
+        RestingSearch {
+            localizer: self.localizer.rest(),
+            progress: self.progress,
+        }
+    }
+
+    /// Goes on with a search, on the same maps and patterns.
+    #[must_use]
+    pub fn wake(resting: RestingSearch, maps: &'a [CpMap], patterns: &'a CommonPatterns) -> Self {
+        Self {
+            localizer: Localizer::wake(resting.localizer, maps, patterns.dictionary()),
+            patterns,
+            progress: resting.progress,
+        }
+    }
+
+    /// Returns what it has found out.
+    #[must_use]
+    pub const fn found(&self) -> &Whereabouts {
+        &self.progress.found
+    }
+
+    /// Comes to the next place. Breaks where it is sure or has come to as many as it may.
+    ///
+    /// # Errors
+    /// [`WhereaboutsError`].
+    pub fn advance<B: CpmRobot>(
+        &mut self,
+        walker: &mut Walker<B>,
+        rng: &mut impl Rng,
+    ) -> Result<ControlFlow<()>, WhereaboutsError<B::Error>> {
+        let place = self.progress.found.at_places.len();
+        let walk = if place == 0 {
+            self.set_off(walker)?
+        } else {
+            let turn = onward(&self.localizer, self.progress.degree, rng);
+            self.localizer.turn(turn)?;
+            walker.walk(turn.0 as usize, 0, None)?
+        };
+        self.arrive(walker, walk)?;
+        if place == self.progress.last || is_sure(&self.localizer) {
+            return Ok(ControlFlow::Break(()));
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn set_off<B: CpmRobot>(
+        &mut self,
+        walker: &mut Walker<B>,
+    ) -> Result<Walk, WalkError<B::Error>> {
+        let Self {
+            patterns,
+            localizer,
+            progress,
+        } = self;
+        walker.set_off(|prospect| {
+            if progress.approach == Approach::StraightOn {
+                return BeforePlace::Enter;
+            }
+            let mut ahead = localizer.clone();
+            // What cannot be taken in here cannot be at the place either, and is told of there.
+            if take_in(&mut ahead, prospect, patterns).is_err() || is_sure(&ahead) {
+                return BeforePlace::Enter;
+            }
+            ahead.turn_round();
+            *localizer = ahead;
+            progress.found.has_turned_round = true;
+            BeforePlace::TurnRound
+        })
+    }
+
+    fn arrive<B: CpmRobot>(
+        &mut self,
+        walker: &Walker<B>,
+        walk: Walk,
+    ) -> Result<(), WhereaboutsError<B::Error>> {
+        let Walk::Arrived {
+            observations,
+            glimpse,
+            sighting,
+        } = walk
+        else {
+            return Err(WalkError::Lost.into());
+        };
+        let prospect = Prospect {
+            observations,
+            glimpse,
+            landmark: sighting.landmark,
+        };
+        let found = &mut self.progress.found;
+        let is_whole = !found.at_places.is_empty() || found.has_turned_round;
+        let has_seen = is_whole || prospect.glimpse.is_some() || !prospect.observations.is_empty();
+        take_in(&mut self.localizer, &prospect, self.patterns)?;
+        let belief = has_seen.then(|| self.localizer.location());
+        found.under_way.push(belief);
+        if is_whole {
+            found.walks.push(prospect.observations);
+        }
+        self.localizer.arrive(sighting, walker.bearings().as_ref());
+        found.at_places.push(self.localizer.location());
+        self.progress.degree = sighting.degree;
+        Ok(())
+    }
+}
+
+impl RestingSearch {
+    /// Returns what it has found out.
+    #[must_use]
+    pub const fn found(&self) -> &Whereabouts {
+        &self.progress.found
+    }
+}
+
+/// Lets a robot that was put down anywhere [search](Search) until it knows where it is, or gives up. `see` is told of
+/// every place it comes to.
+///
+/// Where it is then, [`Whereabouts::here`] says: `Location::ahead` is the port behind it.
+///
+/// # Errors
+/// [`WhereaboutsError`].
+pub fn find_out<B: CpmRobot>(
+    walker: &mut Walker<B>,
+    maps: &[CpMap],
+    patterns: &CommonPatterns,
+    approach: Approach,
+    most_places: u32,
+    rng: &mut impl Rng,
+    mut see: impl FnMut(&Walker<B>),
+) -> Result<Whereabouts, WhereaboutsError<B::Error>> {
+    let mut search = Search::new(maps, patterns, approach, most_places)?;
+    loop {
+        let flow = search.advance(walker, rng)?;
+        see(walker);
+        if flow.is_break() {
+            return Ok(search.progress.found);
+        }
+    }
+}
+
+/// What is known when a place comes into sight.
+fn take_in(
+    localizer: &mut Localizer<'_>,
+    prospect: &Prospect,
+    patterns: &CommonPatterns,
+) -> Result<(), LocalizeError> {
+    for pattern in patterns.patterns(&prospect.observations) {
+        localizer.observe(pattern)?;
+    }
+    localizer.end_in_sight(prospect.landmark, prospect.glimpse.as_ref());
+    Ok(())
+}
+
+fn is_sure(localizer: &Localizer<'_>) -> bool {
+    localizer.location().probability > SURE
+}
+
+/// A turn at random among those that its maps most likely know: by others it would learn nothing.
+fn onward(localizer: &Localizer<'_>, degree: u32, rng: &mut impl Rng) -> Turn {
+    let turns = || (1..degree).map(Turn);
+    let best = turns()
+        .map(|turn| localizer.knows(turn))
+        .fold(0.0, f64::max);
+    let known: Vec<Turn> = turns()
+        .filter(|turn| localizer.knows(*turn) >= best / 2.0)
+        .collect();
+    match known.len() as u32 {
+        0 => Turn::BACK,
+        count => known[rng.random_range(0..count) as usize],
+    }
+}

@@ -1,0 +1,399 @@
+use alloc::borrow::Cow;
+use core::ops::ControlFlow;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_maps::cpm::{CpMap, CpmError, JunctionId, LocalizeError, Location, Plan, Port, Sign};
+use tolman_robot::{
+    Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, Standing, System, Task,
+};
+
+use super::common_patterns::CommonPatterns;
+use super::config::CpmConfig;
+use super::decision::{Aim, Done};
+use super::explorer::Explorer;
+use super::layer3::{Experience, Layer3};
+use super::reasoner::ReasonerError;
+use super::robot::CpmRobot;
+use super::search::{RestingSearch, Search};
+use super::walker::{RestingWalker, Walker};
+use super::walker_config::WalkerConfig;
+use super::whereabouts::{Approach, WhereaboutsError};
+
+/// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes where it is sent.
+///
+/// An action is one fragment, from one place to the next. Between two actions it holds no robot; nobody may move
+/// the robot then, or it has to be [told](Self::carried).
+///
+/// - [`Task::Explore`] ends when all ways of the map were walked.
+/// - [`Task::Reach`] drives the shortest known way, skipping observations, and explores where none is known.
+/// - [`Task::Localize`] finds out where on its map the robot is.
+#[derive(Clone, Debug)]
+pub struct Cpm {
+    walker: WalkerConfig,
+    config: CpmConfig,
+    /// What it learned before its first map.
+    patterns: CommonPatterns,
+    novelty: Option<f64>,
+    layer: Option<Layer3<'static>>,
+    standing: Stance,
+    rng: ChaCha8Rng,
+}
+
+/// How the robot stands in the world.
+#[derive(Clone, Debug)]
+enum Stance {
+    /// Nobody knows where: it has just been switched on, or was carried.
+    Anywhere,
+    /// It is finding out where.
+    Searching(Box<(RestingWalker, RestingSearch)>),
+    /// At the place where its map has it.
+    AtPlace(RestingWalker),
+}
+
+/// Places at which a robot that is lost has to know where it is; after them it goes on where it most likely is.
+const MOST_PLACES: u32 = 12;
+
+impl Cpm {
+    /// Returns a robot without a map that knows these `patterns` from a learning maze (section 4.1). All random
+    /// numbers follow from `seed`.
+    #[must_use]
+    pub fn new(
+        walker: WalkerConfig,
+        patterns: CommonPatterns,
+        config: CpmConfig,
+        seed: u64,
+    ) -> Self {
+        Self {
+            walker,
+            config,
+            patterns,
+            novelty: None,
+            layer: None,
+            standing: Stance::Anywhere,
+            rng: ChaCha8Rng::seed_from_u64(seed),
+        }
+    }
+
+    /// Returns a robot that has been nowhere: what it observes becomes a pattern if it is farther than `novelty` from
+    /// all that it knows (section 8, "the CPs must be learned incrementally").
+    ///
+    /// # Errors
+    /// [`CpmError::Dictionary`], which no novelty causes.
+    pub fn unlearned(
+        walker: WalkerConfig,
+        novelty: f64,
+        config: CpmConfig,
+        seed: u64,
+    ) -> Result<Self, CpmError> {
+        let patterns = CommonPatterns::none()?;
+        Ok(Self {
+            novelty: Some(novelty),
+            ..Self::new(walker, patterns, config, seed)
+        })
+    }
+
+    /// Returns a robot that has a map, written in these `patterns`, and stands somewhere on it. Unless it is told to
+    /// explore, it finds out where first.
+    ///
+    /// # Errors
+    /// [`CpmError`] if the map has no place.
+    pub fn with_map(
+        walker: WalkerConfig,
+        patterns: CommonPatterns,
+        config: CpmConfig,
+        map: CpMap,
+        seed: u64,
+    ) -> Result<Self, CpmError> {
+        let somewhere = map.junctions().next().map_or(JunctionId(0), |(id, _)| id);
+        let at = Port {
+            junction: somewhere,
+            number: 0,
+        };
+        let explorer = Explorer::resume(config, map, at)?;
+        let layer = Layer3::new(Cow::Owned(patterns.clone()), None, explorer);
+        Ok(Self {
+            layer: Some(layer),
+            ..Self::new(walker, patterns, config, seed)
+        })
+    }
+
+    /// Tells it that the robot was carried elsewhere: it has to find out where it is.
+    pub fn carried(&mut self) {
+        self.standing = Stance::Anywhere;
+    }
+
+    /// Returns the map and what decides by it; `None` before the first action.
+    #[must_use]
+    pub fn explorer(&self) -> Option<&Explorer> {
+        self.layer.as_ref().map(Layer3::explorer)
+    }
+
+    /// Returns the common patterns, those learned on the way among them.
+    #[must_use]
+    pub fn patterns(&self) -> &CommonPatterns {
+        self.layer.as_ref().map_or(&self.patterns, Layer3::patterns)
+    }
+
+    /// Looks where the robot is and begins the map there.
+    fn begin<R: CpmRobot>(&mut self, robot: &mut R) -> Result<Standing, CpmFailure<R::Error>> {
+        let mut walker = Walker::new(robot, self.walker.clone());
+        let start = walker.begin().map_err(ReasonerError::Walk)?;
+        self.begin_map(Explorer::new(self.config, start)?);
+        self.standing = Stance::AtPlace(walker.rest());
+        Ok(Standing::UnderWay)
+    }
+
+    fn begin_map(&mut self, explorer: Explorer) {
+        let patterns = Cow::Owned(self.patterns.clone());
+        self.layer = Some(Layer3::new(patterns, self.novelty, explorer));
+    }
+
+    /// Comes to the next place on the way to knowing where it is.
+    fn localize<R: CpmRobot>(&mut self, robot: &mut R) -> Result<Standing, CpmFailure<R::Error>> {
+        let Some(layer) = &mut self.layer else {
+            return Ok(gave_up("it has no map to find itself on"));
+        };
+        let maps = [layer.explorer().map().clone()];
+        let patterns = layer.patterns();
+        let standing = core::mem::replace(&mut self.standing, Stance::Anywhere);
+        let (mut walker, mut search) = match standing {
+            Stance::Searching(resting) => {
+                let (walker, search) = *resting;
+                (
+                    Walker::wake(robot, self.walker.clone(), walker),
+                    Search::wake(search, &maps, patterns),
+                )
+            }
+            Stance::Anywhere | Stance::AtPlace(_) => (
+                Walker::new(robot, self.walker.clone()),
+                Search::new(&maps, patterns, Approach::ToAndFro, MOST_PLACES)?,
+            ),
+        };
+        let flow = search.advance(&mut walker, &mut self.rng)?;
+        let ways = walker.branches().len();
+        let (walker, here) = (walker.rest(), search.found().here());
+        match (flow, here) {
+            (ControlFlow::Break(()), Some(here)) => {
+                let is_sure = search.found().is_sure();
+                let is_like = maps[0].degree(here.ahead.junction) as usize == ways;
+                layer.explorer_mut().place(here.ahead)?;
+                self.standing = Stance::AtPlace(walker);
+                Ok(if is_sure && is_like {
+                    Standing::Done
+                } else {
+                    self.standing = Stance::Anywhere;
+                    gave_up(format!(
+                        "it is not sure where it is after {MOST_PLACES} places"
+                    ))
+                })
+            }
+            _ => {
+                self.standing = Stance::Searching(Box::new((walker, search.rest())));
+                Ok(Standing::UnderWay)
+            }
+        }
+    }
+
+    /// Walks one fragment towards an aim.
+    fn pursue<R: CpmRobot>(
+        &mut self,
+        robot: &mut R,
+        resting: RestingWalker,
+        aim: Aim,
+    ) -> Result<Standing, CpmFailure<R::Error>> {
+        let Some(layer) = &mut self.layer else {
+            return self.begin(robot);
+        };
+        let mut walker = Walker::wake(robot, self.walker.clone(), resting);
+        let flow = layer.advance(&mut walker, aim, &mut self.rng)?;
+        self.standing = Stance::AtPlace(walker.rest());
+        let ControlFlow::Break(done) = flow else {
+            return Ok(Standing::UnderWay);
+        };
+        layer.optimize()?;
+        Ok(match done {
+            Done::Reached => Standing::Done,
+            Done::NotThere => gave_up("it has been everywhere, and the landmark is not there"),
+            Done::OutOfPatience => gave_up(format!(
+                "it has walked {} fragments, as many as it may",
+                layer.explorer().traversals()
+            )),
+        })
+    }
+
+    /// Drives one fragment of a plan. A robot that comes elsewhere than its map has there is lost.
+    fn drive<R: CpmRobot>(
+        &mut self,
+        robot: &mut R,
+        resting: RestingWalker,
+        plan: &Plan,
+    ) -> Result<Standing, CpmFailure<R::Error>> {
+        let (Some(layer), Some(leg)) = (&mut self.layer, plan.legs.first()) else {
+            self.standing = Stance::AtPlace(resting);
+            return Ok(Standing::Done);
+        };
+        let mut walker = Walker::wake(robot, self.walker.clone(), resting);
+        let sighting = Layer3::drive(&mut walker, leg)?;
+        if layer.expected(leg) == Some(sighting) {
+            layer.explorer_mut().place(leg.arrive)?;
+            self.standing = Stance::AtPlace(walker.rest());
+        }
+        Ok(Standing::UnderWay)
+    }
+
+    /// Returns the shortest known way to a goal; `None` if none is known.
+    fn plan(&self, goal: Goal) -> Option<Plan> {
+        let explorer = self.explorer()?;
+        match goal {
+            Goal::Landmark(landmark) => explorer.plan(landmark),
+            Goal::Place(place) => {
+                let map = explorer.map();
+                map.plan(explorer.at(), |id| id == JunctionId(place))
+            }
+        }
+    }
+
+    /// Goes on towards a goal from a place of the map.
+    fn reach<R: CpmRobot>(
+        &mut self,
+        robot: &mut R,
+        resting: RestingWalker,
+        goal: Goal,
+    ) -> Result<Standing, CpmFailure<R::Error>> {
+        match (self.plan(goal), goal) {
+            (Some(plan), _) => self.drive(robot, resting, &plan),
+            (None, Goal::Landmark(landmark)) => self.pursue(robot, resting, Aim::Find(landmark)),
+            (None, Goal::Place(place)) => {
+                self.standing = Stance::AtPlace(resting);
+                Ok(gave_up(format!("it knows no way to place {place}")))
+            }
+        }
+    }
+}
+
+fn gave_up(why: impl Into<String>) -> Standing {
+    Standing::GaveUp { why: why.into() }
+}
+
+impl Mapper for Cpm {
+    type Observation = Experience;
+    type Error = ObserveError;
+
+    fn observe(&mut self, seen: &Experience) -> Result<(), ObserveError> {
+        match (seen, &mut self.layer) {
+            (Experience::Began(start), _) => {
+                let explorer = Explorer::new(self.config, *start)?;
+                self.begin_map(explorer);
+            }
+            (_, Some(layer)) => {
+                layer.take_in(seen)?;
+            }
+            (_, None) => return Err(ObserveError::NotBegun),
+        }
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        self.explorer()
+            .map_or_else(MapView::default, |explorer| view(explorer.map()))
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let believed = match (&self.standing, self.explorer()) {
+            (Stance::Searching(resting), _) => {
+                let here: Option<Location> = resting.1.found().here();
+                here.map(|here| (here.ahead, here.probability))
+            }
+            (Stance::AtPlace(_), Some(explorer)) => Some((explorer.at(), 1.0)),
+            (Stance::Anywhere, _) | (_, None) => None,
+        };
+        let guess = |(at, weight): (Port, f64)| Guess {
+            at: Position::Place(at.junction.0),
+            weight,
+        };
+        believed.map(guess).into_iter().collect()
+    }
+}
+
+/// Returns a map as places and links; a fragment leads both ways.
+fn view(map: &CpMap) -> MapView {
+    let place = |(id, junction): (JunctionId, &tolman_maps::cpm::Junction)| MapPlace {
+        id: id.0,
+        position: None,
+        landmark: junction.landmark,
+    };
+    let links = map.fragments().flat_map(|(_, fragment)| {
+        let [minus, plus] = Sign::BOTH.map(|sign| fragment.port(sign).junction.0);
+        let link = |from, to| MapLink { from, to };
+        [link(minus, plus), link(plus, minus)]
+    });
+    MapView {
+        places: map.junctions().map(place).collect(),
+        links: links.collect(),
+    }
+}
+
+impl<R: CpmRobot> System<R> for Cpm {
+    type Failure = CpmFailure<R::Error>;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
+        let standing = core::mem::replace(&mut self.standing, Stance::Anywhere);
+        match (standing, task) {
+            (Stance::AtPlace(resting), Task::Localize) => {
+                self.standing = Stance::AtPlace(resting);
+                Ok(Standing::Done)
+            }
+            (Stance::AtPlace(resting), Task::Explore) => self.pursue(robot, resting, Aim::Explore),
+            (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, resting, goal),
+            (lost, task) => {
+                self.standing = lost;
+                if self.layer.is_none() && task != Task::Localize {
+                    return self.begin(robot);
+                }
+                match (self.localize(robot)?, task) {
+                    (Standing::Done, Task::Explore | Task::Reach(_)) => Ok(Standing::UnderWay),
+                    (standing, _) => Ok(standing),
+                }
+            }
+        }
+    }
+
+    fn words(&self) -> String {
+        match &self.standing {
+            Stance::Searching(_) => "lost".to_owned(),
+            Stance::Anywhere | Stance::AtPlace(_) => String::new(),
+        }
+    }
+}
+
+/// Why CPM refuses an observation.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ObserveError {
+    /// No map was begun.
+    #[error("a walk before the place where it began: observe `Experience::Began` first")]
+    NotBegun,
+    /// The map refuses it.
+    #[error(transparent)]
+    Map(#[from] CpmError),
+}
+
+/// Why CPM cannot go on with its robot.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CpmFailure<E> {
+    /// A fragment was not walked, or not taken in.
+    #[error(transparent)]
+    Reasoner(#[from] ReasonerError<E>),
+    /// It could not find out where it is.
+    #[error(transparent)]
+    Whereabouts(#[from] WhereaboutsError<E>),
+    /// The map refuses what it met.
+    #[error(transparent)]
+    Map(#[from] CpmError),
+    /// The map cannot be searched.
+    #[error(transparent)]
+    Localize(#[from] LocalizeError),
+}

@@ -1,0 +1,88 @@
+use core::f64::consts::TAU;
+
+use tolman_control::epuck::{
+    Alignment, ForwardConfig, KeepOffConfig, MeetPointConfig, PilotConfig, RangeCurve,
+    SegmentConfig,
+};
+
+/// What of an e-puck has to be measured before it can be driven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EpuckMeasures {
+    /// What the raw values of its proximity sensors mean.
+    pub curve: RangeCurve,
+    /// Length of its time step, µs.
+    pub step_us: u64,
+    /// Fastest turn of a wheel, rad/s.
+    pub most_wheel_speed: f64,
+}
+
+/// How a walker observes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WalkerConfig {
+    /// The robot's layers.
+    pub pilot: PilotConfig,
+    /// How the vectors of a sweep are averaged.
+    pub alignment: Alignment,
+    /// How they are segmented to tell junctions from paths.
+    pub segments: SegmentConfig,
+    /// How they are segmented to make features.
+    pub features: SegmentConfig,
+    /// How the middle of a junction is looked for.
+    pub meet_point: MeetPointConfig,
+    /// From wall to wall, m.
+    pub corridor_width: f64,
+    /// How long the robot drives from one observation to the next, s; the paper's 0.5.
+    pub stride_s: f64,
+    /// What dead reckoning takes headings from.
+    pub heading: HeadingBy,
+    /// The end of all patience: so many observations of one fragment, of which the paper says nothing.
+    pub longest_fragment: u32,
+}
+
+/// What dead reckoning takes headings from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeadingBy {
+    /// The encoders alone.
+    Encoders,
+    /// The encoders, and the walls where they are seen, which stand at right angles to each other.
+    Walls,
+}
+
+/// "The robot samples the sensor value … 100 times" (section 4.1).
+const SAMPLES: u32 = 100;
+
+/// The least turn, rad, that encoders tell which count no steps.
+const EXACT: f64 = 1e-9;
+
+impl WalkerConfig {
+    /// Returns how the paper's robot drives and observes in corridors `width` m wide. A sample of a
+    /// sweep takes a time step, so that the time step says how fast it sweeps.
+    #[must_use]
+    pub fn paper(epuck: EpuckMeasures, width: f64) -> Self {
+        let EpuckMeasures {
+            curve,
+            step_us,
+            most_wheel_speed,
+        } = epuck;
+        Self {
+            pilot: PilotConfig {
+                step_us,
+                samples: SAMPLES,
+                sweep_speed: TAU / f64::from(SAMPLES) / (step_us as f64 * 1e-6),
+                most_wheel_speed,
+                turn_tolerance: EXACT,
+                curve,
+                forward: ForwardConfig::for_width(width),
+                keep_off: KeepOffConfig::ours(),
+            },
+            alignment: Alignment::Mounts,
+            segments: SegmentConfig::cut(),
+            features: SegmentConfig::joined(),
+            meet_point: MeetPointConfig::for_width(width),
+            corridor_width: width,
+            stride_s: 0.5,
+            heading: HeadingBy::Encoders,
+            longest_fragment: 2000,
+        }
+    }
+}
