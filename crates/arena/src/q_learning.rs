@@ -26,8 +26,7 @@ pub struct Outcome {
 }
 
 /// How to learn. Neither paper names any of these values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct QLearningConfig {
     /// α, 0 … 1.
     pub learning_rate: f64,

@@ -23,8 +23,7 @@ use crate::episode::stream;
 use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
 
 /// How an e-puck surveys a maze.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct EpuckSurveyConfig {
     /// How many moves are made, each from one place to the next.
     pub moves: u32,

@@ -1,9 +1,10 @@
 //! How many common patterns the robot learns: section 5, "31 clusters are obtained with 102 nodes".
 
-use tolman_arena::cpm::{CommonPatterns, Venue, learn};
+use tolman_arena::cpm::{Venue, learn};
 use tolman_experiment::{
     BoxError, Fields, Job, Metric, Record, Row, Table, Tolerance, record, require,
 };
+use tolman_systems::cpm::CommonPatterns;
 
 /// The name of the table.
 pub(super) const DICTIONARY: &str = "dictionary";

@@ -10,7 +10,9 @@ use tolman_arena::cpm::{
     RoundTrip, SimulatedEpuck, Venue, learn_by, placed, slow_epuck, walker_config,
 };
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
-use tolman_systems::cpm::{CommonPatterns, CpmConfig, Done, Episode, Lesson, Reasoner, Step, Walker, WalkerConfig};
+use tolman_systems::cpm::{
+    CommonPatterns, CpmConfig, Done, Episode, Lesson, Reasoner, Step, Walker, WalkerConfig,
+};
 
 /// The name of the table.
 pub(super) const FIGURE_11: &str = "11";

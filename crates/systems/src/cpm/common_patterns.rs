@@ -32,8 +32,7 @@ pub fn soinn() -> SoinnConfig {
 }
 
 /// How long a robot wanders to learn its common patterns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lesson {
     /// Until it has so many observations; the paper's simulated robot had 1000 (section 5).

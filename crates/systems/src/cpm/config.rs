@@ -1,7 +1,7 @@
 use tolman_maps::cpm::{Candidates, CpMapperConfig, Mapping, Matching};
 
 /// How CPM maps and decides.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CpmConfig {
     /// When the map is looked at.
     pub mapping: Mapping,
@@ -17,7 +17,8 @@ pub struct CpmConfig {
 }
 
 /// What a robot does online at a junction that "has no unknown ports left".
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Onward {
     /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,

@@ -2,7 +2,8 @@ use super::config::CpmConfig;
 use super::walker_config::HeadingBy;
 
 /// How a robot maps.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Mode {
     /// As the paper's: no dead reckoning.
     Paper(CpmConfig),
