@@ -33,6 +33,15 @@ pub(super) fn is_map_right(
     are_places && are_fragments && laid == *walked
 }
 
+/// Returns whether a map is that of the whole maze: each place and fragment that can be reached from the start is on it
+/// once, and all are joined as they truly are. O(fragments · cells).
+#[must_use]
+pub fn is_whole_map_right(map: &CpMap, maze: &Maze) -> bool {
+    let fragments = TrueFragments::of(maze);
+    let all = fragments.ways().map(|(.., way)| way.fragment).collect();
+    is_map_right(map, maze, &fragments, &all)
+}
+
 /// Whether a place of a map could be a cell, by what is seen there.
 fn is_like(junction: &Junction, maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) == junction.ports.len() && junction.landmark == landmark_at(maze, cell)

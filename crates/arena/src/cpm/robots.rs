@@ -1,6 +1,7 @@
 use tolman_control::epuck::{RangeCurve, RangeCurveError};
-use tolman_sim::robots::EpuckConfig;
-use tolman_systems::cpm::{EpuckMeasures, WalkerConfig};
+use tolman_sim::robots::{EpuckConfig, LaserPioneerConfig};
+use tolman_sim::sensors::ResponseCurve;
+use tolman_systems::cpm::{EpuckMeasures, RingMeasures, WalkerConfig};
 
 /// A sweep at 4.83 rad/s, just below what the wheels can, takes one sample a step.
 const STEP_US: u64 = 13_000;
@@ -44,13 +45,40 @@ pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, Ra
 
 /// Returns what of a simulated e-puck the system has to know.
 fn measures(robot: &EpuckConfig) -> Result<EpuckMeasures, RangeCurveError> {
-    let reach = libm::round(robot.response.reach() * 1e3) as u32;
-    let millimetres = (0..=reach).map(|millimetre| f64::from(millimetre) * 1e-3);
-    let points = millimetres.map(|range| (range, robot.response.at(range).value));
     Ok(EpuckMeasures {
-        curve: RangeCurve::new(points.collect())?,
+        curve: curve(&robot.response)?,
         step_us: robot.step_us,
         most_wheel_speed: robot.most_wheel_speed,
+    })
+}
+
+/// Returns a response curve turned round, by the millimetre.
+fn curve(response: &ResponseCurve) -> Result<RangeCurve, RangeCurveError> {
+    let reach = libm::round(response.reach() * 1e3) as u32;
+    let millimetres = (0..=reach).map(|millimetre| f64::from(millimetre) * 1e-3);
+    let points = millimetres.map(|range| (range, response.at(range).value));
+    RangeCurve::new(points.collect())
+}
+
+/// Returns what CPM has to know of a laser Pioneer in corridors of this width, m, to take it for
+/// the paper's e-puck.
+///
+/// A turn can be ended to twice what the motors miss by whenever they turn.
+///
+/// # Errors
+/// If the e-puck's response curve cannot be turned round.
+pub fn ring_measures(
+    robot: &LaserPioneerConfig,
+    width: f64,
+) -> Result<RingMeasures, RangeCurveError> {
+    Ok(RingMeasures {
+        corridor_width: width,
+        body_radius: robot.radius,
+        turn_per_step: robot.turn_per_step,
+        translate_per_step: robot.translate_per_step,
+        step_us: robot.step_us,
+        turn_tolerance: (2.0 * robot.motor_noise.turn.absolute_sd).max(1e-9),
+        curve: curve(&epuck().response)?,
     })
 }
 

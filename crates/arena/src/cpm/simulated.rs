@@ -1,6 +1,6 @@
 use alloc::sync::Arc;
 
-use tolman_geom::Pose;
+use tolman_geom::{Point, Pose};
 use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
@@ -26,11 +26,7 @@ impl SimulatedEpuck {
         start: Pose,
         seed: u64,
     ) -> Result<Self, PlaceError> {
-        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
-        let landmarks = names
-            .into_iter()
-            .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())))
-            .collect();
+        let landmarks = landmarks(&world);
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
             landmarks,
@@ -92,11 +88,21 @@ impl Robot for SimulatedEpuck {
 
 impl SensesLandmarks for SimulatedEpuck {
     fn landmark(&self) -> Option<Landmark> {
-        let here = self.solo.truth().pose.position;
-        let mut at = self
-            .landmarks
-            .iter()
-            .filter(|(_, zone)| zone.contains(here));
-        at.next().map(|(landmark, _)| *landmark)
+        landmark_at(&self.landmarks, self.solo.truth().pose.position)
     }
+}
+
+/// Returns the landmarks of a world: its zones `start` and `destination`.
+pub(super) fn landmarks(world: &World) -> Vec<(Landmark, Zone)> {
+    let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
+    names
+        .into_iter()
+        .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())))
+        .collect()
+}
+
+/// Returns the landmark that stands at a position.
+pub(super) fn landmark_at(landmarks: &[(Landmark, Zone)], here: Point) -> Option<Landmark> {
+    let mut at = landmarks.iter().filter(|(_, zone)| zone.contains(here));
+    at.next().map(|(landmark, _)| *landmark)
 }

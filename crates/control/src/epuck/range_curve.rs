@@ -57,6 +57,30 @@ impl RangeCurve {
         Some(nearer.0 + share * (range - nearer.0))
     }
 
+    /// Returns the value read at a range, m: that of the nearest or farthest point beyond them.
+    ///
+    /// ```
+    /// use tolman_control::epuck::RangeCurve;
+    ///
+    /// let curve = RangeCurve::new(vec![(0.0, 3800.0), (0.05, 500.0), (0.25, 0.0)])?;
+    /// assert!((curve.value(0.15) - 250.0).abs() < 1e-9);
+    /// assert!((curve.value(1.0)).abs() < 1e-9);
+    /// # Ok::<(), tolman_control::epuck::RangeCurveError>(())
+    /// ```
+    #[must_use]
+    pub fn value(&self, range: f64) -> f64 {
+        let far = self.points.partition_point(|(at, _)| *at < range);
+        let nearer = far.checked_sub(1).and_then(|near| self.points.get(near));
+        match (nearer, self.points.get(far)) {
+            (Some(near), Some(far)) => {
+                let share = (range - near.0) / (far.0 - near.0);
+                near.1 + share * (far.1 - near.1)
+            }
+            (Some(end), None) | (None, Some(end)) => end.1,
+            (None, None) => 0.0,
+        }
+    }
+
     /// The farthest range that can be told, m.
     #[must_use]
     pub fn reach(&self) -> f64 {

@@ -1,0 +1,129 @@
+//! CPM on the laser Pioneer: mazes learned by a robot nearly four times an e-puck's size, without its sensors.
+
+use alloc::sync::Arc;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maze::Maze;
+use tolman_robot::epuck::WheelSpeeds;
+use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Position, SensesLandmarks, Task};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::{Solo, Truth};
+use tolman_systems::cpm::{
+    CommonPatterns, Cpm, CpmConfig, Lesson, Mode, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
+};
+
+use super::map_right::is_whole_map_right;
+use super::robots::ring_measures;
+use super::simulated::{landmark_at, landmarks};
+use super::trial::{start_of, world_of};
+use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
+use crate::run::{End, Ended, Watched, run};
+
+/// Who tells the robot what it stands at.
+type Tells = Box<dyn Fn(&Solo<LaserPioneer>) -> Option<Landmark>>;
+
+/// Explorations take 30 000.
+const STEP_LIMIT: u32 = 100_000;
+
+/// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
+const MAZE: &str = "\
+start = 0 0 north
+
+o---o---o---o---o
+|           |   |
+o   o---o   o   o
+|   |           |
+o   o   o---o---o
+|   |       | G |
+o   o---o   o   o
+| S             |
+o---o---o---o---o
+";
+
+/// A Pioneer that looks like an e-puck.
+type Epuck = RingAsEpuck<Landmarked<Solo<LaserPioneer>, Tells>>;
+
+/// The robot at the start of a maze, which looks like an e-puck, and how it is driven.
+fn placed(maze: &Maze, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
+    let world = world_of(maze, CORRIDOR_WIDTH).unwrap();
+    let (start, zones) = (start_of(maze, &world).unwrap(), landmarks(&world));
+    let measures = ring_measures(&robot, CORRIDOR_WIDTH).unwrap();
+    let config = measures.walker_config();
+    let model = LaserPioneer::new(robot).unwrap();
+    let solo = Solo::new(Arc::new(world), model, start, seed).unwrap();
+    let landmark: Tells = Box::new(move |solo| landmark_at(&zones, solo.truth().pose.position));
+    let epuck = RingAsEpuck::new(Landmarked::new(solo, landmark), measures);
+    (epuck, config)
+}
+
+fn truth(epuck: &Epuck) -> &Truth {
+    epuck.robot().robot().truth()
+}
+
+/// Lets `cpm` pursue a task to its end, and returns how it ended and the steps it took.
+fn pursue(cpm: &mut Cpm, epuck: &mut Epuck, task: Task) -> Ended {
+    let mut bumps = 0;
+    let watch = |epuck: &&mut Epuck, _: &WheelSpeeds| bumps += u32::from(truth(epuck).bump);
+    let mut robot = Watched::new(epuck, STEP_LIMIT, watch);
+    let ended = run(&mut robot, cpm, task).unwrap();
+    drop(robot);
+    assert_eq!(bumps, 0, "{task:?}");
+    ended
+}
+
+/// Explores, is carried back to the start, finds out that it is there, and goes to the goal.
+fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
+    let start = truth(&epuck).pose;
+    let explored = pursue(&mut cpm, &mut epuck, Task::Explore);
+    let map = cpm.explorer().unwrap().map();
+    assert_eq!(explored.end, End::Done);
+    assert!(is_whole_map_right(map, maze), "{map:?}");
+    let goal = map.landmarks(Landmark::Goal).next().unwrap();
+    epuck.robot_mut().robot_mut().place(start).unwrap();
+    cpm.carried();
+    assert_eq!(cpm.belief(), []);
+    let localized = pursue(&mut cpm, &mut epuck, Task::Localize);
+    assert_eq!(localized.end, End::Done);
+    assert_eq!(cpm.belief().len(), 1);
+    let reached = pursue(
+        &mut cpm,
+        &mut epuck,
+        Task::Reach(Goal::Landmark(Landmark::Goal)),
+    );
+    assert_eq!(reached.end, End::Done);
+    assert_eq!(epuck.landmark(), Some(Landmark::Goal));
+    assert_eq!(cpm.belief()[0].at, Position::Place(goal.0));
+    // Two fragments, without looking round all the way.
+    assert!(8 * reached.steps < explored.steps, "{reached:?}");
+}
+
+/// The calibrated motors miss turns by 12 % and distances by 25 %.
+#[test]
+fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
+    let maze = tolman_maze::read(MAZE).unwrap().maze;
+    for seed in 0..2 {
+        let (epuck, mut config) = placed(&maze, calibrated(), seed);
+        let mode = Mode::Unlearned(CpmConfig::robust());
+        config.heading = mode.heading();
+        let novelty = mode.novelty().unwrap();
+        let cpm = Cpm::unlearned(config, novelty, mode.config(), seed).unwrap();
+        play(cpm, epuck, &maze);
+    }
+}
+
+/// As the paper has it: patterns of a learning maze, no dead reckoning.
+#[test]
+fn a_pioneer_learns_as_the_paper_s_robot_does() {
+    let learning = include_str!("../../mazes/cpm-learning.maze");
+    let learning = tolman_maze::read(learning).unwrap().maze;
+    let (epuck, config) = placed(&learning, calibrated(), 1);
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let mut walker = Walker::new(epuck, config);
+    let seen = wander(&mut walker, Lesson::Observations(300), &mut rng).unwrap();
+    let patterns = CommonPatterns::learn(&seen, soinn()).unwrap();
+    let maze = tolman_maze::read(MAZE).unwrap().maze;
+    let (epuck, config) = placed(&maze, calibrated(), 1);
+    let cpm = Cpm::new(config, patterns, CpmConfig::online(), 1);
+    play(cpm, epuck, &maze);
+}

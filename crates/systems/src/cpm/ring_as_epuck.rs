@@ -1,0 +1,299 @@
+use core::f64::consts::TAU;
+
+use tolman_control::epuck::RangeCurve;
+use tolman_geom::Twist;
+use tolman_robot::epuck::{
+    BODY_RADIUS, EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, TRACK, WHEEL_RADIUS,
+    WheelSpeeds, WheelTurns, proximity_mounts,
+};
+use tolman_robot::{
+    Clock, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks, TurnTranslate,
+};
+
+use super::walker_config::{EpuckMeasures, WalkerConfig};
+
+/// A robot with a ring of range beams that looks like an e-puck to CPM, at another scale.
+///
+/// Its corridors are to it what corridors of 0.25 m are to the e-puck, so all lengths are told in that scale. The
+/// proximity values are made from the ring through the e-puck's response curve; the encoders from odometry.
+/// The ring has to go all round and to reach further than a corridor is wide.
+#[derive(Clone, Debug)]
+pub struct RingAsEpuck<R> {
+    robot: R,
+    measures: RingMeasures,
+    sensing: EpuckSensing,
+}
+
+/// What of a robot with a ring has to be known before it can look like an e-puck.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RingMeasures {
+    /// From wall to wall of its corridors, m.
+    pub corridor_width: f64,
+    /// Radius of its body, m.
+    pub body_radius: f64,
+    /// Turn made in one time step by the command `turn = 1`, rad.
+    pub turn_per_step: f64,
+    /// Way covered in one time step by the command `translate = 1`, m.
+    pub translate_per_step: f64,
+    /// Length of its time step, µs.
+    pub step_us: u64,
+    /// How near to where it should a turn can be ended, rad: what a smallest turn of the motors misses by.
+    pub turn_tolerance: f64,
+    /// What the e-puck that it looks like would sense: raw values by range, in the e-puck's scale.
+    pub curve: RangeCurve,
+}
+
+/// The width of an e-puck's corridors, m.
+const EPUCK_WIDTH: f64 = 0.25;
+
+/// The fastest turn while it drives, rad a time step: so coarse that it still sees a bend end.
+const TURN_A_STEP: f64 = 0.05;
+
+/// Room left between body and wall, in the e-puck's scale, m: where all driving ahead ends, and how much before it slows down.
+const LEAST_ROOM: f64 = 0.01;
+const SLOW_ROOM: f64 = 0.02;
+
+/// Neighbouring beams whose ranges have at most this ratio meet one wall.
+const ONE_WALL: f64 = 1.25;
+
+impl RingMeasures {
+    /// Returns how many metres of this robot are one of the e-puck.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.corridor_width / EPUCK_WIDTH
+    }
+
+    /// Returns how the robot drives and observes: as the paper's, but no faster than its time step allows, and no
+    /// nearer to walls than its body.
+    #[must_use]
+    pub fn walker_config(&self) -> WalkerConfig {
+        let epuck = EpuckMeasures {
+            curve: self.curve.clone(),
+            step_us: self.step_us,
+            most_wheel_speed: MOST_WHEEL_SPEED,
+        };
+        let mut config = WalkerConfig::paper(epuck, EPUCK_WIDTH);
+        let fastest = TURN_A_STEP / self.step_s();
+        let (forward, keep_off) = (&mut config.pilot.forward, &mut config.pilot.keep_off);
+        forward.turn = forward.turn.min(fastest);
+        keep_off.turn = keep_off.turn.min(fastest);
+        keep_off.least = self.body_radius / self.scale() - BODY_RADIUS + LEAST_ROOM;
+        keep_off.margin = keep_off.least + SLOW_ROOM;
+        config.pilot.turn_tolerance = self.turn_tolerance;
+        config
+    }
+
+    fn step_s(&self) -> f64 {
+        self.step_us as f64 * 1e-6
+    }
+
+    /// Returns the command that makes the robot go as an e-puck would with these wheel speeds. A motor that would have to
+    /// do more than it can slows the other down, so that the path is the same.
+    fn command(&self, speeds: &WheelSpeeds) -> TurnTranslate {
+        let rolled = [speeds.left, speeds.right].map(|speed| speed * WHEEL_RADIUS * self.step_s());
+        let Twist { linear, angular } = Twist::of_wheels(rolled[0], rolled[1], TRACK);
+        let turn = angular / self.turn_per_step;
+        let translate = linear * self.scale() / self.translate_per_step;
+        let slow = turn.abs().max(translate.abs()).max(1.0);
+        TurnTranslate {
+            turn: turn / slow,
+            translate: translate / slow,
+        }
+    }
+
+    /// Returns what the e-puck's wheels would have turned.
+    fn encoders(&self, odometry: Odometry) -> WheelTurns {
+        let linear = odometry.distance / self.scale();
+        let apart = odometry.turn * TRACK / 2.0;
+        WheelTurns {
+            left: (linear - apart) / WHEEL_RADIUS,
+            right: (linear + apart) / WHEEL_RADIUS,
+        }
+    }
+
+    /// Returns what the e-puck's sensors would read; `None` where the ring does not go all round.
+    fn proximity(&self, scan: &Scan) -> Option<[f64; PROXIMITY_SENSORS]> {
+        let all_round = f64::from(scan.ring.beams) * scan.ring.spacing;
+        if (all_round - TAU).abs() > 1e-6 || scan.ranges.len() != scan.ring.beams as usize {
+            return None;
+        }
+        // The e-puck's sensors look nearly away from its middle, where the ring's beams come from.
+        Some(proximity_mounts().map(|mount| {
+            let rim = mount.position.coords.norm();
+            let range = range_at(scan, mount.heading.radians());
+            let seen = range.map_or(f64::INFINITY, |range| range / self.scale() - rim);
+            self.curve.value(seen)
+        }))
+    }
+}
+
+/// Returns how far the wall is that a full ring has at a bearing, rad, m; `None` where it meets nothing.
+fn range_at(scan: &Scan, bearing: f64) -> Option<f64> {
+    let beams = scan.ranges.len();
+    let index = (bearing - scan.ring.first_bearing) / scan.ring.spacing;
+    let below = libm::floor(index);
+    let share = index - below;
+    let beam = |index: f64| scan.ranges[index.rem_euclid(beams as f64) as usize % beams];
+    let (one, other) = (beam(below), beam(below + 1.0));
+    let nearer = if share < 0.5 { one } else { other };
+    if nearer >= scan.ring.max_range {
+        return None;
+    }
+    if one.max(other) > ONE_WALL * one.min(other) || one.max(other) >= scan.ring.max_range {
+        return Some(nearer);
+    }
+    // Along a straight wall the inverse of the range is nearly a straight line.
+    Some(1.0 / ((1.0 - share) / one + share / other))
+}
+
+impl<R> RingAsEpuck<R>
+where
+    R: Robot<Command = TurnTranslate>,
+    R::Sensing: Ranges + Rolls + Clock,
+{
+    /// Returns `robot` as an e-puck.
+    pub fn new(robot: R, measures: RingMeasures) -> Self {
+        let mut epuck = Self {
+            robot,
+            measures,
+            sensing: EpuckSensing::default(),
+        };
+        epuck.sense();
+        epuck
+    }
+
+    /// Returns the robot.
+    pub const fn robot(&self) -> &R {
+        &self.robot
+    }
+
+    /// Returns the robot, to be lifted.
+    pub const fn robot_mut(&mut self) -> &mut R {
+        &mut self.robot
+    }
+
+    fn sense(&mut self) {
+        let sensing = self.robot.sensing();
+        self.sensing = EpuckSensing {
+            time_us: sensing.time_us(),
+            proximity: sensing
+                .scan()
+                .and_then(|scan| self.measures.proximity(scan)),
+            encoders: sensing
+                .odometry()
+                .map(|odometry| self.measures.encoders(odometry)),
+            bump: None,
+        };
+    }
+}
+
+impl<R> Robot for RingAsEpuck<R>
+where
+    R: Robot<Command = TurnTranslate>,
+    R::Sensing: Ranges + Rolls + Clock,
+{
+    type Command = WheelSpeeds;
+    type Sensing = EpuckSensing;
+    type Error = R::Error;
+
+    fn sensing(&self) -> &EpuckSensing {
+        &self.sensing
+    }
+
+    fn step(&mut self, command: &WheelSpeeds) -> Result<(), R::Error> {
+        self.robot.step(&self.measures.command(command))?;
+        self.sense();
+        Ok(())
+    }
+}
+
+impl<R> SensesLandmarks for RingAsEpuck<R>
+where
+    R: SensesLandmarks + Robot<Command = TurnTranslate>,
+    R::Sensing: Ranges + Rolls + Clock,
+{
+    fn landmark(&self) -> Option<Landmark> {
+        self.robot.landmark()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::Ring;
+
+    use super::*;
+
+    fn measures() -> RingMeasures {
+        RingMeasures {
+            corridor_width: 1.0,
+            body_radius: 0.25,
+            turn_per_step: 0.5,
+            translate_per_step: 0.2,
+            step_us: 100_000,
+            turn_tolerance: 0.01,
+            curve: RangeCurve::new(vec![(0.0, 1000.0), (0.25, 0.0)]).unwrap(),
+        }
+    }
+
+    /// A wall straight across, `ahead` m before a robot that has turned by `turned`.
+    fn wall(ahead: f64, turned: f64) -> Scan {
+        let mut scan = Scan::clear(Ring::full(72, 2.0));
+        for beam in 0..scan.ring.beams {
+            let cos = (scan.ring.bearing(beam) + turned).cos();
+            if cos > 0.0 && ahead / cos < 2.0 {
+                scan.ranges[beam as usize] = ahead / cos;
+            }
+        }
+        scan
+    }
+
+    #[test]
+    fn what_it_would_roll_as_an_epuck_it_rolls_at_its_scale() {
+        let measures = measures();
+        let twist = Twist {
+            linear: 0.05,
+            angular: 0.3,
+        };
+        let speeds = WheelSpeeds::of_twist(twist, MOST_WHEEL_SPEED);
+        let command = measures.command(&speeds);
+        // 0.05 m/s at 4 times the size, for 0.1 s.
+        assert!((command.translate * measures.translate_per_step - 0.02).abs() < 1e-12);
+        assert!((command.turn * measures.turn_per_step - 0.03).abs() < 1e-12);
+        let turns = measures.encoders(Odometry {
+            distance: 0.02,
+            turn: 0.03,
+        });
+        assert!((turns.left - speeds.left * 0.1).abs() < 1e-12);
+        assert!((turns.right - speeds.right * 0.1).abs() < 1e-12);
+        // Too fast for its motors: slower, on the same path.
+        let fast = measures.command(&WheelSpeeds {
+            left: 100.0,
+            right: 120.0,
+        });
+        assert!((fast.translate - 1.0).abs() < 1e-12 && fast.turn > 0.0);
+    }
+
+    #[test]
+    fn walls_read_as_the_epuck_would_read_them() {
+        let measures = measures();
+        for turned in [0.0, 0.02, 0.05, 0.3] {
+            let values = measures.proximity(&wall(0.6, turned)).unwrap();
+            for (mount, value) in proximity_mounts().iter().zip(values) {
+                let cos = (mount.heading.radians() + turned).cos();
+                let range = 0.15 / cos - mount.position.coords.norm();
+                let expected = if cos > 0.0 && 0.15 / cos < 0.5 {
+                    measures.curve.value(range)
+                } else {
+                    0.0
+                };
+                assert!((value - expected).abs() < 8.0, "{value} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ring_with_a_gap_reads_nothing() {
+        let scan = Scan::clear(Ring::fan(181, core::f64::consts::PI, 8.0));
+        assert_eq!(measures().proximity(&scan), None);
+    }
+}
