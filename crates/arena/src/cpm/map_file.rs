@@ -4,7 +4,7 @@ use tolman_maps::cpm::{self, CpMap, CpmConfig};
 
 use super::common_patterns::CommonPatterns;
 use super::trial::Mode;
-use crate::file_kind::{FileError, FileKind};
+use tolman_systems::{FileError, FileKind};
 
 /// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the bit.
 #[derive(Clone, Debug)]

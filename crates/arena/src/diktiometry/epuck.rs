@@ -22,7 +22,7 @@ use crate::cpm::{
     HeadingBy, SimulatedEpuck, TrialError, TrueFragments, Walk, WalkError, Walker, epuck, placed,
     walker_config,
 };
-use crate::episode::stream;
+use tolman_systems::stream;
 
 /// How an e-puck surveys a maze.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,7 +11,8 @@ mod worlds;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::venue::{self, Venue};
-use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_arena::pioneer;
 use tolman_draw::Figure;

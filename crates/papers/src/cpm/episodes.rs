@@ -9,8 +9,8 @@ use tolman_maze::{Cell, Maze};
 
 use super::trials;
 use tolman_arena::cpm::{CommonPatterns, TrueFragments, Venue, Way};
-use tolman_arena::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 use tolman_experiment::{BoxError, Field, Fields, Job, Kind, Metric, Row, Run, Table};
+use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 
 /// The name of the table.
 pub(super) const EPISODES: &str = "episodes";

@@ -16,11 +16,11 @@ mod trials;
 mod venue;
 
 use tolman_arena::cpm::{CommonPatterns, Mode, Record, Venue, epuck, learn};
-use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::Run;
 use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Table};
 use tolman_replay::Replay;
+use tolman_systems::baselines::q_learning::QLearningConfig;
 
 use detector::DETECTOR;
 use dictionary::DICTIONARY;

@@ -17,11 +17,11 @@ use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use crate::data;
 use tolman_arena::micromouse::{MAX_STEPS, Searcher};
-use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Experiment, Field, Fields, Job, Kind, Metric, Options, Row, Run, Table, Tolerance,
 };
+use tolman_systems::baselines::q_learning::QLearningConfig;
 
 use competition::COMPETITION;
 use paper::PaperTable;

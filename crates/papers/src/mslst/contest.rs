@@ -9,14 +9,16 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use super::MAPS;
 use crate::venue::{self, Venue};
-use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::episode::{self, Episode, Trial};
-use tolman_arena::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
+use tolman_arena::mslst::{LearnError, learn};
 use tolman_experiment::{
     BoxError, Correction, Field, Fields, Job, Kind, Metric, Pairwise, Run, Table, Tolerance,
     run_seed,
 };
 use tolman_replay::Replay;
+use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 
 /// One world, the brains that compete in it, and what they share.
 #[derive(Debug)]
@@ -166,7 +168,7 @@ impl Contest {
             Some(apprentice) => {
                 let learned = apprentice.learned(self, robot, job.run % MAPS)?;
                 let map = Arc::new(learned.map.clone());
-                Mind::Brain(Box::new(Mslst::new(map, &apprentice.config)))
+                Mind::Brain(Box::new(Navigator::new(map, &apprentice.config)))
             }
             None => {
                 let agent = Agent::named(job.row)

@@ -6,10 +6,10 @@ use tolman_maps::mslst_graph::{DUMMY, Node};
 use super::contest::{Apprentice, Contest};
 use super::drawing::{self, SHOWN_ACTIONS};
 use super::{MAPS, Mslst};
-use tolman_arena::mslst::Learned;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Field, Run};
 use tolman_stats::wilson_interval;
+use tolman_systems::mslst::Learned;
 
 /// How many runs one plan shows at most.
 const SHOWN: usize = 25;

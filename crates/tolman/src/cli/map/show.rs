@@ -7,9 +7,9 @@ use anyhow::anyhow;
 use serde_json::json;
 use tolman_arena::cpm;
 use tolman_arena::diktiometry::SurveyFile;
-use tolman_arena::mslst::MapFile;
 use tolman_draw::Figure;
 use tolman_papers::mslst::drawing;
+use tolman_systems::mslst::MapFile;
 
 use super::{Failure, show_cpm, show_survey};
 use crate::cli::{file, run};

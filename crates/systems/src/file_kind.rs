@@ -4,20 +4,20 @@ use thiserror::Error;
 
 /// A kind of files that hold what an agent has learned: JSON that begins with its format and version.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FileKind {
+pub struct FileKind {
     /// What `format` says.
-    pub(crate) format: &'static str,
+    pub format: &'static str,
     /// The version that is written; all versions up to it are read.
-    pub(crate) version: u32,
+    pub version: u32,
     /// Such as "survey".
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// What makes one.
-    pub(crate) command: &'static str,
+    pub command: &'static str,
 }
 
 /// How such a file begins, whatever its version.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct FileHeader {
+pub struct FileHeader {
     format: String,
     version: u32,
 }
@@ -85,15 +85,16 @@ pub enum FileError {
 }
 
 impl FileKind {
-    pub(crate) fn header(&self) -> FileHeader {
+    /// Returns what a file of this kind begins with.
+    pub fn header(&self) -> FileHeader {
         FileHeader {
             format: self.format.to_owned(),
             version: self.version,
         }
     }
 
-    /// Whether a text says that it is of this kind: of whatever version, sound, broken or cut off.
-    pub(crate) fn claims(&self, text: &str) -> bool {
+    /// Returns whether a text says that it is of this kind: of whatever version, sound, broken or cut off.
+    pub fn claims(&self, text: &str) -> bool {
         let header: Result<FileHeader, _> = serde_json::from_str(text);
         header.map_or_else(
             |_| text.contains(&format!("\"{}\"", self.format)),
@@ -101,22 +102,22 @@ impl FileKind {
         )
     }
 
-    /// The text of a file, with a line end. What it holds has the header.
+    /// Returns the text of a file, with a line end. `body` has the header.
     ///
     /// # Errors
     /// [`FileError::Unwritable`].
-    pub(crate) fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
+    pub fn write(&self, body: &impl Serialize) -> Result<String, FileError> {
         let name = self.name;
         serde_json::to_string(body)
             .map(|text| text + "\n")
             .map_err(|source| FileError::Unwritable { name, source })
     }
 
-    /// What a file holds, its header besides.
+    /// Returns what a file holds, its header besides.
     ///
     /// # Errors
     /// [`FileError`].
-    pub(crate) fn parse<T: DeserializeOwned>(&self, text: &str) -> Result<T, FileError> {
+    pub fn parse<T: DeserializeOwned>(&self, text: &str) -> Result<T, FileError> {
         let Self {
             format,
             version,
