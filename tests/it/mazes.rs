@@ -6,7 +6,7 @@ use tolman_arena::pioneer::body;
 use tolman_geom::{Heading, Pose};
 use tolman_robot::{Body, epuck};
 
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 
 use crate::support::{course, course_for, data_of_others, files, mind, root, trial};
 

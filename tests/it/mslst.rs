@@ -2,13 +2,15 @@
 
 use alloc::sync::Arc;
 
-use tolman_arena::agents::{Guess, Mind, Place};
+use tolman_arena::Mind;
 use tolman_arena::episode::{self, Episode};
-use tolman_arena::mslst::{Learned, MapFile, Mslst, MslstConfig, learn};
+use tolman_arena::mslst::learn;
 use tolman_arena::pioneer::calibrated;
 use tolman_maps::mslst_graph::DUMMY;
 use tolman_papers::Recorder;
 use tolman_replay::Shape;
+use tolman_robot::{Guess, Position};
+use tolman_systems::mslst::{Learned, MapFile, MslstConfig, Navigator};
 
 use crate::support::{own_course, trial};
 
@@ -27,7 +29,7 @@ fn learned() -> Learned {
 
 fn solve(learned: Learned, seed: u64) -> Episode {
     let course = own_course("j.maze");
-    let mind = Mslst::new(Arc::new(learned.map), &config());
+    let mind = Navigator::new(Arc::new(learned.map), &config());
     let mut mind = Mind::Brain(Box::new(mind));
     episode::run(&trial(&course, seed), &mut mind, |_| {}).unwrap()
 }
@@ -136,15 +138,15 @@ fn a_replay_shows_where_the_robot_believed_to_be() {
     let learned = learned();
     let trial = trial(&course, 3);
     let mut recorder = Recorder::new(&trial).knowing(&learned.survey.positions);
-    let mslst = Mslst::new(Arc::new(learned.map.clone()), &config());
+    let mslst = Navigator::new(Arc::new(learned.map.clone()), &config());
     let mut mind = Mind::Brain(Box::new(mslst));
     let mut guessed = Vec::new();
     let episode = episode::run(&trial, &mut mind, |step| {
         recorder.see(step);
         if let Some(Guess {
-            place: Place::Node(node),
+            at: Position::Place(node),
             ..
-        }) = step.mind.thought().guesses.first()
+        }) = step.belief().first()
         {
             guessed.push(*node);
         }

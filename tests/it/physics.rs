@@ -7,7 +7,7 @@ use tolman_arena::pioneer::{body, calibrated, without_noise};
 use tolman_geom::{Point, Pose, Vector};
 use tolman_robot::Robot;
 
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 
 use crate::support::{mind, own_course, trial, trial_of};
 

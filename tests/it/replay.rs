@@ -6,7 +6,7 @@ use tolman_robot::Robot;
 use tolman_sim::Solo;
 use tolman_sim::robots::LaserPioneer;
 
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 
 use crate::support::{mind, own_course, trial};
 

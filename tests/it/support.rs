@@ -5,7 +5,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::episode::{Trial, random_start};
 use tolman_arena::pioneer::{body, calibrated};

@@ -3,7 +3,7 @@
 use tolman_arena::course::Course;
 use tolman_arena::episode;
 
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 
 use crate::support::{mind, own_course, trial};
 

@@ -1,18 +1,25 @@
 //! One run of one mind: from a start until the destination is reached or time is up.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use thiserror::Error;
-use tolman_control::{Outcome, RingError};
-use tolman_geom::Pose;
-use tolman_maze::Direction;
-use tolman_robot::{Body, Robot, TurnTranslate};
-use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{PlaceError, Solo, StepError};
+mod step;
 
-use crate::agents::{Mind, Perception};
+use core::convert::Infallible;
+
+use thiserror::Error;
+use tolman_control::{Drive, RingError, Stack};
+use tolman_geom::Pose;
+use tolman_robot::{Body, Goal, Landmark, Robot, Task};
+use tolman_sim::robots::{ConfigError, LaserPioneerConfig};
+use tolman_sim::{PlaceError, StepError};
+use tolman_systems::{Actor, ActorError, stream};
+
 use crate::course::Course;
-use crate::drive::Drive;
+use crate::mind::Mind;
+use crate::oracle::Seer;
+use crate::pioneer::CoursePioneer;
+use crate::run::{self, End, Watched, WatchedError};
+
+use step::Shown;
+pub use step::Step;
 
 /// Why a run could not be made.
 #[derive(Debug, Error)]
@@ -43,7 +50,7 @@ pub enum EpisodeError {
         /// Which one, from 0.
         step: u32,
         /// Why.
-        source: StepError,
+        source: WatchedError<StepError>,
     },
 }
 
@@ -79,25 +86,13 @@ pub struct Episode {
     pub path: Vec<Pose>,
 }
 
-/// One time step of a run, as it has just been made.
-#[derive(Clone, Copy, Debug)]
-pub struct Step<'a> {
-    /// The action it belongs to.
-    pub action: Direction,
-    /// Who chose it.
-    pub mind: &'a Mind,
-    /// What the motors were told.
-    pub command: TurnTranslate,
-    /// How the action ended with this step; none while it goes on.
-    pub ends: Option<Outcome>,
-    /// The robot as it is now.
-    pub robot: &'a Solo<LaserPioneer>,
-}
-
 /// The streams that one run's seed is split into, beside the simulation's own.
 const LAYERS_STREAM: u64 = 1;
 const MIND_STREAM: u64 = 2;
 const START_STREAM: u64 = 3;
+
+/// What a mind is asked to do.
+const ARRIVE: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
 /// The random start of the run with this seed: see [`Course::random_start`].
 #[must_use]
@@ -105,10 +100,12 @@ pub fn random_start(course: &Course, body: &Body, seed: u64) -> Pose {
     course.random_start(body, &mut stream(seed, START_STREAM))
 }
 
-pub(crate) fn stream(seed: u64, stream: u64) -> ChaCha8Rng {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(stream);
-    rng
+/// Returns the layers of a robot of this make on a course.
+///
+/// # Errors
+/// If the layers do not fit the robot's ring.
+pub(crate) fn layers(course: &Course, robot: &LaserPioneerConfig) -> Result<Stack, RingError> {
+    Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)
 }
 
 /// Lets `mind` drive until its robot reaches the destination or the trial's time is up.
@@ -122,75 +119,58 @@ pub fn run(
     mind: &mut Mind,
     mut watch: impl FnMut(&Step<'_>),
 ) -> Result<Episode, EpisodeError> {
-    let mut drive = Drive::new(
-        trial.course,
-        &trial.robot,
-        trial.start,
-        trial.seed,
-        stream(trial.seed, LAYERS_STREAM),
-    )?;
-    let mut mind_rng = stream(trial.seed, MIND_STREAM);
-
-    let mut episode = Episode {
-        reached: false,
-        actions: 0,
-        failed_actions: 0,
-        steps: 0,
-        bumps: 0,
-        path: vec![trial.start],
+    let robot = CoursePioneer::new(trial.course, &trial.robot, trial.start, trial.seed)?;
+    let mut path = vec![trial.start];
+    let mut bumps = 0;
+    let mut robot = Watched::new(robot, trial.step_limit, |robot: &CoursePioneer<'_>, _| {
+        path.push(robot.truth().pose);
+        bumps += u32::from(robot.truth().bump);
+    });
+    // An action may last as long as the run.
+    let layers = layers(trial.course, &trial.robot)?;
+    let drive = Drive::new(layers, stream(trial.seed, LAYERS_STREAM)).longest_action(u32::MAX);
+    let mut failed_actions = 0;
+    let mut see = |step: &Step<'_>| {
+        failed_actions += u32::from(step.ends.is_some_and(|outcome| !outcome.moved()));
+        watch(step);
     };
-    let mut last = None;
-    while episode.steps < trial.step_limit && !episode.reached {
-        let action = choose(mind, last, drive.robot(), &mut mind_rng);
-        drive.begin(action);
-        episode.actions += 1;
-        while episode.steps < trial.step_limit && !episode.reached {
-            let proposal = drive.step()?;
-            episode.record(&drive);
-            watch(&Step {
-                action,
-                mind,
-                command: proposal.command,
-                ends: proposal.ends,
-                robot: drive.robot(),
-            });
-            if let Some(outcome) = proposal.ends {
-                episode.failed_actions += u32::from(!outcome.moved());
-                last = Some((action, outcome));
-                break;
-            }
-        }
-    }
-    Ok(episode)
-}
-
-impl Episode {
-    /// Takes down the step that was just made.
-    fn record(&mut self, drive: &Drive<'_>) {
-        let truth = drive.robot().truth();
-        self.steps = drive.steps();
-        self.bumps += u32::from(truth.bump);
-        self.path.push(truth.pose);
-        self.reached = drive.is_in_destination();
-    }
-}
-
-fn choose(
-    mind: &mut Mind,
-    last: Option<(Direction, Outcome)>,
-    solo: &Solo<LaserPioneer>,
-    rng: &mut ChaCha8Rng,
-) -> Direction {
-    match mind {
-        Mind::Yardstick(yardstick) => yardstick.choose(last, solo.truth(), rng),
+    let ended = match mind {
         Mind::Brain(brain) => {
-            let sensing = solo.sensing();
-            let perception = Perception {
-                last,
-                scan: sensing.scan.as_ref(),
-                heading: sensing.compass,
-            };
-            brain.choose(&perception, rng)
+            let actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
+            let mut system = Shown::new(actor, |brain, step| see(&Step::of(Some(brain), step)));
+            run::run(&mut robot, &mut system, ARRIVE).map_err(|error| broken(&robot, error))
         }
+        Mind::Oracle(oracle) => {
+            let mut system = Seer::new(oracle, drive, |step| see(&Step::of(None, step)));
+            let ended = run::run(&mut robot, &mut system, ARRIVE);
+            ended.map_err(|source| broken(&robot, ActorError::Robot(source)))
+        }
+    }?;
+    drop(robot);
+    Ok(Episode {
+        reached: ended.end == End::Done,
+        actions: ended.actions,
+        failed_actions,
+        steps: ended.steps,
+        bumps,
+        path,
+    })
+}
+
+/// Returns that the simulator refused the command of time step `step`.
+pub(crate) const fn step_failed(step: u32, source: StepError) -> EpisodeError {
+    let source = WatchedError::Robot(source);
+    EpisodeError::Step { step, source }
+}
+
+/// Returns why a run broke off at the robot's next step.
+pub(crate) fn broken<R: Robot, F: FnMut(&R, &R::Command)>(
+    robot: &Watched<R, F>,
+    error: ActorError<WatchedError<StepError>, Infallible>,
+) -> EpisodeError {
+    let step = robot.steps();
+    match error {
+        ActorError::Robot(source) => EpisodeError::Step { step, source },
+        ActorError::Brain(never) => match never {},
     }
 }

@@ -1,15 +1,14 @@
-//! The robot of MSLST: a Pioneer with a ring of 72 laser beams and a compass, and its layers.
+//! The robot of MSLST: a Pioneer with a ring of 72 laser beams and a compass.
 
-use core::f64::consts::FRAC_PI_2;
+mod on_course;
 
-use tolman_geom::Heading;
-use tolman_robot::{Body, Ring, Scan};
+use tolman_robot::{Body, Ring};
 use tolman_sim::Contact;
 use tolman_sim::noise::Gaussian;
 use tolman_sim::robots::{LaserPioneerConfig, MotorNoise};
+use tolman_systems::mslst::ROBOT_UNIT;
 
-/// MSLST measures in robot units: one is the robot's diameter. Metres.
-pub const ROBOT_UNIT: f64 = 0.5;
+pub use on_course::CoursePioneer;
 
 /// The width of a corridor where a maze says nothing of it: 1.9 robot units, in metres.
 ///
@@ -27,31 +26,6 @@ const REACH_UNITS: f64 = 2.5;
 #[must_use]
 pub fn ring() -> Ring {
     Ring::full(BEAMS, REACH_UNITS * ROBOT_UNIT)
-}
-
-/// A scan as MSLST's quantizer sees it: in robot units, and turned by the compass, to the nearest beam, so
-/// that "a particular location is distinct no matter which way the robot is facing". Beam 0 looks
-/// north, the others follow counter-clockwise.
-///
-/// ```
-/// use tolman_arena::pioneer;
-/// use tolman_geom::Heading;
-/// use tolman_robot::Scan;
-///
-/// let mut scan = Scan::clear(pioneer::ring());
-/// scan.ranges[0] = 0.5;
-/// let facing_west = pioneer::heading_free(&scan, Heading::from_degrees(180.0));
-/// assert_eq!((facing_west[18], facing_west[0]), (1.0, 2.5));
-/// ```
-#[must_use]
-pub fn heading_free(scan: &Scan, heading: Heading) -> Vec<f64> {
-    let beams = scan.ranges.len();
-    let mut turned: Vec<f64> = scan.ranges.iter().map(|range| range / ROBOT_UNIT).collect();
-    if beams > 0 {
-        let ahead = (heading.radians() + scan.ring.first_bearing - FRAC_PI_2) / scan.ring.spacing;
-        turned.rotate_right(libm::round(ahead).rem_euclid(beams as f64) as usize);
-    }
-    turned
 }
 
 /// The robot as it was calibrated on the paper's baselines, and then frozen (see `docs/mslst.md`).

@@ -119,13 +119,34 @@ where
     F: FnMut(&R, &R::Command),
     S: System<Watched<R, F>>,
 {
+    run_seen(robot, system, task, |_, _| {})
+}
+
+/// Lets `system` pursue `task` as [`run`] does. `see` is shown the system and its robot after every action; nothing
+/// of the run depends on it.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_seen<R, F, S>(
+    robot: &mut Watched<R, F>,
+    system: &mut S,
+    task: Task,
+    mut see: impl FnMut(&S, &Watched<R, F>),
+) -> Result<Ended, S::Failure>
+where
+    R: Robot,
+    F: FnMut(&R, &R::Command),
+    S: System<Watched<R, F>>,
+{
     let mut actions = 0;
     let end = loop {
         if robot.is_out_of_time() {
             break End::OutOfTime;
         }
         actions += 1;
-        match system.act(robot, task) {
+        let standing = system.act(robot, task);
+        see(system, robot);
+        match standing {
             Ok(Standing::UnderWay) => {}
             Ok(Standing::Done) => break End::Done,
             Ok(Standing::GaveUp { why }) => break End::GaveUp { why },

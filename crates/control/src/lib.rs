@@ -16,6 +16,8 @@
 //!
 //! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`].
 //!
+//! A [`Drive`] carries out whole actions by a stack, with any robot that senses ranges and its heading.
+//!
 //! Each layer stands alone behind [`Layer`]; a stack is any list of them. Lengths are metres; the
 //! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which [`Stack::paper`]
 //! takes and converts once.
@@ -60,6 +62,7 @@ extern crate alloc;
 mod avoid;
 mod center;
 mod corridor;
+mod drive;
 pub mod epuck;
 mod layer;
 mod move_layer;
@@ -70,6 +73,7 @@ mod stack;
 pub use avoid::Avoid;
 pub use center::Center;
 pub use corridor::{Corridor, CorridorDetector, RingError};
+pub use drive::{Drive, Driven};
 pub use layer::{Layer, Proposal, Situation, View};
 pub use move_layer::{Move, heading_of};
 pub use orient::Orient;

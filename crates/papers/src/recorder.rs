@@ -3,9 +3,8 @@
 use tolman_control::{CorridorDetector, Outcome, View};
 use tolman_geom::Point;
 use tolman_maze::Direction;
-use tolman_robot::{Body, Robot};
+use tolman_robot::{Body, Guess, Position, Robot};
 
-use tolman_arena::agents::{Place, Thought};
 use tolman_arena::episode::{Episode, Step, Trial};
 use tolman_replay::{
     Belief, BeliefAt, Fact, Floor, Mark, Marks, Notes, Replay, Scenery, Shape, Track,
@@ -16,7 +15,7 @@ use tolman_replay::{
 /// where it bumped and failed.
 ///
 /// ```
-/// use tolman_arena::agents::{Agent, Cast};
+/// use tolman_arena::cast::{Agent, Cast};
 /// use tolman_arena::course::Course;
 /// use tolman_arena::episode::{self, Trial, random_start};
 /// use tolman_arena::pioneer::{body, calibrated};
@@ -89,20 +88,19 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Takes down what the mind thought when it chose the action that begins after `step`.
-    fn overhear(&mut self, step: u32, thought: &Thought) {
-        if !thought.words.is_empty() {
-            self.thoughts.say(step, thought.words.as_str());
+    /// Takes down what the brain thought when it chose the action that begins after `step`.
+    fn overhear(&mut self, step: u32, words: &str, belief: &[Guess]) {
+        if !words.is_empty() {
+            self.thoughts.say(step, words);
         }
-        let shapes: Vec<Shape> = thought
-            .guesses
+        let shapes: Vec<Shape> = belief
             .iter()
             .filter(|guess| guess.weight >= LEAST_WEIGHT)
             .take(SHOWN_GUESSES)
             .filter_map(|guess| {
-                let position = match guess.place {
-                    Place::At(position) => position,
-                    Place::Node(id) => *self.nodes.get(id as usize)?,
+                let position = match guess.at {
+                    Position::Point(position) => position,
+                    Position::Place(id) => *self.nodes.get(id as usize)?,
                 };
                 Some(Shape::Point {
                     position,
@@ -119,7 +117,7 @@ impl<'a> Recorder<'a> {
     /// Sees one step.
     pub fn see(&mut self, seen: &Step<'_>) {
         if self.between_actions {
-            self.overhear(self.step, &seen.mind.thought());
+            self.overhear(self.step, &seen.words(), &seen.belief());
         }
         self.between_actions = seen.ends.is_some();
         self.step += 1;

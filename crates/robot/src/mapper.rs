@@ -30,6 +30,23 @@ pub trait Mapper {
     fn belief(&self) -> Vec<Guess>;
 }
 
+impl<M: Mapper + ?Sized> Mapper for &mut M {
+    type Observation = M::Observation;
+    type Error = M::Error;
+
+    fn observe(&mut self, seen: &M::Observation) -> Result<(), M::Error> {
+        (**self).observe(seen)
+    }
+
+    fn map(&self) -> MapView {
+        (**self).map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        (**self).belief()
+    }
+}
+
 /// A learned map as any scorer and any drawing can read it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapView {

@@ -87,7 +87,7 @@ pub enum FileError {
 }
 
 impl FileKind {
-    /// Returns how a file of this kind begins.
+    /// Returns what a file of this kind begins with.
     #[must_use]
     pub fn header(&self) -> FileHeader {
         FileHeader {
@@ -96,7 +96,7 @@ impl FileKind {
         }
     }
 
-    /// Whether a text says that it is of this kind: of whatever version, sound, broken or cut off.
+    /// Returns whether a text says that it is of this kind: of whatever version, sound, broken or cut off.
     #[must_use]
     pub fn claims(&self, text: &str) -> bool {
         let header: Result<FileHeader, _> = serde_json::from_str(text);
@@ -106,7 +106,7 @@ impl FileKind {
         )
     }
 
-    /// The text of a file, with a line end. What it holds has the header.
+    /// Returns the text of a file, with a line end. `body` has the header.
     ///
     /// # Errors
     /// [`FileError::Unwritable`].
@@ -117,7 +117,7 @@ impl FileKind {
             .map_err(|source| FileError::Unwritable { name, source })
     }
 
-    /// What a file holds, its header besides.
+    /// Returns what a file holds, its header besides.
     ///
     /// # Errors
     /// [`FileError`].

@@ -2,12 +2,25 @@
 //!
 //! Each system drives any robot that senses what it needs, simulated or real, through the traits of
 //! `tolman-robot`. Nothing here knows a simulator, a terminal or the truth.
+//!
+//! MSLST and its [`baselines`] share a body: a [`Brain`] observes a [`TimeStep`] at a time and chooses compass
+//! directions, and an [`Actor`] lets it drive a robot through the layers of `tolman-control`.
 
 extern crate alloc;
 
+mod actor;
 pub mod baselines;
+mod brain;
 pub mod cpm;
 pub mod diktiometry;
-pub mod file_kind;
+mod file_kind;
 pub mod micromouse;
 pub mod mslst;
+mod stream;
+mod time_step;
+
+pub use actor::{Actor, ActorError};
+pub use brain::Brain;
+pub use file_kind::{FileError, FileHeader, FileKind};
+pub use stream::stream;
+pub use time_step::{Doing, TimeStep};

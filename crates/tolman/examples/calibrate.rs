@@ -7,11 +7,12 @@
 use std::io::{self, Write};
 
 use rayon::prelude::*;
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, Trial};
 use tolman_arena::pioneer;
 use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::mslst::ROBOT_UNIT;
 
 type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
@@ -38,7 +39,7 @@ const SWEEP: [(&str, &[f64], Change); 5] = [
         &[0.8, 0.9, 1.0, 1.1, 1.2],
         |robot, units| {
             // Two steps at a quarter of the full command.
-            robot.translate_per_step = 2.0 * units * pioneer::ROBOT_UNIT;
+            robot.translate_per_step = 2.0 * units * ROBOT_UNIT;
         },
     ),
     (

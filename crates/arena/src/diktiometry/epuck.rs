@@ -19,8 +19,8 @@ use super::planner::Planner;
 use super::rover::{Arrival, MapError, Mapped, RoutineOutcome, Rover};
 use super::score::{MapScore, Visit, score};
 use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, epuck, placed, walker_config};
-use crate::episode::stream;
 use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
+use tolman_systems::stream;
 
 /// How an e-puck surveys a maze.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -19,7 +19,7 @@ use super::planner::{Decision, Planner};
 use super::rover::{Arrival, MapError, Mapped, RoutineOutcome};
 use super::score::{MapScore, Visit, score};
 use super::surveyor::{Sight, SurveyError, Surveyor, SurveyorConfig};
-use crate::episode::stream;
+use tolman_systems::stream;
 
 /// Everything a run depends on but the office and the seed.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use super::office::{Office, OfficeConfig, OfficeError};
 use super::score::Visit;
 use super::survey::{Past, RunError, Survey, SurveyConfig};
 use super::surveyor::SurveyorConfig;
-use crate::file_kind::{FileError, FileHeader, FileKind};
+use tolman_systems::{FileError, FileHeader, FileKind};
 
 /// Since version 2 the map is one of version 2.
 const KIND: FileKind = FileKind {

@@ -2,7 +2,7 @@
 
 use tolman_maze::{Cell, Direction, Maze};
 
-use crate::q_learning::{Outcome, Task};
+use tolman_systems::baselines::q_learning::{Outcome, Task};
 
 /// A maze as a task: a step is one cell in some direction, against a wall it is none, and each
 /// costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
@@ -55,9 +55,9 @@ impl Task for CellTask<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::q_learning::{QLearner, QLearningConfig};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
+    use tolman_systems::baselines::q_learning::{QLearner, QLearningConfig};
 
     #[test]
     fn it_learns_a_shortest_path_in_the_end() {

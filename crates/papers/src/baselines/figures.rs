@@ -3,7 +3,7 @@
 use tolman_geom::Point;
 
 use super::{Baselines, MazeRun, ROWS, Venue};
-use tolman_arena::agents::Agent;
+use tolman_arena::cast::Agent;
 use tolman_draw::{Figure, Series};
 use tolman_experiment::{BoxError, Run};
 

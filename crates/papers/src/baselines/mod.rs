@@ -14,7 +14,8 @@ use serde::Serialize;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::venue::{self, MazeRun, Venue, World};
-use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_arena::pioneer;
 use tolman_draw::Figure;

@@ -9,8 +9,8 @@ use tolman_maze::{Cell, Maze};
 
 use super::trials;
 use tolman_arena::cpm::{TrueFragments, Venue, Way};
-use tolman_arena::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 use tolman_systems::cpm::CommonPatterns;
 
 /// The name of the table.

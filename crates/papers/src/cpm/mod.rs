@@ -22,11 +22,11 @@ use tolman_sim::robots::EpuckConfig;
 
 use tolman_arena::cpm::{Record, Venue, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
-use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::Run;
 use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Table};
 use tolman_replay::Replay;
+use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::cpm::{CommonPatterns, Mode};
 
 use detector::DETECTOR;

@@ -8,8 +8,8 @@ use tolman_planners::{Found, Graph, a_star, best_first, path_to};
 use super::paper::PaperTable;
 use super::{Fields, Metric, Row, Table};
 use tolman_arena::micromouse::{CellTask, MAX_STEPS};
-use tolman_arena::q_learning::{QLearner, QLearningConfig};
 use tolman_experiment::{BoxError, Record, record, require};
+use tolman_systems::baselines::q_learning::{QLearner, QLearningConfig};
 
 /// The table of planners.
 pub(super) const PLANNERS: &str = "planners";

@@ -20,12 +20,12 @@ use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use crate::data;
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, try_on};
-use tolman_arena::q_learning::QLearningConfig;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Table, Tolerance, record,
     require,
 };
+use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
 
 use competition::COMPETITION;

@@ -11,14 +11,16 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use super::MAPS;
 use crate::venue::{self, MazeRun, Venue, World};
-use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::episode::{self, Episode, Trial};
-use tolman_arena::mslst::{LearnError, Learned, Mslst, MslstConfig, learn};
+use tolman_arena::mslst::{LearnError, learn};
 use tolman_experiment::{
     BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, Tolerance, record, require,
     run_seed,
 };
 use tolman_replay::Replay;
+use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 
 record! {
     /// A run of a brain that competes.
@@ -199,7 +201,7 @@ impl Contest {
             Some(apprentice) => {
                 let learned = apprentice.learned(self, robot, job.run % MAPS)?;
                 let map = Arc::new(learned.map.clone());
-                Mind::Brain(Box::new(Mslst::new(map, &apprentice.config)))
+                Mind::Brain(Box::new(Navigator::new(map, &apprentice.config)))
             }
             None => {
                 let agent = Agent::named(job.row)

@@ -3,9 +3,10 @@
 use tolman_maps::mslst_graph::{Edge, Zone};
 
 use tolman_arena::course::Course;
-use tolman_arena::mslst::Learned;
-use tolman_arena::pioneer::{self, ROBOT_UNIT};
+use tolman_arena::pioneer;
 use tolman_draw::{Drawing, Graph, GraphEdge, GraphNode, NodeMark, PolarPlot, Series, Tiles};
+use tolman_systems::mslst::Learned;
+use tolman_systems::mslst::ROBOT_UNIT;
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;

@@ -7,10 +7,10 @@ use super::contest::{Apprentice, Contest};
 use super::drawing::{self, SHOWN_ACTIONS};
 use super::{MAPS, Mslst};
 use crate::venue::MazeRun;
-use tolman_arena::mslst::Learned;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Run};
 use tolman_stats::wilson_interval;
+use tolman_systems::mslst::Learned;
 
 /// How many runs one plan shows at most.
 const SHOWN: usize = 25;

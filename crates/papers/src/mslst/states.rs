@@ -3,8 +3,9 @@
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::contest::Contest;
-use tolman_arena::mslst::{MslstConfig, States, scans};
+use tolman_arena::mslst::scans;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_systems::mslst::{MslstConfig, States};
 
 /// The rows of the paper: the maze, the threshold, the states.
 const ROWS: [(&str, &str, f64, f64); 3] = [

@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{Cell, Direction, Grid, Maze, MazeFile};
 
 use crate::venue::{PaperRow, Venue, large_like};
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::episode;
 use tolman_arena::pioneer;

@@ -11,14 +11,16 @@ mod settings;
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
-use tolman_arena::agents::{Agent, Cast, Mind};
+use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::episode::{self, Episode, Trial};
-use tolman_arena::mslst::{Mslst, learn};
+use tolman_arena::mslst::learn;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Table, record, run_seed,
 };
 use tolman_robot::Body;
+use tolman_systems::mslst::Navigator;
 
 use settings::{Setting, Sweep};
 
@@ -145,7 +147,7 @@ impl Experiment for Sweeps {
         };
         let (mut reached, mut steps) = (0_u32, 0_u32);
         for start in 0..STARTS {
-            let mslst = Mslst::new(Arc::clone(&map), &setting.config);
+            let mslst = Navigator::new(Arc::clone(&map), &setting.config);
             let episode = play(&mut Mind::Brain(Box::new(mslst)), start)?;
             reached += u32::from(episode.reached);
             steps += episode.steps;

@@ -10,9 +10,10 @@ use tolman_sim::robots::LaserPioneerConfig;
 use super::drawings::{self, Corridors};
 use crate::venue;
 use tolman_arena::course::Course;
-use tolman_arena::mslst::MslstConfig;
-use tolman_arena::pioneer::{self, ROBOT_UNIT};
+use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
+use tolman_systems::mslst::MslstConfig;
+use tolman_systems::mslst::ROBOT_UNIT;
 
 /// One table.
 #[derive(Debug)]

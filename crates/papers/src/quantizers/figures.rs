@@ -16,6 +16,7 @@ use tolman_draw::{
 };
 use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{Interval, quantile};
+use tolman_systems::mslst::ROBOT_UNIT;
 
 /// How many data points a picture shows at most.
 const SHOWN: usize = 700;
@@ -81,7 +82,7 @@ fn model_scans(mazes: &Mazes, run: &Run, name: &str) -> Result<Figure, BoxError>
     for (state, id) in (0_u32..).zip(network.ids()) {
         let metres: Vec<f64> = network
             .prototype(id)?
-            .map(|range| range * pioneer::ROBOT_UNIT)
+            .map(|range| range * ROBOT_UNIT)
             .collect();
         let mut plot = PolarPlot::new(ring.max_range, 92.0);
         plot.ranges(&ring, &metres, Series(0));

@@ -9,7 +9,7 @@ use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::Recorder;
-use tolman_arena::agents::Mind;
+use tolman_arena::Mind;
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, EpisodeError, Trial};
 use tolman_arena::pioneer;

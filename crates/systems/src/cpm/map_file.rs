@@ -4,7 +4,7 @@ use tolman_maps::cpm::{self, CpMap};
 
 use super::common_patterns::CommonPatterns;
 use super::preset::Preset;
-use crate::file_kind::{FileError, FileKind};
+use crate::{FileError, FileKind};
 
 /// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the bit.
 #[derive(Clone, Debug)]

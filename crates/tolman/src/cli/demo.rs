@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman_arena::agents::{Agent, Cast};
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, Trial, random_start};
 use tolman_arena::pioneer::{body, calibrated};

@@ -4,8 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use tolman_arena::mslst::{MapFile, MslstConfig, learn};
+use tolman_arena::mslst::learn;
 use tolman_arena::pioneer::calibrated;
+use tolman_systems::mslst::{MapFile, MslstConfig};
 
 use super::failure::OrBadInput;
 use super::{Failure, file, run};

@@ -12,9 +12,9 @@ use std::path::Path;
 use anyhow::Context;
 use clap::Subcommand;
 use tolman_arena::diktiometry::SurveyFile;
-use tolman_arena::mslst::MapFile;
 use tolman_maps::diktiometry::Action;
 use tolman_maze::Direction;
+use tolman_systems::mslst::MapFile;
 
 use super::Failure;
 use super::failure::OrBadInput;

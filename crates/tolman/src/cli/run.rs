@@ -9,7 +9,7 @@ mod trace;
 use std::io::Write;
 
 use brain::Brain;
-use tolman_arena::agents::Cast;
+use tolman_arena::cast::Cast;
 
 use super::Failure;
 pub(super) use outing::{Name, Outing, carry_out as send, course};

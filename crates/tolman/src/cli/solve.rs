@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use alloc::sync::Arc;
 
-use tolman_arena::agents::Mind;
-use tolman_arena::mslst::Mslst;
+use tolman_arena::Mind;
+use tolman_systems::mslst::Navigator;
 
 use super::run::{self, Name, Outing};
 use super::{Failure, map};
@@ -33,7 +33,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         nodes: &file.learned.survey.positions,
     };
     let mind = |_: &_, _: &_| {
-        let mslst = Mslst::new(Arc::new(file.learned.map), &file.config);
+        let mslst = Navigator::new(Arc::new(file.learned.map), &file.config);
         Ok(Mind::Brain(Box::new(mslst)))
     };
     run::send(&arguments.outing, name, mind, out)

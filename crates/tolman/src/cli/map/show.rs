@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use serde_json::json;
 use tolman_arena::diktiometry::SurveyFile;
-use tolman_arena::mslst::MapFile;
 use tolman_draw::Figure;
 use tolman_papers::mslst::drawing;
 use tolman_systems::cpm;
+use tolman_systems::mslst::MapFile;
 
 use super::{Failure, show_cpm, show_survey};
 use crate::cli::{file, run};

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-use tolman_arena::agents::Agent;
+use tolman_arena::cast::Agent;
 
 /// Who chooses the actions.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
-use tolman_arena::agents::Mind;
+use tolman_arena::Mind;
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_arena::pioneer::{body, calibrated};

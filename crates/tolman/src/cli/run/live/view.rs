@@ -222,7 +222,7 @@ mod tests {
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
     use ratatui::style::Color;
-    use tolman_arena::agents::{Agent, Cast};
+    use tolman_arena::cast::{Agent, Cast};
     use tolman_arena::course::Course;
     use tolman_arena::episode;
     use tolman_arena::pioneer::{body, calibrated};

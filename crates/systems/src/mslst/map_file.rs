@@ -5,7 +5,7 @@ use tolman_maps::mslst_graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
 use tolman_maze::Direction;
 
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
-use crate::file_kind::{FileError, FileHeader, FileKind};
+use crate::{FileError, FileHeader, FileKind};
 
 const KIND: FileKind = FileKind {
     format: "tolman-mslst-map",
@@ -70,10 +70,12 @@ struct SavedNode {
     destination: bool,
     /// Action and head; a failed action has none.
     edges: Vec<(Direction, Option<u32>)>,
-    /// Where the robot truly was, m; for pictures only.
-    made_at: [f64; 2],
-    /// The action of Phase II that made it.
-    made_by: u32,
+    /// Where the robot truly was, m, if somebody watched; for pictures only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    made_at: Option<[f64; 2]>,
+    /// The action of Phase II that made it, if somebody watched.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    made_by: Option<u32>,
 }
 
 impl MapFile {
@@ -89,8 +91,7 @@ impl MapFile {
     /// [`MapFileError::File`] if it cannot be written.
     pub fn to_json(&self) -> Result<String, MapFileError> {
         let Learned { map, survey } = &self.learned;
-        let surveyed = survey.positions.iter().zip(&survey.made_by);
-        let nodes = map.graph.nodes().iter().zip(surveyed);
+        let nodes = map.graph.nodes().iter().enumerate();
         let body = Body {
             header: KIND.header(),
             maze: self.maze.clone(),
@@ -98,12 +99,12 @@ impl MapFile {
             config: self.config,
             states: map.states.models().to_vec(),
             nodes: nodes
-                .map(|(node, (position, made_by))| SavedNode {
+                .map(|(id, node)| SavedNode {
                     state: node.state,
                     destination: node.zone == Zone::Destination,
                     edges: node.edges.iter().map(saved).collect(),
-                    made_at: [position.x, position.y],
-                    made_by: *made_by,
+                    made_at: survey.positions.get(id).map(|point| [point.x, point.y]),
+                    made_by: survey.made_by.get(id).copied(),
                 })
                 .collect(),
         };
@@ -126,11 +127,7 @@ impl MapFile {
                 });
             }
         }
-        let positions = body.nodes.iter().map(|node| Point::from(node.made_at));
-        let survey = Survey {
-            positions: positions.collect(),
-            made_by: body.nodes.iter().map(|node| node.made_by).collect(),
-        };
+        let survey = surveyed(&body.nodes);
         let nodes = body.nodes.into_iter().map(restored).collect();
         let map = MslstMap {
             states: States::from_models(body.states)?,
@@ -142,6 +139,19 @@ impl MapFile {
             config: body.config,
             learned: Learned { map, survey },
         })
+    }
+}
+
+/// Returns what a watcher saw; nothing where it did not see every node.
+fn surveyed(nodes: &[SavedNode]) -> Survey {
+    let positions: Option<Vec<Point>> = nodes
+        .iter()
+        .map(|node| node.made_at.map(Point::from))
+        .collect();
+    let made_by: Option<Vec<u32>> = nodes.iter().map(|node| node.made_by).collect();
+    match (positions, made_by) {
+        (Some(positions), Some(made_by)) => Survey { positions, made_by },
+        _ => Survey::default(),
     }
 }
 

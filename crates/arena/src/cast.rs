@@ -1,11 +1,15 @@
+//! Who can be sent through a maze, by name.
+
 use alloc::sync::Arc;
 use std::sync::OnceLock;
 
 use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::baselines::{Avoid, Random, WallFollow};
 
-use super::{Avoid, Chart, Mind, Oracle, Policy, Random, UnlocalizedOracle, WallFollow};
 use crate::course::Course;
 use crate::episode::EpisodeError;
+use crate::mind::Mind;
+use crate::oracle::{Chart, Oracle, Policy, UnlocalizedOracle};
 
 /// The agents by name: who can be sent through a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +91,7 @@ impl Cast {
             Agent::Avoid => Mind::Brain(Box::<Avoid>::default()),
             Agent::WallFollow => Mind::Brain(Box::new(WallFollow::new(course.corridor_width))),
             Agent::Random => Mind::Brain(Box::new(Random)),
-            Agent::Oracle => Mind::Yardstick(Box::new(Oracle::new(self.policy(course, robot)?))),
+            Agent::Oracle => Mind::Oracle(Box::new(Oracle::new(self.policy(course, robot)?))),
             Agent::UnlocalizedOracle => {
                 let chart = self.chart(course, robot)?;
                 Mind::Brain(Box::new(UnlocalizedOracle::new(chart)))

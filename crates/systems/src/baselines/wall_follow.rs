@@ -1,11 +1,13 @@
+use core::convert::Infallible;
 use core::f64::consts::PI;
 
 use rand::{Rng, RngExt};
 use tolman_control::{Outcome, heading_of};
 use tolman_geom::Heading;
 use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper, Scan};
 
-use super::{Brain, Perception};
+use crate::{Brain, Doing, TimeStep};
 
 /// MSLST's Wall-follow brain: "always sticks to the wall on its right".
 ///
@@ -21,6 +23,8 @@ pub struct WallFollow {
     corridor_width: f64,
     travelling: Option<Direction>,
     failed: Vec<Direction>,
+    /// What it saw last, and which way it was headed; `None` while either sensor drops out.
+    view: Option<(Scan, Heading)>,
 }
 
 /// A wall is on the right if any beam within this angle of it is nearer than a corridor is wide: through
@@ -35,13 +39,14 @@ impl WallFollow {
             corridor_width,
             travelling: None,
             failed: Vec::new(),
+            view: None,
         }
     }
 
     /// Whether the laser sees a wall beside the robot in the direction of `heading`. What it cannot see
     /// it takes for an opening, and tries.
-    fn wall_towards(&self, heading: Heading, perception: &Perception<'_>) -> bool {
-        let (Some(scan), Some(robot)) = (perception.scan, perception.heading) else {
+    fn wall_towards(&self, heading: Heading) -> bool {
+        let Some((scan, robot)) = &self.view else {
             return false;
         };
         (0_u32..).zip(&scan.ranges).any(|(beam, range)| {
@@ -51,21 +56,40 @@ impl WallFollow {
     }
 }
 
-impl Brain for WallFollow {
-    fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
-        match perception.last {
-            Some((action, Outcome::Completed)) => {
+impl Mapper for WallFollow {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        match seen.doing {
+            Doing::UnderWay(_) => return Ok(()),
+            Doing::PutDown => *self = Self::new(self.corridor_width),
+            Doing::Ended(action, Outcome::Completed) => {
                 self.travelling = Some(action);
                 self.failed.clear();
             }
-            Some((action, _)) => self.failed.push(action),
-            None => {}
+            Doing::Ended(action, _) => self.failed.push(action),
         }
+        self.view = seen.scan.clone().zip(seen.heading);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        MapView::default()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        Vec::new()
+    }
+}
+
+impl Brain for WallFollow {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         let travelling = *self
             .travelling
             .get_or_insert_with(|| Direction::ALL[rng.random_range(0..4_u32) as usize]);
         let right = travelling.right();
-        if self.wall_towards(heading_of(right), perception) && !self.failed.contains(&right) {
+        if self.wall_towards(heading_of(right)) && !self.failed.contains(&right) {
             self.failed.push(right);
         }
         let order = [right, travelling, travelling.left(), travelling.opposite()];

@@ -1,18 +1,20 @@
 use alloc::sync::Arc;
+use core::convert::Infallible;
 
 use rand::Rng;
 use tolman_control::Outcome;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Direction;
-use tolman_robot::{Robot, TurnTranslate};
+use tolman_robot::{Guess, MapView, Mapper, Position, Robot, TurnTranslate};
 use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_systems::mslst::{ROBOT_UNIT, heading_free};
+use tolman_systems::{Brain, Doing, TimeStep};
 
-use super::oracle::{Oracle, Policy};
-use super::{Brain, Guess, Perception, Place, Thought};
+use super::{Oracle, Policy};
 use crate::course::Course;
-use crate::episode::EpisodeError;
-use crate::pioneer::{heading_free, without_noise};
+use crate::episode::{EpisodeError, step_failed};
+use crate::pioneer::without_noise;
 
 /// The ceiling for those who start they know not where: it has the true map, and finds out where it is by a
 /// Bayes filter over all positions; then it does what the [`Oracle`] would do at the most likely one.
@@ -28,6 +30,8 @@ pub struct UnlocalizedOracle {
     /// The probability of each place of the chart.
     belief: Vec<f64>,
     heading: Heading,
+    /// The action before and how it ended.
+    last: Option<(Direction, Outcome)>,
 }
 
 /// What the filter knows before it begins: every place of a course, and what is seen there.
@@ -86,7 +90,7 @@ impl Chart {
             }
             // It was lifted here: one step at rest and it sees where it is.
             let rest = solo.step(&TurnTranslate::STOP);
-            rest.map_err(|source| EpisodeError::Step { step: 0, source })?;
+            rest.map_err(|source| step_failed(0, source))?;
             let scan = solo.sensing().scan.as_ref();
             numbers.push(Some(places.len() as u32));
             places.push(Standpoint {
@@ -165,7 +169,7 @@ impl Chart {
 }
 
 /// About a robot unit, m.
-const ACTION_WAY: f64 = crate::pioneer::ROBOT_UNIT;
+const ACTION_WAY: f64 = ROBOT_UNIT;
 
 /// How finely, m, and how far, in such steps, the end of an action is spread.
 const SPREAD_STEP: f64 = 0.06;
@@ -188,26 +192,27 @@ impl UnlocalizedOracle {
             oracle: Oracle::new(Arc::clone(&chart.policy)),
             belief: vec![1.0 / count.max(1) as f64; count],
             heading: Heading::NORTH,
+            last: None,
             chart,
         }
     }
 
-    /// Every place with its probability.
-    pub fn belief(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
+    /// Returns every place with its probability.
+    pub fn probabilities(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         let places = self.chart.places.iter();
         let positions = places.map(|place| place.position);
         positions.zip(self.belief.iter().copied())
     }
 
-    fn update(&mut self, perception: &Perception<'_>) {
+    fn update(&mut self, seen: &TimeStep) {
         // Headed as it was when the action began, for what the action led to.
-        if let Some((action, outcome)) = perception.last {
+        if let Some((action, outcome)) = self.last {
             self.belief = self
                 .chart
                 .moved(&self.belief, action, outcome, self.heading);
         }
-        self.heading = perception.heading.unwrap_or(self.heading);
-        if let (Some(scan), Some(heading)) = (perception.scan, perception.heading) {
+        self.heading = seen.heading.unwrap_or(self.heading);
+        if let (Some(scan), Some(heading)) = (&seen.scan, seen.heading) {
             let scan = heading_free(scan, heading);
             for (place, mass) in self.chart.places.iter().zip(&mut self.belief) {
                 if *mass >= NEGLIGIBLE {
@@ -234,7 +239,7 @@ impl UnlocalizedOracle {
     /// The most likely place; the first of equals.
     fn most_likely(&self) -> Option<Point> {
         let mut best: Option<(Point, f64)> = None;
-        for (position, mass) in self.belief() {
+        for (position, mass) in self.probabilities() {
             if best.is_none_or(|(_, most)| mass > most) {
                 best = Some((position, mass));
             }
@@ -243,26 +248,40 @@ impl UnlocalizedOracle {
     }
 }
 
-impl Brain for UnlocalizedOracle {
-    fn choose(&mut self, perception: &Perception<'_>, _rng: &mut dyn Rng) -> Direction {
-        self.update(perception);
-        let position = self.most_likely().unwrap_or_else(Point::origin);
-        let pose = Pose::new(position, self.heading);
-        self.oracle.choose_at(pose, perception.last)
+impl Mapper for UnlocalizedOracle {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        match seen.doing {
+            Doing::UnderWay(_) => return Ok(()),
+            Doing::PutDown => *self = Self::new(Arc::clone(&self.chart)),
+            Doing::Ended(action, outcome) => self.last = Some((action, outcome)),
+        }
+        self.update(seen);
+        Ok(())
     }
 
-    fn thought(&self) -> Thought {
-        let mut guesses: Vec<Guess> = self
-            .belief()
-            .map(|(position, weight)| Guess {
-                place: Place::At(position),
-                weight,
-            })
-            .collect();
+    /// Its map is the maze itself, which it did not learn.
+    fn map(&self) -> MapView {
+        MapView::default()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let guess = |(position, weight)| Guess {
+            at: Position::Point(position),
+            weight,
+        };
+        let mut guesses: Vec<Guess> = self.probabilities().map(guess).collect();
         guesses.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-        Thought {
-            words: String::new(),
-            guesses,
-        }
+        guesses
+    }
+}
+
+impl Brain for UnlocalizedOracle {
+    fn choose(&mut self, _rng: &mut dyn Rng) -> Direction {
+        let position = self.most_likely().unwrap_or_else(Point::origin);
+        let pose = Pose::new(position, self.heading);
+        self.oracle.choose(pose, self.last)
     }
 }

@@ -1,8 +1,11 @@
+use core::convert::Infallible;
+
 use rand::{Rng, RngExt};
 use tolman_control::Outcome;
 use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper};
 
-use super::{Brain, Perception};
+use crate::{Brain, Doing, TimeStep};
 
 /// MSLST's Avoid brain: "wanders randomly (but does not backtrack unless it reaches a dead end, and does
 /// not repeat failed actions)".
@@ -16,15 +19,16 @@ pub struct Avoid {
 }
 
 impl Avoid {
-    /// Takes in how the action before ended, whoever chose it.
-    pub(crate) fn learn(&mut self, last: Option<(Direction, Outcome)>) {
-        match last {
-            Some((action, Outcome::Completed)) => {
+    /// Takes in what the robot did, whoever chose it.
+    pub(crate) fn learn(&mut self, doing: Doing) {
+        match doing {
+            Doing::PutDown => *self = Self::default(),
+            Doing::UnderWay(_) => {}
+            Doing::Ended(action, Outcome::Completed) => {
                 self.travelling = Some(action);
                 self.failed.clear();
             }
-            Some((action, _)) => self.failed.push(action),
-            None => {}
+            Doing::Ended(action, _) => self.failed.push(action),
         }
     }
 
@@ -53,9 +57,26 @@ impl Avoid {
     }
 }
 
+impl Mapper for Avoid {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        self.learn(seen.doing);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        MapView::default()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        Vec::new()
+    }
+}
+
 impl Brain for Avoid {
-    fn choose(&mut self, perception: &Perception<'_>, rng: &mut dyn Rng) -> Direction {
-        self.learn(perception.last);
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         self.wander(rng)
     }
 }

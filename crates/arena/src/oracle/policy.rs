@@ -1,6 +1,3 @@
-use alloc::sync::Arc;
-
-use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_control::{Outcome, Stack, View};
@@ -8,70 +5,12 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Direction;
 use tolman_planners::{Arcs, costs_from};
 use tolman_robot::{Robot, TurnTranslate};
+use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{Solo, Truth};
 
-use super::Yardstick;
 use crate::course::Course;
-use crate::episode::EpisodeError;
+use crate::episode::{EpisodeError, step_failed};
 use crate::pioneer::without_noise;
-
-/// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body and
-/// the same layers as everyone else. Not in the paper.
-///
-/// Its [`Policy`] says what each action would cost in time steps from about where the robot is. An action
-/// that has just failed there is not tried again before the robot has moved.
-#[derive(Clone, Debug)]
-pub struct Oracle {
-    policy: Arc<Policy>,
-    failed: Vec<Direction>,
-}
-
-impl Oracle {
-    /// An oracle that follows `policy`.
-    #[must_use]
-    pub const fn new(policy: Arc<Policy>) -> Self {
-        Self {
-            policy,
-            failed: Vec::new(),
-        }
-    }
-}
-
-impl Yardstick for Oracle {
-    fn choose(
-        &mut self,
-        last: Option<(Direction, Outcome)>,
-        truth: &Truth,
-        _rng: &mut dyn Rng,
-    ) -> Direction {
-        self.choose_at(truth.pose, last)
-    }
-}
-
-impl Oracle {
-    /// The next action of a robot at `pose` whose last action ended so.
-    pub(super) fn choose_at(
-        &mut self,
-        pose: Pose,
-        last: Option<(Direction, Outcome)>,
-    ) -> Direction {
-        match last {
-            Some((action, Outcome::Failed)) => self.failed.push(action),
-            _ => self.failed.clear(),
-        }
-        if self.failed.len() == Direction::ALL.len() {
-            self.failed.clear();
-        }
-        let costs = self.policy.costs(pose);
-        // Ties go to the first, clockwise from north: the same on every run.
-        Direction::ALL
-            .into_iter()
-            .filter(|action| !self.failed.contains(action))
-            .min_by_key(|action| costs[action.index()].unwrap_or(u32::MAX))
-            .unwrap_or(Direction::North)
-    }
-}
 
 /// What every action costs, in time steps to the destination, from every place of a course.
 ///
@@ -204,7 +143,7 @@ fn carry_out(
     stack.begin(action);
     // It was lifted here: one step at rest and it sees where it is.
     let rest = solo.step(&TurnTranslate::STOP);
-    rest.map_err(|source| EpisodeError::Step { step: 0, source })?;
+    rest.map_err(|source| step_failed(0, source))?;
     for step in 1..=LONGEST_ACTION {
         let sensing = solo.sensing();
         let (Some(scan), Some(heading)) = (&sensing.scan, sensing.compass) else {
@@ -212,7 +151,7 @@ fn carry_out(
         };
         let proposal = stack.correct(View { scan, heading }, &mut rng);
         solo.step(&proposal.command)
-            .map_err(|source| EpisodeError::Step { step, source })?;
+            .map_err(|source| step_failed(step, source))?;
         let pose = solo.truth().pose;
         if course.destination().contains(pose.position) {
             return Ok(Some((pose, step)));

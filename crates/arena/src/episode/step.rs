@@ -1,0 +1,107 @@
+use core::convert::Infallible;
+
+use tolman_control::{Driven, Outcome};
+use tolman_maze::Direction;
+use tolman_robot::{
+    Compass, Guess, MapView, Mapper, Ranges, Robot, SensesLandmarks, Standing, System, Task,
+    TurnTranslate,
+};
+use tolman_systems::{Actor, ActorError, Brain, TimeStep};
+
+use crate::mind::AnyBrain;
+use crate::pioneer::CoursePioneer;
+use crate::run::Watched;
+
+/// One time step of a run, as it has just been made.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// The action it belongs to.
+    pub action: Direction,
+    /// The brain that chose it; `None` for an oracle.
+    pub brain: Option<&'a AnyBrain>,
+    /// What the motors were told.
+    pub command: TurnTranslate,
+    /// How the action ended with this step; `None` while it goes on.
+    pub ends: Option<Outcome>,
+    /// The robot as it is now.
+    pub robot: &'a CoursePioneer<'a>,
+}
+
+impl<'a> Step<'a> {
+    pub(super) fn of<'c: 'a, F>(
+        brain: Option<&'a AnyBrain>,
+        driven: &Driven<'a, Watched<CoursePioneer<'c>, F>>,
+    ) -> Self
+    where
+        F: FnMut(&CoursePioneer<'c>, &TurnTranslate),
+    {
+        Self {
+            action: driven.action,
+            brain,
+            command: driven.command,
+            ends: driven.ends,
+            robot: driven.robot.robot(),
+        }
+    }
+
+    /// Returns in a few words what the brain made of its situation when it chose the action; empty if there is
+    /// nothing to say.
+    #[must_use]
+    pub fn words(&self) -> String {
+        self.brain.map_or_else(String::new, Brain::words)
+    }
+
+    /// Returns where the brain believed the robot to be when it chose the action, the likeliest first; empty if it
+    /// does not ask.
+    #[must_use]
+    pub fn belief(&self) -> Vec<Guess> {
+        self.brain.map_or_else(Vec::new, Mapper::belief)
+    }
+}
+
+/// An actor whose brain and time steps are shown.
+#[derive(Debug)]
+pub(super) struct Shown<'b, S> {
+    actor: Actor<&'b mut AnyBrain>,
+    see: S,
+}
+
+impl<'b, S> Shown<'b, S> {
+    pub(super) const fn new<R>(actor: Actor<&'b mut AnyBrain>, see: S) -> Self
+    where
+        S: FnMut(&AnyBrain, &Driven<'_, R>),
+    {
+        Self { actor, see }
+    }
+}
+
+impl<S> Mapper for Shown<'_, S> {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        self.actor.observe(seen)
+    }
+
+    fn map(&self) -> MapView {
+        self.actor.map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.actor.belief()
+    }
+}
+
+impl<S, R> System<R> for Shown<'_, S>
+where
+    S: FnMut(&AnyBrain, &Driven<'_, R>),
+    R: Robot<Command = TurnTranslate> + SensesLandmarks,
+    R::Sensing: Ranges + Compass,
+{
+    type Failure = ActorError<R::Error, Infallible>;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
+        let Self { actor, see } = self;
+        actor.act_seen(robot, task, |brain, step| see(&**brain, step))
+    }
+}

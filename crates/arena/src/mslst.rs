@@ -1,0 +1,124 @@
+//! Phases I and II: the robot wanders, learns states, wanders again, and learns the graph.
+
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_control::Drive;
+use tolman_robot::{Body, Task, TurnTranslate};
+use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
+use tolman_systems::{Actor, TimeStep, stream};
+
+use crate::course::Course;
+use crate::episode::{EpisodeError, broken, layers};
+use crate::pioneer::CoursePioneer;
+use crate::run::{self, Watched};
+
+/// Why no map was learned.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LearnError {
+    /// The robot cannot wander there.
+    #[error("the robot cannot wander")]
+    Wander(#[from] EpisodeError),
+    /// Its scans make no states.
+    #[error("the scans make no states")]
+    States(#[from] StatesError),
+}
+
+/// The streams that the seed of a map is split into.
+const SCANS_STREAM: u64 = 11;
+const GRAPH_STREAM: u64 = 12;
+
+/// Learns a map of a course (Phases I and II). The same seed gives the same map.
+///
+/// # Errors
+/// [`LearnError`] if the robot cannot be built for the course, or has not seen two different scans.
+pub fn learn(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    config: &MslstConfig,
+    seed: u64,
+) -> Result<Learned, LearnError> {
+    let scans = scans(course, robot, config.scan_steps, seed)?;
+    let states = States::learn(&scans, config.threshold)?;
+    learn_graph(course, robot, states, config.graph_actions, seed)
+}
+
+/// Returns the scans of Phase I: see [`Scans`].
+///
+/// # Errors
+/// If the robot cannot be built for the course.
+pub fn scans(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    steps: u32,
+    seed: u64,
+) -> Result<Vec<Vec<f64>>, LearnError> {
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, SCANS_STREAM))?;
+    let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
+    let mut actor = Actor::new(Scans::new(steps), wanderer.drive, wanderer.rng);
+    run::run(&mut robot, &mut actor, Task::Explore).map_err(|error| broken(&robot, error))?;
+    Ok(actor.into_brain().into_scans())
+}
+
+/// Learns the graph of Phase II: see [`Topology`]. Where each node was made is noted by the way.
+///
+/// # Errors
+/// If the robot cannot be built for the course.
+pub fn learn_graph(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    states: States,
+    actions: u32,
+    seed: u64,
+) -> Result<Learned, LearnError> {
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, GRAPH_STREAM))?;
+    let mut survey = Survey {
+        positions: vec![wanderer.robot.truth().pose.position],
+        made_by: vec![0],
+    };
+    let topology = Topology::new(states, actions, &TimeStep::put_down(&wanderer.robot));
+    let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
+    let mut actor = Actor::new(topology, wanderer.drive, wanderer.rng);
+    run::run_seen(&mut robot, &mut actor, Task::Explore, |actor, robot| {
+        let topology = actor.brain();
+        if topology.nodes().len() > survey.positions.len() {
+            survey.positions.push(robot.robot().truth().pose.position);
+            survey.made_by.push(topology.actions());
+        }
+    })
+    .map_err(|error| broken(&robot, error))?;
+    let map = actor.brain().finished();
+    Ok(Learned { map, survey })
+}
+
+/// Nobody looks at a wanderer's time steps.
+const fn unseen(_robot: &CoursePioneer<'_>, _command: &TurnTranslate) {}
+
+/// A robot somewhere on a course, and what it needs to wander.
+struct Wanderer<'a> {
+    robot: CoursePioneer<'a>,
+    drive: Drive<ChaCha8Rng>,
+    rng: ChaCha8Rng,
+}
+
+impl<'a> Wanderer<'a> {
+    fn new(
+        course: &'a Course,
+        robot: &LaserPioneerConfig,
+        seeds: &mut ChaCha8Rng,
+    ) -> Result<Self, EpisodeError> {
+        let body = Body::Circle {
+            radius: robot.radius,
+        };
+        let start = course.random_start(&body, seeds);
+        let simulation = seeds.next_u64();
+        let layers_rng = stream(seeds.next_u64(), 0);
+        Ok(Self {
+            robot: CoursePioneer::new(course, robot, start, simulation)?,
+            drive: Drive::new(layers(course, robot)?, layers_rng),
+            rng: stream(seeds.next_u64(), 0),
+        })
+    }
+}

@@ -1,0 +1,60 @@
+//! The ceilings: minds that know the maze, and are measured by it.
+//!
+//! An [`Oracle`] is shown the truth and follows a [`Policy`]. An [`UnlocalizedOracle`] lives on what its robot senses,
+//! like every brain, but has a [`Chart`] of what it would see everywhere. Neither is a competitor: they say what
+//! the same body and the same layers allow.
+
+mod policy;
+mod seer;
+mod unlocalized;
+
+use alloc::sync::Arc;
+
+use tolman_control::Outcome;
+use tolman_geom::Pose;
+use tolman_maze::Direction;
+
+pub use policy::Policy;
+pub(crate) use seer::Seer;
+pub use unlocalized::{Chart, UnlocalizedOracle};
+
+/// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body and
+/// the same layers as everyone else. Not in the paper.
+///
+/// Its [`Policy`] says what each action would cost in time steps from about where the robot is. An action
+/// that has just failed there is not tried again before the robot has moved.
+#[derive(Clone, Debug)]
+pub struct Oracle {
+    policy: Arc<Policy>,
+    failed: Vec<Direction>,
+}
+
+impl Oracle {
+    /// Returns an oracle that follows `policy`.
+    #[must_use]
+    pub const fn new(policy: Arc<Policy>) -> Self {
+        Self {
+            policy,
+            failed: Vec::new(),
+        }
+    }
+
+    /// Returns the next action of a robot at `pose`. `last` is the action before and how it ended, if there was
+    /// one.
+    pub fn choose(&mut self, pose: Pose, last: Option<(Direction, Outcome)>) -> Direction {
+        match last {
+            Some((action, Outcome::Failed)) => self.failed.push(action),
+            _ => self.failed.clear(),
+        }
+        if self.failed.len() == Direction::ALL.len() {
+            self.failed.clear();
+        }
+        let costs = self.policy.costs(pose);
+        // Ties go to the first, clockwise from north: the same on every run.
+        Direction::ALL
+            .into_iter()
+            .filter(|action| !self.failed.contains(action))
+            .min_by_key(|action| costs[action.index()].unwrap_or(u32::MAX))
+            .unwrap_or(Direction::North)
+    }
+}

@@ -1,0 +1,176 @@
+use core::ops::ControlFlow;
+
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_control::{Drive, Driven, Stack};
+use tolman_robot::{
+    Compass, Goal, Guess, MapView, Mapper, Ranges, Robot, SensesLandmarks, Standing, System, Task,
+    TurnTranslate,
+};
+
+use crate::{Brain, TimeStep, stream};
+
+/// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses ranges, its
+/// heading and landmarks.
+///
+/// An action of the [`System`] is one of the brain's. It ends early where the robot senses the landmark it was
+/// sent to.
+#[derive(Debug)]
+pub struct Actor<B> {
+    brain: B,
+    drive: Drive<ChaCha8Rng>,
+    rng: ChaCha8Rng,
+    before: Before,
+}
+
+/// What came before the next action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Before {
+    /// The robot was put down.
+    PutDown,
+    /// An action ended, and the brain observed it.
+    Action,
+}
+
+/// Why an actor cannot go on.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ActorError<R, B> {
+    /// The robot failed.
+    #[error("the robot failed")]
+    Robot(#[source] R),
+    /// The brain refuses what it observed.
+    #[error("the brain cannot use what the robot sensed")]
+    Brain(#[source] B),
+}
+
+/// The streams that the seed of an actor is split into.
+const LAYERS_STREAM: u64 = 1;
+const BRAIN_STREAM: u64 = 2;
+
+impl<B: Brain> Actor<B> {
+    /// Returns `brain` with the layers of `stack`. Both draw from streams of `seed`.
+    #[must_use]
+    pub fn seeded(brain: B, stack: Stack, seed: u64) -> Self {
+        let drive = Drive::new(stack, stream(seed, LAYERS_STREAM));
+        Self::new(brain, drive, stream(seed, BRAIN_STREAM))
+    }
+
+    /// Returns `brain`, whose actions `drive` carries out. The brain draws from `rng`.
+    #[must_use]
+    pub const fn new(brain: B, drive: Drive<ChaCha8Rng>, rng: ChaCha8Rng) -> Self {
+        Self {
+            brain,
+            drive,
+            rng,
+            before: Before::PutDown,
+        }
+    }
+
+    /// Returns the brain.
+    #[must_use]
+    pub const fn brain(&self) -> &B {
+        &self.brain
+    }
+
+    /// Gives the brain back.
+    #[must_use]
+    pub fn into_brain(self) -> B {
+        self.brain
+    }
+
+    /// Tells the actor that its robot has been lifted and put down, perhaps elsewhere.
+    pub const fn put_down(&mut self) {
+        self.before = Before::PutDown;
+    }
+
+    /// Makes the next action as [`System::act`] does. `see` is shown the brain and every time step once it is made,
+    /// before the brain observes it.
+    ///
+    /// # Errors
+    /// If the robot fails, or the brain cannot use what it sensed.
+    pub fn act_seen<R>(
+        &mut self,
+        robot: &mut R,
+        task: Task,
+        mut see: impl FnMut(&B, &Driven<'_, R>),
+    ) -> Result<Standing, ActorError<R::Error, B::Error>>
+    where
+        R: Robot<Command = TurnTranslate> + SensesLandmarks,
+        R::Sensing: Ranges + Compass,
+    {
+        if self.before == Before::PutDown {
+            let observed = self.brain.observe(&TimeStep::put_down(robot));
+            observed.map_err(ActorError::Brain)?;
+            self.before = Before::Action;
+        }
+        if has_arrived(robot, task) {
+            return Ok(Standing::Done);
+        }
+        let standing = self.brain.standing(task);
+        if standing != Standing::UnderWay {
+            return Ok(standing);
+        }
+        let action = self.brain.choose(&mut self.rng);
+        // Until it has ended, the next action does not follow from it.
+        self.before = Before::PutDown;
+        let Self { brain, drive, .. } = self;
+        let mut observed = Ok(());
+        let outcome = drive.carry_out(robot, action, |step| {
+            see(brain, step);
+            observed = brain.observe(&TimeStep::driven(step));
+            if observed.is_err() || has_arrived(step.robot, task) {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        let outcome = outcome.map_err(ActorError::Robot)?;
+        observed.map_err(ActorError::Brain)?;
+        if outcome.is_none() {
+            return Ok(Standing::Done);
+        }
+        self.before = Before::Action;
+        Ok(self.brain.standing(task))
+    }
+}
+
+/// Returns whether the robot senses the landmark it was sent to.
+fn has_arrived<R: SensesLandmarks>(robot: &R, task: Task) -> bool {
+    match task {
+        Task::Reach(Goal::Landmark(goal)) => robot.landmark() == Some(goal),
+        Task::Reach(Goal::Place(_)) | Task::Explore | Task::Localize => false,
+    }
+}
+
+impl<B: Brain> Mapper for Actor<B> {
+    type Observation = TimeStep;
+    type Error = B::Error;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), B::Error> {
+        self.brain.observe(seen)
+    }
+
+    fn map(&self) -> MapView {
+        self.brain.map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.brain.belief()
+    }
+}
+
+impl<B, R> System<R> for Actor<B>
+where
+    B: Brain,
+    R: Robot<Command = TurnTranslate> + SensesLandmarks,
+    R::Sensing: Ranges + Compass,
+{
+    type Failure = ActorError<R::Error, B::Error>;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
+        self.act_seen(robot, task, |_, _| {})
+    }
+
+    fn words(&self) -> String {
+        self.brain.words()
+    }
+}

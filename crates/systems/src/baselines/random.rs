@@ -1,0 +1,34 @@
+use core::convert::Infallible;
+
+use rand::{Rng, RngExt};
+use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper};
+
+use crate::{Brain, TimeStep};
+
+/// The floor: any of the four directions, each time anew. Not in the paper.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Random;
+
+impl Mapper for Random {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, _seen: &TimeStep) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        MapView::default()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        Vec::new()
+    }
+}
+
+impl Brain for Random {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        Direction::ALL[rng.random_range(0..4_u32) as usize]
+    }
+}

@@ -1,0 +1,54 @@
+use core::fmt::Debug;
+
+use rand::Rng;
+use tolman_maze::Direction;
+use tolman_robot::{Goal, Mapper, Standing, Task};
+
+use crate::TimeStep;
+
+/// Chooses high-level actions from what it observed. It knows no robot: an [`Actor`](crate::Actor) lets it drive
+/// one.
+pub trait Brain: Mapper<Observation = TimeStep> + Debug {
+    /// Returns the next action. It is asked whenever an action has ended or the robot was put down, once it
+    /// has observed that.
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction;
+
+    /// Returns how `task` stands, as far as the brain can tell: a goal is reached when the robot senses its
+    /// landmark, which is not for the brain to say.
+    ///
+    /// A brain without a map can be sent to a landmark and to nothing else.
+    fn standing(&self, task: Task) -> Standing {
+        match task {
+            Task::Reach(Goal::Landmark(_)) => Standing::UnderWay,
+            Task::Reach(Goal::Place(_)) => gave_up("it has no map that names places"),
+            Task::Explore => gave_up("it learns no map"),
+            Task::Localize => gave_up("it has no map to find itself on"),
+        }
+    }
+
+    /// Returns in a few words what it made of its situation when it last chose, such as `lost`; empty if there is
+    /// nothing to say.
+    fn words(&self) -> String {
+        String::new()
+    }
+}
+
+impl<B: Brain + ?Sized> Brain for &mut B {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        (**self).choose(rng)
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        (**self).standing(task)
+    }
+
+    fn words(&self) -> String {
+        (**self).words()
+    }
+}
+
+/// Returns that a brain gives up, and why.
+pub(crate) fn gave_up(why: &str) -> Standing {
+    let why = why.to_owned();
+    Standing::GaveUp { why }
+}

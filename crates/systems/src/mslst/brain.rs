@@ -1,0 +1,132 @@
+use alloc::sync::Arc;
+
+use rand::Rng;
+use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
+
+use super::{MslstConfig, MslstMap, Navigator, Scans, States, StatesError, Topology};
+use crate::{Brain, Doing, TimeStep};
+
+/// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology (Phase II), and
+/// then navigates (Phase III).
+///
+/// Whoever wanders, it learns of the time steps that it observes. Let an [`Actor`](crate::Actor) drive it, and
+/// [`Task::Explore`] is Phases I and II, [`Task::Reach`] with the landmark of the goal is Phase III.
+#[derive(Clone, Debug)]
+pub struct Mslst {
+    config: MslstConfig,
+    phase: Phase,
+}
+
+#[derive(Clone, Debug)]
+enum Phase {
+    Scans(Scans),
+    Topology(Topology),
+    Navigation(Navigator),
+}
+
+impl Mslst {
+    /// Returns one that knows nothing yet.
+    #[must_use]
+    pub fn new(config: MslstConfig) -> Self {
+        Self {
+            config,
+            phase: Phase::Scans(Scans::new(config.scan_steps)),
+        }
+    }
+
+    /// Returns one that has learned `map`.
+    #[must_use]
+    pub fn knowing(map: Arc<MslstMap>, config: MslstConfig) -> Self {
+        let navigator = Navigator::new(map, &config);
+        Self {
+            config,
+            phase: Phase::Navigation(navigator),
+        }
+    }
+
+    /// Returns what it has learned; `None` before the end of Phase II.
+    #[must_use]
+    pub const fn learned(&self) -> Option<&Arc<MslstMap>> {
+        match &self.phase {
+            Phase::Scans(_) | Phase::Topology(_) => None,
+            Phase::Navigation(navigator) => Some(navigator.knows()),
+        }
+    }
+
+    /// The phase under way.
+    fn brain(&self) -> &dyn Brain<Error = core::convert::Infallible> {
+        match &self.phase {
+            Phase::Scans(scans) => scans,
+            Phase::Topology(topology) => topology,
+            Phase::Navigation(navigator) => navigator,
+        }
+    }
+
+    fn brain_mut(&mut self) -> &mut dyn Brain<Error = core::convert::Infallible> {
+        match &mut self.phase {
+            Phase::Scans(scans) => scans,
+            Phase::Topology(topology) => topology,
+            Phase::Navigation(navigator) => navigator,
+        }
+    }
+
+    /// Goes on to the next phase where one is complete. The robot stays where `seen` was sensed.
+    fn advance(&mut self, seen: &TimeStep) -> Result<(), StatesError> {
+        if let Phase::Scans(scans) = &self.phase
+            && scans.is_complete()
+        {
+            let states = States::learn(scans.scans(), self.config.threshold)?;
+            let topology = Topology::new(states, self.config.graph_actions, seen);
+            self.phase = Phase::Topology(topology);
+        }
+        if let Phase::Topology(topology) = &self.phase
+            && topology.is_complete()
+        {
+            let map = Arc::new(topology.finished());
+            let mut navigator = Navigator::new(map, &self.config);
+            navigator.begin(seen);
+            self.phase = Phase::Navigation(navigator);
+        }
+        Ok(())
+    }
+}
+
+impl Mapper for Mslst {
+    type Observation = TimeStep;
+    type Error = StatesError;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), StatesError> {
+        let Ok(()) = self.brain_mut().observe(seen);
+        match seen.doing {
+            Doing::UnderWay(_) => Ok(()),
+            Doing::PutDown | Doing::Ended(..) => self.advance(seen),
+        }
+    }
+
+    fn map(&self) -> MapView {
+        self.brain().map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.brain().belief()
+    }
+}
+
+impl Brain for Mslst {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        self.brain_mut().choose(rng)
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match (&self.phase, self.brain().standing(task)) {
+            // After the scans come the states and the graph.
+            (Phase::Scans(_), Standing::Done) => Standing::UnderWay,
+            (_, standing) => standing,
+        }
+    }
+
+    fn words(&self) -> String {
+        self.brain().words()
+    }
+}

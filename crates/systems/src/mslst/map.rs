@@ -1,0 +1,60 @@
+use tolman_geom::Point;
+use tolman_maps::mslst_graph::{DUMMY, MslstGraph, Node, Zone};
+use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
+
+use super::States;
+
+/// What Phases I and II leave to Phase III: all that the brain knows of the maze.
+#[derive(Clone, Debug)]
+pub struct MslstMap {
+    /// The states that scans are sorted into.
+    pub states: States,
+    /// How actions lead from one to the next.
+    pub graph: MslstGraph,
+}
+
+/// A map, and what whoever watched it grow knows of it.
+#[derive(Clone, Debug)]
+pub struct Learned {
+    /// What the brain gets.
+    pub map: MslstMap,
+    /// What it does not.
+    pub survey: Survey,
+}
+
+/// What a watcher saw while a map was learned, for pictures and scores; no brain reads it. Empty where nobody
+/// watched, as with a real robot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Survey {
+    /// Where the robot truly was when each node was made, by id; metres.
+    pub positions: Vec<Point>,
+    /// The action of Phase II, from 1, that made each node; 0 for the first one.
+    pub made_by: Vec<u32>,
+}
+
+impl MslstMap {
+    /// Returns the graph as places without positions; the destination nodes have the landmark of the goal.
+    /// O(nodes + edges).
+    #[must_use]
+    pub fn view(&self) -> MapView {
+        view(self.graph.nodes())
+    }
+}
+
+/// Returns the nodes of a graph as places. Failed actions lead nowhere and are left out.
+pub(super) fn view(nodes: &[Node]) -> MapView {
+    let place = |(id, node): (u32, &Node)| MapPlace {
+        id,
+        position: None,
+        landmark: (node.zone == Zone::Destination).then_some(Landmark::Goal),
+    };
+    let links = |(from, node): (u32, &Node)| {
+        let heads: Vec<u32> = node.edges.iter().map(|edge| edge.head).collect();
+        let known = heads.into_iter().filter(|head| *head != DUMMY);
+        known.map(move |to| MapLink { from, to })
+    };
+    MapView {
+        places: (0..).zip(nodes).map(place).collect(),
+        links: (0..).zip(nodes).flat_map(links).collect(),
+    }
+}

@@ -1,0 +1,232 @@
+use alloc::sync::Arc;
+use core::convert::Infallible;
+
+use rand::Rng;
+use tolman_maps::mslst_graph::{Localization, Memory, localize};
+use tolman_maze::Direction;
+use tolman_planners::compressed;
+use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
+
+use super::north_scan::north_scan;
+use super::{MslstConfig, MslstMap};
+use crate::baselines::Avoid;
+use crate::brain::gave_up;
+use crate::{Brain, Doing, TimeStep};
+
+/// The brain of Phase III, *Navigation Using the Graph*.
+///
+/// "MSLST navigates by matching its current and past sensory states and actions with part of the graph, then
+/// following the actions encoded in the graph that lead to the nearest destination node (first simplifying
+/// that set of actions by compressing the path). Once it reaches a destination node (and thus believes it has
+/// solved the maze), it acts randomly (like Avoid) for eight actions … If it can't match its current state
+/// with any node in the graph or if the actions the graph suggests fail, it chooses an action randomly."
+#[derive(Clone, Debug)]
+pub struct Navigator {
+    map: Arc<MslstMap>,
+    config: MslstConfig,
+    memory: Memory,
+    /// The state of the last perception that had one.
+    state: Option<u32>,
+    /// What failed since the robot last moved.
+    failed: Vec<Direction>,
+    /// Its random actions are those of Avoid.
+    wander: Avoid,
+    /// How many random actions are still to come after it believed to have arrived.
+    doubts_left: u32,
+    situation: Situation,
+}
+
+/// What the brain makes of where it is.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Situation {
+    /// It acts randomly: it has no state yet, or the graph suggests nothing that has not failed.
+    #[default]
+    Lost,
+    /// It acts randomly because it believes to have arrived where it has not.
+    Doubtful,
+    /// It is at a node and follows the path from there.
+    OnPath {
+        /// Where it may be.
+        belief: Localization,
+        /// The actions to the destination as it sees them, the next one first.
+        path: Vec<Direction>,
+    },
+}
+
+impl Navigator {
+    /// Returns a brain that knows `map` and remembers nothing yet.
+    #[must_use]
+    pub fn new(map: Arc<MslstMap>, config: &MslstConfig) -> Self {
+        Self {
+            map,
+            config: *config,
+            memory: Memory::new(config.memory as usize),
+            state: None,
+            failed: Vec::new(),
+            wander: Avoid::default(),
+            doubts_left: 0,
+            situation: Situation::Lost,
+        }
+    }
+
+    /// Returns the map it navigates by.
+    #[must_use]
+    pub const fn knows(&self) -> &Arc<MslstMap> {
+        &self.map
+    }
+
+    /// Returns what it makes of where it is.
+    #[must_use]
+    pub const fn situation(&self) -> &Situation {
+        &self.situation
+    }
+
+    /// Forgets everything but the map: the robot has been put down, and senses `seen`.
+    pub(super) fn begin(&mut self, seen: &TimeStep) {
+        *self = Self::new(Arc::clone(&self.map), &self.config);
+        self.state = self.sense(seen);
+        if let Some(state) = self.state {
+            self.memory.start(state);
+        }
+        self.situation = self.consult();
+    }
+
+    /// "At every action, it stores its current state and the action that got it there into a list (leaving
+    /// out failed actions and the states they resulted in)."
+    fn remember(&mut self, action: Direction, seen: &TimeStep) {
+        self.failed.clear();
+        // Blind for a moment: what was sensed before still holds.
+        self.state = self.sense(seen).or(self.state);
+        if let Some(state) = self.state {
+            self.memory.moved(action, state);
+        }
+    }
+
+    /// "The number of the GNG state that most closely matches the current input vector."
+    fn sense(&self, seen: &TimeStep) -> Option<u32> {
+        self.map.states.nearest(&north_scan(seen)?).ok()
+    }
+
+    /// What the graph suggests.
+    fn consult(&mut self) -> Situation {
+        if self.doubts_left > 0 {
+            self.doubts_left -= 1;
+            return Situation::Doubtful;
+        }
+        let belief = localize(&self.map.graph, &self.memory);
+        let Some(node) = belief.node else {
+            return Situation::Lost;
+        };
+        if self.map.graph.is_destination(node) {
+            // This action is the first of them.
+            self.doubts_left = self.config.doubt.saturating_sub(1);
+            return Situation::Doubtful;
+        }
+        match self.path_from(node) {
+            Some(path) if !path.is_empty() => Situation::OnPath { belief, path },
+            _ => Situation::Lost,
+        }
+    }
+
+    /// The path to the nearest destination node, "fully simplified": compressed, after which "if the first
+    /// action in the path is one the robot just failed at, we remove it from the path and begin with the
+    /// next action".
+    fn path_from(&self, node: u32) -> Option<Vec<Direction>> {
+        let path = self.map.graph.path_to_destination(node, &self.failed)?;
+        let path = compressed(&path, |action| action.opposite());
+        let failed = |action: &Direction| self.failed.contains(action);
+        Some(path.into_iter().skip_while(failed).collect())
+    }
+}
+
+impl Navigator {
+    /// Returns how the search for its place stands: the paper's history localization can say where the robot is if
+    /// one node alone fits what it remembers.
+    fn localized(&self) -> Standing {
+        let Localization {
+            candidates,
+            matched,
+            ..
+        } = localize(&self.map.graph, &self.memory);
+        match candidates.len() {
+            1 => Standing::Done,
+            count if count > 1 && matched >= self.config.memory as usize => gave_up(&format!(
+                "{count} nodes fit all {matched} experiences that it remembers"
+            )),
+            _ => Standing::UnderWay,
+        }
+    }
+}
+
+impl Mapper for Navigator {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        self.wander.learn(seen.doing);
+        match seen.doing {
+            Doing::UnderWay(_) => return Ok(()),
+            Doing::PutDown => {
+                self.begin(seen);
+                return Ok(());
+            }
+            Doing::Ended(action, outcome) if !outcome.moved() => self.failed.push(action),
+            Doing::Ended(action, _) => self.remember(action, seen),
+        }
+        self.situation = self.consult();
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        self.map.view()
+    }
+
+    /// Nothing while it acts randomly.
+    fn belief(&self) -> Vec<Guess> {
+        let Situation::OnPath { belief, .. } = &self.situation else {
+            return Vec::new();
+        };
+        let guess = |weight: f64| {
+            move |id: u32| Guess {
+                at: Position::Place(id),
+                weight,
+            }
+        };
+        let others = belief.candidates.iter().copied();
+        let others = others.filter(|id| belief.node != Some(*id));
+        let share = 1.0 / belief.candidates.len() as f64;
+        let best = belief.node.into_iter().map(guess(1.0));
+        best.chain(others.map(guess(share))).collect()
+    }
+}
+
+impl Brain for Navigator {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        match &self.situation {
+            Situation::OnPath { path, .. } => path[0],
+            Situation::Lost | Situation::Doubtful => self.wander.wander(rng),
+        }
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match task {
+            Task::Explore => Standing::Done,
+            Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
+            Task::Reach(_) => gave_up("its graph leads to the landmark of the goal alone"),
+            Task::Localize => self.localized(),
+        }
+    }
+
+    fn words(&self) -> String {
+        match &self.situation {
+            Situation::Lost => "lost: acts randomly".to_owned(),
+            Situation::Doubtful => "believes to have arrived: acts randomly".to_owned(),
+            Situation::OnPath { belief, path } => format!(
+                "one of {} nodes that match {}, {} actions to go",
+                belief.candidates.len(),
+                belief.matched,
+                path.len()
+            ),
+        }
+    }
+}

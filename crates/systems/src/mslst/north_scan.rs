@@ -1,0 +1,40 @@
+use core::f64::consts::FRAC_PI_2;
+
+use tolman_geom::Heading;
+use tolman_robot::Scan;
+
+use crate::TimeStep;
+
+/// MSLST measures in robot units: one is the robot's diameter. Metres.
+pub const ROBOT_UNIT: f64 = 0.5;
+
+/// Returns a scan as MSLST's quantizer sees it: in robot units, and turned by the compass, to the nearest beam,
+/// so that "a particular location is distinct no matter which way the robot is facing".
+///
+/// Beam 0 looks north, the others follow counter-clockwise.
+///
+/// ```
+/// use tolman_geom::Heading;
+/// use tolman_robot::{Ring, Scan};
+/// use tolman_systems::mslst::heading_free;
+///
+/// let mut scan = Scan::clear(Ring::full(72, 1.25));
+/// scan.ranges[0] = 0.5;
+/// let facing_west = heading_free(&scan, Heading::from_degrees(180.0));
+/// assert_eq!((facing_west[18], facing_west[0]), (1.0, 2.5));
+/// ```
+#[must_use]
+pub fn heading_free(scan: &Scan, heading: Heading) -> Vec<f64> {
+    let beams = scan.ranges.len();
+    let mut turned: Vec<f64> = scan.ranges.iter().map(|range| range / ROBOT_UNIT).collect();
+    if beams > 0 {
+        let ahead = (heading.radians() + scan.ring.first_bearing - FRAC_PI_2) / scan.ring.spacing;
+        turned.rotate_right(libm::round(ahead).rem_euclid(beams as f64) as usize);
+    }
+    turned
+}
+
+/// Returns what the quantizer sees in a time step; `None` while ranges or heading drop out.
+pub(super) fn north_scan(seen: &TimeStep) -> Option<Vec<f64>> {
+    Some(heading_free(seen.scan.as_ref()?, seen.heading?))
+}

@@ -1,0 +1,100 @@
+use core::convert::Infallible;
+
+use rand::Rng;
+use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
+
+use super::north_scan::north_scan;
+use crate::baselines::Avoid;
+use crate::brain::gave_up;
+use crate::{Brain, Doing, TimeStep};
+
+/// Phase I: "the robot wanders the maze at random, using the Avoid brain … It records its input vector at every
+/// time step."
+///
+/// Each scan is [turned to the north](super::heading_free). Time steps in which ranges or heading drop out record
+/// nothing.
+#[derive(Clone, Debug)]
+pub struct Scans {
+    scans: Vec<Vec<f64>>,
+    steps: u32,
+    wanted: u32,
+    wander: Avoid,
+}
+
+impl Scans {
+    /// Returns a recorder of `steps` time steps.
+    #[must_use]
+    pub fn new(steps: u32) -> Self {
+        Self {
+            scans: Vec::new(),
+            steps: 0,
+            wanted: steps,
+            wander: Avoid::default(),
+        }
+    }
+
+    /// Returns what was recorded, robot units, beam 0 to the north, in the order of time.
+    #[must_use]
+    pub fn scans(&self) -> &[Vec<f64>] {
+        &self.scans
+    }
+
+    /// Gives the scans.
+    #[must_use]
+    pub fn into_scans(self) -> Vec<Vec<f64>> {
+        self.scans
+    }
+
+    /// Returns whether all time steps are recorded.
+    #[must_use]
+    pub const fn is_complete(&self) -> bool {
+        self.steps >= self.wanted
+    }
+}
+
+impl Mapper for Scans {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        self.wander.learn(seen.doing);
+        if seen.doing == Doing::PutDown {
+            return Ok(());
+        }
+        // The action under way is finished beyond the last step that counts.
+        if !self.is_complete() {
+            self.scans.extend(north_scan(seen));
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        MapView::default()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        Vec::new()
+    }
+}
+
+impl Brain for Scans {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        self.wander.wander(rng)
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match task {
+            Task::Explore if self.is_complete() => Standing::Done,
+            Task::Explore => Standing::UnderWay,
+            Task::Reach(_) | Task::Localize => gave_up(NO_STATES),
+        }
+    }
+
+    fn words(&self) -> String {
+        format!("records scan {} of {}", self.steps, self.wanted)
+    }
+}
+
+const NO_STATES: &str = "it has learned no states yet: let it explore first";

@@ -1,0 +1,146 @@
+use core::convert::Infallible;
+
+use rand::Rng;
+use tolman_maps::mslst_graph::{Mapper as GraphMapper, Node, Zone};
+use tolman_maze::Direction;
+use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Standing, Task};
+
+use super::map::view;
+use super::north_scan::north_scan;
+use super::{MslstMap, States};
+use crate::baselines::Avoid;
+use crate::brain::gave_up;
+use crate::{Brain, Doing, TimeStep};
+
+/// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor data it
+/// determines the closest-matching GNG state at the start of every high-level action", and maps it.
+///
+/// An action that was cut short after a step succeeded ("MSLST will not record it as a failed action"). Where the
+/// robot is put down anew, the graph begins anew.
+#[derive(Clone, Debug)]
+pub struct Topology {
+    states: States,
+    mapper: GraphMapper,
+    /// The state of the last place that had one.
+    state: u32,
+    actions: u32,
+    wanted: u32,
+    wander: Avoid,
+}
+
+impl Topology {
+    /// Returns the graph of the one place where `first` was sensed, to be grown for `actions` actions.
+    #[must_use]
+    pub fn new(states: States, actions: u32, first: &TimeStep) -> Self {
+        let state = state_of(&states, first).unwrap_or(0);
+        Self {
+            states,
+            mapper: GraphMapper::new(state, zone(first)),
+            state,
+            actions: 0,
+            wanted: actions,
+            wander: Avoid::default(),
+        }
+    }
+
+    /// Returns the nodes made so far, by id.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        self.mapper.nodes()
+    }
+
+    /// Returns the number of actions that were observed.
+    #[must_use]
+    pub const fn actions(&self) -> u32 {
+        self.actions
+    }
+
+    /// Returns whether all actions were observed.
+    #[must_use]
+    pub const fn is_complete(&self) -> bool {
+        self.actions >= self.wanted
+    }
+
+    /// Returns what was learned, with every node's distance to the destination. O(nodes + edges).
+    #[must_use]
+    pub fn finished(&self) -> MslstMap {
+        MslstMap {
+            states: self.states.clone(),
+            graph: self.mapper.clone().finish(),
+        }
+    }
+
+    fn ended(&mut self, action: Direction, seen: &TimeStep) {
+        // Blind for a moment, or a scan of another ring: what was sensed before still holds.
+        self.state = state_of(&self.states, seen).unwrap_or(self.state);
+        self.mapper.succeeded(action, self.state, zone(seen));
+    }
+}
+
+impl Mapper for Topology {
+    type Observation = TimeStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
+        self.wander.learn(seen.doing);
+        match seen.doing {
+            Doing::PutDown => *self = Self::new(self.states.clone(), self.wanted, seen),
+            Doing::UnderWay(_) => {}
+            Doing::Ended(action, outcome) => {
+                self.actions += 1;
+                if outcome.moved() {
+                    self.ended(action, seen);
+                } else {
+                    self.mapper.failed(action);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        view(self.nodes())
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        vec![Guess {
+            at: Position::Place(self.mapper.at()),
+            weight: 1.0,
+        }]
+    }
+}
+
+impl Brain for Topology {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        self.wander.wander(rng)
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match task {
+            Task::Explore if self.is_complete() => Standing::Done,
+            Task::Explore => Standing::UnderWay,
+            Task::Reach(_) | Task::Localize => gave_up(NO_GRAPH),
+        }
+    }
+
+    fn words(&self) -> String {
+        let nodes = self.nodes().len();
+        format!(
+            "maps action {} of {}: {nodes} nodes",
+            self.actions, self.wanted
+        )
+    }
+}
+
+const NO_GRAPH: &str = "its graph is not finished yet: let it explore first";
+
+fn state_of(states: &States, seen: &TimeStep) -> Option<u32> {
+    states.nearest(&north_scan(seen)?).ok()
+}
+
+fn zone(seen: &TimeStep) -> Zone {
+    match seen.landmark {
+        Some(Landmark::Goal) => Zone::Destination,
+        _ => Zone::Elsewhere,
+    }
+}
