@@ -1,6 +1,6 @@
 //! How CPM explores random mazes of corridors and junctions: the table in docs/cpm.md.
 //!
-//! `cargo run --release -p tolman-maps --example cpm_worlds`
+//! `cargo run --release -p tolman-arena --example cpm_worlds`
 //!
 //! With `-- lost [MAZES]` instead: in how many mazes without noise (6000 if not told) hypotheses lose the truth for good.
 #![expect(clippy::print_stdout, reason = "its table is its result")]

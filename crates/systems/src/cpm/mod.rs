@@ -6,6 +6,66 @@
 //! learning maze (section 4.1). [`Layer3`] maps, reasons and plans on `tolman_maps::cpm` (sections 4.2,
 //! 4.3 and 6), as its [`Explorer`] decides. [`Reasoner`] plays the paper's episodes. A [`MapFile`] keeps
 //! a map. [`find_out`] tells a robot that was put down somewhere where it is (section 8).
+//! [`Cpm`] is all this as a system that is lent a robot for a fragment at a time.
+//!
+//! A robot with a laser ring looks like an e-puck behind [`RingAsEpuck`].
+//!
+//! # On a real robot
+//!
+//! Any e-puck will do that is [`Landmarked`](tolman_robot::Landmarked): so will that behind the serial driver of
+//! `tolman-robot` (feature `epuck-serial`). Measure first the response curve of its sensors, and a
+//! time step in which four lines and their answers have room, which says how fast it sweeps as well. The thresholds of
+//! [`SegmentConfig`](tolman_control::epuck::SegmentConfig) are values of sensors that see 25 cm, as the paper's
+//! simulated ones. Those of other sensors, and corridors as wide as they see, are to be found out. All
+//! this was tried on a simulated firmware, never on a robot.
+//!
+//! ```no_run
+//! use std::fs::File;
+//! use std::thread::sleep;
+//! use std::time::{Duration, Instant};
+//!
+//! use rand::SeedableRng;
+//! use rand_chacha::ChaCha8Rng;
+//! use tolman_control::epuck::{RangeCurve, TURN_STEP};
+//! use tolman_robot::epuck::MOST_WHEEL_SPEED;
+//! use tolman_robot::epuck_serial::SerialEpuck;
+//! use tolman_robot::{Goal, Landmark, Landmarked, Standing, System, Task};
+//! use tolman_systems::cpm::{
+//!     CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Lesson, Walker, WalkerConfig, soinn, wander,
+//! };
+//!
+//! # fn goal_is_seen() -> bool { false }
+//! // Paired and bound to a device file, with a time-out: `stty -F /dev/rfcomm0 115200 raw -echo min 0 time 10`.
+//! let port = File::options().read(true).write(true).open("/dev/rfcomm0")?;
+//! let measures = EpuckMeasures {
+//!     // With as many points as were measured.
+//!     curve: RangeCurve::new(vec![(0.0, 3800.0), (0.25, 0.0)])?,
+//!     step_us: 33_333,
+//!     most_wheel_speed: MOST_WHEEL_SPEED,
+//! };
+//! let step_us = measures.step_us;
+//! let mut config = WalkerConfig::paper(measures, 0.25);
+//! config.pilot.turn_tolerance = TURN_STEP;
+//!
+//! // A step ends so long after the one before.
+//! let mut passed = Instant::now();
+//! let wait = |step: Duration| {
+//!     sleep((passed + step).saturating_duration_since(Instant::now()));
+//!     passed = Instant::now();
+//! };
+//! let robot = SerialEpuck::open(port, step_us, wait)?;
+//! let mut robot = Landmarked::new(robot, |_| goal_is_seen().then_some(Landmark::Goal));
+//!
+//! // In the learning maze; then somebody carries it to the start of another.
+//! let mut rng = ChaCha8Rng::seed_from_u64(1);
+//! let mut walker = Walker::new(&mut robot, config.clone());
+//! let seen = wander(&mut walker, Lesson::Observations(1000), &mut rng)?;
+//! let patterns = CommonPatterns::learn(&seen, soinn())?;
+//! let mut cpm = Cpm::new(config, patterns, CpmConfig::online(), 1);
+//! let find = Task::Reach(Goal::Landmark(Landmark::Goal));
+//! while cpm.act(&mut robot, find)? == Standing::UnderWay {}
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod common_patterns;
 mod config;
