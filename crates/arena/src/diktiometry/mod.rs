@@ -10,6 +10,8 @@
 
 mod epuck;
 mod errors;
+#[cfg(test)]
+mod laser_tests;
 mod memory;
 mod office;
 mod office_robot;

@@ -27,8 +27,8 @@ use super::surveyor::Surveyor;
 ///   robot explores. Landmarks are sensed at places alone, not on the way between two.
 /// - **Localize**: the planner's walk, until one hypothesis is confident and no other.
 ///
-/// If the robot breaks off amid a routine, or was lifted, the next action takes it to stand at a
-/// place; the observer finds out at which.
+/// A robot that stands amid a corridor at first, or after it broke off, goes to the nearest place
+/// before it maps on. The observer finds out at which place it is then.
 ///
 /// `E` is what it tells places apart by; the mapper's percepts have to fit it.
 #[derive(Clone, Debug)]
@@ -110,6 +110,12 @@ impl<E> Diktiometer<E> {
         config.mapper = observer.config().clone();
         let guide = Guide::new(Some(observer), config.heed, seed);
         Self { config, eye, guide }
+    }
+
+    /// Returns what it is made of.
+    #[must_use]
+    pub const fn config(&self) -> &DiktiometerConfig {
+        &self.config
     }
 
     /// Returns the observer with its map, or `None` before the first action.

@@ -80,23 +80,27 @@ impl Guide {
         self.mapping = Some(Mapping::of(observer));
     }
 
-    /// Lets `rover` look round if nothing is known of where it stands.
+    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it goes
+    /// to the nearest place first, which the map is not told.
     pub(super) fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
         config: &Config,
     ) -> Result<(), MapError<V::Error>> {
-        match (&mut self.mapping, self.whereabouts) {
-            (Some(_), Whereabouts::Followed | Whereabouts::SetDown) => {}
-            (Some(mapping), Whereabouts::Unknown) => {
-                mapping.look_round(rover)?;
-                self.whereabouts = Whereabouts::SetDown;
-            }
-            (None, _) => {
-                self.mapping = Some(Mapping::begin(rover, config.clone())?);
-                self.whereabouts = Whereabouts::Followed;
-            }
+        if self.whereabouts != Whereabouts::Unknown {
+            return Ok(());
         }
+        leave_corridor(rover).map_err(MapError::Robot)?;
+        self.whereabouts = match &mut self.mapping {
+            Some(mapping) => {
+                mapping.look_round(rover)?;
+                Whereabouts::SetDown
+            }
+            None => {
+                self.mapping = Some(Mapping::begin(rover, config.clone())?);
+                Whereabouts::Followed
+            }
+        };
         Ok(())
     }
 
@@ -239,6 +243,17 @@ impl Guide {
             (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
         }
     }
+}
+
+/// Goes to a place if only two ways lead on, in opposite directions. That is a doorway at best.
+fn leave_corridor<V: Rover>(rover: &mut V) -> Result<(), V::Error> {
+    let [north, east, south, west] = rover.look()?.exits;
+    let direction = match (north, east, south, west) {
+        (true, false, true, false) => Direction::North,
+        (false, true, false, true) => Direction::East,
+        _ => return Ok(()),
+    };
+    rover.go(direction).map(|_| ())
 }
 
 fn give_up(why: &str) -> Next {

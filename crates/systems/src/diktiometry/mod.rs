@@ -27,6 +27,8 @@ mod planner;
 mod routine_config;
 mod rover;
 mod surveyor;
+#[cfg(test)]
+mod tests;
 
 pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
 pub use errors::{RoutineError, SenseError};
