@@ -57,6 +57,7 @@ mod looks;
 mod map;
 #[cfg(feature = "serde")]
 mod map_file;
+mod mapper;
 mod matching;
 mod observation;
 mod observer;

@@ -13,10 +13,11 @@ use tolman_maps::diktiometry::{
 };
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::{StepError, World};
+use tolman_systems::diktiometry::{
+    Arrival, MapError, MappedMove, Mapping, Planner, RoutineOutcome, Rover,
+};
 
 use super::office::{PlaceKind, TruePlace};
-use super::planner::Planner;
-use super::rover::{Arrival, MapError, Mapped, RoutineOutcome, Rover};
 use super::score::{MapScore, Visit, score};
 use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, epuck, placed, walker_config};
 use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
@@ -130,26 +131,27 @@ pub fn survey_maze(
     config: &EpuckSurveyConfig,
     seed: u64,
 ) -> Result<EpuckSurvey, EpuckSurveyError> {
-    let rover = EpuckRover::new(maze, corridor_width, config, seed)?;
+    let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
-    let mut mapped = Mapped::new(rover, config.mapper(separation(&truth, corridor_width)))?;
+    let mapper = config.mapper(separation(&truth, corridor_width));
+    let mut mapping = Mapping::begin(&mut rover, mapper)?;
     let mut planner = Planner::new(config.heed);
     let mut rng = stream(seed, 1);
-    let visit = |mapped: &Mapped<EpuckRover>| Visit {
-        site: mapped.robot().site(maze),
-        place: mapped.observer().place(),
+    let visit = |rover: &EpuckRover, mapping: &Mapping| Visit {
+        site: rover.site(maze),
+        place: mapping.observer().place(),
     };
-    let mut visits = vec![visit(&mapped)];
+    let mut visits = vec![visit(&rover, &mapping)];
     let (mut gone, mut moves, mut bounded) = (Vec::new(), 0, 0);
     let mut trouble = None;
     while moves < config.moves {
-        let Some(decision) = planner.choose(mapped.observer(), mapped.exits(), &mut rng) else {
+        let Some(decision) = planner.choose(mapping.observer(), mapping.exits(), &mut rng) else {
             trouble = Some("no way leads on".to_owned());
             break;
         };
-        let (site, before) = (mapped.robot().site(maze), mapped.robot().truth().position);
-        let arrival = match mapped.go(decision.direction) {
-            Ok((arrival, _)) => arrival,
+        let (site, before) = (rover.site(maze), rover.truth().position);
+        let arrival = match mapping.go(&mut rover, decision.direction) {
+            Ok(MappedMove { arrival, .. }) => arrival,
             Err(MapError::Robot(error)) => {
                 trouble = Some(error.to_string());
                 break;
@@ -157,12 +159,12 @@ pub fn survey_maze(
             Err(error) => return Err(error.into()),
         };
         moves += 1;
-        let truly = mapped.robot().truth().position - before;
+        let truly = rover.truth().position - before;
         bounded += u32::from(arrival.moved.contains(truly.into()));
         gone.push((site, decision.direction));
-        visits.push(visit(&mapped));
+        visits.push(visit(&rover, &mapping));
     }
-    let paths = &mapped.observer().map().paths;
+    let paths = &mapping.observer().map().paths;
     Ok(EpuckSurvey {
         score: score(paths, &visits, &gone, &truth),
         moves,

@@ -6,19 +6,20 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{
-    Config, Observer, Percepts, PlaceId, Rotation, SignatureKind, StepReport,
-};
+use tolman_maps::diktiometry::{Config, Observer, PlaceId, StepReport};
 use tolman_maze::Direction;
-use tolman_sim::DoorState;
+use tolman_sim::{DoorState, StepError};
+use tolman_systems::diktiometry::{
+    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineError, RoutineOutcome,
+    aligned_signatures,
+};
 
 use super::errors::MoveError;
 use super::memory::Memory;
 use super::office::{Office, TruePlace};
-use super::planner::{Decision, Planner};
-use super::rover::{Arrival, MapError, Mapped, RoutineOutcome};
+use super::office_robot::{OfficeRobot, OfficeSurveyor, SurveyError, surveyor};
 use super::score::{MapScore, Visit, score};
-use super::surveyor::{Sight, SurveyError, Surveyor, SurveyorConfig};
+use super::surveyor_config::{Sight, SurveyorConfig};
 use tolman_systems::stream;
 
 /// Everything a run depends on but the office and the seed.
@@ -62,26 +63,16 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let separation = office.separation();
     let mut config = Config::new(Config::compass_actions(), separation);
     config.place_radius = robot.place_radius;
-    let signatures = |rows, columns: u32, tolerance| {
-        Percepts::Signatures(SignatureKind {
-            rows,
-            columns: columns as usize,
-            tolerance,
-            share: 0.6,
-            rotation: Rotation::Aligned,
-            views: 4,
-        })
-    };
     match robot.sight {
         Sight::Camera { columns, .. } if office.config().colours > 1 => {
             // A doorway does not look like the corners beside it, and those are a pitch apart or more.
             config.alike_separation = separation.max(office.config().pitch());
             config.search.width = 4.0 * config.alike_separation;
-            config.percepts = signatures(3, columns, 0.15);
+            config.percepts = aligned_signatures(3, columns as usize);
         }
         // Where all walls have one colour a camera tells nothing.
         Sight::Camera { .. } => {}
-        Sight::Laser { columns } => config.percepts = signatures(1, columns, 0.15),
+        Sight::Laser { columns } => config.percepts = aligned_signatures(1, columns as usize),
     }
     config
 }
@@ -104,7 +95,8 @@ pub struct Past {
 pub struct Survey<'a> {
     office: &'a Office,
     config: SurveyConfig,
-    mapped: Mapped<Surveyor>,
+    rover: OfficeSurveyor,
+    mapping: Mapping,
     planner: Planner,
     walk: ChaCha8Rng,
     doors: ChaCha8Rng,
@@ -165,9 +157,17 @@ pub enum RunError {
     /// The robot cannot be built or a doorway not be moved.
     #[error("the robot cannot begin")]
     Robot(#[from] SurveyError),
-    /// Robot or observer cannot go on.
+    /// Robot or observer cannot begin.
     #[error(transparent)]
-    Map(#[from] MapError<SurveyError>),
+    Map(#[from] MapError<RoutineError<StepError>>),
+    /// Robot or observer cannot go on.
+    #[error("the survey broke off at ({}, {}) m", at.x, at.y)]
+    BrokeOff {
+        /// Where the robot stands.
+        at: Point,
+        /// Reason.
+        source: MapError<RoutineError<StepError>>,
+    },
     /// The robot is at no place.
     #[error("the robot stands at ({}, {}) m, where no place is; lower the noise", at.x, at.y)]
     OffPlace {
@@ -194,18 +194,19 @@ impl<'a> Survey<'a> {
         let start = start.ok_or(RunError::NoWay {
             at: Point::origin(),
         })?;
-        let robot = Surveyor::new(office, config.robot.clone(), start.position, seed)?;
-        let mapped = Mapped::new(robot, config.mapper.clone())?;
+        let mut rover = surveyor(office, &config.robot, start.position, seed)?;
+        let mapping = Mapping::begin(&mut rover, config.mapper.clone())?;
         let visits = vec![Visit {
             site: start.site,
-            place: mapped.observer().place(),
+            place: mapping.observer().place(),
         }];
         let mut memory = Memory::default();
-        memory.see(start.site, mapped.exits());
+        memory.see(start.site, mapping.exits());
         Ok(Self {
             office,
             planner: Planner::new(config.heed),
-            mapped,
+            rover,
+            mapping,
             walk: stream(seed, 1),
             doors: stream(seed, 2),
             plans: stream(seed, 3),
@@ -232,11 +233,13 @@ impl<'a> Survey<'a> {
         observer: Observer,
         seed: u64,
     ) -> Result<Self, RunError> {
-        let robot = Surveyor::new(office, config.robot.clone(), past.at, seed)?;
+        let mut rover = surveyor(office, &config.robot, past.at, seed)?;
+        let mapping = Mapping::resume(&mut rover, observer)?;
         let mut survey = Self {
             office,
             planner: Planner::new(config.heed),
-            mapped: Mapped::resumed(robot, observer)?,
+            rover,
+            mapping,
             walk: stream(seed, 1),
             doors: stream(seed, 2),
             plans: stream(seed, 3),
@@ -251,7 +254,7 @@ impl<'a> Survey<'a> {
             config,
         };
         survey.site = survey.true_site(past.at)?;
-        survey.memory.see(survey.site, survey.mapped.exits());
+        survey.memory.see(survey.site, survey.mapping.exits());
         Ok(survey)
     }
 
@@ -272,9 +275,11 @@ impl<'a> Survey<'a> {
     /// [`RunError`] if robot or observer cannot go on.
     pub fn step(&mut self) -> Result<Surveyed, RunError> {
         self.move_a_door()?;
-        let decision =
-            self.planner
-                .choose(self.mapped.observer(), self.mapped.exits(), &mut self.walk);
+        let decision = self.planner.choose(
+            self.mapping.observer(),
+            self.mapping.exits(),
+            &mut self.walk,
+        );
         let at = self.robot().position();
         let decision = decision.ok_or(RunError::NoWay { at })?;
         let surveyed = self.go(decision)?;
@@ -283,7 +288,12 @@ impl<'a> Survey<'a> {
 
     fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
         let before = self.robot().position();
-        let (arrival, report) = self.mapped.go(decision.direction)?;
+        let gone = self.mapping.go(&mut self.rover, decision.direction);
+        let gone = gone.map_err(|source| RunError::BrokeOff {
+            at: self.robot().position(),
+            source,
+        })?;
+        let MappedMove { arrival, report } = gone;
         let here = self.robot().position();
         let from = self.site;
         self.site = self.true_site(here)?;
@@ -294,7 +304,7 @@ impl<'a> Survey<'a> {
             self.errors
                 .push(MoveError::of(&report, arrival.moved, here - before));
         }
-        self.memory.see(self.site, self.mapped.exits());
+        self.memory.see(self.site, self.mapping.exits());
         self.visits.push(Visit {
             site: self.site,
             place: self.observer().place(),
@@ -328,7 +338,7 @@ impl<'a> Survey<'a> {
         } else {
             DoorState::Shut
         };
-        self.mapped.robot_mut().set_doorway(number, state)?;
+        self.rover.robot_mut().set_doorway(number, state)?;
         match state {
             DoorState::Open => self.shut.retain(|other| *other != number),
             DoorState::Shut => self.shut.push(number),
@@ -370,13 +380,13 @@ impl<'a> Survey<'a> {
     /// The observer with its map.
     #[must_use]
     pub const fn observer(&self) -> &Observer {
-        self.mapped.observer()
+        self.mapping.observer()
     }
 
     /// The robot.
     #[must_use]
-    pub const fn robot(&self) -> &Surveyor {
-        self.mapped.robot()
+    pub const fn robot(&self) -> &OfficeRobot {
+        self.rover.robot()
     }
 
     /// The doorways that are shut now.
@@ -401,7 +411,7 @@ impl<'a> Survey<'a> {
     /// the true ways, without moving the robot. A place that cannot be planned to counts as one not reached; none if the map has
     /// no other place, or the robot was never where the one drawn is.
     pub fn try_plan(&mut self) -> Option<PlanTrial> {
-        let paths = &self.mapped.observer().map().paths;
+        let paths = &self.mapping.observer().map().paths;
         let here = self.observer().place();
         let others: Vec<PlaceId> = paths
             .places()

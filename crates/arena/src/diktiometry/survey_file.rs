@@ -9,7 +9,7 @@ use tolman_maze::{Direction, MazeError, MazeFile};
 use super::office::{Office, OfficeConfig, OfficeError};
 use super::score::Visit;
 use super::survey::{Past, RunError, Survey, SurveyConfig};
-use super::surveyor::SurveyorConfig;
+use super::surveyor_config::SurveyorConfig;
 use tolman_systems::{FileError, FileHeader, FileKind};
 
 /// Since version 2 the map is one of version 2.

@@ -12,7 +12,7 @@ use super::journal::{Distinction, Recorder};
 use super::map::{Diktiometry, Site};
 use super::matching::remember;
 use super::observation::{Exits, Move, Outcome, Start};
-use super::opportunities::{Opportunity, actions_along, opportunities};
+use super::opportunities::{Opportunity, actions_along, opportunities, untried};
 use super::path_graph::Link;
 use super::report::{Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
 use super::restructuring::{Hints, deposit, restructure};
@@ -166,6 +166,14 @@ impl Observer {
     #[must_use]
     pub fn opportunities(&self) -> Vec<Opportunity> {
         opportunities(&self.map, &self.tracks[0], &self.config)
+    }
+
+    /// Returns the actions that were never tried at `place` and may lead somewhere, by number; none
+    /// if `place` is not on the map. O(actions · degree).
+    #[must_use]
+    pub fn untried(&self, place: PlaceId) -> Vec<Action> {
+        let place = self.map.paths.resolve(place);
+        place.map_or_else(Vec::new, |place| untried(&self.map, place, &self.config))
     }
 
     /// Takes in a move that has ended.

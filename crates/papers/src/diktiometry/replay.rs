@@ -8,12 +8,13 @@ use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::settings::Setting;
-use tolman_arena::diktiometry::{Reason, Survey, Surveyed};
+use tolman_arena::diktiometry::{Survey, Surveyed};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Belief, BeliefAt, Edge, Fact, MapGrowth, Node, NodeMove, Notes, Replay, Sample, Scenery,
     Series, Shape, Track,
 };
+use tolman_systems::diktiometry::Reason;
 
 /// Only every so many time steps of the simulator become steps of the replay.
 const COARSE: usize = 12;

@@ -1,1 +1,41 @@
-//! The diktiometry.
+//! Diktiometry: a robot walks corridors from place to place while a map of it grows beside.
+//!
+//! In the order data flows:
+//!
+//! 1. A [`Surveyor`] makes a [`Rover`] of any robot that turns and translates and that senses
+//!    ranges, compass and wheels: its control routines end at corners and doorways.
+//! 2. An [`Odometer`] bounds how the robot moved; an [`Eye`] makes a signature of what it senses.
+//! 3. A [`Mapping`] tells each [`Arrival`] to the
+//!    [`Observer`](tolman_maps::diktiometry::Observer), which makes the map.
+//! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
+//!
+//! A [`Diktiometer`] is all of this as a [`System`](tolman_robot::System): it explores, finds out
+//! where it is, and goes to places and landmarks.
+//!
+//! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
+//! Symposium 1992.
+
+mod corridor;
+mod diktiometer;
+mod errors;
+mod eye;
+mod guide;
+mod mapping;
+mod odometer;
+mod place_middle;
+mod planner;
+mod routine_config;
+mod rover;
+mod surveyor;
+#[cfg(test)]
+mod tests;
+
+pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
+pub use errors::{RoutineError, SenseError};
+pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures};
+pub use mapping::{MapError, MappedMove, Mapping};
+pub use odometer::Odometer;
+pub use planner::{Decision, Planner, Reason};
+pub use routine_config::{RoutineConfig, RoutineConfigError};
+pub use rover::{Arrival, RoutineOutcome, Rover};
+pub use surveyor::Surveyor;

@@ -1,31 +1,32 @@
-//! The paper's planner: an essentially random walk that now and then heeds the map's advice.
-
 use alloc::collections::VecDeque;
 
 use rand::{Rng, RngExt};
 use tolman_maps::diktiometry::{Observer, Opportunity};
 use tolman_maze::Direction;
 
-/// "The use of exploration scripts were tested by randomly executing them when applicable (generally 30% of the time)."
+/// The paper's planner: an essentially random walk that now and then heeds the map's advice.
+///
+/// "The use of exploration scripts were tested by randomly executing them when
+/// applicable (generally 30% of the time)."
 #[derive(Clone, Debug)]
 pub struct Planner {
     heed: f64,
     script: VecDeque<Direction>,
 }
 
-/// What a planner decided.
+/// Where a planner goes next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
-    /// Where to go.
+    /// Direction to go in.
     pub direction: Direction,
-    /// Why.
+    /// Reason it was chosen.
     pub reason: Reason,
 }
 
 /// Why a robot goes somewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// By chance.
+    /// At random.
     Walk,
     /// Because of this script, which begins now.
     Advice(Opportunity),
@@ -34,7 +35,8 @@ pub enum Reason {
 }
 
 impl Planner {
-    /// A planner that begins the best applicable script with this probability, 0 … 1, whenever none is under way.
+    /// Returns a planner that begins the best applicable script with probability `heed`, 0 … 1,
+    /// whenever none is under way.
     #[must_use]
     pub const fn new(heed: f64) -> Self {
         Self {
@@ -43,14 +45,20 @@ impl Planner {
         }
     }
 
-    /// Where to go from a place with these exits, by direction. None if there is no way on.
+    /// Drops the script under way: the robot was sent elsewhere.
+    pub fn drop_script(&mut self) {
+        self.script.clear();
+    }
+
+    /// Returns where to go from a place whose open ways are `exits`, by [`Direction::index`]; `None`
+    /// if no way leads on. Draws two random numbers, whatever comes of them.
     pub fn choose(
         &mut self,
         observer: &Observer,
         exits: &[bool; 4],
         rng: &mut impl Rng,
     ) -> Option<Decision> {
-        // As many draws whatever comes of them, so that runs that heed and runs that do not walk alike.
+        // As many draws in any case, so that runs that heed and runs that do not walk alike.
         let heeds = rng.random_range(0.0..1.0) < self.heed;
         let open: Vec<Direction> = Direction::ALL
             .into_iter()

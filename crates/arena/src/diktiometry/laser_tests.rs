@@ -1,0 +1,96 @@
+//! The system on the laser Pioneer, through the one loop that runs systems.
+
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Task};
+use tolman_sim::Solo;
+use tolman_sim::robots::LaserPioneer;
+use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
+
+use super::{Office, OfficeConfig, PlaceKind, SurveyorConfig, mapper};
+use crate::run::{End, Watched, run};
+
+/// The J maze in corridors 0.95 m wide with walls that are lines, as MSLST has it.
+fn j() -> Office {
+    let file = tolman_maze::read(include_str!("../../mazes/j.maze")).unwrap();
+    let furniture = OfficeConfig {
+        corridor_width: file.corridor_width.unwrap(),
+        wall_thickness: 0.0,
+        ..OfficeConfig::bare()
+    };
+    Office::new(&file.maze, &furniture).unwrap()
+}
+
+#[test]
+fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
+    let office = j();
+    let config = SurveyorConfig::mslst();
+    let routines = config.routines(office.config().corridor_width);
+    let truth = office.places(&[]);
+    assert!(truth.values().all(|place| place.kind == PlaceKind::Corner));
+    // The goal is the east end of the hook, the start the other end.
+    let ends = truth
+        .values()
+        .filter(|place| place.ways.iter().flatten().count() == 1);
+    let mut ends: Vec<Point> = ends.map(|place| place.position).collect();
+    ends.sort_by(|a, b| a.x.total_cmp(&b.x));
+    let [start, goal] = ends[..] else {
+        panic!("a J has two ends");
+    };
+    for seed in 1..4 {
+        let pioneer = LaserPioneer::new(config.laser_robot()).unwrap();
+        let pose = Pose::new(start, Heading::NORTH);
+        let solo = Solo::new(office.world().clone(), pioneer, pose, seed).unwrap();
+        let is_near =
+            |solo: &Solo<LaserPioneer>, at: Point| (solo.truth().pose.position - at).norm() < 0.3;
+        let landmarked = Landmarked::new(solo, |solo: &Solo<LaserPioneer>| {
+            is_near(solo, goal).then_some(Landmark::Goal)
+        });
+        let mut robot = Watched::new(landmarked, 20_000, |_, _| {});
+        let paper = DiktiometerConfig::paper(routines, mapper(&office, &config));
+        let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, seed);
+
+        let ended = run(&mut robot, &mut system, Task::Explore).unwrap();
+        assert_eq!(ended.end, End::Done, "seed {seed}: {ended:?}");
+        let map = system.map();
+        assert_eq!((map.places.len(), map.links.len()), (5, 8), "{map:#?}");
+        for place in truth.values() {
+            let is_there = |drawn: &Point| (start + drawn.coords - place.position).norm() < 0.5;
+            let drawn = map.places.iter().filter_map(|place| place.position);
+            assert_eq!(drawn.filter(is_there).count(), 1, "{place:?} of {map:#?}");
+        }
+
+        let home = map.places[0].id;
+        let ended = run(&mut robot, &mut system, Task::Reach(Goal::Place(home))).unwrap();
+        assert_eq!(ended.end, End::Done);
+        assert!(is_near(robot.robot().robot(), start), "seed {seed}");
+        let task = Task::Reach(Goal::Landmark(Landmark::Goal));
+        let ended = run(&mut robot, &mut system, task).unwrap();
+        assert_eq!((ended.end, ended.actions), (End::Done, 4), "by the map");
+        assert!(is_near(robot.robot().robot(), goal), "seed {seed}");
+    }
+}
+
+/// A run that is out of time stops amid a corridor; the next goes on from there.
+#[test]
+fn a_run_that_broke_off_goes_on() {
+    let office = j();
+    let config = SurveyorConfig::mslst();
+    let routines = config.routines(office.config().corridor_width);
+    let start = office
+        .places(&[])
+        .values()
+        .next()
+        .map(|place| place.position);
+    let pioneer = LaserPioneer::new(config.laser_robot()).unwrap();
+    let pose = Pose::new(start.unwrap(), Heading::NORTH);
+    let mut solo = Solo::new(office.world().clone(), pioneer, pose, 1).unwrap();
+    let paper = DiktiometerConfig::paper(routines, mapper(&office, &config));
+    let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, 1);
+    for (limit, end) in [(50, End::OutOfTime), (20_000, End::Done)] {
+        let nowhere = Landmarked::new(&mut solo, |_| None);
+        let mut robot = Watched::new(nowhere, limit, |_, _| {});
+        let ended = run(&mut robot, &mut system, Task::Explore).unwrap();
+        assert_eq!(ended.end, end, "{ended:?}");
+    }
+    assert_eq!(system.map().places.len(), 5);
+}

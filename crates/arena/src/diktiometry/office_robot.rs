@@ -1,0 +1,299 @@
+use thiserror::Error;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::{CameraSensing, Robot, TurnTranslate};
+use tolman_sim::robots::{CameraPioneer, CameraPioneerError};
+use tolman_sim::{DoorError, DoorState, PlaceError, Solo, StepError};
+use tolman_systems::diktiometry::{RoutineConfigError, Surveyor};
+
+use super::office::Office;
+use super::surveyor_config::{Sight, SurveyorConfig};
+
+/// A simulated Pioneer with a camera in an [`Office`], which keeps where it truly was.
+#[derive(Debug)]
+pub struct OfficeRobot {
+    solo: Solo<CameraPioneer>,
+    path: Vec<Pose>,
+}
+
+/// An [`OfficeRobot`] with its control routines.
+pub type OfficeSurveyor = Surveyor<OfficeRobot, Sight>;
+
+/// Why no robot can survey an office.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SurveyError {
+    /// The configuration is out of its bounds.
+    #[error(transparent)]
+    Config(#[from] RoutineConfigError),
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] CameraPioneerError),
+    /// The robot cannot stand where it is put.
+    #[error("the robot cannot stand there")]
+    Place(#[from] PlaceError),
+    /// There is no such door.
+    #[error("there is no such door")]
+    Door(#[from] DoorError),
+}
+
+impl OfficeRobot {
+    /// Returns a robot at `at`, m, that faces north. `seed` is that of all noise.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the robot cannot be built or cannot stand there.
+    pub fn new(
+        office: &Office,
+        config: &SurveyorConfig,
+        at: Point,
+        seed: u64,
+    ) -> Result<Self, SurveyError> {
+        let pose = Pose::new(at, Heading::NORTH);
+        let robot = CameraPioneer::new(config.camera_robot())?;
+        let solo = Solo::new(office.world().clone(), robot, pose, seed)?;
+        let path = vec![pose];
+        Ok(Self { solo, path })
+    }
+
+    /// Returns where the robot truly was after each time step, for pictures.
+    #[must_use]
+    pub fn path(&self) -> &[Pose] {
+        &self.path
+    }
+
+    /// Returns where the robot truly is, m, for scoring.
+    #[must_use]
+    pub fn position(&self) -> Point {
+        self.solo.truth().pose.position
+    }
+
+    /// Opens or shuts both leaves of doorway `number`.
+    ///
+    /// # Errors
+    /// [`SurveyError::Door`] if there is none of that number.
+    pub fn set_doorway(&mut self, number: usize, state: DoorState) -> Result<(), SurveyError> {
+        for leaf in ["a", "b"] {
+            let simulation = self.solo.simulation_mut();
+            simulation.set_door(&format!("{number} {leaf}"), state)?;
+        }
+        Ok(())
+    }
+}
+
+impl Robot for OfficeRobot {
+    type Command = TurnTranslate;
+    type Sensing = CameraSensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &CameraSensing {
+        self.solo.sensing()
+    }
+
+    fn step(&mut self, command: &TurnTranslate) -> Result<(), StepError> {
+        self.solo.step(command)?;
+        self.path.push(self.solo.truth().pose);
+        Ok(())
+    }
+}
+
+/// Returns a robot with its routines at `at`, m, in `office`. `seed` is that of all noise.
+///
+/// # Errors
+/// [`SurveyError`] if the configuration is out of its bounds or the robot cannot stand there.
+pub fn surveyor(
+    office: &Office,
+    config: &SurveyorConfig,
+    at: Point,
+    seed: u64,
+) -> Result<OfficeSurveyor, SurveyError> {
+    let furniture = office.config();
+    let routines = config
+        .routines(furniture.corridor_width)
+        .with_doorways(furniture.doorway_width());
+    let robot = OfficeRobot::new(office, config, at, seed)?;
+    Ok(Surveyor::new(robot, config.sight, routines)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use tolman_maps::diktiometry::Signature;
+    use tolman_maze::Direction;
+    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
+    use tolman_systems::diktiometry::{Arrival, RoutineOutcome, Rover};
+
+    use super::super::office::{OfficeConfig, TruePlace, blocks};
+    use super::*;
+
+    fn office(seed: u64, doorway_share: f64) -> Office {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let maze = blocks(6, 0.4, &mut rng);
+        let config = OfficeConfig {
+            doorway_share,
+            colours: 5,
+            seed,
+            ..OfficeConfig::bare()
+        };
+        Office::new(&maze, &config).unwrap()
+    }
+
+    /// Walks at random, and at every arrival hands over the places left and reached, the arrival and the robot.
+    fn walk(
+        office: &Office,
+        shut: &[usize],
+        moves: u32,
+        seed: u64,
+        mut see: impl FnMut(&TruePlace, &TruePlace, &Arrival, &OfficeRobot),
+    ) {
+        let places = office.places(shut);
+        let mut at = *places.first_key_value().unwrap().0;
+        let config = SurveyorConfig::paper();
+        let mut rover = surveyor(office, &config, places[&at].position, seed).unwrap();
+        for number in shut {
+            let robot = rover.robot_mut();
+            robot.set_doorway(*number, DoorState::Shut).unwrap();
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        for _ in 0..moves {
+            let direction = Direction::ALL[rng.random_range(0_u32..4) as usize];
+            let arrival = rover.go(direction).unwrap();
+            let way = places[&at].ways[direction.index()];
+            let expected = match way {
+                Some(_) => RoutineOutcome::Completed,
+                None => RoutineOutcome::Blocked,
+            };
+            assert_eq!(
+                arrival.outcome, expected,
+                "{direction} of {:?}",
+                places[&at]
+            );
+            let from = at;
+            at = way.unwrap_or(at);
+            see(&places[&from], &places[&at], &arrival, rover.robot());
+        }
+    }
+
+    #[test]
+    fn routines_end_at_the_true_places() {
+        for (seed, doorways) in [(1, 0.0), (2, 0.3), (3, 1.0)] {
+            let office = office(seed, doorways);
+            walk(&office, &[], 300, seed, |_, to, arrival, robot| {
+                let miss = (robot.position() - to.position).abs().max();
+                assert!(
+                    miss < SurveyorConfig::paper().place_radius,
+                    "{miss} m from {to:?}"
+                );
+                assert_eq!(arrival.exits, to.ways.map(|way| way.is_some()), "{to:?}");
+            });
+        }
+    }
+
+    #[test]
+    fn the_true_way_is_inside_the_box() {
+        let office = office(4, 0.3);
+        let mut widths = Vec::new();
+        let places = office.places(&[]);
+        let mut before = places.first_key_value().unwrap().1.position;
+        walk(&office, &[], 300, 4, |from, to, arrival, robot| {
+            let here = robot.position();
+            let moved = here - before;
+            before = here;
+            assert!(
+                arrival.moved.contains(Point::origin() + moved),
+                "{moved:?} {arrival:?}"
+            );
+            let way = (to.position - from.position).norm();
+            if way > 0.0 {
+                widths.push(arrival.moved.width() / way);
+            }
+        });
+        assert!(
+            widths.iter().all(|width| *width < 0.45),
+            "boxes say something: {widths:?}"
+        );
+    }
+
+    /// The abstract world in which mappers are tried by the million offers them the same as the robot does.
+    #[test]
+    fn the_abstract_world_offers_the_same_statistics() {
+        let office = office(8, 0.2);
+        let config = SurveyorConfig::paper();
+        let truth = office.places(&[]);
+        let number: Vec<u32> = truth.keys().copied().collect();
+        let place = |site: u32| number.binary_search(&site).unwrap() as u32;
+        let positions = truth.values().map(|place| place.position).collect();
+        let ways = truth
+            .values()
+            .map(|there| there.ways.map(|way| way.map(place)));
+        let world = AbstractWorld::of_places(positions, ways.collect()).unwrap();
+        let errors = MoveError {
+            distance: config.odometry_share,
+            compass: config.compass_bound,
+            stop: 0.03,
+            ..MoveError::NONE
+        };
+        let mut ghost = AbstractRobot::new(world.into(), 0, errors, 8).unwrap();
+
+        // Of each move: how wide the box is and how wrong its middle, a metre of way.
+        let (mut real, mut ghostly) = (Vec::new(), Vec::new());
+        let mut before = truth.values().next().unwrap().position;
+        walk(&office, &[], 600, 8, |from, to, arrival, robot| {
+            let moved = robot.position() - before;
+            before = robot.position();
+            if from.site != to.site {
+                let miss = arrival.moved.middle().coords - moved;
+                real.push([arrival.moved.width(), miss.norm()].map(|x| x / moved.norm()));
+            }
+        });
+        for _ in 0..real.len() {
+            let direction = ghost.wander().unwrap();
+            let gone = ghost.go(direction).unwrap();
+            let told = gone.odometry.position;
+            let miss = told.middle().coords - gone.truth;
+            ghostly.push([told.width(), miss.norm()].map(|x| x / gone.truth.norm()));
+        }
+        let means = |all: &[[f64; 2]]| {
+            [0, 1].map(|i| all.iter().map(|one| one[i]).sum::<f64>() / all.len() as f64)
+        };
+        let (real, ghostly) = (means(&real), means(&ghostly));
+        for (real, ghostly) in real.into_iter().zip(ghostly) {
+            let ratio = real / ghostly;
+            assert!((0.75..1.33).contains(&ratio), "{real} and {ghostly}");
+        }
+    }
+
+    #[test]
+    fn a_shut_doorway_is_a_wall() {
+        let office = office(5, 0.4);
+        let shut: Vec<usize> = (0..office.doorways()).step_by(3).collect();
+        walk(&office, &shut, 200, 5, |_, to, arrival, _| {
+            assert_eq!(arrival.exits, to.ways.map(|way| way.is_some()));
+        });
+    }
+
+    #[test]
+    fn a_place_looks_the_same_from_wherever_one_comes() {
+        let office = office(6, 0.2);
+        let mut seen: Vec<(Point, Signature)> = Vec::new();
+        walk(&office, &[], 300, 6, |_, to, arrival, _| {
+            seen.push((to.position, arrival.look.clone().unwrap()));
+        });
+        let alike = |a: &Signature, b: &Signature| {
+            let same = |column: &usize| {
+                let mut pairs = a.column(*column).iter().zip(b.column(*column));
+                pairs.all(|(a, b)| (a - b).abs() < 0.15)
+            };
+            (0..a.columns()).filter(same).count() as f64 / a.columns() as f64
+        };
+        let (mut same, mut other) = (Vec::new(), Vec::new());
+        for (i, (here, a)) in seen.iter().enumerate() {
+            for (there, b) in &seen[..i] {
+                let near = (here - there).norm() < 1e-9;
+                if near { &mut same } else { &mut other }.push(alike(a, b));
+            }
+        }
+        let mean = |shares: &[f64]| shares.iter().sum::<f64>() / shares.len() as f64;
+        assert!(mean(&same) > 0.8, "{}", mean(&same));
+        assert!(mean(&other) < 0.45, "{}", mean(&other));
+    }
+}

@@ -1,0 +1,144 @@
+use tolman_robot::{CameraSensing, Ring};
+use tolman_sim::Contact;
+use tolman_sim::noise::{Bounded, Fault, Gaussian};
+use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
+use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, RoutineConfig, SenseError};
+
+use crate::pioneer::calibrated;
+
+/// A simulated Pioneer and the bounds of its errors. Where the paper names no number, ours stand in
+/// [`SurveyorConfig::paper`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurveyorConfig {
+    /// Body, laser and motors. Errors of compass and odometry are added to its own.
+    pub pioneer: LaserPioneerConfig,
+    /// What it tells places apart by.
+    pub sight: Sight,
+    /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance
+    /// travelled".
+    pub odometry_share: f64,
+    /// Largest error of the compass, rad.
+    pub compass_bound: f64,
+    /// Number of time steps that an error of odometry or compass stays the same, ≥ 1. The longer,
+    /// the less errors average out within a move. At the largest number there is, a calibration is
+    /// wrong all along.
+    pub hold_steps: u32,
+    /// Largest distance from the middle of a place at which a control routine stops, m.
+    pub place_radius: f64,
+}
+
+/// What a robot tells places apart by.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Sight {
+    /// The colours that a camera sees all round.
+    Camera {
+        /// Number of columns of the image.
+        columns: u32,
+        /// Standard deviation of each of its measurements, as a share of full light.
+        colour_sd: f64,
+    },
+    /// The ranges of its laser, as shares of its reach.
+    Laser {
+        /// Number of columns that the beams are averaged to.
+        columns: u32,
+    },
+}
+
+impl SurveyorConfig {
+    /// Returns odometry of 10 % and a compass of ± 4°, as the figures have them. An error lasts about
+    /// as long as a move.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            pioneer: LaserPioneerConfig {
+                ring: Ring::full(180, 4.0),
+                motor_noise: MotorNoise {
+                    turn: Gaussian::relative(0.1),
+                    translate: Gaussian::relative(0.1),
+                    drift_sd: 0.02,
+                },
+                contact: Contact::Slide,
+                ..LaserPioneerConfig::noiseless()
+            },
+            sight: Sight::Camera {
+                columns: 24,
+                colour_sd: 0.02,
+            },
+            odometry_share: 0.1,
+            compass_bound: 4_f64.to_radians(),
+            hold_steps: 50,
+            place_radius: 0.07,
+        }
+    }
+
+    /// Returns the robot of MSLST, with its motors and its ring of 72 beams, and the same bounds on
+    /// odometry and compass.
+    #[must_use]
+    pub fn mslst() -> Self {
+        Self {
+            pioneer: calibrated(),
+            sight: Sight::Laser { columns: 24 },
+            place_radius: 0.1,
+            ..Self::paper()
+        }
+    }
+
+    /// Returns the Pioneer with the errors of its compass and odometry.
+    #[must_use]
+    pub fn laser_robot(&self) -> LaserPioneerConfig {
+        let bounded = |share: f64, offset: f64| {
+            Fault::Bounded(Bounded {
+                share,
+                offset,
+                steps: self.hold_steps,
+            })
+        };
+        let mut pioneer = self.pioneer.clone();
+        pioneer
+            .faults
+            .compass
+            .push(bounded(0.0, self.compass_bound));
+        let distance = &mut pioneer.faults.odometry_distance;
+        distance.push(bounded(self.odometry_share, 0.0));
+        pioneer
+    }
+
+    /// Returns the same Pioneer with a camera.
+    pub(super) fn camera_robot(&self) -> CameraPioneerConfig {
+        let (columns, colour_sd) = match self.sight {
+            Sight::Camera { columns, colour_sd } => (columns, colour_sd),
+            // Nobody looks at it.
+            Sight::Laser { .. } => (1, 0.0),
+        };
+        CameraPioneerConfig {
+            columns,
+            reach: 20.0,
+            image: vec![Fault::Gaussian(Gaussian::absolute(colour_sd))],
+            pioneer: self.laser_robot(),
+        }
+    }
+
+    /// Returns what the control routines know of this robot in corridors `corridor_width` metres
+    /// wide without doorways.
+    #[must_use]
+    pub fn routines(&self, corridor_width: f64) -> RoutineConfig {
+        let LaserPioneerConfig {
+            turn_per_step,
+            translate_per_step,
+            ..
+        } = self.pioneer;
+        RoutineConfig::new(corridor_width, turn_per_step, translate_per_step)
+            .with_bounds(self.odometry_share, self.compass_bound)
+    }
+}
+
+impl Eye<CameraSensing> for Sight {
+    fn columns(&self, sensing: &CameraSensing) -> Result<Option<Vec<Vec<f64>>>, SenseError> {
+        match *self {
+            Self::Camera { .. } => CameraEye.columns(sensing),
+            Self::Laser { columns } => LaserEye { columns }.columns(sensing),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
+
+use super::error::StepError;
+use super::ids::PlaceId;
+use super::map::Diktiometry;
+use super::observation::Move;
+use super::observer::Observer;
+use super::track::Track;
+
+/// An observer works on a log as on a robot: its observation is a [`Move`].
+///
+/// ```
+/// use tolman_geom::{Interval, Point, PointBox, PoseBox};
+/// use tolman_maps::diktiometry::{Action, Config, Exits, Move, Observer, Outcome, Start};
+/// use tolman_robot::Mapper;
+///
+/// let config = Config::new(Config::compass_actions(), 1.0);
+/// let mut observer = Observer::new(config, Start::default())?;
+/// let way = PointBox::about(Point::new(2.0, 0.0), 0.1)?;
+/// observer.observe(&Move {
+///     action: Action(1),
+///     odometry: PoseBox::new(way, Interval::ZERO),
+///     percept: None,
+///     exits: Exits::Unknown,
+///     outcome: Outcome::Arrived,
+/// })?;
+/// let map = Mapper::map(&observer);
+/// assert_eq!((map.places.len(), map.links.len()), (2, 1));
+/// let second = map.places[1].position.unwrap();
+/// assert!((second - Point::new(2.0, 0.0)).norm() < 1e-9);
+/// assert_eq!(observer.belief().len(), 1);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+impl Mapper for Observer {
+    type Observation = Move;
+    type Error = StepError;
+
+    fn observe(&mut self, seen: &Move) -> Result<(), StepError> {
+        self.step(seen).map(|_| ())
+    }
+
+    /// Returns the places that stand, in the frame of the oldest: the axes are the compass's. A
+    /// place that the reference graph does not relate to it has no position, and no place has a
+    /// landmark.
+    fn map(&self) -> MapView {
+        view(self.map())
+    }
+
+    /// Returns the place of every track, the best first, by its confidence.
+    fn belief(&self) -> Vec<Guess> {
+        let guess = |track: &Track| Guess {
+            at: Position::Place(track.place.0),
+            weight: track.confidence,
+        };
+        self.tracks().iter().map(guess).collect()
+    }
+}
+
+fn view(map: &Diktiometry) -> MapView {
+    let Some((oldest, _)) = map.paths.places().next() else {
+        return MapView::default();
+    };
+    let layout = map.layout(oldest);
+    let position = |id: PlaceId| -> Option<Point> {
+        let at = layout.binary_search_by_key(&id, |drawn| drawn.place).ok()?;
+        Some(layout[at].bounds.middle())
+    };
+    let place = |id: PlaceId| MapPlace {
+        id: id.0,
+        position: position(id),
+        landmark: None,
+    };
+    let links = map.paths.links().map(|(_, link)| MapLink {
+        from: link.from.0,
+        to: link.to.0,
+    });
+    let mut links: Vec<MapLink> = links.collect();
+    links.sort_unstable();
+    links.dedup();
+    MapView {
+        places: map.paths.places().map(|(id, _)| place(id)).collect(),
+        links,
+    }
+}

@@ -1,0 +1,237 @@
+//! What ranges and compass say of a corridor.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use tolman_geom::Heading;
+use tolman_robot::{Compass, Ranges, Scan};
+
+use super::errors::SenseError;
+use super::routine_config::RoutineConfig;
+
+/// What the robot knows of the corridors, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gauge {
+    /// From wall to wall of a corridor.
+    corridor: f64,
+    /// From jamb to jamb of a doorway.
+    doorway: Option<f64>,
+}
+
+impl Gauge {
+    pub(super) const fn of(config: &RoutineConfig) -> Self {
+        Self {
+            corridor: config.corridor_width,
+            doorway: config.doorway_width,
+        }
+    }
+
+    /// Returns half a corridor: how far from a wall ahead a robot in the middle of a cell stands.
+    pub(super) const fn half(self) -> f64 {
+        0.5 * self.corridor
+    }
+
+    /// Returns whether a side with this range is open.
+    pub(super) const fn is_open(self, range: f64) -> bool {
+        range > 0.75 * self.corridor
+    }
+
+    /// Returns whether a wall stands at this range.
+    pub(super) const fn is_closed(self, range: f64) -> bool {
+        range < 0.75 * self.corridor
+    }
+
+    /// Returns whether the walls on both sides are as near to each other as a doorway's jambs.
+    pub(super) fn is_narrow(self, view: View) -> bool {
+        self.doorway
+            .is_some_and(|doorway| view.left + view.right < 0.5 * (self.corridor + doorway))
+    }
+
+    /// Returns a length that no opening and no doorway falls short of.
+    pub(super) const fn shortest(self) -> f64 {
+        0.25 * self.corridor
+    }
+
+    /// Returns the way covered in one time step, and the most that a jamb may be taken for.
+    pub(super) const fn stride(self) -> f64 {
+        0.05 * self.corridor
+    }
+}
+
+/// What the laser says of a corridor, seen along it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    /// Range to the left, m.
+    pub(super) left: f64,
+    /// Range to the right, m.
+    pub(super) right: f64,
+    /// Range ahead, m.
+    pub(super) ahead: f64,
+    /// Heading of the robot.
+    pub(super) heading: Heading,
+}
+
+/// What stands around a robot, turned by its compass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around<'a> {
+    scan: &'a Scan,
+    heading: Heading,
+}
+
+impl<'a> Around<'a> {
+    pub(super) fn of<S: Ranges + Compass>(sensing: &'a S) -> Result<Self, SenseError> {
+        let heading = compass(sensing)?;
+        let scan = round_scan(sensing)?;
+        Ok(Self { scan, heading })
+    }
+
+    /// Returns what someone who looks `ahead` sees.
+    pub(super) fn view(self, ahead: Heading) -> View {
+        View {
+            left: self.range(ahead.turned(FRAC_PI_2)),
+            right: self.range(ahead.turned(-FRAC_PI_2)),
+            ahead: self.range(ahead),
+            heading: self.heading,
+        }
+    }
+
+    /// Returns the range of the beam nearest to `direction`, m.
+    fn range(self, direction: Heading) -> f64 {
+        let ring = &self.scan.ring;
+        let bearing = self.heading.turn_to(direction) - ring.first_bearing;
+        let beam = libm::round(bearing / ring.spacing);
+        let beam = beam.rem_euclid(self.scan.ranges.len() as f64) as usize;
+        let range = self.scan.ranges.get(beam);
+        range.copied().unwrap_or(ring.max_range)
+    }
+
+    /// Returns the shortest range within `spread`, rad, of `heading`, m.
+    pub(super) fn nearest(self, heading: Heading, spread: f64) -> f64 {
+        let ring = &self.scan.ring;
+        let beams = (0..ring.beams).zip(&self.scan.ranges).filter(|(beam, _)| {
+            let looks = self.heading.turned(ring.bearing(*beam));
+            looks.turn_to(heading).abs() <= spread
+        });
+        beams.map(|(_, range)| *range).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Returns the heading by the compass.
+pub(super) fn compass<S: Compass>(sensing: &S) -> Result<Heading, SenseError> {
+    let heading = sensing.heading();
+    heading.ok_or(SenseError::Blind { sensor: "compass" })
+}
+
+/// Returns a scan whose beams are spread evenly over the full circle.
+pub(super) fn round_scan<S: Ranges>(sensing: &S) -> Result<&Scan, SenseError> {
+    let scan = sensing.scan();
+    let scan = scan.ok_or(SenseError::Blind { sensor: "laser" })?;
+    let (ring, ranges) = (&scan.ring, scan.ranges.len());
+    let field = f64::from(ring.beams) * ring.spacing;
+    let is_round = (field - TAU).abs() < 1e-6 && ranges == ring.beams as usize;
+    if is_round {
+        return Ok(scan);
+    }
+    Err(SenseError::NotRound {
+        ranges,
+        spacing_deg: ring.spacing.to_degrees(),
+    })
+}
+
+/// Openings and doorways beside the way, from which the middle of the next place follows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    left: Span,
+    right: Span,
+    narrow: Span,
+}
+
+impl Beside {
+    /// Returns what is beside the robot at the start: it belongs to the place just left.
+    pub(super) fn at_start(view: View, gauge: Gauge) -> Self {
+        Self {
+            left: Span::at_start(gauge.is_open(view.left)),
+            right: Span::at_start(gauge.is_open(view.right)),
+            narrow: Span::at_start(gauge.is_narrow(view)),
+        }
+    }
+
+    /// Takes in `view` from `along` the way, m. Returns how far along the middle of a place lies,
+    /// m, when what makes the place has ended.
+    pub(super) fn see(&mut self, view: View, along: f64, gauge: Gauge) -> Option<f64> {
+        let shortest = gauge.shortest();
+        let middles = [
+            self.left.see(gauge.is_open(view.left), along, shortest),
+            self.right.see(gauge.is_open(view.right), along, shortest),
+            self.narrow.see(gauge.is_narrow(view), along, shortest),
+        ];
+        middles.into_iter().flatten().next()
+    }
+}
+
+/// Something beside the way that begins and ends: an opening, a doorway.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Span {
+    /// It was there from the start: it belongs to the place just left.
+    Left,
+    /// It is not there.
+    Absent,
+    /// It began this far along the way, m.
+    Since(f64),
+}
+
+impl Span {
+    /// Returns where the middle of the span is, once it has ended.
+    fn see(&mut self, there: bool, along: f64, shortest: f64) -> Option<f64> {
+        match (*self, there) {
+            (Self::Absent, true) => *self = Self::Since(along),
+            (Self::Left | Self::Absent, false) => *self = Self::Absent,
+            (Self::Since(start), false) => {
+                *self = Self::Absent;
+                // A beam that misses an edge for a moment makes no place.
+                return (along - start > shortest).then_some(0.5 * (start + along));
+            }
+            (Self::Left | Self::Since(_), true) => {}
+        }
+        None
+    }
+
+    const fn at_start(there: bool) -> Self {
+        if there { Self::Left } else { Self::Absent }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::{LaserSensing, Ring};
+
+    use super::*;
+
+    #[test]
+    fn a_fan_is_refused_and_a_ring_may_begin_anywhere() {
+        let mut sensing = LaserSensing::silent(Ring::fan(181, 3.0, 8.0));
+        sensing.compass = Some(Heading::NORTH);
+        assert!(matches!(
+            Around::of(&sensing),
+            Err(SenseError::NotRound { ranges: 181, .. })
+        ));
+        let ring = Ring {
+            first_bearing: FRAC_PI_2,
+            ..Ring::full(4, 2.0)
+        };
+        let ranges = vec![0.1, 0.2, 0.3, 0.4];
+        sensing.scan = Some(Scan { ring, ranges });
+        let view = Around::of(&sensing).unwrap().view(Heading::NORTH);
+        assert_eq!([view.left, view.right, view.ahead], [0.1, 0.3, 0.4]);
+    }
+
+    #[test]
+    fn a_span_has_a_middle_once_it_has_ended_and_was_long_enough() {
+        let mut span = Span::at_start(true);
+        assert_eq!(span.see(true, 0.1, 0.3), None);
+        assert_eq!(span.see(false, 0.2, 0.3), None);
+        assert_eq!(span.see(true, 1.0, 0.3), None);
+        assert_eq!(span.see(false, 1.2, 0.3), None, "too short");
+        assert_eq!(span.see(true, 2.0, 0.3), None);
+        assert_eq!(span.see(false, 3.0, 0.3), Some(2.5));
+    }
+}

@@ -1,0 +1,191 @@
+use core::error::Error;
+
+use thiserror::Error as ThisError;
+use tolman_maps::diktiometry::{Config, Move, Observer, Start, StartError, StepError};
+use tolman_robot::{
+    Compass, Guess, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing, System, Task,
+    TurnTranslate,
+};
+
+use super::errors::RoutineError;
+use super::eye::Eye;
+use super::guide::{Guide, Next};
+use super::mapping::MapError;
+use super::routine_config::{RoutineConfig, RoutineConfigError};
+use super::surveyor::Surveyor;
+
+/// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
+/// where it is sent.
+///
+/// Each action is one control routine, from a place to the next. Its tasks:
+///
+/// - **Explore**: the [`Planner`](super::Planner)'s walk, until nothing is left to try at any place
+///   that the map leads to.
+/// - **Reach** a place: the map's plan, made anew after every routine. It gives up if the map knows
+///   no way.
+/// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
+///   robot explores. Landmarks are sensed at places alone, not on the way between two.
+/// - **Localize**: the planner's walk, until one hypothesis is confident and no other.
+///
+/// A robot that stands amid a corridor at first, or after it broke off, goes to the nearest place
+/// before it maps on. The observer finds out at which place it is then.
+///
+/// `E` is what it tells places apart by; the mapper's percepts have to fit it.
+#[derive(Clone, Debug)]
+pub struct Diktiometer<E> {
+    config: DiktiometerConfig,
+    eye: E,
+    guide: Guide,
+}
+
+/// What a [`Diktiometer`] is made of.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct DiktiometerConfig {
+    /// Corridors and robot.
+    pub routines: RoutineConfig,
+    /// The mapper; its actions are the four directions.
+    pub mapper: Config,
+    /// Probability that a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of
+    /// the time".
+    pub heed: f64,
+}
+
+impl DiktiometerConfig {
+    /// Returns a configuration that heeds advice in 30 % of the cases, as the paper has it.
+    #[must_use]
+    pub const fn paper(routines: RoutineConfig, mapper: Config) -> Self {
+        Self {
+            routines,
+            mapper,
+            heed: 0.3,
+        }
+    }
+
+    /// Sets the probability that a script is begun when one is applicable, 0 … 1.
+    #[must_use]
+    pub const fn with_heed(mut self, heed: f64) -> Self {
+        self.heed = heed;
+        self
+    }
+}
+
+/// Why a [`Diktiometer`] cannot go on.
+#[derive(Debug, ThisError)]
+#[non_exhaustive]
+pub enum DiktiometerError<E: Error + 'static> {
+    /// The routines' configuration is out of its bounds.
+    #[error(transparent)]
+    Config(#[from] RoutineConfigError),
+    /// Robot or observer cannot go on.
+    #[error(transparent)]
+    Map(#[from] MapError<RoutineError<E>>),
+}
+
+/// Why a [`Diktiometer`] refuses a move of a log.
+#[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum RefusedMove {
+    /// There was no map, and none can begin with a place that nothing is known of.
+    #[error("begin with an observer of the log's first place")]
+    Start(#[from] StartError),
+    /// The observer refuses it.
+    #[error(transparent)]
+    Step(#[from] StepError),
+}
+
+impl<E> Diktiometer<E> {
+    /// Returns a system without a map: it begins one where it first acts. `seed` is that of its
+    /// random walk.
+    #[must_use]
+    pub fn new(config: DiktiometerConfig, eye: E, seed: u64) -> Self {
+        let guide = Guide::new(None, config.heed, seed);
+        Self { config, eye, guide }
+    }
+
+    /// Returns a system that goes on with the map of `observer`, learned by another or read from a
+    /// file, from wherever the robot stands. The mapper's configuration is the observer's.
+    #[must_use]
+    pub fn with_map(mut config: DiktiometerConfig, eye: E, observer: Observer, seed: u64) -> Self {
+        config.mapper = observer.config().clone();
+        let guide = Guide::new(Some(observer), config.heed, seed);
+        Self { config, eye, guide }
+    }
+
+    /// Returns what it is made of.
+    #[must_use]
+    pub const fn config(&self) -> &DiktiometerConfig {
+        &self.config
+    }
+
+    /// Returns the observer with its map, or `None` before the first action.
+    #[must_use]
+    pub fn observer(&self) -> Option<&Observer> {
+        self.guide.observer()
+    }
+}
+
+impl<E> Mapper for Diktiometer<E> {
+    type Observation = Move;
+    type Error = RefusedMove;
+
+    /// Takes in a move that another made. Without a map it begins one at a place that nothing is
+    /// known of, which a mapper with percepts refuses.
+    fn observe(&mut self, seen: &Move) -> Result<(), RefusedMove> {
+        if let Some(observer) = self.guide.observer_mut() {
+            observer.step(seen)?;
+            return Ok(());
+        }
+        let mut observer = Observer::new(self.config.mapper.clone(), Start::default())?;
+        observer.step(seen)?;
+        self.guide.take_over(observer);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        let mut view = self.observer().map_or_else(MapView::default, Mapper::map);
+        for (landmark, place) in self.guide.landmarks() {
+            let mut places = view.places.iter_mut();
+            if let Some(place) = places.find(|known| known.id == place.0) {
+                place.landmark.get_or_insert(landmark);
+            }
+        }
+        view
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.observer().map_or_else(Vec::new, Mapper::belief)
+    }
+}
+
+impl<R, E> System<R> for Diktiometer<E>
+where
+    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing>,
+{
+    type Failure = DiktiometerError<R::Error>;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
+        let mut rover = Surveyor::new(robot, &self.eye, self.config.routines)?;
+        self.guide.find_footing(&mut rover, &self.config.mapper)?;
+        let here = rover.robot().landmark();
+        self.guide.recognize(here);
+        let direction = match self.guide.next(task, here) {
+            Next::Go(direction) => direction,
+            Next::Done => return Ok(Standing::Done),
+            Next::GiveUp { why } => return Ok(Standing::GaveUp { why }),
+        };
+        self.guide.go(&mut rover, direction)?;
+        let here = rover.robot().landmark();
+        self.guide.recognize(here);
+        if self.guide.is_done(task, here) {
+            return Ok(Standing::Done);
+        }
+        Ok(Standing::UnderWay)
+    }
+
+    fn words(&self) -> String {
+        self.guide.words()
+    }
+}

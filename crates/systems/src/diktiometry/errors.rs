@@ -1,0 +1,55 @@
+use core::error::Error;
+
+use thiserror::Error as ThisError;
+use tolman_geom::IntervalError;
+use tolman_maps::diktiometry::SignatureError;
+use tolman_maze::Direction;
+
+/// Why a control routine cannot be carried out.
+#[derive(Debug, ThisError)]
+#[non_exhaustive]
+pub enum RoutineError<E: Error + 'static> {
+    /// The robot refuses a command.
+    #[error("the robot refuses a command")]
+    Robot(#[source] E),
+    /// A sensor is of no use.
+    #[error(transparent)]
+    Sense(#[from] SenseError),
+    /// A reading is no number.
+    #[error("odometry is no number")]
+    Reading(#[from] IntervalError),
+    /// What the robot sees is no signature.
+    #[error("the image is no signature")]
+    Signature(#[from] SignatureError),
+    /// No place came in sight.
+    #[error("after {steps} time steps the way {direction} has led to no place: lower the noise")]
+    Lost {
+        /// Direction of the way.
+        direction: Direction,
+        /// Number of time steps made on the way.
+        steps: u32,
+    },
+}
+
+/// Why the routines cannot use a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum SenseError {
+    /// A sensor that the routines live on gave nothing.
+    #[error("the {sensor} gave nothing; take a robot without drop-outs")]
+    Blind {
+        /// Name of the sensor.
+        sensor: &'static str,
+    },
+    /// The laser does not look all round.
+    #[error(
+        "the laser has {ranges} ranges, {spacing_deg:.1}° apart; \
+         the routines need beams spread evenly over the full circle"
+    )]
+    NotRound {
+        /// Number of ranges.
+        ranges: usize,
+        /// Bearing from one beam to the next, degrees.
+        spacing_deg: f64,
+    },
+}

@@ -1,0 +1,284 @@
+use alloc::collections::BTreeMap;
+use alloc::format;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::diktiometry::{Action, Config, Observer, PlaceId};
+use tolman_maze::Direction;
+use tolman_planners::path_to;
+use tolman_robot::{Goal, Landmark, Task};
+
+use super::mapping::{MapError, Mapping};
+use super::planner::Planner;
+use super::rover::Rover;
+
+/// Chooses the next move of a task by the map of a rover. It knows no robot.
+#[derive(Clone, Debug)]
+pub(super) struct Guide {
+    mapping: Option<Mapping>,
+    whereabouts: Whereabouts,
+    planner: Planner,
+    walk: ChaCha8Rng,
+    /// Where each landmark was sensed last, by the name the place had then.
+    landmarks: BTreeMap<Landmark, PlaceId>,
+}
+
+/// What is known of where the rover stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Whereabouts {
+    /// It came there by a move, or began there.
+    Followed,
+    /// It was set down at a place: it has looked round and not moved since.
+    SetDown,
+    /// It may be anywhere, and has not looked round yet.
+    Unknown,
+}
+
+/// What is to be done next.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// Going in this direction to the next place.
+    Go(Direction),
+    /// Nothing: the task is done.
+    Done,
+    /// Nothing: the task cannot be done.
+    GiveUp {
+        /// Reason, in a sentence without a full stop.
+        why: String,
+    },
+}
+
+/// Stream of the random walk; the same that a survey uses.
+const WALK_STREAM: u64 = 1;
+
+impl Guide {
+    pub(super) fn new(observer: Option<Observer>, heed: f64, seed: u64) -> Self {
+        let mut walk = ChaCha8Rng::seed_from_u64(seed);
+        walk.set_stream(WALK_STREAM);
+        Self {
+            mapping: observer.map(Mapping::of),
+            whereabouts: Whereabouts::Unknown,
+            planner: Planner::new(heed),
+            walk,
+            landmarks: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn observer(&self) -> Option<&Observer> {
+        self.mapping.as_ref().map(Mapping::observer)
+    }
+
+    /// Returns the observer, to tell it of moves that the guide did not choose.
+    pub(super) fn observer_mut(&mut self) -> Option<&mut Observer> {
+        self.whereabouts = Whereabouts::Unknown;
+        self.mapping.as_mut().map(Mapping::observer_mut)
+    }
+
+    /// Begins with the map of `observer`.
+    pub(super) fn take_over(&mut self, observer: Observer) {
+        self.whereabouts = Whereabouts::Unknown;
+        self.mapping = Some(Mapping::of(observer));
+    }
+
+    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it goes
+    /// to the nearest place first, which the map is not told.
+    pub(super) fn find_footing<V: Rover>(
+        &mut self,
+        rover: &mut V,
+        config: &Config,
+    ) -> Result<(), MapError<V::Error>> {
+        if self.whereabouts != Whereabouts::Unknown {
+            return Ok(());
+        }
+        leave_corridor(rover).map_err(MapError::Robot)?;
+        self.whereabouts = match &mut self.mapping {
+            Some(mapping) => {
+                mapping.look_round(rover)?;
+                Whereabouts::SetDown
+            }
+            None => {
+                self.mapping = Some(Mapping::begin(rover, config.clone())?);
+                Whereabouts::Followed
+            }
+        };
+        Ok(())
+    }
+
+    /// Remembers that the rover senses `landmark` where it stands.
+    pub(super) fn recognize(&mut self, landmark: Option<Landmark>) {
+        if let (Some(landmark), Some(observer)) = (landmark, self.observer()) {
+            let place = observer.place();
+            self.landmarks.insert(landmark, place);
+        }
+    }
+
+    /// Lets `rover` go in `direction`, and the map take it in.
+    pub(super) fn go<V: Rover>(
+        &mut self,
+        rover: &mut V,
+        direction: Direction,
+    ) -> Result<(), MapError<V::Error>> {
+        let Some(mapping) = &mut self.mapping else {
+            return Ok(());
+        };
+        // If the rover breaks off, it stands between two places.
+        self.whereabouts = Whereabouts::Unknown;
+        mapping.go(rover, direction)?;
+        self.whereabouts = Whereabouts::Followed;
+        Ok(())
+    }
+
+    /// Returns what to do next for `task`, if the rover senses the landmark `here`.
+    pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
+        if self.is_done(task, here) {
+            return Next::Done;
+        }
+        match task {
+            Task::Explore | Task::Localize => self.wander(),
+            Task::Reach(Goal::Place(id)) => self.reach(PlaceId(id)),
+            Task::Reach(Goal::Landmark(landmark)) => self.seek(landmark, here),
+        }
+    }
+
+    /// Returns whether `task` is done, if the rover senses the landmark `here`.
+    pub(super) fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
+        let Some(observer) = self.observer() else {
+            return false;
+        };
+        match task {
+            Task::Explore => is_explored(observer),
+            Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
+            Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
+            Task::Reach(Goal::Place(id)) => {
+                let place = observer.map().paths.resolve(PlaceId(id));
+                self.whereabouts == Whereabouts::Followed && place == Some(observer.place())
+            }
+        }
+    }
+
+    /// Takes the next step of the planner's walk.
+    fn wander(&mut self) -> Next {
+        let decision = self.mapping.as_ref().and_then(|mapping| {
+            let (observer, exits) = (mapping.observer(), mapping.exits());
+            self.planner.choose(observer, exits, &mut self.walk)
+        });
+        match decision {
+            Some(decision) => Next::Go(decision.direction),
+            None => give_up("no way leads on from where it stands"),
+        }
+    }
+
+    /// Follows the plan to a place of the map.
+    fn reach(&mut self, to: PlaceId) -> Next {
+        let Some(observer) = self.observer() else {
+            return give_up("it has no map");
+        };
+        let paths = &observer.map().paths;
+        let Some(to) = paths.resolve(to) else {
+            return give_up(&format!("place {} is not on the map", to.0));
+        };
+        let from = observer.place();
+        if from == to {
+            // It was set down and takes itself to be there: a move will tell.
+            return self.wander();
+        }
+        match first_step(observer, to) {
+            Some(direction) => {
+                self.planner.drop_script();
+                Next::Go(direction)
+            }
+            None => give_up(&format!(
+                "no way is known from place {} to place {}",
+                from.0, to.0
+            )),
+        }
+    }
+
+    /// Follows the plan to where a landmark was sensed, and explores where that is not known.
+    fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
+        let place = self.place_of(landmark);
+        let observer = self.observer();
+        match (place, observer) {
+            // It is not where it was.
+            (Some(place), Some(observer))
+                if place == observer.place() && here != Some(landmark) =>
+            {
+                self.landmarks.remove(&landmark);
+            }
+            (Some(place), Some(observer)) => {
+                if let Some(direction) = first_step(observer, place) {
+                    self.planner.drop_script();
+                    return Next::Go(direction);
+                }
+            }
+            _ => {}
+        }
+        if self.observer().is_some_and(is_explored) {
+            return give_up("the landmark is at no place that it can reach");
+        }
+        self.wander()
+    }
+
+    /// Returns the place where `landmark` was sensed, by the name it has now.
+    fn place_of(&self, landmark: Landmark) -> Option<PlaceId> {
+        let place = *self.landmarks.get(&landmark)?;
+        self.observer()?.map().paths.resolve(place)
+    }
+
+    /// Returns the landmarks with the places where they were sensed, by the names these have now.
+    pub(super) fn landmarks(&self) -> impl Iterator<Item = (Landmark, PlaceId)> + '_ {
+        let all = self.landmarks.keys();
+        all.filter_map(|landmark| Some((*landmark, self.place_of(*landmark)?)))
+    }
+
+    /// Returns in a few words what it makes of its situation.
+    pub(super) fn words(&self) -> String {
+        let Some(observer) = self.observer() else {
+            return String::new();
+        };
+        let place = observer.place().0;
+        match (self.whereabouts, observer.tracks().len()) {
+            (Whereabouts::Unknown, _) => "between places".to_owned(),
+            (_, 1) => format!("at place {place}"),
+            (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
+        }
+    }
+}
+
+/// Goes to a place if only two ways lead on, in opposite directions. That is a doorway at best.
+fn leave_corridor<V: Rover>(rover: &mut V) -> Result<(), V::Error> {
+    let [north, east, south, west] = rover.look()?.exits;
+    let direction = match (north, east, south, west) {
+        (true, false, true, false) => Direction::North,
+        (false, true, false, true) => Direction::East,
+        _ => return Ok(()),
+    };
+    rover.go(direction).map(|_| ())
+}
+
+fn give_up(why: &str) -> Next {
+    let why = why.to_owned();
+    Next::GiveUp { why }
+}
+
+/// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·
+/// log places).
+fn is_explored(observer: &Observer) -> bool {
+    let is_new = |place| !observer.untried(PlaceId(place)).is_empty();
+    path_to(&observer.map().paths, observer.place().0, is_new).is_none()
+}
+
+/// Returns whether one hypothesis of where the robot is is confident, and no other.
+fn is_sure(observer: &Observer) -> bool {
+    let high = observer.config().tracks.high;
+    let confident = observer.tracks().iter();
+    let confident = confident.take_while(|track| track.confidence >= high);
+    confident.count() == 1
+}
+
+/// Returns the first direction of the plan to a place.
+fn first_step(observer: &Observer, to: PlaceId) -> Option<Direction> {
+    let plan = observer.plan(observer.place(), to)?;
+    let Action(action) = plan.steps.first()?.action;
+    Direction::ALL.get(action as usize).copied()
+}

@@ -1,0 +1,139 @@
+use core::error::Error;
+
+use thiserror::Error as ThisError;
+use tolman_geom::{Interval, PoseBox};
+use tolman_maps::diktiometry::{
+    Action, Config, Exits, Move, Observer, Outcome, Percepts, Signature, Start, StartError,
+    StepError, StepReport,
+};
+use tolman_maze::Direction;
+
+use super::rover::{Arrival, RoutineOutcome, Rover};
+
+/// The map of a rover: makes the observer's moves of the rover's arrivals.
+///
+/// Action n of the map is direction n of [`Direction::ALL`].
+#[derive(Clone, Debug)]
+pub struct Mapping {
+    observer: Observer,
+    exits: [bool; 4],
+}
+
+/// A move that the map has taken in.
+#[derive(Clone, Debug)]
+pub struct MappedMove {
+    /// What the rover measured.
+    pub arrival: Arrival,
+    /// What the observer made of it.
+    pub report: StepReport,
+}
+
+/// Why a rover cannot be mapped any further.
+#[derive(Debug, ThisError)]
+#[non_exhaustive]
+pub enum MapError<E: Error + 'static> {
+    /// The rover cannot go on.
+    #[error("the robot cannot go on")]
+    Robot(#[source] E),
+    /// The observer cannot begin.
+    #[error("the observer cannot begin")]
+    Start(#[from] StartError),
+    /// The observer refuses a move.
+    #[error("the observer refuses a move")]
+    Step(#[from] StepError),
+}
+
+impl Mapping {
+    /// Lets `rover` look and returns a map of the place it stands at alone.
+    ///
+    /// # Errors
+    /// [`MapError`] if the rover sees nothing or `config` is out of its bounds.
+    pub fn begin<R: Rover>(rover: &mut R, config: Config) -> Result<Self, MapError<R::Error>> {
+        let seen = rover.look().map_err(MapError::Robot)?;
+        let start = Start {
+            percept: percept(&config, &seen),
+            exits: exits(&seen),
+        };
+        Ok(Self {
+            observer: Observer::new(config, start)?,
+            exits: seen.exits,
+        })
+    }
+
+    /// Lets `rover` look and goes on with the map it made before, from where it last was or from
+    /// elsewhere: the observer finds out.
+    ///
+    /// # Errors
+    /// [`MapError::Robot`] if the rover sees nothing.
+    pub fn resume<R: Rover>(rover: &mut R, observer: Observer) -> Result<Self, MapError<R::Error>> {
+        let mut mapping = Self::of(observer);
+        mapping.look_round(rover)?;
+        Ok(mapping)
+    }
+
+    /// Returns a map whose rover has not looked yet: it sees no exits.
+    pub(super) const fn of(observer: Observer) -> Self {
+        let exits = [false; 4];
+        Self { observer, exits }
+    }
+
+    /// Lets `rover` look which ways lead on from where it stands.
+    pub(super) fn look_round<R: Rover>(&mut self, rover: &mut R) -> Result<(), MapError<R::Error>> {
+        self.exits = rover.look().map_err(MapError::Robot)?.exits;
+        Ok(())
+    }
+
+    /// Lets `rover` go in `direction` and tells the map.
+    ///
+    /// # Errors
+    /// [`MapError`] if the rover cannot or the observer will not; the map is then as before.
+    pub fn go<R: Rover>(
+        &mut self,
+        rover: &mut R,
+        direction: Direction,
+    ) -> Result<MappedMove, MapError<R::Error>> {
+        let arrival = rover.go(direction).map_err(MapError::Robot)?;
+        let report = self.observer.step(&Move {
+            action: Action(direction.index() as u32),
+            odometry: PoseBox::new(arrival.moved, Interval::ZERO),
+            percept: percept(self.observer.config(), &arrival),
+            exits: exits(&arrival),
+            outcome: match arrival.outcome {
+                RoutineOutcome::Completed => Outcome::Arrived,
+                RoutineOutcome::Blocked => Outcome::Blocked,
+            },
+        })?;
+        self.exits = arrival.exits;
+        Ok(MappedMove { arrival, report })
+    }
+
+    /// Returns which ways lead on from where the rover is, by [`Direction::index`].
+    #[must_use]
+    pub const fn exits(&self) -> &[bool; 4] {
+        &self.exits
+    }
+
+    /// Returns the observer with its map.
+    #[must_use]
+    pub const fn observer(&self) -> &Observer {
+        &self.observer
+    }
+
+    /// Returns the observer, to tell it of moves that no rover of ours made.
+    pub(super) const fn observer_mut(&mut self) -> &mut Observer {
+        &mut self.observer
+    }
+}
+
+/// Returns what the rover saw, if the map wants to know.
+fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
+    match config.percepts {
+        Percepts::None => None,
+        Percepts::Signatures(_) => arrival.look.clone(),
+    }
+}
+
+fn exits(arrival: &Arrival) -> Exits {
+    let open = (0..4).filter(|action| arrival.exits[*action as usize]);
+    Exits::Seen(open.map(Action).collect())
+}

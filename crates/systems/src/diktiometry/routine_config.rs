@@ -1,0 +1,125 @@
+use thiserror::Error;
+
+/// What a [`Surveyor`](super::Surveyor) knows of the corridors and of its robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RoutineConfig {
+    /// Width of a corridor from wall to wall, m, > 0.
+    pub corridor_width: f64,
+    /// Width of a doorway from jamb to jamb, m, > 0 and less than a corridor's; `None` where no
+    /// narrow passage is a place.
+    pub doorway_width: Option<f64>,
+    /// Turn of the robot in one time step at full rate, rad, > 0.
+    pub turn_per_step: f64,
+    /// Way of the robot in one time step at full speed, m, > 0.
+    pub translate_per_step: f64,
+    /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of
+    /// distance travelled".
+    pub odometry_share: f64,
+    /// Largest error of the compass, rad, ≥ 0.
+    pub compass_bound: f64,
+}
+
+/// Why no routine can be carried out with a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("the routines' `{field}` is {value}; give {expected}")]
+pub struct RoutineConfigError {
+    /// Name of the field.
+    pub field: &'static str,
+    /// What it holds.
+    pub value: f64,
+    /// What it may hold.
+    pub expected: &'static str,
+}
+
+impl RoutineConfig {
+    /// Returns a configuration for corridors `corridor_width` metres wide without doorways, and a
+    /// robot that makes at most `turn_per_step`, rad, and `translate_per_step`, m, in one time
+    /// step. The bounds are the paper's: odometry 10 %, compass 4°.
+    #[must_use]
+    pub fn new(corridor_width: f64, turn_per_step: f64, translate_per_step: f64) -> Self {
+        Self {
+            corridor_width,
+            doorway_width: None,
+            turn_per_step,
+            translate_per_step,
+            odometry_share: 0.1,
+            compass_bound: 4_f64.to_radians(),
+        }
+    }
+
+    /// Sets the width of doorways, m; they become places.
+    #[must_use]
+    pub const fn with_doorways(mut self, width: f64) -> Self {
+        self.doorway_width = Some(width);
+        self
+    }
+
+    /// Sets the bounds on odometry, as a share of the distance, and on the compass, rad.
+    #[must_use]
+    pub const fn with_bounds(mut self, odometry_share: f64, compass_bound: f64) -> Self {
+        self.odometry_share = odometry_share;
+        self.compass_bound = compass_bound;
+        self
+    }
+
+    /// Checks that every field is within its range.
+    ///
+    /// # Errors
+    /// [`RoutineConfigError`] names the first that is not.
+    pub fn check(&self) -> Result<(), RoutineConfigError> {
+        let wrong = |field, value, expected| RoutineConfigError {
+            field,
+            value,
+            expected,
+        };
+        if !(0.0..=0.5).contains(&self.odometry_share) {
+            let expected = "a share from 0 to 0.5";
+            return Err(wrong("odometry_share", self.odometry_share, expected));
+        }
+        if !(0.0..f64::INFINITY).contains(&self.compass_bound) {
+            let expected = "a number of radians, 0 or more";
+            return Err(wrong("compass_bound", self.compass_bound, expected));
+        }
+        let lengths = [
+            ("corridor_width", self.corridor_width),
+            ("doorway_width", self.doorway_width.unwrap_or(1.0)),
+            ("turn_per_step", self.turn_per_step),
+            ("translate_per_step", self.translate_per_step),
+        ];
+        for (field, value) in lengths {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(wrong(field, value, "a number above 0"));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_out_of_its_range_is_named() {
+        let sound = RoutineConfig::new(1.2, 1.0, 0.5).with_doorways(0.8);
+        assert_eq!(sound.check(), Ok(()));
+        let check = |change: fn(&mut RoutineConfig), expect: &str| {
+            let mut config = sound;
+            change(&mut config);
+            assert_eq!(config.check().unwrap_err().field, expect);
+        };
+        check(|config| config.odometry_share = 0.6, "odometry_share");
+        check(|config| config.compass_bound = f64::NAN, "compass_bound");
+        check(|config| config.corridor_width = 0.0, "corridor_width");
+        check(|config| config.doorway_width = Some(-1.0), "doorway_width");
+        check(
+            |config| config.turn_per_step = f64::INFINITY,
+            "turn_per_step",
+        );
+        check(
+            |config| config.translate_per_step = 0.0,
+            "translate_per_step",
+        );
+    }
+}

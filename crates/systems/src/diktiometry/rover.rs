@@ -1,0 +1,50 @@
+use core::error::Error;
+
+use tolman_geom::PointBox;
+use tolman_maps::diktiometry::Signature;
+use tolman_maze::Direction;
+
+/// A robot whose control routines end at distinctive places.
+///
+/// A [`Surveyor`](super::Surveyor) makes one of any robot that turns and translates between walls.
+/// Another robot needs no more than this to have its world mapped; an
+/// [`Odometer`](super::Odometer) makes a box of what its wheels and its compass say.
+pub trait Rover {
+    /// Reason a routine cannot be carried out.
+    type Error: Error + Send + Sync + 'static;
+
+    /// Returns what there is to see at the place the robot stands at, without moving.
+    ///
+    /// # Errors
+    /// If its sensors give nothing.
+    fn look(&mut self) -> Result<Arrival, Self::Error>;
+
+    /// Goes in `direction` to the next place and returns what there is.
+    ///
+    /// # Errors
+    /// If the routine neither ends at a place nor is blocked.
+    fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error>;
+}
+
+/// What a control routine ended with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival {
+    /// Whether the robot came to the next place or there was no way.
+    pub outcome: RoutineOutcome,
+    /// Displacement of the robot, east and north, m. The true one lies inside.
+    pub moved: PointBox,
+    /// What the place looks like, turned by the compass: column 0 looks east, the others follow
+    /// counter-clockwise. `None` if the robot does not look.
+    pub look: Option<Signature>,
+    /// Which ways lead on, by [`Direction::index`].
+    pub exits: [bool; 4],
+}
+
+/// How a control routine ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoutineOutcome {
+    /// At the next place.
+    Completed,
+    /// Where it began, before a wall.
+    Blocked,
+}

@@ -1,0 +1,264 @@
+use core::error::Error;
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use tolman_control::heading_of;
+use tolman_geom::Heading;
+use tolman_maps::diktiometry::Signature;
+use tolman_maze::Direction;
+use tolman_robot::{Compass, Odometry, Ranges, Robot, Rolls, TurnTranslate};
+
+use super::corridor::{Around, Beside, Gauge, View, compass};
+use super::errors::{RoutineError, SenseError};
+use super::eye::Eye;
+use super::odometer::Odometer;
+use super::place_middle::{Offset, offset};
+use super::routine_config::{RoutineConfig, RoutineConfigError};
+use super::rover::{Arrival, RoutineOutcome, Rover};
+
+/// A robot with the paper's control routines: they follow corridors and end at corners and
+/// doorways, and measure the way.
+///
+/// The robot may be a mutable reference; between two routines nothing but the configuration lasts.
+#[derive(Clone, Debug)]
+pub struct Surveyor<R, E> {
+    robot: R,
+    eye: E,
+    config: RoutineConfig,
+    /// Of the routine under way.
+    odometer: Odometer,
+    /// Number of time steps of the routine under way.
+    steps: u32,
+}
+
+/// What a turn may miss, rad.
+const ALIGNED: f64 = 0.02;
+/// What need not be mended of where the robot stopped, m.
+const SETTLED: f64 = 0.01;
+/// Time steps after which a routine is lost: the longest corridor of 60 cells.
+const PATIENCE: u32 = 2000;
+
+impl<R, E> Surveyor<R, E> {
+    /// Returns `robot`, which stands at a place and tells places apart by `eye`.
+    ///
+    /// # Errors
+    /// [`RoutineConfigError`] if a field of `config` is out of its range.
+    pub fn new(robot: R, eye: E, config: RoutineConfig) -> Result<Self, RoutineConfigError> {
+        config.check()?;
+        Ok(Self {
+            odometer: Odometer::new(config.odometry_share, config.compass_bound),
+            robot,
+            eye,
+            config,
+            steps: 0,
+        })
+    }
+
+    /// Returns the robot.
+    pub const fn robot(&self) -> &R {
+        &self.robot
+    }
+
+    /// Returns the robot, to change its world. It must not be driven between two routines.
+    pub const fn robot_mut(&mut self) -> &mut R {
+        &mut self.robot
+    }
+
+    const fn gauge(&self) -> Gauge {
+        Gauge::of(&self.config)
+    }
+}
+
+impl<R, E> Surveyor<R, E>
+where
+    R: Robot<Command = TurnTranslate, Error: Error + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing>,
+{
+    /// Turns in place until the robot looks `ahead`.
+    fn turn_to(&mut self, ahead: Heading) -> Result<(), RoutineError<R::Error>> {
+        for _ in 0..PATIENCE {
+            let turn = compass(self.robot.sensing())?.turn_to(ahead);
+            if turn.abs() < ALIGNED {
+                break;
+            }
+            self.command(turn, 0.0)?;
+        }
+        Ok(())
+    }
+
+    /// Follows the corridor `direction` to the middle of whatever opens or narrows beside the way,
+    /// or to a wall.
+    fn follow(&mut self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
+        let (gauge, ahead) = (self.gauge(), heading_of(direction));
+        let mut beside = Beside::at_start(self.view(ahead)?, gauge);
+        let mut along = 0.0;
+        self.steps = 0;
+        loop {
+            let view = self.view(ahead)?;
+            if let Some(middle) = beside.see(view, along, gauge) {
+                // Beginning and end are noticed half a stride late.
+                let middle = middle - 0.5 * gauge.stride();
+                return self.back_up(direction, along, middle);
+            }
+            let room = view.ahead - gauge.half();
+            if room < 0.2 * gauge.stride() {
+                return Ok(());
+            }
+            along += self.drive(ahead, view, gauge.stride().min(room))?;
+            self.check_patience(direction)?;
+        }
+    }
+
+    /// Drives back from `along` the way to `middle`, m.
+    fn back_up(
+        &mut self,
+        direction: Direction,
+        mut along: f64,
+        middle: f64,
+    ) -> Result<(), RoutineError<R::Error>> {
+        let (stride, ahead) = (self.gauge().stride(), heading_of(direction));
+        while along - middle > 0.2 * stride {
+            let view = self.view(ahead)?;
+            along += self.drive(ahead, view, -stride.min(along - middle))?;
+            self.check_patience(direction)?;
+        }
+        Ok(())
+    }
+
+    fn check_patience(&self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
+        let steps = self.steps;
+        if steps > PATIENCE {
+            return Err(RoutineError::Lost { direction, steps });
+        }
+        Ok(())
+    }
+
+    /// Drives `distance`, m, keeping to the middle between the walls, and returns how far odometry
+    /// says it went, m.
+    fn drive(
+        &mut self,
+        ahead: Heading,
+        view: View,
+        distance: f64,
+    ) -> Result<f64, RoutineError<R::Error>> {
+        let gauge = self.gauge();
+        // Metres to the right of the middle.
+        let aside = match (gauge.is_closed(view.left), gauge.is_closed(view.right)) {
+            (true, true) => 0.5 * (view.left - view.right),
+            // It may be a jamb: little is made of one side alone.
+            (true, false) => (view.left - gauge.half()).clamp(-gauge.stride(), gauge.stride()),
+            (false, true) => (gauge.half() - view.right).clamp(-gauge.stride(), gauge.stride()),
+            (false, false) => 0.0,
+        };
+        let lean = (4.0 * aside).clamp(-0.4, 0.4) * distance.signum();
+        let turn = view.heading.turn_to(ahead.turned(lean));
+        self.command(turn.clamp(-0.2, 0.2), distance)
+    }
+
+    /// Makes one time step and returns how far odometry says the robot went, m. Adds what odometry
+    /// and compass say of it to the box of this routine.
+    fn command(&mut self, turn: f64, distance: f64) -> Result<f64, RoutineError<R::Error>> {
+        let before = compass(self.robot.sensing())?;
+        let command = TurnTranslate {
+            turn: (turn / self.config.turn_per_step).clamp(-1.0, 1.0),
+            translate: (distance / self.config.translate_per_step).clamp(-1.0, 1.0),
+        };
+        self.robot.step(&command).map_err(RoutineError::Robot)?;
+        self.steps += 1;
+        let after = compass(self.robot.sensing())?;
+        let rolled = self.robot.sensing().odometry();
+        let Odometry { distance, .. } = rolled.ok_or(SenseError::Blind { sensor: "odometry" })?;
+        self.odometer.roll(distance, before, after)?;
+        Ok(distance)
+    }
+
+    /// Moves to the middle of the place, as far as walls and corners around it tell where that is.
+    fn settle(&mut self, ahead: Heading) -> Result<(), RoutineError<R::Error>> {
+        let Offset { along, .. } = self.offset(ahead)?;
+        if along.abs() > SETTLED {
+            let view = self.view(ahead)?;
+            self.drive(ahead, view, -along)?;
+        }
+        let Offset { aside, .. } = self.offset(ahead)?;
+        if aside.abs() > SETTLED {
+            let left = ahead.turned(FRAC_PI_2);
+            self.turn_to(left)?;
+            self.command(0.0, -aside)?;
+        }
+        Ok(())
+    }
+
+    /// Ends a routine: what the place looks like is taken in standing still.
+    fn arrive(&mut self, outcome: RoutineOutcome) -> Result<Arrival, RoutineError<R::Error>> {
+        self.robot.stop().map_err(RoutineError::Robot)?;
+        Ok(Arrival {
+            outcome,
+            moved: self.odometer.moved(),
+            exits: self.exits()?,
+            look: self.signature()?,
+        })
+    }
+
+    /// Returns what the place looks like: column 0 looks east.
+    fn signature(&self) -> Result<Option<Signature>, RoutineError<R::Error>> {
+        let sensing = self.robot.sensing();
+        let heading = compass(sensing)?;
+        let Some(mut columns) = self.eye.columns(sensing)? else {
+            return Ok(None);
+        };
+        let count = columns.len().max(1);
+        let width = TAU / count as f64;
+        let turn = libm::round(heading.radians() / width) as i64;
+        columns.rotate_right(turn.rem_euclid(count as i64) as usize);
+        let rows = columns.first().map_or(0, Vec::len);
+        Ok(Some(Signature::new(rows, columns.concat())?))
+    }
+
+    fn exits(&self) -> Result<[bool; 4], SenseError> {
+        let around = Around::of(self.robot.sensing())?;
+        let mut exits = [false; 4];
+        for direction in Direction::ALL {
+            let view = around.view(heading_of(direction));
+            exits[direction.index()] = self.gauge().is_open(view.ahead);
+        }
+        Ok(exits)
+    }
+
+    fn view(&self, ahead: Heading) -> Result<View, SenseError> {
+        Ok(Around::of(self.robot.sensing())?.view(ahead))
+    }
+
+    fn offset(&self, ahead: Heading) -> Result<Offset, SenseError> {
+        let around = Around::of(self.robot.sensing())?;
+        Ok(offset(around, ahead, self.gauge()))
+    }
+}
+
+impl<R, E> Rover for Surveyor<R, E>
+where
+    R: Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing>,
+{
+    type Error = RoutineError<R::Error>;
+
+    fn look(&mut self) -> Result<Arrival, Self::Error> {
+        self.odometer.begin();
+        self.arrive(RoutineOutcome::Completed)
+    }
+
+    /// Follows the corridor in `direction` to the next corner or doorway: turns there, drives
+    /// between the walls, and stops in the middle of whatever opens or narrows beside the way, or
+    /// before a wall. Makes some thousand time steps at most.
+    fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error> {
+        self.odometer.begin();
+        let ahead = heading_of(direction);
+        self.turn_to(ahead)?;
+        if self.gauge().is_closed(self.view(ahead)?.ahead) {
+            return self.arrive(RoutineOutcome::Blocked);
+        }
+        self.follow(direction)?;
+        self.settle(ahead)?;
+        self.arrive(RoutineOutcome::Completed)
+    }
+}

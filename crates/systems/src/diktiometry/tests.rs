@@ -1,0 +1,269 @@
+//! The system on a robot of a few lines, without the simulator.
+
+use core::convert::Infallible;
+
+use tolman_geom::{Heading, Point, Vector};
+use tolman_maps::diktiometry::Config;
+use tolman_maze::{Direction, Maze};
+use tolman_robot::{
+    Goal, Landmark, Landmarked, LaserSensing, MapView, Mapper, Odometry, Position, Ring, Robot,
+    SensesLandmarks, Standing, System, Task, TurnTranslate,
+};
+
+use super::*;
+
+/// A ring of corridors with a branch: five places, ten ways.
+const RING: &str = "\
+o---o---o---o---o---o---o
+|               |   |   |
+o   o---o---o   o---o---o
+|   |   |   |   |   |   |
+o   o---o---o   o---o---o
+|   |   |   |   |   |   |
+o   o---o---o   o---o---o
+|                     G |
+o---o---o---o---o---o---o
+";
+
+/// The places of the ring, m.
+const PLACES: [[f64; 2]; 5] = [[0.5, 0.5], [0.5, 3.5], [3.5, 3.5], [3.5, 0.5], [5.5, 0.5]];
+/// The end of the branch.
+const END: [f64; 2] = PLACES[4];
+
+/// A point in a maze with corridors one metre wide.
+#[derive(Clone)]
+struct Scripted {
+    maze: Maze,
+    at: Point,
+    heading: f64,
+    ring: Ring,
+    /// By what factor its wheels overrate each way.
+    scale: f64,
+    sensing: LaserSensing,
+}
+
+impl Scripted {
+    fn new(at: [f64; 2], scale: f64) -> Self {
+        let ring = Ring::full(72, 3.0);
+        let mut robot = Self {
+            maze: tolman_maze::parse(RING).unwrap().maze,
+            at: Point::from(at),
+            heading: 1.0,
+            ring,
+            scale,
+            sensing: LaserSensing::silent(ring),
+        };
+        robot.sense(0.0, 0.0);
+        robot
+    }
+
+    /// The range along a heading: from cell to cell until a wall stands.
+    fn range(&self, heading: f64) -> f64 {
+        let (sin, cos) = heading.sin_cos();
+        let ahead = [
+            if cos > 0.0 {
+                Direction::East
+            } else {
+                Direction::West
+            },
+            if sin > 0.0 {
+                Direction::North
+            } else {
+                Direction::South
+            },
+        ];
+        let mut cell = tolman_maze::Cell::new(self.at.x as u16, self.at.y as u16);
+        loop {
+            let edge = |at: f64, index: u16, speed: f64| {
+                let edge = f64::from(index) + if speed > 0.0 { 1.0 } else { 0.0 };
+                let range = (edge - at) / speed;
+                if range.is_finite() {
+                    range
+                } else {
+                    f64::INFINITY
+                }
+            };
+            let [x, y] = [edge(self.at.x, cell.x, cos), edge(self.at.y, cell.y, sin)];
+            let (range, side) = if x < y { (x, ahead[0]) } else { (y, ahead[1]) };
+            if range > self.ring.max_range || !self.maze.is_open(cell, side) {
+                return range.min(self.ring.max_range);
+            }
+            cell = self.maze.beside(cell, side).unwrap();
+        }
+    }
+
+    fn sense(&mut self, distance: f64, turn: f64) {
+        let bearings = (0..self.ring.beams).map(|beam| self.ring.bearing(beam));
+        let ranges = bearings.map(|bearing| self.range(self.heading + bearing));
+        let ranges = ranges.collect();
+        self.sensing.scan = Some(tolman_robot::Scan {
+            ring: self.ring,
+            ranges,
+        });
+        self.sensing.compass = Some(Heading::from_radians(self.heading));
+        let distance = distance * self.scale;
+        self.sensing.odometry = Some(Odometry { distance, turn });
+    }
+}
+
+impl Robot for Scripted {
+    type Command = TurnTranslate;
+    type Sensing = LaserSensing;
+    type Error = Infallible;
+
+    fn sensing(&self) -> &LaserSensing {
+        &self.sensing
+    }
+
+    fn step(&mut self, command: &TurnTranslate) -> Result<(), Infallible> {
+        let (turn, distance) = (command.turn * TURN, command.translate * STRIDE);
+        self.heading += turn;
+        self.at += Vector::new(self.heading.cos(), self.heading.sin()) * distance;
+        self.sense(distance, turn);
+        Ok(())
+    }
+}
+
+/// Full rates of the robot.
+const TURN: f64 = 1.0;
+const STRIDE: f64 = 0.2;
+
+fn near(a: Point, b: Point) -> bool {
+    (a - b).norm() < 0.3
+}
+
+fn at_the_end(robot: &Scripted) -> Option<Landmark> {
+    near(robot.at, Point::from(END)).then_some(Landmark::Goal)
+}
+
+fn system(seed: u64) -> Diktiometer<LaserEye> {
+    let routines = RoutineConfig::new(1.0, TURN, STRIDE).with_bounds(0.03, 0.01);
+    let mut mapper = Config::new(Config::compass_actions(), 2.0);
+    mapper.place_radius = 0.05;
+    mapper.percepts = aligned_signatures(1, 24);
+    Diktiometer::new(
+        DiktiometerConfig::paper(routines, mapper),
+        LaserEye { columns: 24 },
+        seed,
+    )
+}
+
+/// Acts until the task no longer goes on, and returns how it stands.
+fn pursue<R>(system: &mut Diktiometer<LaserEye>, robot: &mut R, task: Task) -> Standing
+where
+    R: SensesLandmarks<Command = TurnTranslate, Sensing = LaserSensing, Error = Infallible>,
+{
+    for _ in 0..300 {
+        match system.act(robot, task).unwrap() {
+            Standing::UnderWay => {}
+            standing => return standing,
+        }
+    }
+    Standing::UnderWay
+}
+
+/// Whether the places of a map are those of the ring, as seen from where place 0 truly lies.
+fn is_the_ring(map: &MapView, origin: Point) -> bool {
+    let drawn = |place: &tolman_robot::MapPlace| place.position.map(|at| origin + at.coords);
+    let places: Vec<Point> = map.places.iter().filter_map(drawn).collect();
+    let all = PLACES.map(Point::from);
+    let found = all
+        .into_iter()
+        .filter(|truth| places.iter().any(|place| near(*place, *truth)));
+    found.count() == PLACES.len() && map.places.len() == PLACES.len() && map.links.len() == 10
+}
+
+#[test]
+fn a_robot_learns_the_ring_and_goes_where_it_is_sent() {
+    for seed in 0..5 {
+        let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.02), at_the_end);
+        let mut system = system(seed);
+        let done = pursue(&mut system, &mut robot, Task::Explore);
+        assert_eq!(done, Standing::Done, "seed {seed}");
+        let map = system.map();
+        let origin = Point::from(PLACES[0]);
+        assert!(is_the_ring(&map, origin), "seed {seed}: {map:#?}");
+        let landmarks = map.places.iter().filter_map(|place| place.landmark);
+        assert_eq!(landmarks.collect::<Vec<_>>(), [Landmark::Goal]);
+
+        for place in &map.places {
+            let task = Task::Reach(Goal::Place(place.id));
+            assert_eq!(pursue(&mut system, &mut robot, task), Standing::Done);
+            let expected = origin + place.position.unwrap().coords;
+            let at = robot.robot().at;
+            assert!(near(at, expected), "seed {seed}: {at} for {expected}");
+            assert_eq!(system.belief()[0].at, Position::Place(place.id));
+        }
+        let task = Task::Reach(Goal::Place(99));
+        let standing = pursue(&mut system, &mut robot, task);
+        assert!(matches!(standing, Standing::GaveUp { why } if why.contains("99")));
+    }
+}
+
+#[test]
+fn a_landmark_is_sought_and_then_planned_to() {
+    let mut robot = Landmarked::new(Scripted::new([2.3, 3.5], 0.98), at_the_end);
+    let mut system = system(1);
+    let task = Task::Reach(Goal::Landmark(Landmark::Goal));
+    assert_eq!(pursue(&mut system, &mut robot, task), Standing::Done);
+    assert_eq!(at_the_end(robot.robot()), Some(Landmark::Goal));
+    assert_eq!(
+        pursue(&mut system, &mut robot, Task::Explore),
+        Standing::Done
+    );
+    // The corner where it began is place 0, not the spot amid the corridor.
+    assert_eq!(system.map().places.len(), PLACES.len());
+
+    let home = Task::Reach(Goal::Place(0));
+    assert_eq!(pursue(&mut system, &mut robot, home), Standing::Done);
+    assert_eq!(at_the_end(robot.robot()), None);
+    let mut moves = 0;
+    while system.act(&mut robot, task).unwrap() == Standing::UnderWay {
+        moves += 1;
+    }
+    assert!(moves < 4, "{moves} moves by plan");
+    assert_eq!(at_the_end(robot.robot()), Some(Landmark::Goal));
+
+    let nowhere = Task::Reach(Goal::Landmark(Landmark::Numbered(7)));
+    let standing = pursue(&mut system, &mut robot, nowhere);
+    assert!(matches!(standing, Standing::GaveUp { .. }), "{standing:?}");
+}
+
+#[test]
+fn a_robot_that_was_lifted_finds_out_where_it_is() {
+    let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
+    let mut first = system(2);
+    assert_eq!(
+        pursue(&mut first, &mut robot, Task::Explore),
+        Standing::Done
+    );
+    let map = first.map();
+    let observer = first.observer().unwrap().clone();
+    for begin in PLACES {
+        let config = system(0).config().clone();
+        let eye = LaserEye { columns: 24 };
+        let mut again = Diktiometer::with_map(config, eye, observer.clone(), 3);
+        let mut lifted = Landmarked::new(Scripted::new(begin, 1.0), at_the_end);
+        let standing = pursue(&mut again, &mut lifted, Task::Localize);
+        assert_eq!(standing, Standing::Done, "from {begin:?}");
+        let Position::Place(id) = again.belief()[0].at else {
+            panic!("a place");
+        };
+        let place = map.places.iter().find(|place| place.id == id);
+        let place = place.and_then(|place| place.position).unwrap();
+        let expected = Point::from(PLACES[0]) + place.coords;
+        let at = lifted.robot().at;
+        assert!(near(at, expected), "from {begin:?}: {at} for {expected}");
+    }
+}
+
+#[test]
+fn what_cannot_be_driven_is_refused_by_name() {
+    let mut blind = Scripted::new(PLACES[0], 1.0);
+    blind.ring = Ring::fan(72, 3.0, 3.0);
+    blind.sense(0.0, 0.0);
+    let mut robot = Landmarked::new(blind, at_the_end);
+    let failure = system(1).act(&mut robot, Task::Explore).unwrap_err();
+    let told = format!("{failure:?}");
+    assert!(told.contains("NotRound"), "{told}");
+}
