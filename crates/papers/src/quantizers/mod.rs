@@ -103,7 +103,11 @@ impl Experiment for Quantizers {
             robot: pioneer::calibrated(),
             mazes: mazes.collect(),
             parameters: Parameters {
-                mslst: GngConfig::mslst(50.0),
+                mslst: GngConfig {
+                    // No bound; TOML has no greater integer.
+                    max_units: i64::MAX as usize,
+                    ..GngConfig::mslst(50.0)
+                },
                 gng: GngConfig::fritzke(),
                 soinn_literal: SoinnConfig::shen_hasegawa(),
                 soinn: SoinnConfig::noisy(),
