@@ -64,7 +64,7 @@ pub struct Fields(BTreeMap<String, Field>);
 
 impl Fields {
     /// Returns the fields of a record; what is `None` is left out.
-    pub(super) fn of<T: Record + ?Sized>(record: &T) -> Result<Self, RecordError> {
+    pub(super) fn of<T: Record>(record: &T) -> Result<Self, RecordError> {
         let written = toml::Table::try_from(record).map_err(|source| RecordError::Write {
             record: type_name::<T>(),
             source,

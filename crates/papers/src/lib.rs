@@ -66,3 +66,20 @@ pub const fn catalogue() -> &'static [Entry] {
         },
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_experiment::Options;
+
+    use super::catalogue;
+
+    #[test]
+    fn every_configuration_can_be_written() {
+        for entry in catalogue() {
+            let experiment = (entry.open)(&Options::default()).unwrap();
+            let config = experiment.config().unwrap();
+            let text = toml::to_string(&config).unwrap();
+            assert_eq!(text.parse::<toml::Table>().unwrap(), config);
+        }
+    }
+}

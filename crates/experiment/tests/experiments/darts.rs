@@ -20,7 +20,8 @@ record! {
         /// Whether a dart hit.
         success: bool => higher("success").tolerance(Tolerance::Absolute(15.0)),
         /// Number of darts thrown.
-        throws: u64 => lower("throws").at_least(1).at_most(DARTS).tolerance(Tolerance::Relative(0.35)),
+        throws: u64 =>
+            lower("throws").at_least(1).at_most(DARTS).tolerance(Tolerance::Relative(0.35)),
         /// How the run ended.
         outcome: Option<String> => neither("outcome"),
         /// Distance of the last dart from the middle.

@@ -82,10 +82,7 @@ fn medians_and_counts_are_those_of_the_runs() {
         let found = values.find(|(_, of, measured)| of.name == metric && measured.row == "Novice");
         found.unwrap().2.clone()
     };
-    let mut throws: Vec<f64> = outcome.runs[..40]
-        .iter()
-        .map(|run| throws_of(run))
-        .collect();
+    let mut throws: Vec<f64> = outcome.runs[..40].iter().map(throws_of).collect();
     throws.sort_by(f64::total_cmp);
 
     let median = novice("median_throws");
@@ -129,7 +126,7 @@ fn rows_are_compared_each_with_each_and_with_one_among_them() {
     let outcome = run(&darts, &options(&out)).0.unwrap();
     let throws = |row: &str| -> Vec<f64> {
         let of_row = outcome.runs.iter().filter(|run| run.row == row);
-        of_row.map(|run| throws_of(run)).collect()
+        of_row.map(throws_of).collect()
     };
     let pairs = &outcome.analysis.tables[0].pairs;
     let names: Vec<String> = pairs.iter().map(Pair::name).collect();

@@ -38,14 +38,15 @@ record! {
     /// A walk through an office; of the row of odometry no more than its error.
     pub(super) struct SurveyRun {
         /// Mean squared error a move over the last moves.
-        ssd_asymptote: f64 => lower("squared error a move, at last").unit("m²").at_least(0).decimals(4),
+        ssd_asymptote: f64 =>
+            lower("squared error a move, at last").unit("m²").at_least(0).decimals(4),
         /// The same by odometry alone.
         odometry: Option<f64> => lower("odometry's error").unit("m²").at_least(0),
         /// Squared error a move, each the mean of a window of moves.
         curve: Vec<f64> => lower("squared error a move").unit("m²").at_least(0),
-        /// Share of a node's visits that were to its most frequent true place, over all nodes.
+        /// Share of the visits that were to the true place for which their place on the map stands.
         purity: Option<f64> => higher("purity").share().decimals(4),
-        /// Share of the map's links that lead where they say.
+        /// Share of the map's links that lead where their action truly leads.
         link_precision: Option<f64> => higher("link precision").share().decimals(4),
         /// Share of the links believed now that lead where they say.
         believed_precision: Option<f64> =>
@@ -53,14 +54,15 @@ record! {
         /// Share of the ways as they were last seen that lead where they say.
         remembered_precision: Option<f64> =>
             higher("precision of ways as they were last seen").share().decimals(4),
-        /// Share of the true ways that the map has.
+        /// Share of the true ways of the whole world that are on the map.
         link_recall: Option<f64> => higher("link recall").share().decimals(4),
-        /// Share of the true places visited that have one node.
+        /// Share of the true places visited for which exactly one place on the map stands.
         share_once: Option<f64> => higher("true places with one node").share().decimals(4),
         /// Share of the last moves that the map expected.
         coverage: Option<f64> => higher("moves that were expected").share().decimals(4),
         /// Share of the plans to places that are there that work.
-        plans: Option<f64> => higher("plans that work, to places that are there").share().decimals(4),
+        plans: Option<f64> =>
+            higher("plans that work, to places that are there").share().decimals(4),
         /// Share of those plans that work by ways as they were last seen.
         remembered_plans: Option<f64> =>
             higher("plans by ways as they were last seen that work").share().decimals(4),

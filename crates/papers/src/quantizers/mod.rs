@@ -49,6 +49,15 @@ struct Parameters {
     second_layer: SecondLayerConfig,
 }
 
+/// The same with the greatest integer of TOML for a number of units without a bound.
+fn unbounded(config: GngConfig) -> GngConfig {
+    let max_units = config.max_units.min(i64::MAX as usize);
+    GngConfig {
+        max_units,
+        ..config
+    }
+}
+
 /// Reads what it needs and sets the tables up.
 ///
 /// # Errors
@@ -103,8 +112,8 @@ impl Experiment for Quantizers {
             robot: pioneer::calibrated(),
             mazes: mazes.collect(),
             parameters: Parameters {
-                mslst: GngConfig::mslst(50.0),
-                gng: GngConfig::fritzke(),
+                mslst: unbounded(GngConfig::mslst(50.0)),
+                gng: unbounded(GngConfig::fritzke()),
                 soinn_literal: SoinnConfig::shen_hasegawa(),
                 soinn: SoinnConfig::noisy(),
                 second_layer_literal: SecondLayerConfig::shen_hasegawa(),
