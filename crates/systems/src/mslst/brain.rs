@@ -1,4 +1,5 @@
 use alloc::sync::Arc;
+use core::convert::Infallible;
 
 use rand::Rng;
 use tolman_maze::Direction;
@@ -21,7 +22,7 @@ pub struct Mslst {
 #[derive(Clone, Debug)]
 enum Phase {
     Scans(Scans),
-    Topology(Topology),
+    Topology(Box<Topology>),
     Navigation(Navigator),
 }
 
@@ -55,18 +56,18 @@ impl Mslst {
     }
 
     /// The phase under way.
-    fn brain(&self) -> &dyn Brain<Error = core::convert::Infallible> {
+    fn brain(&self) -> &dyn Brain<Error = Infallible> {
         match &self.phase {
             Phase::Scans(scans) => scans,
-            Phase::Topology(topology) => topology,
+            Phase::Topology(topology) => &**topology,
             Phase::Navigation(navigator) => navigator,
         }
     }
 
-    fn brain_mut(&mut self) -> &mut dyn Brain<Error = core::convert::Infallible> {
+    fn brain_mut(&mut self) -> &mut dyn Brain<Error = Infallible> {
         match &mut self.phase {
             Phase::Scans(scans) => scans,
-            Phase::Topology(topology) => topology,
+            Phase::Topology(topology) => &mut **topology,
             Phase::Navigation(navigator) => navigator,
         }
     }
@@ -78,7 +79,7 @@ impl Mslst {
         {
             let states = States::learn(scans.scans(), self.config.threshold)?;
             let topology = Topology::new(states, self.config.graph_actions, seen);
-            self.phase = Phase::Topology(topology);
+            self.phase = Phase::Topology(Box::new(topology));
         }
         if let Phase::Topology(topology) = &self.phase
             && topology.is_complete()
