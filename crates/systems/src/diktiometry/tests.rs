@@ -289,24 +289,28 @@ impl SensesLandmarks for Failing {
 
 #[test]
 fn a_routine_that_broke_off_amid_a_corridor_is_made_good() {
-    for after in [25, 40, 330, 500] {
+    let mut amid = 0;
+    for after in (20..400).step_by(19) {
         let mut robot = Failing(Scripted::new(PLACES[0], 1.0), Some(after));
         let mut system = system(4);
-        let (mut failures, mut standing) = (0, Standing::UnderWay);
-        for _ in 0..300 {
-            match system.act(&mut robot, Task::Explore) {
-                Ok(now) => standing = now,
-                Err(_) => failures += 1,
-            }
-            if standing == Standing::Done {
-                break;
-            }
+        while system.act(&mut robot, Task::Explore).is_ok() {}
+        let stopped = robot.0.at;
+        if PLACES
+            .iter()
+            .any(|place| (stopped - Point::from(*place)).norm() < 0.7)
+        {
+            continue;
         }
-        assert_eq!((failures, standing), (1, Standing::Done), "after {after}");
+        amid += 1;
+        let mut standing = Standing::UnderWay;
+        while standing == Standing::UnderWay {
+            standing = system.act(&mut robot, Task::Explore).unwrap();
+        }
         let map = system.map();
         let origin = Point::from(PLACES[0]);
-        assert!(is_the_ring(&map, origin), "after {after}: {map:#?}");
+        assert!(is_the_ring(&map, origin), "{stopped}, {after}: {map:#?}");
     }
+    assert!(amid > 5, "{amid}");
 }
 
 #[test]
