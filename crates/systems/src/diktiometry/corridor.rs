@@ -221,7 +221,8 @@ mod tests {
         let ranges = vec![0.1, 0.2, 0.3, 0.4];
         sensing.scan = Some(Scan { ring, ranges });
         let view = Around::of(&sensing).unwrap().view(Heading::NORTH);
-        assert_eq!([view.left, view.right, view.ahead], [0.1, 0.3, 0.4]);
+        let seen = [view.left, view.right, view.ahead].map(|range| (10.0 * range) as u32);
+        assert_eq!(seen, [1, 3, 4]);
     }
 
     #[test]

@@ -25,10 +25,13 @@ use super::surveyor::Surveyor;
 ///   no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
 ///   robot explores. Landmarks are sensed at places alone, not on the way between two.
-/// - **Localize**: the planner's walk, until one hypothesis is confident and no other.
+/// - **Localize**: the planner's walk, until one hypothesis is confident and no other. With a map from
+///   before it makes as many moves first as the mapper's `tracks.history`, on which confidence rests.
 ///
-/// A robot that stands amid a corridor at first, or after it broke off, goes to the nearest place
-/// before it maps on. The observer finds out at which place it is then.
+/// A robot that stands amid a corridor at first goes to a place before it maps. After a routine that
+/// broke off, it goes back to the place it left. A map from before is gone on with as if the robot
+/// stood where the map has it. Of a robot that was carried elsewhere, or broke off beside a place, it
+/// may make places twice.
 ///
 /// `E` is what it tells places apart by; the mapper's percepts have to fit it.
 #[derive(Clone, Debug)]
@@ -104,7 +107,7 @@ impl<E> Diktiometer<E> {
     }
 
     /// Returns a system that goes on with the map of `observer`, learned by another or read from a
-    /// file, from wherever the robot stands. The mapper's configuration is the observer's.
+    /// file. The mapper's configuration is the observer's.
     #[must_use]
     pub fn with_map(mut config: DiktiometerConfig, eye: E, observer: Observer, seed: u64) -> Self {
         config.mapper = observer.config().clone();

@@ -17,6 +17,8 @@ use super::rover::Rover;
 pub(super) struct Guide {
     mapping: Option<Mapping>,
     whereabouts: Whereabouts,
+    /// Direction of the routine that is under way or broke off.
+    under_way: Option<Direction>,
     planner: Planner,
     walk: ChaCha8Rng,
     /// Where each landmark was sensed last, by the name the place had then.
@@ -26,12 +28,30 @@ pub(super) struct Guide {
 /// What is known of where the rover stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whereabouts {
-    /// It came there by a move, or began there.
+    /// The map has followed it long enough, or began where it stood.
     Followed,
-    /// It was set down at a place: it has looked round and not moved since.
-    SetDown,
+    /// It was set down at a place and has looked round.
+    SetDown {
+        /// Number of moves since.
+        moves: usize,
+    },
     /// It may be anywhere, and has not looked round yet.
     Unknown,
+}
+
+impl Whereabouts {
+    /// Returns whether the rover moved since it was set down.
+    const fn has_moved(self) -> bool {
+        matches!(self, Self::Followed | Self::SetDown { moves: 1.. })
+    }
+
+    /// Returns what is known after a move, where confidence rests on the last `history` matches.
+    const fn after_a_move(self, history: usize) -> Self {
+        match self {
+            Self::SetDown { moves } if moves + 1 < history => Self::SetDown { moves: moves + 1 },
+            Self::SetDown { .. } | Self::Followed | Self::Unknown => Self::Followed,
+        }
+    }
 }
 
 /// What is to be done next.
@@ -58,6 +78,7 @@ impl Guide {
         Self {
             mapping: observer.map(Mapping::of),
             whereabouts: Whereabouts::Unknown,
+            under_way: None,
             planner: Planner::new(heed),
             walk,
             landmarks: BTreeMap::new(),
@@ -80,8 +101,8 @@ impl Guide {
         self.mapping = Some(Mapping::of(observer));
     }
 
-    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it goes
-    /// to the nearest place first, which the map is not told.
+    /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it first
+    /// goes to a place, which the map is not told: back to the last if a routine broke off.
     pub(super) fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -90,11 +111,13 @@ impl Guide {
         if self.whereabouts != Whereabouts::Unknown {
             return Ok(());
         }
-        leave_corridor(rover).map_err(MapError::Robot)?;
+        let back = self.under_way.map(Direction::opposite);
+        leave_corridor(rover, back).map_err(MapError::Robot)?;
+        self.under_way = None;
         self.whereabouts = match &mut self.mapping {
             Some(mapping) => {
                 mapping.look_round(rover)?;
-                Whereabouts::SetDown
+                Whereabouts::SetDown { moves: 0 }
             }
             None => {
                 self.mapping = Some(Mapping::begin(rover, config.clone())?);
@@ -122,9 +145,12 @@ impl Guide {
             return Ok(());
         };
         // If the rover breaks off, it stands between two places.
-        self.whereabouts = Whereabouts::Unknown;
+        let before = core::mem::replace(&mut self.whereabouts, Whereabouts::Unknown);
+        self.under_way = Some(direction);
         mapping.go(rover, direction)?;
-        self.whereabouts = Whereabouts::Followed;
+        self.under_way = None;
+        let history = mapping.observer().config().tracks.history;
+        self.whereabouts = before.after_a_move(history);
         Ok(())
     }
 
@@ -151,7 +177,7 @@ impl Guide {
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {
                 let place = observer.map().paths.resolve(PlaceId(id));
-                self.whereabouts == Whereabouts::Followed && place == Some(observer.place())
+                self.whereabouts.has_moved() && place == Some(observer.place())
             }
         }
     }
@@ -245,15 +271,16 @@ impl Guide {
     }
 }
 
-/// Goes to a place if only two ways lead on, in opposite directions. That is a doorway at best.
-fn leave_corridor<V: Rover>(rover: &mut V) -> Result<(), V::Error> {
-    let [north, east, south, west] = rover.look()?.exits;
-    let direction = match (north, east, south, west) {
-        (true, false, true, false) => Direction::North,
-        (false, true, false, true) => Direction::East,
+/// Goes to a place, `back` if that is a way, from where only two ways lead on, in opposite directions.
+/// That is a doorway at best.
+fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<(), V::Error> {
+    let axis = match rover.look()?.exits {
+        [true, false, true, false] => [Direction::North, Direction::South],
+        [false, true, false, true] => [Direction::East, Direction::West],
         _ => return Ok(()),
     };
-    rover.go(direction).map(|_| ())
+    let back = back.filter(|back| axis.contains(back));
+    rover.go(back.unwrap_or(axis[0])).map(|_| ())
 }
 
 fn give_up(why: &str) -> Next {

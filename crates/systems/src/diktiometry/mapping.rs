@@ -60,8 +60,8 @@ impl Mapping {
         })
     }
 
-    /// Lets `rover` look and goes on with the map it made before, from where it last was or from
-    /// elsewhere: the observer finds out.
+    /// Lets `rover` look and goes on with the map it made before, from where that map has it. From
+    /// elsewhere, places may be made twice until the observer finds out.
     ///
     /// # Errors
     /// [`MapError::Robot`] if the rover sees nothing.

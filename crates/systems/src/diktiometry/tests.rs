@@ -218,7 +218,7 @@ fn a_landmark_is_sought_and_then_planned_to() {
     assert_eq!(pursue(&mut system, &mut robot, home), Standing::Done);
     assert_eq!(at_the_end(robot.robot()), None);
     let mut moves = 0;
-    while system.act(&mut robot, task).unwrap() == Standing::UnderWay {
+    while moves < 300 && system.act(&mut robot, task).unwrap() == Standing::UnderWay {
         moves += 1;
     }
     assert!(moves < 4, "{moves} moves by plan");
@@ -230,31 +230,86 @@ fn a_landmark_is_sought_and_then_planned_to() {
 }
 
 #[test]
-fn a_robot_that_was_lifted_finds_out_where_it_is() {
+fn another_goes_on_with_the_map_and_knows_where_it_is() {
     let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
     let mut first = system(2);
     assert_eq!(
         pursue(&mut first, &mut robot, Task::Explore),
         Standing::Done
     );
-    let map = first.map();
     let observer = first.observer().unwrap().clone();
-    for begin in PLACES {
-        let config = system(0).config().clone();
-        let eye = LaserEye { columns: 24 };
-        let mut again = Diktiometer::with_map(config, eye, observer.clone(), 3);
-        let mut lifted = Landmarked::new(Scripted::new(begin, 1.0), at_the_end);
-        let standing = pursue(&mut again, &mut lifted, Task::Localize);
-        assert_eq!(standing, Standing::Done, "from {begin:?}");
-        let Position::Place(id) = again.belief()[0].at else {
-            panic!("a place");
-        };
-        let place = map.places.iter().find(|place| place.id == id);
-        let place = place.and_then(|place| place.position).unwrap();
-        let expected = Point::from(PLACES[0]) + place.coords;
-        let at = lifted.robot().at;
-        assert!(near(at, expected), "from {begin:?}: {at} for {expected}");
+    let known = observer.moves();
+    let eye = LaserEye { columns: 24 };
+    let mut again = Diktiometer::with_map(first.config().clone(), eye, observer, 3);
+    let standing = pursue(&mut again, &mut robot, Task::Localize);
+    assert_eq!(standing, Standing::Done);
+    let moves = again.observer().unwrap().moves() - known;
+    assert_eq!(moves, 10, "confidence rests on so many");
+    let Position::Place(id) = again.belief()[0].at else {
+        panic!("a place");
+    };
+    let map = again.map();
+    assert!(is_the_ring(&map, Point::from(PLACES[0])), "{map:#?}");
+    let place = map.places.iter().find(|place| place.id == id);
+    let expected = Point::from(PLACES[0]) + place.unwrap().position.unwrap().coords;
+    let at = robot.robot().at;
+    assert!(near(at, expected), "{at} for {expected}");
+}
+
+/// Fails once, after so many time steps.
+struct Failing(Scripted, Option<u32>);
+
+impl Robot for Failing {
+    type Command = TurnTranslate;
+    type Sensing = LaserSensing;
+    type Error = core::fmt::Error;
+
+    fn sensing(&self) -> &LaserSensing {
+        self.0.sensing()
     }
+
+    fn step(&mut self, command: &TurnTranslate) -> Result<(), core::fmt::Error> {
+        match &mut self.1 {
+            Some(0) => {
+                self.1 = None;
+                return Err(core::fmt::Error);
+            }
+            Some(left) => *left -= 1,
+            None => {}
+        }
+        self.0.step(command).map_err(|never| match never {})
+    }
+}
+
+impl SensesLandmarks for Failing {
+    fn landmark(&self) -> Option<Landmark> {
+        None
+    }
+}
+
+#[test]
+fn a_routine_that_broke_off_amid_a_corridor_is_made_good() {
+    let mut amid = 0;
+    for after in (20..400).step_by(19) {
+        let mut robot = Failing(Scripted::new(PLACES[0], 1.0), Some(after));
+        let mut system = system(4);
+        while system.act(&mut robot, Task::Explore).is_ok() {}
+        let stopped = robot.0.at;
+        if PLACES
+            .iter()
+            .any(|place| (stopped - Point::from(*place)).norm() < 0.7)
+        {
+            continue;
+        }
+        amid += 1;
+        for _ in 0..300 {
+            system.act(&mut robot, Task::Explore).unwrap();
+        }
+        let map = system.map();
+        let origin = Point::from(PLACES[0]);
+        assert!(is_the_ring(&map, origin), "{stopped}, {after}: {map:#?}");
+    }
+    assert!(amid > 5, "{amid}");
 }
 
 #[test]
