@@ -3,6 +3,7 @@
 #![expect(
     clippy::unwrap_used,
     clippy::panic,
+    clippy::print_stdout,
     reason = "a scenario that cannot be set up has failed"
 )]
 
@@ -11,6 +12,7 @@ extern crate alloc;
 mod golden;
 mod mazes;
 mod mslst;
+mod one_maze;
 mod physics;
 mod replay;
 mod report;
