@@ -41,6 +41,6 @@ pub enum Done {
     Reached,
     /// All that can be reached was explored, and what was looked for is not there.
     NotThere,
-    /// [`CpmConfig::most_traversals`] fragments were walked.
+    /// [`most_traversals`](super::CpmConfig::most_traversals) fragments were walked.
     OutOfPatience,
 }
