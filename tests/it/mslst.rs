@@ -10,6 +10,7 @@ use tolman_maps::mslst_graph::DUMMY;
 use tolman_papers::Recorder;
 use tolman_replay::Shape;
 use tolman_robot::{Guess, Position};
+use tolman_systems::Origin;
 use tolman_systems::mslst::{Learned, MapFile, MslstConfig, Navigator};
 
 use crate::support::{own_course, trial};
@@ -34,14 +35,21 @@ fn solve(learned: Learned, seed: u64) -> Episode {
     episode::run(&trial(&course, seed), &mut mind, |_| {}).unwrap()
 }
 
-#[test]
-fn a_saved_map_is_the_same_map_and_makes_the_same_run() {
-    let file = MapFile {
-        maze: "J".to_owned(),
-        seed: 5,
+fn map_file() -> MapFile {
+    MapFile {
+        origin: Origin {
+            world: "J".to_owned(),
+            robot: "laser Pioneer".to_owned(),
+            seed: 5,
+        },
         config: config(),
         learned: learned(),
-    };
+    }
+}
+
+#[test]
+fn a_saved_map_is_the_same_map_and_makes_the_same_run() {
+    let file = map_file();
     let text = file.to_json().unwrap();
     let read = MapFile::from_json(&text).unwrap();
     assert_eq!(read.to_json().unwrap(), text);
@@ -96,14 +104,7 @@ fn it_finds_out_of_the_j_maze() {
 
 #[test]
 fn files_that_hold_no_map_say_why() {
-    let good = MapFile {
-        maze: "J".to_owned(),
-        seed: 5,
-        config: config(),
-        learned: learned(),
-    }
-    .to_json()
-    .unwrap();
+    let good = map_file().to_json().unwrap();
     let damaged = |from: &str, to: &str| {
         assert!(good.contains(from), "{from}");
         let error = MapFile::from_json(&good.replacen(from, to, 1)).unwrap_err();
@@ -117,7 +118,7 @@ fn files_that_hold_no_map_say_why() {
     };
     for (from, to, expected) in [
         ("{", "", "line 1 column"),
-        ("tolman-mslst-map", "soup", "\"soup\""),
+        ("tolman-map", "soup", "\"soup\""),
         ("\"version\":1", "\"version\":9", "version is 9"),
         (
             "\"nodes\":[{\"state\":",

@@ -10,6 +10,9 @@ use tolman_systems::mslst::ROBOT_UNIT;
 
 pub use on_course::CoursePioneer;
 
+/// Name of the robot in files of learned maps.
+pub const LASER_PIONEER: &str = "laser Pioneer";
+
 /// The width of a corridor where a maze says nothing of it: 1.9 robot units, in metres.
 ///
 /// Avoid's buffer of 0.9 units needs more than 1.8; the corridor test needs less than 2.0

@@ -18,13 +18,8 @@ extern crate alloc;
 pub mod cpm;
 #[cfg(feature = "alloc")]
 pub mod diktiometry;
-#[cfg(feature = "serde")]
-mod file_header;
 #[cfg(feature = "alloc")]
 pub mod mslst_graph;
 #[cfg(feature = "alloc")]
 pub mod wall_belief;
 pub mod wall_map;
-
-#[cfg(feature = "serde")]
-pub use file_header::HeaderError;

@@ -13,7 +13,7 @@ pub mod baselines;
 mod brain;
 pub mod cpm;
 pub mod diktiometry;
-mod file_kind;
+mod map_header;
 pub mod micromouse;
 pub mod mslst;
 mod stream;
@@ -21,6 +21,6 @@ mod time_step;
 
 pub use actor::{Actor, ActorError};
 pub use brain::Brain;
-pub use file_kind::{FileError, FileHeader, FileKind};
+pub use map_header::{FileError, MapSystem, Origin};
 pub use stream::stream;
 pub use time_step::{Doing, TimeStep};

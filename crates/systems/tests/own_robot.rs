@@ -14,7 +14,7 @@ use tolman_robot::{
     Task, TurnTranslate,
 };
 use tolman_systems::mslst::{Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, Survey};
-use tolman_systems::{Actor, Brain, TimeStep, baselines};
+use tolman_systems::{Actor, Brain, Origin, TimeStep, baselines};
 
 const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
@@ -271,8 +271,11 @@ fn a_map_that_nobody_watched_survives_its_file() {
     let map = MslstMap::clone(mslst.brain().learned().unwrap());
     let survey = Survey::default();
     let file = MapFile {
-        maze: "corridors".to_owned(),
-        seed: 5,
+        origin: Origin {
+            world: "corridors".to_owned(),
+            robot: "digger".to_owned(),
+            seed: 5,
+        },
         config: config(),
         learned: Learned { map, survey },
     };

@@ -10,22 +10,14 @@ use super::office::{Office, OfficeConfig, OfficeError};
 use super::score::Visit;
 use super::survey::{Past, RunError, Survey, SurveyConfig};
 use super::surveyor_config::SurveyorConfig;
-use tolman_systems::{FileError, FileHeader, FileKind};
-
-/// Since version 2 the map is one of version 2.
-const KIND: FileKind = FileKind {
-    format: "tolman-survey",
-    version: 2,
-    name: "survey",
-    command: "tolman survey",
-};
+use tolman_systems::{FileError, MapSystem, Origin};
 
 /// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
 /// survey can go on; the map is the journal of all moves.
 #[derive(Clone, Debug)]
 pub struct SurveyFile {
-    /// The name of the maze.
-    pub name: String,
+    /// Where it began, with which robot and from which seed. Going on has seeds of its own.
+    pub origin: Origin,
     /// The world.
     pub office: Arc<Office>,
     /// The robot and how it walks. Its mapper is that of the map.
@@ -40,7 +32,7 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// It is another kind of file, of a later time, or cut off; or it cannot be written.
+    /// The header or the JSON is not sound, or names another system; or the survey has no JSON form.
     #[error(transparent)]
     File(#[from] FileError),
     /// How likely a script is begun is no probability.
@@ -62,13 +54,10 @@ pub enum SurveyFileError {
 
 #[derive(Serialize, Deserialize)]
 struct Body {
-    #[serde(flatten)]
-    header: FileHeader,
-    name: String,
     /// As it is drawn in maze files.
     maze: String,
     office: OfficeConfig,
-    robot: SurveyorConfig,
+    surveyor: SurveyorConfig,
     heed: f64,
     /// Where the robot truly began and is, m.
     start: [f64; 2],
@@ -81,22 +70,20 @@ struct Body {
 }
 
 impl SurveyFile {
-    /// What is to be written of a survey.
+    /// Returns what is to be written of a survey of the maze `world` that began from `seed`.
     #[must_use]
-    pub fn of(name: &str, office: &Arc<Office>, survey: &Survey<'_>) -> Self {
+    pub fn of(world: &str, seed: u64, office: &Arc<Office>, survey: &Survey<'_>) -> Self {
         Self {
-            name: name.to_owned(),
+            origin: Origin {
+                world: world.to_owned(),
+                robot: survey.config().robot.name().to_owned(),
+                seed,
+            },
             office: Arc::clone(office),
             config: survey.config().clone(),
             past: survey.past(),
             observer: survey.observer().clone(),
         }
-    }
-
-    /// Whether a text says that it is such a file: of whatever version, sound, broken or cut off.
-    #[must_use]
-    pub fn is_one(text: &str) -> bool {
-        KIND.claims(text)
     }
 
     /// The text of the file, with a line end.
@@ -111,11 +98,9 @@ impl SurveyFile {
             gone,
         } = &self.past;
         let body = Body {
-            header: KIND.header(),
-            name: self.name.clone(),
             maze: self.office.maze().to_string(),
             office: *self.office.config(),
-            robot: self.config.robot.clone(),
+            surveyor: self.config.robot.clone(),
             heed: self.config.heed,
             start: [start.x, start.y],
             at: [at.x, at.y],
@@ -126,7 +111,7 @@ impl SurveyFile {
             gone: gone.clone(),
             map: MapFile::of(&self.observer)?,
         };
-        Ok(KIND.write(&body)?)
+        Ok(MapSystem::Diktiometry.write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -134,7 +119,7 @@ impl SurveyFile {
     /// # Errors
     /// [`SurveyFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
-        let body: Body = KIND.parse(text)?;
+        let (origin, body): (_, Body) = MapSystem::Diktiometry.read(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
             return Err(SurveyFileError::Heed { found: body.heed });
         }
@@ -146,10 +131,10 @@ impl SurveyFile {
             place: PlaceId(place),
         });
         Ok(Self {
-            name: body.name,
+            origin,
             office: Arc::new(Office::new(&maze, &body.office)?),
             config: SurveyConfig {
-                robot: body.robot,
+                robot: body.surveyor,
                 mapper: observer.config().clone(),
                 heed: body.heed,
                 moves: 0,
@@ -180,7 +165,6 @@ impl SurveyFile {
 mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use serde_json::{Value, json};
     use tolman_maps::diktiometry::JournalLength;
 
     use super::super::blocks;
@@ -197,7 +181,7 @@ mod tests {
         let mut config = SurveyConfig::paper(&office, moves);
         config.mapper.journal = JournalLength::All;
         let survey = Survey::new(&office, config, 3).unwrap().finish().unwrap();
-        SurveyFile::of("blocks", &office, &survey)
+        SurveyFile::of("blocks", 3, &office, &survey)
     }
 
     #[test]
@@ -207,6 +191,8 @@ mod tests {
         let read = SurveyFile::from_json(&text).unwrap();
         assert_eq!(read.observer, written.observer);
         assert_eq!(read.past, written.past);
+        assert_eq!(read.origin, written.origin);
+        assert_eq!(read.origin.robot, "camera Pioneer");
         assert_eq!(read.to_json().unwrap(), text);
         let mut on = read.survey(5).unwrap();
         for _ in 0..20 {
@@ -218,25 +204,6 @@ mod tests {
         assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
     }
 
-    /// Its map is of version 1, too: it says `On` where views are indexed, and nothing of merges by looks.
-    #[test]
-    fn files_of_the_first_version_are_read() {
-        let written = survey(30);
-        let text = written.to_json().unwrap();
-        let mut value: Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(value["version"], json!(2));
-        value["version"] = json!(1);
-        value["map"]["version"] = json!(1);
-        let config = &mut value["map"]["config"];
-        config["indexing"]["perceptual"] = json!("On");
-        let restructuring = config["restructuring"].as_object_mut().unwrap();
-        for key in ["look_merge", "look_error"] {
-            assert!(restructuring.remove(key).is_some(), "{key}");
-        }
-        let read = SurveyFile::from_json(&value.to_string()).unwrap();
-        assert_eq!(read.observer, written.observer);
-    }
-
     #[test]
     fn what_is_no_survey_is_refused_with_a_reason() {
         let text = survey(5).to_json().unwrap();
@@ -245,17 +212,9 @@ mod tests {
             let told = format!("{error:?}");
             assert!(told.starts_with(expect), "{told} for {expect}");
         };
-        check(String::new(), "File(Json");
         check(text[..text.len() / 2].to_owned(), "File(CutOff");
-        check(text[..40].to_owned(), "File(CutOff");
-        check(
-            text.replacen("tolman-survey", "tolman-mslst-map", 1),
-            "File(Format",
-        );
-        check(
-            text.replacen("\"version\":2", "\"version\":3", 1),
-            "File(Version",
-        );
+        check(text.replacen("diktiometry", "mslst", 1), "File(System");
+        check(text.replacen("\"heed\":", "\"heel\":", 1), "File(Body");
         check(
             text.replacen("\"moves\":5,", "\"moves\":6,", 1),
             "Map(Truncated",

@@ -4,7 +4,7 @@ use tolman_sim::noise::{Bounded, Fault, Gaussian};
 use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
 use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, RoutineConfig, SenseError};
 
-use crate::pioneer::calibrated;
+use crate::pioneer::{LASER_PIONEER, calibrated};
 
 /// A simulated Pioneer and the bounds of its errors. Where the paper names no number, ours stand in
 /// [`SurveyorConfig::paper`].
@@ -82,6 +82,15 @@ impl SurveyorConfig {
             sight: Sight::Laser { columns: 24 },
             place_radius: 0.1,
             ..Self::paper()
+        }
+    }
+
+    /// Returns the robot's name, by what it tells places apart by.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self.sight {
+            Sight::Camera { .. } => "camera Pioneer",
+            Sight::Laser { .. } => LASER_PIONEER,
         }
     }
 

@@ -10,7 +10,6 @@ use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::traversal::Motion;
-use crate::file_header::{self, HeaderError};
 use tolman_robot::Landmark;
 
 /// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
@@ -32,8 +31,6 @@ use tolman_robot::Landmark;
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
-    format: String,
-    version: u32,
     /// How many there are of each: a file that was cut off has fewer.
     counts: Counts,
     dictionary: SavedDictionary,
@@ -87,8 +84,8 @@ struct SavedJunction {
     id: u32,
     landmark: Option<Landmark>,
     ports: Vec<SavedPort>,
-    /// Where they lead, rad, from port 0 on; version 1 has none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Directions the ports lead to, rad, from port 0 on; none if no robot has looked.
+    #[serde(skip_serializing_if = "Option::is_none")]
     bearings: Option<Vec<f64>>,
 }
 
@@ -107,9 +104,6 @@ enum SavedPort {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is another kind of file, or of a later time.
-    #[error(transparent)]
-    Header(#[from] HeaderError),
     /// Something is missing.
     #[error("it was cut off: {found} of {expected} {what} are there")]
     Truncated {
@@ -192,12 +186,6 @@ fn hexadecimal(fingerprint: u64) -> String {
 }
 
 impl MapFile {
-    /// What `format` says in a file of this kind.
-    pub const FORMAT: &str = "tolman-cpm";
-
-    /// The version that is written; all versions up to it are read.
-    pub const VERSION: u32 = 2;
-
     /// What is to be written of a map.
     ///
     /// # Errors
@@ -222,8 +210,6 @@ impl MapFile {
             junctions: map.junctions().map(saved_junction).collect(),
         };
         Ok(Self {
-            format: Self::FORMAT.into(),
-            version: Self::VERSION,
             counts: Counts {
                 patterns: dictionary.len(),
                 fragments: saved.fragments.len(),
@@ -241,7 +227,7 @@ impl MapFile {
     /// The dictionary as it was.
     ///
     /// # Errors
-    /// [`MapFileError`] if it is another kind of file, of a later version, cut off or changed.
+    /// [`MapFileError`] if it was cut off or changed.
     pub fn dictionary(&self) -> Result<Dictionary, MapFileError> {
         self.check()?;
         let patterns = self.dictionary.patterns.iter();
@@ -325,7 +311,6 @@ impl MapFile {
     }
 
     fn check(&self) -> Result<(), MapFileError> {
-        file_header::check(&self.format, self.version, Self::FORMAT, Self::VERSION)?;
         let counts = &self.counts;
         let parts = [
             ("patterns", counts.patterns, self.dictionary.patterns.len()),

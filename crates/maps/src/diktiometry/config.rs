@@ -64,17 +64,6 @@ pub enum Use {
     Off,
 }
 
-#[cfg(feature = "serde")]
-impl Use {
-    const fn on() -> Self {
-        Self::On
-    }
-
-    const fn off() -> Self {
-        Self::Off
-    }
-}
-
 /// What the robot sees of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -152,8 +141,7 @@ pub struct Indexing {
 pub enum PerceptualIndexing {
     /// None: places are never looked for by their look.
     Off,
-    /// By their columns. In files of version 1: `On`.
-    #[cfg_attr(feature = "serde", serde(alias = "On"))]
+    /// By their columns.
     Columns,
     /// By triples of the edges between columns, as triangles. Asks for three columns or more; views with fewer than three edges are
     /// not found.
@@ -180,11 +168,9 @@ pub struct Matching {
     pub identity: Identity,
     /// How matchers take precedence.
     pub order: Order,
-    /// CONTINUE, on in files that do not say. Without it, an expected place has to show what an unexpected one has to, but to α-MATCH.
-    #[cfg_attr(feature = "serde", serde(default = "Use::on"))]
+    /// CONTINUE. Without it, an expected place has to show what an unexpected one has to, but to α-MATCH.
     pub continuation: Use,
-    /// LINK, on in files that do not say. Without it, unexpected places are noted at best.
-    #[cfg_attr(feature = "serde", serde(default = "Use::on"))]
+    /// LINK. Without it, unexpected places are noted at best.
     pub link: Use,
     /// α-MATCH.
     pub alpha: Use,
@@ -274,11 +260,9 @@ pub struct Restructuring {
     pub visits: u32,
     /// h: consistent histories that propose a merge.
     pub histories: usize,
-    /// Merging by looks, beyond the paper; off in files that do not say.
-    #[cfg_attr(feature = "serde", serde(default = "Use::off"))]
+    /// Merging by looks, beyond the paper.
     pub look_merge: Use,
     /// Chance of a wrong merge by looks, at most, 0 < … < 1.
-    #[cfg_attr(feature = "serde", serde(default = "look_error"))]
     pub look_error: f64,
 }
 
@@ -324,11 +308,6 @@ pub enum JournalLength {
 
 /// Some hundreds of merges are weighed in a run; the bounds behind it are wide.
 const LOOK_ERROR: f64 = 1e-4;
-
-#[cfg(feature = "serde")]
-const fn look_error() -> f64 {
-    LOOK_ERROR
-}
 
 impl Config {
     /// The values proposed here, for places at least `separation` metres apart, that all look the same.

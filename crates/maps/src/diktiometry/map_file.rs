@@ -1,22 +1,12 @@
-use alloc::string::String;
-
 use thiserror::Error;
 
 use super::config::Config;
 use super::journal::{Journal, ReplayError};
 use super::observer::Observer;
-use crate::file_header::{self, HeaderError};
-
-/// What `format` says in a file of ours.
-const FORMAT: &str = "tolman-diktiometry";
-/// The version that is written; all versions up to it are read. Since version 2 perceptual indexing has two forms.
-const VERSION: u32 = 2;
 
 /// An observer as it lies in a file: the journal, from which everything follows to the bit. Any format of serde's will do.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
-    format: String,
-    version: u32,
     config: Config,
     /// How many moves the journal has: a journal that was cut off has fewer.
     moves: usize,
@@ -30,9 +20,6 @@ pub enum MapFileError {
     /// The observer kept no journal.
     #[error("no journal was kept; set `journal` of the configuration to `All`")]
     NoJournal,
-    /// It is another kind of file, or of a later time.
-    #[error(transparent)]
-    Header(#[from] HeaderError),
     /// Moves are missing.
     #[error("the journal was cut off: {found} of {expected} moves are there")]
     Truncated {
@@ -54,8 +41,6 @@ impl MapFile {
     pub fn of(observer: &Observer) -> Result<Self, MapFileError> {
         let journal = observer.journal().ok_or(MapFileError::NoJournal)?;
         Ok(Self {
-            format: FORMAT.into(),
-            version: VERSION,
             config: observer.config().clone(),
             moves: journal.moves.len(),
             journal: journal.clone(),
@@ -65,9 +50,8 @@ impl MapFile {
     /// The observer, as it was. O(moves).
     ///
     /// # Errors
-    /// [`MapFileError`] if it is another kind of file, of a later version, cut off, or of moves that are none.
+    /// [`MapFileError`] if the journal was cut off, or does not fit the configuration.
     pub fn observer(&self) -> Result<Observer, MapFileError> {
-        file_header::check(&self.format, self.version, FORMAT, VERSION)?;
         let found = self.journal.moves.len();
         if found != self.moves {
             return Err(MapFileError::Truncated {

@@ -1,7 +1,6 @@
 //! Diktiometries in files, whole and spoiled.
 
 use serde_json::{Value, json};
-use tolman_maps::HeaderError;
 use tolman_maps::diktiometry::{Config, JournalLength, MapFile, MapFileError};
 
 use super::walk::{ODOMETRY, Walk, open, painted};
@@ -32,24 +31,6 @@ fn a_file_is_read_back_to_the_bit() {
     assert_eq!(again, walk.observer);
 }
 
-/// Files of version 1 say `On` where those of today say by what views are indexed, and nothing of merges by looks.
-#[test]
-fn files_of_the_first_version_are_read() {
-    let walk = walked();
-    let mut value = serde_json::to_value(MapFile::of(&walk.observer).unwrap()).unwrap();
-    assert_eq!(value["version"], json!(2));
-    value["version"] = json!(1);
-    let perceptual = &mut value["config"]["indexing"]["perceptual"];
-    assert_eq!(*perceptual, json!("Columns"));
-    *perceptual = json!("On");
-    let restructuring = value["config"]["restructuring"].as_object_mut().unwrap();
-    for key in ["look_merge", "look_error"] {
-        assert!(restructuring.remove(key).is_some(), "{key}");
-    }
-    let file: MapFile = serde_json::from_value(value).unwrap();
-    assert_eq!(file.observer().unwrap(), walk.observer);
-}
-
 #[test]
 fn spoiled_files_say_what_is_wrong() {
     let spoiled = |spoil: fn(&mut Value)| -> MapFileError {
@@ -58,24 +39,6 @@ fn spoiled_files_say_what_is_wrong() {
         let file: MapFile = serde_json::from_value(value).unwrap();
         file.observer().unwrap_err()
     };
-    let version = spoiled(|file| file["version"] = json!(3));
-    assert_eq!(
-        version,
-        HeaderError::Version {
-            found: 3,
-            latest: 2
-        }
-        .into()
-    );
-    let format = spoiled(|file| file["format"] = json!("other"));
-    assert_eq!(
-        format,
-        HeaderError::Format {
-            found: "other".into(),
-            expected: "tolman-diktiometry"
-        }
-        .into()
-    );
     let cut = spoiled(|file| {
         file["journal"]["moves"]
             .as_array_mut()

@@ -4,35 +4,26 @@ use tolman_maps::cpm::{self, CpMap};
 
 use super::common_patterns::CommonPatterns;
 use super::preset::Preset;
-use crate::{FileError, FileKind};
+use crate::{FileError, MapSystem, Origin};
 
 /// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the bit.
 #[derive(Clone, Debug)]
 pub struct MapFile {
-    /// The maze it was learned in.
-    pub maze: String,
-    /// The seed it was learned from.
-    pub seed: u64,
+    /// Where it was learned, by which robot and from which seed.
+    pub origin: Origin,
     /// How the robot mapped.
-    pub system: Preset,
+    pub preset: Preset,
     /// What it knew of patterns.
     pub patterns: CommonPatterns,
     /// The map.
     pub map: CpMap,
 }
 
-const KIND: FileKind = FileKind {
-    format: cpm::MapFile::FORMAT,
-    version: cpm::MapFile::VERSION,
-    name: "map of CPM",
-    command: "tolman cpm learn",
-};
-
 /// Why a file holds no map.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is another kind of file, of a later time, or cut off; or it cannot be written.
+    /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
     #[error(transparent)]
     File(#[from] FileError),
     /// It holds another thing, or not all of it.
@@ -42,15 +33,12 @@ pub enum MapFileError {
 
 #[derive(Serialize, Deserialize)]
 struct Body {
-    /// It has the header.
-    #[serde(flatten)]
-    map: cpm::MapFile,
-    maze: String,
-    seed: u64,
-    system: Preset,
+    preset: Preset,
     /// Of SOINN.
     units: u32,
     clusters: u32,
+    #[serde(flatten)]
+    map: cpm::MapFile,
 }
 
 impl MapFile {
@@ -60,20 +48,12 @@ impl MapFile {
     /// If the map was learned with other patterns, or cannot be written.
     pub fn to_json(&self) -> Result<String, MapFileError> {
         let body = Body {
-            map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
-            maze: self.maze.clone(),
-            seed: self.seed,
-            system: self.system,
+            preset: self.preset,
             units: self.patterns.unit_count(),
             clusters: self.patterns.cluster_count(),
+            map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
         };
-        Ok(KIND.write(&body)?)
-    }
-
-    /// Whether a text says that it is such a file, of whatever version, whole or cut off.
-    #[must_use]
-    pub fn is_one(text: &str) -> bool {
-        KIND.claims(text)
+        Ok(MapSystem::Cpm.write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -81,13 +61,12 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let body: Body = KIND.parse(text)?;
+        let (origin, body): (_, Body) = MapSystem::Cpm.read(text)?;
         let dictionary = body.map.dictionary()?;
         let map = body.map.map(&dictionary)?;
         Ok(Self {
-            maze: body.maze,
-            seed: body.seed,
-            system: body.system,
+            origin,
+            preset: body.preset,
             patterns: CommonPatterns::restored(dictionary, body.units, body.clusters),
             map,
         })

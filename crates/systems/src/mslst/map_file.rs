@@ -5,22 +5,13 @@ use tolman_maps::mslst_graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
 use tolman_maze::Direction;
 
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
-use crate::{FileError, FileHeader, FileKind};
-
-const KIND: FileKind = FileKind {
-    format: "tolman-mslst-map",
-    version: 1,
-    name: "map of MSLST",
-    command: "tolman learn",
-};
+use crate::{FileError, MapSystem, Origin};
 
 /// A learned map as it lies in a file: JSON, read back to the bit.
 #[derive(Clone, Debug)]
 pub struct MapFile {
-    /// The maze it was learned in.
-    pub maze: String,
-    /// The seed it was learned from.
-    pub seed: u64,
+    /// Where it was learned, by which robot and from which seed.
+    pub origin: Origin,
     /// How it was learned.
     pub config: MslstConfig,
     /// The map.
@@ -31,7 +22,7 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// It is another kind of file, of a later time, or cut off.
+    /// The header or the JSON is not sound, or names another system.
     #[error(transparent)]
     File(#[from] FileError),
     /// The states are none.
@@ -54,10 +45,6 @@ pub enum MapFileError {
 
 #[derive(Serialize, Deserialize)]
 struct Body {
-    #[serde(flatten)]
-    header: FileHeader,
-    maze: String,
-    seed: u64,
     config: MslstConfig,
     /// Ranges in robot units, beam 0 to the north, then counter-clockwise.
     states: Vec<Vec<f64>>,
@@ -79,12 +66,6 @@ struct SavedNode {
 }
 
 impl MapFile {
-    /// Whether a text says that it is such a file: of whatever version, sound, broken or cut off.
-    #[must_use]
-    pub fn is_one(text: &str) -> bool {
-        KIND.claims(text)
-    }
-
     /// The text of the file, with a line end.
     ///
     /// # Errors
@@ -93,9 +74,6 @@ impl MapFile {
         let Learned { map, survey } = &self.learned;
         let nodes = map.graph.nodes().iter().enumerate();
         let body = Body {
-            header: KIND.header(),
-            maze: self.maze.clone(),
-            seed: self.seed,
             config: self.config,
             states: map.states.models().to_vec(),
             nodes: nodes
@@ -108,7 +86,7 @@ impl MapFile {
                 })
                 .collect(),
         };
-        Ok(KIND.write(&body)?)
+        Ok(MapSystem::Mslst.write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -116,7 +94,7 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let body: Body = KIND.parse(text)?;
+        let (origin, body): (_, Body) = MapSystem::Mslst.read(text)?;
         let count = body.states.len();
         for (index, node) in body.nodes.iter().enumerate() {
             if node.state as usize >= count {
@@ -134,8 +112,7 @@ impl MapFile {
             graph: MslstGraph::from_nodes(nodes)?,
         };
         Ok(Self {
-            maze: body.maze,
-            seed: body.seed,
+            origin,
             config: body.config,
             learned: Learned { map, survey },
         })

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use tolman_arena::mslst::learn;
-use tolman_arena::pioneer::calibrated;
+use tolman_arena::pioneer::{LASER_PIONEER, calibrated};
+use tolman_systems::Origin;
 use tolman_systems::mslst::{MapFile, MslstConfig};
 
 use super::failure::OrBadInput;
@@ -56,8 +57,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         .or_bad_input()?;
     let (states, nodes) = (learned.map.states.models().len(), learned.map.graph.len());
     let map = MapFile {
-        maze: course.name,
-        seed: arguments.seed,
+        origin: Origin {
+            world: course.name,
+            robot: LASER_PIONEER.to_owned(),
+            seed: arguments.seed,
+        },
         config,
         learned,
     };

@@ -3,18 +3,18 @@
 mod plan;
 mod show;
 mod show_cpm;
+mod show_mslst;
 mod show_survey;
 
+use core::error::Error;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 
 use anyhow::Context;
 use clap::Subcommand;
-use tolman_arena::diktiometry::SurveyFile;
 use tolman_maps::diktiometry::Action;
 use tolman_maze::Direction;
-use tolman_systems::mslst::MapFile;
 
 use super::Failure;
 use super::failure::OrBadInput;
@@ -35,16 +35,23 @@ impl Verb {
     }
 }
 
-/// Reads a map that `tolman learn` wrote.
+/// Reads a learned map with `from_json`, the reader of its system.
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(super) fn read(path: &Path) -> Result<MapFile, Failure> {
-    parse(path, &text(path)?)
+pub(super) fn read<T, E: Error + Send + Sync + 'static>(
+    path: &Path,
+    from_json: fn(&str) -> Result<T, E>,
+) -> Result<T, Failure> {
+    parse(path, &text(path)?, from_json)
 }
 
-fn parse(path: &Path, text: &str) -> Result<MapFile, Failure> {
-    MapFile::from_json(text)
+fn parse<T, E: Error + Send + Sync + 'static>(
+    path: &Path,
+    text: &str,
+    from_json: fn(&str) -> Result<T, E>,
+) -> Result<T, Failure> {
+    from_json(text)
         .with_context(|| path.display().to_string())
         .or_bad_input()
 }
@@ -55,25 +62,8 @@ fn way(action: Action) -> String {
     direction.map_or_else(String::new, ToString::to_string)
 }
 
-/// Reads a survey that `tolman survey` wrote.
-///
-/// # Errors
-/// Bad input with the file's name.
-pub(super) fn read_survey(path: &Path) -> Result<SurveyFile, Failure> {
-    parse_survey(path, &text(path)?)
-}
-
-fn parse_survey(path: &Path, text: &str) -> Result<SurveyFile, Failure> {
-    SurveyFile::from_json(text)
-        .with_context(|| path.display().to_string())
-        .or_bad_input()
-}
-
-/// The text of a file with a learned map of whichever kind.
-///
-/// # Errors
-/// Bad input with the file's name.
-pub(super) fn text(path: &Path) -> Result<String, Failure> {
+/// Returns the text of a file with a learned map of whichever system.
+fn text(path: &Path) -> Result<String, Failure> {
     fs::read_to_string(path)
         .with_context(|| {
             let path = path.display();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use alloc::sync::Arc;
 
 use tolman_arena::Mind;
-use tolman_systems::mslst::Navigator;
+use tolman_systems::mslst::{MapFile, Navigator};
 
 use super::run::{self, Name, Outing};
 use super::{Failure, map};
@@ -26,7 +26,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let file = map::read(&arguments.map)?;
+    let file = map::read(&arguments.map, MapFile::from_json)?;
     let name = Name {
         word: "mslst",
         title: "MSLST",

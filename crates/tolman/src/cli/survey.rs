@@ -9,6 +9,7 @@ use tolman_arena::diktiometry::{
     Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig,
 };
 use tolman_maps::diktiometry::{JournalLength, Use};
+use tolman_systems::Origin;
 
 use super::failure::OrBadInput;
 use super::share::share;
@@ -58,10 +59,11 @@ const HEED: f64 = 0.3;
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     if let Some(path) = &arguments.from {
-        let mut before = map::read_survey(path)?;
+        let mut before = map::read(path, SurveyFile::from_json)?;
         before.config.heed = arguments.heed.unwrap_or(before.config.heed);
         let survey = before.survey(arguments.seed).or_bad_input()?;
-        return walk(arguments, &before.name, &before.office, survey, out);
+        let Origin { world, seed, .. } = &before.origin;
+        return walk(arguments, (world, *seed), &before.office, survey, out);
     }
     let Some(path) = arguments.maze.as_deref() else {
         let error = anyhow!("give --maze FILE, or --from FILE to go on with a survey");
@@ -86,13 +88,13 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let survey = Survey::new(&office, config, arguments.seed)
         .with_context(|| name.clone())
         .or_bad_input()?;
-    walk(arguments, &name, &office, survey, out)
+    walk(arguments, (&name, arguments.seed), &office, survey, out)
 }
 
-/// Makes the moves and writes the survey down.
+/// Makes the moves and writes the survey down, with the world and the seed it began with.
 fn walk(
     arguments: &Arguments,
-    name: &str,
+    (world, seed): (&str, u64),
     office: &Arc<Office>,
     mut survey: Survey<'_>,
     out: &mut dyn Write,
@@ -100,7 +102,7 @@ fn walk(
     for _ in 0..arguments.moves {
         survey.step()?;
     }
-    let written = SurveyFile::of(name, office, &survey);
+    let written = SurveyFile::of(world, seed, office, &survey);
     file::write(&arguments.out, &written.to_json()?)?;
     let score = survey.score();
     writeln!(

@@ -80,17 +80,27 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     // The file is cut off, of another time, of another maze.
     let text = String::from_utf8(first).unwrap();
     fs::write(folder.join("cut.json"), &text[..text.len() / 2]).unwrap();
-    let cut_off = ["cut.json", "this map of CPM is cut off", "line 1"];
+    let cut_off = ["cut.json", "this map is cut off", "line 1"];
     tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &cut_off);
     fs::write(folder.join("cut.json"), &text[..40]).unwrap();
     tolman_in(&folder, &["map", "show", "cut.json"]).refused(2, &cut_off);
     fs::write(folder.join("none.json"), "{}").unwrap();
-    let none = ["none.json is no learned map", "tolman cpm learn"];
+    let none = ["none.json: this is no learned map", "tolman cpm learn"];
     tolman_in(&folder, &["map", "show", "none.json"]).refused(2, &none);
-    let later = text.replace("\"version\":2", "\"version\":3");
+    let later = text.replace("\"version\":1", "\"version\":3");
     fs::write(folder.join("later.json"), later).unwrap();
     let refused = ["version is 3", "update tolman"];
     tolman_in(&folder, &["map", "show", "later.json"]).refused(2, &refused);
+    let former = r#"{"format":"tolman-cpm","version":2,"system":"faithful"}"#;
+    fs::write(folder.join("former.json"), former).unwrap();
+    let refused = ["former.json", "\"tolman-cpm\"", "tolman cpm learn"];
+    tolman_in(&folder, &["map", "show", "former.json"]).refused(2, &refused);
+    let refused = [
+        "map.json",
+        "a map of CPM, expected a survey",
+        "tolman survey",
+    ];
+    tolman_in(&folder, &["map", "plan", "map.json", "--to", "3"]).refused(2, &refused);
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let elsewhere = solve("corridor.maze", "fork.maze");
     tolman_in(&folder, &elsewhere).refused(2, &["corridor.maze", "tolman cpm learn"]);
@@ -266,7 +276,7 @@ fn a_map_of_another_robot_or_maze_is_refused_or_fails_as_it_is_said() {
     let other = format!("{}{}{}", &text[..at], "0123456789abcdef", &text[at + 16..]);
     fs::write(folder.join("other.json"), other).unwrap();
     solve("other.json", "fork.maze").refused(2, &["other.json", "fingerprint", "changed"]);
-    let later = text.replace("\"version\":2", "\"version\":3");
+    let later = text.replace("\"version\":1", "\"version\":3");
     fs::write(folder.join("later.json"), later).unwrap();
     solve("later.json", "fork.maze").refused(2, &["version is 3", "update tolman"]);
     let crossing = "start = 1 1 north\n\no---o---o---o\n|   | G |   |\no---o   o---o\n|     S     |\no---o   o---o\n|   |   |   |\no---o---o---o\n";

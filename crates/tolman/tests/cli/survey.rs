@@ -115,10 +115,10 @@ fn a_file_that_is_no_sound_survey_is_refused() {
         tolman_in(&folder, &on).refused(2, &["changed.json", expect]);
         assert!(!folder.join("never.json").exists());
     };
-    check("{}", "no survey");
-    check(&text[..text.len() - 40], "this survey is cut off");
+    check("{}", "no learned map");
+    check(&text[..text.len() - 40], "this map is cut off");
     check(
-        &text.replacen("\"version\":2", "\"version\":7", 1),
+        &text.replacen("\"version\":1", "\"version\":7", 1),
         "version is 7",
     );
     check(

@@ -11,6 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tolman_arena::cpm::{Learned, Progress, Trial, Venue, epuck, learn};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
+use tolman_systems::Origin;
 use tolman_systems::cpm::{Aim, Done};
 use tolman_systems::cpm::{CommonPatterns, MapFile, Preset};
 
@@ -148,9 +149,12 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let (fragments, junctions) = (errand.map.fragments().len(), errand.map.junctions().len());
     let there_are = trial.true_fragments();
     let file = MapFile {
-        maze: venue.name,
-        seed: arguments.seed,
-        system,
+        origin: Origin {
+            world: venue.name,
+            robot: "e-puck".to_owned(),
+            seed: arguments.seed,
+        },
+        preset: system,
         patterns: errand.patterns,
         map: errand.map,
     };
@@ -160,7 +164,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             "the map in {} is wrong, with {fragments} for the {there_are} fragments of {}{room}: the robot took some for others, or overlooked \
              them; {}",
             arguments.out.display(),
-            file.maze,
+            file.origin.world,
             arguments.system.remedy()
         )));
     }

@@ -10,7 +10,6 @@ use std::path::Path;
 use anyhow::{Context, Error};
 use clap::Subcommand;
 use tolman_arena::cpm::{TrialError, Venue};
-use tolman_systems::cpm::MapFile;
 
 use super::failure::OrBadInput;
 use super::{Failure, maze};
@@ -52,15 +51,5 @@ pub(super) fn venue(path: &Path) -> Result<Venue, Failure> {
     let name = maze::name(path);
     Venue::new(&name, file)
         .with_context(|| name.clone())
-        .or_bad_input()
-}
-
-/// Reads a map that `tolman cpm learn` wrote.
-///
-/// # Errors
-/// Bad input with the file's name.
-pub(super) fn parse(path: &Path, text: &str) -> Result<MapFile, Failure> {
-    MapFile::from_json(text)
-        .with_context(|| path.display().to_string())
         .or_bad_input()
 }

@@ -14,7 +14,7 @@ use tolman_sim::World;
 use tolman_systems::cpm::Done;
 use tolman_systems::cpm::MapFile;
 
-use super::{classify, parse, venue};
+use super::{classify, venue};
 use crate::cli::failure::OrBadInput;
 use crate::cli::start::Start;
 use crate::cli::{Failure, file, map};
@@ -85,7 +85,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         corridor_width: venue.corridor_width,
         patterns: &first.patterns,
         robot: epuck(),
-        mode: first.system.mode(),
+        mode: first.preset.mode(),
         seed: arguments.seed,
     };
     let world = venue.world().or_bad_input()?;
@@ -109,7 +109,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             &Figure::new("drive", &venue.name, drawing).standalone(),
         )?;
     }
-    let learned_in = |map: usize| files.get(map).map_or("", |file| file.maze.as_str());
+    let learned_in = |map: usize| files.get(map).map_or("", |file| file.origin.world.as_str());
     if arguments.json {
         let found = found.as_ref().map(|found| {
             json!({
@@ -181,7 +181,7 @@ fn pose(start: Start, venue: &Venue, world: &World, seed: u64) -> Result<Pose, F
 fn files(paths: &[PathBuf]) -> Result<Vec<MapFile>, Failure> {
     let files: Result<Vec<MapFile>, Failure> = paths
         .iter()
-        .map(|path| parse(path, &map::text(path)?))
+        .map(|path| map::read(path, MapFile::from_json))
         .collect();
     let files = files?;
     let version = |file: &MapFile| file.patterns.dictionary().version();

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
+use tolman_arena::diktiometry::SurveyFile;
 use tolman_maps::diktiometry::PlaceId;
 
 use super::Failure;
@@ -26,7 +27,7 @@ pub(crate) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let survey = super::read_survey(&arguments.file)?;
+    let survey = super::read(&arguments.file, SurveyFile::from_json)?;
     let observer = &survey.observer;
     let paths = &observer.map().paths;
     let place = |number: u32| {

@@ -8,6 +8,7 @@ use tolman_draw::Figure;
 use tolman_maps::cpm::Port;
 use tolman_papers::cpm::drawing;
 use tolman_robot::Landmark;
+use tolman_systems::Origin;
 use tolman_systems::cpm::MapFile;
 
 use super::show::Arguments;
@@ -20,27 +21,25 @@ pub(super) fn carry_out(
     text: &str,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let read = cpm::parse(&arguments.file, text)?;
+    let read = super::parse(&arguments.file, text, MapFile::from_json)?;
     let MapFile {
-        maze,
-        seed,
-        system,
+        origin: Origin { world, seed, .. },
+        preset,
         patterns,
         map,
     } = &read;
     if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
         let venue = cpm::venue(maze)?;
-        let learned_in = &read.maze;
-        if venue.name != *learned_in && venue.name != maze_name(maze) {
+        if venue.name != *world && venue.name != maze_name(maze) {
             return Err(Failure::BadInput(anyhow!(
-                "{} is a map of {learned_in}, and {} says that it is {}: name the maze that the map was learned in",
+                "{} is a map of {world}, and {} says that it is {}: name the maze that the map was learned in",
                 arguments.file.display(),
                 maze.display(),
                 venue.name
             )));
         }
-        let world = venue.world().or_bad_input()?;
-        let drawing = drawing::over_maze(map, &venue.maze, &world);
+        let walls = venue.world().or_bad_input()?;
+        let drawing = drawing::over_maze(map, &venue.maze, &walls);
         file::write(path, &Figure::new("map", &venue.name, drawing).standalone())?;
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
@@ -59,9 +58,9 @@ pub(super) fn carry_out(
     let length = plan.map(|plan| plan.length);
     if arguments.json {
         let json = json!({
-            "maze": maze,
+            "maze": world,
             "seed": seed,
-            "system": system,
+            "preset": preset,
             "units": units,
             "clusters": clusters,
             "fragments": fragments,
@@ -72,7 +71,7 @@ pub(super) fn carry_out(
         writeln!(out, "{json:#}")?;
         return Ok(());
     }
-    writeln!(out, "{maze}, seed {seed}")?;
+    writeln!(out, "{world}, seed {seed}")?;
     writeln!(out, "{units} units in {clusters} clusters")?;
     writeln!(
         out,

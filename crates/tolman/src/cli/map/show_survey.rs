@@ -4,6 +4,7 @@ use std::io::Write;
 
 use anyhow::anyhow;
 use serde_json::json;
+use tolman_arena::diktiometry::SurveyFile;
 use tolman_draw::Figure;
 use tolman_maps::diktiometry::{Link, PlaceId};
 use tolman_papers::diktiometry::drawing::map_over_world;
@@ -18,7 +19,7 @@ pub(super) fn carry_out(
     text: &str,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let read = super::parse_survey(&arguments.file, text)?;
+    let read = super::parse(&arguments.file, text, SurveyFile::from_json)?;
     if let Some(maze) = &arguments.maze {
         let maze = maze.display();
         let error = anyhow!("a survey knows its own maze; leave --maze {maze} out");
@@ -28,7 +29,7 @@ pub(super) fn carry_out(
     let survey = read.survey(0).or_bad_input()?;
     if let Some(path) = &arguments.svg {
         let drawing = map_over_world(&read.office, &survey);
-        let figure = Figure::new("map", &read.name, drawing);
+        let figure = Figure::new("map", &read.origin.world, drawing);
         file::write(path, &figure.standalone())?;
     }
     let score = survey.score();
@@ -53,7 +54,7 @@ pub(super) fn carry_out(
             })
             .collect();
         let json = json!({
-            "maze": read.name,
+            "maze": read.origin.world,
             "moves": read.observer.moves(),
             "here": here.0,
             "true_places": score.visited,
@@ -67,7 +68,7 @@ pub(super) fn carry_out(
     writeln!(
         out,
         "{}, {} moves: {} places for {} true ones, purity {:.3}; the robot is at place {}",
-        read.name,
+        read.origin.world,
         read.observer.moves(),
         score.places,
         score.visited,
