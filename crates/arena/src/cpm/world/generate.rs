@@ -7,8 +7,7 @@ use tolman_geom::Point;
 
 use super::rover::uniform;
 use super::{World, WorldBuilder, WorldError};
-use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
-use tolman_maps::cpm::{Matching, Similarity};
+use tolman_maps::cpm::{Dictionary, DictionaryError, Matching, PatternId, Similarity};
 use tolman_robot::Landmark;
 
 /// What a random world shall be like.

@@ -4,11 +4,7 @@ use rand::{Rng, RngExt};
 use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
 
 use super::{Corridor, CorridorEnd, World, WorldPort};
-use tolman_maps::cpm::Bearings;
-use tolman_maps::cpm::PatternId;
-use tolman_maps::cpm::Sign;
-use tolman_maps::cpm::{Motion, Sighting, Traversal};
-use tolman_maps::cpm::{NoSuchTurn, Turn};
+use tolman_maps::cpm::{Bearings, Motion, NoSuchTurn, PatternId, Sighting, Sign, Traversal, Turn};
 
 /// How a rover's senses err.
 #[derive(Clone, Copy, Debug, PartialEq)]
