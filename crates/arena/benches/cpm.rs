@@ -24,13 +24,9 @@ fn explored(world: &World, config: CpmConfig, reckoning: Reckoning) -> Explorer 
     let mut rng = ChaCha8Rng::seed_from_u64(2);
     let mut rover = Rover::new(world, Noise::NONE, reckoning);
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-        if let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() {
-            explorer
-                .arrive(leg.turn, &walk, world.dictionary())
-                .unwrap();
-        }
-    }
+    rover
+        .pursue(&mut explorer, Aim::Explore, &mut rng, |_, _, _, _| {})
+        .unwrap();
     explorer
 }
 
@@ -51,14 +47,7 @@ fn confusing(side: u32) -> World {
 /// A robot that sees a way too many at one place of thirty, as in an open room, so that no map explains all that it meets.
 fn miscounted(world: &World, walks: u32) -> Explorer {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
-    let noise = Noise {
-        substitution: 0.1,
-        insertion: 0.03,
-        deletion: 0.03,
-        slip: 0.1,
-        heading: 0.1,
-    };
-    let mut rover = Rover::new(world, noise, Reckoning::Bounded);
+    let mut rover = Rover::new(world, Noise::NOISY, Reckoning::Bounded);
     let config = CpmConfig {
         most_traversals: walks,
         ..CpmConfig::robust()

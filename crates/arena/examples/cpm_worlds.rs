@@ -9,11 +9,9 @@ use core::error::Error;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
-};
+use tolman_arena::cpm::world::{MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
 use tolman_maps::cpm::{Alignment, Mapping, Matching, Similarity};
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Explorer, Onward};
 
 const MAZES: u32 = 200;
 
@@ -90,13 +88,6 @@ fn table() -> Result<(), Box<dyn Error>> {
         heading: 0.05,
         ..Noise::NONE
     };
-    let noisy = Noise {
-        substitution: 0.1,
-        insertion: 0.03,
-        deletion: 0.03,
-        slip: 0.1,
-        heading: 0.1,
-    };
     let wild = Noise {
         substitution: 0.2,
         insertion: 0.05,
@@ -108,7 +99,7 @@ fn table() -> Result<(), Box<dyn Error>> {
     println!("| --- | --- | --- | --- | --- | --- |");
     for (name, config, reckoning) in explorers {
         for alike in [false, true] {
-            let cells: Result<Vec<String>, _> = [Noise::NONE, calm, noisy, wild]
+            let cells: Result<Vec<String>, _> = [Noise::NONE, calm, Noise::NOISY, wild]
                 .map(|noise| {
                     explore(config, reckoning, noise, alike, MAZES).map(|tally| tally.cell(MAZES))
                 })
@@ -121,25 +112,6 @@ fn table() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Mazes of all sorts: from trees to all loops there may be, ports in four directions or in eight.
-fn maze(number: u32, alike: bool) -> MazeConfig {
-    let distinctive = MazeConfig {
-        columns: 3 + number % 2,
-        rows: 3 + number / 2 % 2,
-        loops: f64::from(number % 5) / 4.0,
-        diagonals: f64::from(number % 3) / 2.0,
-        ..MazeConfig::small()
-    };
-    if !alike {
-        return distinctive;
-    }
-    MazeConfig {
-        likeness: Likeness::Kinds(1 + number % 3),
-        symmetrical: f64::from(number % 4) / 3.0,
-        ..distinctive
-    }
-}
-
 fn explore(
     config: CpmConfig,
     reckoning: Reckoning,
@@ -150,7 +122,12 @@ fn explore(
     let mut tally = Tally::default();
     for number in 0..mazes {
         let mut rng = ChaCha8Rng::seed_from_u64(number.into());
-        let world = World::random(&maze(number, alike), &mut rng)?;
+        let maze = if alike {
+            MazeConfig::any_alike(number)
+        } else {
+            MazeConfig::any(number)
+        };
+        let world = World::random(&maze, &mut rng)?;
         let mut rover = Rover::new(&world, noise, reckoning);
         let most_traversals = 8 * world.corridors().len() as u32;
         let mut explorer = Explorer::new(
@@ -160,11 +137,7 @@ fn explore(
             },
             rover.sighting(),
         )?;
-        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-            if let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng)? {
-                explorer.arrive(leg.turn, &walk, world.dictionary())?;
-            }
-        }
+        rover.pursue(&mut explorer, Aim::Explore, &mut rng, |_, _, _, _| {})?;
         let finished = explorer.traversals() < most_traversals;
         match world.check(explorer.map(), explorer.at(), rover.at()) {
             MapCheck::Right => {

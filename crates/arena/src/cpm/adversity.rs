@@ -7,20 +7,18 @@ use core::f64::consts::{PI, TAU};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose, Vector};
-use tolman_robot::Robot;
 use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
-use tolman_robot::{Landmark, SensesLandmarks};
+use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_sim::{Area, StepError, Wall, World, Zone};
-use tolman_systems::cpm::{Aim, CpmConfig, Done};
+use tolman_systems::cpm::{
+    Aim, CpmConfig, CpmRobot, Done, Episode, Reasoner, ReasonerError, Walker, WalkerConfig,
+};
 
 use super::robots::{epuck, walker_config};
 use super::simulated::SimulatedEpuck;
 use super::trial::placed;
 use super::trial::tests::PATTERNS;
-use tolman_systems::cpm::CpmRobot;
-use tolman_systems::cpm::{Episode, Reasoner, ReasonerError};
-use tolman_systems::cpm::{Walker, WalkerConfig};
 
 const WIDTH: f64 = 0.25;
 

@@ -1,11 +1,10 @@
 use tolman_maps::cpm::{PatternId, Sense};
 use tolman_maze::{Cell, Maze};
-use tolman_systems::cpm::CpmConfig;
+use tolman_systems::cpm::{CommonPatterns, CpmConfig};
 
 use super::robots::{epuck, walker_config};
 use super::survey::survey;
 use super::trial::TrialError;
-use tolman_systems::cpm::CommonPatterns;
 
 /// Whether the fragments of a maze can be told apart by what the robot observes along them: the constraints of section 4.3, "every path-fragment
 /// in the environment is *distinctive*" and *asymmetrical*, measured by f_S.

@@ -5,14 +5,14 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{Arrival, CpMap, Location};
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Done};
+use tolman_systems::cpm::{
+    Aim, Approach, Begun, CommonPatterns, CpmConfig, Done, Episode, Reasoner, Step, Whereabouts,
+    find_out,
+};
 
 use super::fragments::TrueFragments;
 use super::simulated::SimulatedEpuck;
 use super::trial::{Trial, TrialError, world_of};
-use tolman_systems::cpm::CommonPatterns;
-use tolman_systems::cpm::{Approach, Whereabouts, find_out};
-use tolman_systems::cpm::{Begun, Episode, Reasoner, Step};
 
 /// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.
 #[derive(Clone, Debug)]
@@ -217,12 +217,11 @@ impl Errand {
 #[cfg(test)]
 mod tests {
     use tolman_maps::cpm::{Matching, Similarity};
-    use tolman_systems::cpm::Done;
+    use tolman_systems::cpm::{Done, Mode};
 
     use super::super::robots::epuck;
     use super::super::trial::tests::PATTERNS;
     use super::*;
-    use tolman_systems::cpm::Mode;
 
     #[test]
     fn a_robot_that_knows_nothing_again_gives_up_and_one_that_is_told_to_breaks_off() {

@@ -14,9 +14,7 @@ use super::robots::walker_config;
 use super::simulated::SimulatedEpuck;
 use super::spots::{Looks, Spot, knowable};
 use super::trial::{TrialError, world_of};
-use tolman_systems::cpm::CommonPatterns;
-use tolman_systems::cpm::Walker;
-use tolman_systems::cpm::{Approach, Whereabouts, find_out};
+use tolman_systems::cpm::{Approach, CommonPatterns, Walker, Whereabouts, find_out};
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
 ///

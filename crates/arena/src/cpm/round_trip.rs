@@ -3,13 +3,10 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::CpMap;
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig};
+use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Reasoner, Step, Walk, Walker};
 
 use super::simulated::SimulatedEpuck;
 use super::trial::{Trial, TrialError};
-use tolman_systems::cpm::CommonPatterns;
-use tolman_systems::cpm::{Episode, Reasoner, Step};
-use tolman_systems::cpm::{Walk, Walker};
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
 /// path-fragment" as long as it may be shorter than the known way.

@@ -5,14 +5,12 @@ use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Port, Sign, Turn}
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::{Arcs, costs_from};
 use tolman_sim::World;
-use tolman_systems::cpm::Explorer;
+use tolman_systems::cpm::{Explorer, Reasoner, Step, Walk};
 
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
 use super::map_right::is_map_right;
 use super::simulated::SimulatedEpuck;
-use tolman_systems::cpm::Walk;
-use tolman_systems::cpm::{Reasoner, Step};
 
 /// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

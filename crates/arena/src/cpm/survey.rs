@@ -70,9 +70,8 @@ pub fn survey(
 
 #[cfg(test)]
 mod tests {
-    use tolman_robot::Robot;
     use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
-    use tolman_robot::{Landmark, SensesLandmarks};
+    use tolman_robot::{Landmark, Robot, SensesLandmarks};
     use tolman_sim::StepError;
 
     use super::*;

@@ -13,18 +13,15 @@ use tolman_robot::Landmark;
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
-use tolman_systems::cpm::{Aim, CpmConfig, Done};
+use tolman_systems::cpm::{
+    Aim, CommonPatterns, CpmConfig, Done, Episode, LearnError, Lesson, Mode, Reasoner,
+    ReasonerError, Step, WalkError, Walker, WalkerConfig, WhereaboutsError, soinn, wander,
+};
 
 use super::fragments::Way;
 use super::robots::{epuck, walker_config};
 use super::score::{Closures, Score};
 use super::simulated::SimulatedEpuck;
-use tolman_systems::cpm::Mode;
-use tolman_systems::cpm::WhereaboutsError;
-use tolman_systems::cpm::soinn;
-use tolman_systems::cpm::{CommonPatterns, LearnError, Lesson, wander};
-use tolman_systems::cpm::{Episode, Reasoner, ReasonerError, Step};
-use tolman_systems::cpm::{WalkError, Walker, WalkerConfig};
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.

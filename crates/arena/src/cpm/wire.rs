@@ -11,20 +11,18 @@ use rand_chacha::ChaCha8Rng;
 use tolman_control::epuck::{Alignment, Pilot, Profile, TURN_STEP};
 use tolman_maps::cpm::CpMap;
 use tolman_maze::Maze;
-use tolman_robot::Robot;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
-use tolman_robot::{Landmark, SensesLandmarks};
-use tolman_systems::cpm::{Aim, CpmConfig, Done};
+use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
+use tolman_systems::cpm::{
+    Aim, CpmConfig, CpmRobot, Done, Episode, Reasoner, ReasonerError, WalkError, Walker,
+    WalkerConfig,
+};
 
 use super::robots::{epuck, walker_config};
 use super::simulated::SimulatedEpuck;
 use super::trial::placed;
 use super::trial::tests::PATTERNS;
-use tolman_robot::Landmarked;
-use tolman_systems::cpm::CpmRobot;
-use tolman_systems::cpm::{Episode, Reasoner, ReasonerError};
-use tolman_systems::cpm::{WalkError, Walker, WalkerConfig};
 
 const WIDTH: f64 = 0.25;
 

@@ -19,9 +19,7 @@ pub use check::MapCheck;
 pub use generate::{Likeness, MazeConfig, MazeError};
 pub use rover::{Noise, Outcome, Reckoning, Rover};
 
-use tolman_maps::cpm::Sighting;
-use tolman_maps::cpm::Sign;
-use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
+use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId, Sighting, Sign};
 use tolman_robot::Landmark;
 
 /// A maze as a plane graph. Its places and corridors are numbered from 0.

@@ -29,7 +29,7 @@ fn explored(config: CpmConfig, world: &World, reckoning: Reckoning, aim: Aim) ->
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     let mut rover = Rover::new(world, Noise::NONE, reckoning);
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-    let done = pursue(&mut explorer, &mut rover, world, aim, &mut rng);
+    let done = pursue(&mut explorer, &mut rover, aim, &mut rng);
     Explored {
         explorer,
         rover,

@@ -12,37 +12,19 @@ use tolman_maps::cpm::{
     Arrival, Candidates, Dictionary, JunctionId, Mapping, PatternId, theorem_1,
 };
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Leg, Onward};
 
 /// Lets an explorer pursue an aim.
 pub(crate) fn pursue(
     explorer: &mut Explorer,
     rover: &mut Rover<'_>,
-    world: &World,
     aim: Aim,
     rng: &mut ChaCha8Rng,
 ) -> Done {
-    loop {
-        let leg = match explorer.decide(aim, rng) {
-            Decision::Done(done) => return done,
-            Decision::Go(leg) => leg,
-        };
-        match rover.go(leg.turn, leg.give_up_after, rng).unwrap() {
-            Outcome::Arrived(walk) => {
-                let arrival = explorer
-                    .arrive(leg.turn, &walk, world.dictionary())
-                    .unwrap();
-                if leg.known.is_none() {
-                    assert_ne!(arrival, Arrival::Known);
-                }
-            }
-            Outcome::TurnedBack(patterns) => {
-                explorer
-                    .turned_back(leg.turn, patterns.len() as u32)
-                    .unwrap();
-            }
-        }
-    }
+    let see = |_: &Rover<'_>, _: &Explorer, leg: &Leg, arrival| {
+        assert!(leg.known.is_some() || arrival != Arrival::Known);
+    };
+    rover.pursue(explorer, aim, rng, see).unwrap()
 }
 
 fn mazes() -> impl Strategy<Value = (MazeConfig, u64)> {
@@ -91,16 +73,12 @@ proptest! {
             // How many fragments it has walked when it has walked all, whether it knows that or not.
             let mut walked = BTreeSet::new();
             let mut until_all = 0;
-            while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-                let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
-                    unreachable!("it was not told to give up");
-                };
-                explorer.arrive(leg.turn, &walk, world.dictionary()).unwrap();
+            let done = rover.pursue(&mut explorer, Aim::Explore, &mut rng, |rover, explorer, _, _| {
                 if walked.insert(world.end_at(rover.at()).unwrap().corridor) {
                     until_all = explorer.traversals();
                 }
-            }
-            prop_assert_eq!(explorer.decide(Aim::Explore, &mut rng), Decision::Done(Done::Reached));
+            });
+            prop_assert_eq!(done.unwrap(), Done::Reached);
             prop_assert_eq!(world.check(explorer.map(), explorer.at(), rover.at()), MapCheck::Right);
             prop_assert_eq!(explorer.map().fragments().len(), world.corridors().len());
             prop_assert!(explorer.map().is_optimized(&CpmConfig::online().matching, world.dictionary()));
@@ -122,7 +100,7 @@ proptest! {
         let config = CpmConfig { mapping: Mapping::Offline { patience: 100 }, ..CpmConfig::online() };
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-        let done = pursue(&mut explorer, &mut rover, &world, Aim::Find(Landmark::Goal), &mut rng);
+        let done = pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
         prop_assert_eq!(done, Done::Reached);
         explorer.optimize(world.dictionary()).unwrap();
         prop_assert!(explorer.map().is_optimized(&config.matching, world.dictionary()));
@@ -140,11 +118,11 @@ proptest! {
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
         let start = explorer.at();
-        pursue(&mut explorer, &mut rover, &world, Aim::Find(Landmark::Goal), &mut rng);
+        pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
         // How far the goal is from the start, for a robot that is put there again.
         let mut known = vec![explorer.map().plan(start, is_goal(&explorer)).unwrap().length];
         for aim in [Aim::WayBack, Aim::Shortest, Aim::Explore] {
-            prop_assert_eq!(pursue(&mut explorer, &mut rover, &world, aim, &mut rng), Done::Reached);
+            prop_assert_eq!(pursue(&mut explorer, &mut rover, aim, &mut rng), Done::Reached);
             if aim == Aim::WayBack {
                 prop_assert_eq!(rover.sighting().landmark, Some(Landmark::Start));
             }
@@ -169,7 +147,7 @@ proptest! {
             let mut rover = Rover::new(&world, noise, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             for aim in [Aim::Find(Landmark::Goal), Aim::WayBack, Aim::Shortest, Aim::Explore] {
-                pursue(&mut explorer, &mut rover, &world, aim, &mut rng);
+                pursue(&mut explorer, &mut rover, aim, &mut rng);
             }
             prop_assert!(explorer.traversals() <= 60);
         }
@@ -197,13 +175,12 @@ fn the_truth_is_found_again() {
         };
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-            let Outcome::Arrived(walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
-                unreachable!("it was not told to give up");
-            };
-            let arrival = explorer.arrive(leg.turn, &walk, world.dictionary());
-            revised += u32::from(arrival.unwrap() == Arrival::Revised);
-        }
+        let see = |_: &Rover<'_>, _: &Explorer, _: &Leg, arrival| {
+            revised += u32::from(arrival == Arrival::Revised);
+        };
+        rover
+            .pursue(&mut explorer, Aim::Explore, &mut rng, see)
+            .unwrap();
         let check = world.check(explorer.map(), explorer.at(), rover.at());
         assert_eq!(check, MapCheck::Right, "seed {seed}");
         assert_eq!(explorer.contradictions(), 0, "seed {seed}");
@@ -231,7 +208,7 @@ fn a_large_maze_needs_few_comparisons() {
         let mut rng = ChaCha8Rng::seed_from_u64(8);
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-        pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng);
+        pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
         let check = world.check(explorer.map(), explorer.at(), rover.at());
         (check, explorer.traversals())
     };

@@ -3,9 +3,11 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_arena::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World};
+use tolman_arena::cpm::world::{MazeConfig, Noise, Reckoning, Rover, World};
 use tolman_maps::cpm::{CpMap, Dictionary, MapFile, MapFileError};
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer};
+use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
+
+use super::explorations::pursue;
 
 /// The map of an explored world, with dead reckoning.
 fn explored() -> (CpMap, Dictionary) {
@@ -13,13 +15,7 @@ fn explored() -> (CpMap, Dictionary) {
     let world = World::random(&MazeConfig::small(), &mut rng).unwrap();
     let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
-    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-        if let Outcome::Arrived(walk) = rover.go(leg.turn, leg.give_up_after, &mut rng).unwrap() {
-            explorer
-                .arrive(leg.turn, &walk, world.dictionary())
-                .unwrap();
-        }
-    }
+    pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
     (explorer.map().clone(), world.dictionary().clone())
 }
 

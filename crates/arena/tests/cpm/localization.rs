@@ -30,7 +30,7 @@ fn explored(maze: &MazeConfig, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
 fn explored_of(world: World, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
     let mut rover = Rover::new(&world, noise, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
-    pursue(&mut explorer, &mut rover, &world, Aim::Explore, rng);
+    pursue(&mut explorer, &mut rover, Aim::Explore, rng);
     let at = (explorer.at(), rover.at());
     let map = explorer.map().clone();
     Known { world, map, at }

@@ -2,7 +2,7 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{Likeness, MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
+use tolman_arena::cpm::world::{MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
 use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer};
 
 use super::explorations::pursue;
@@ -35,7 +35,7 @@ impl Tally {
             ..config
         };
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-        let done = pursue(&mut explorer, &mut rover, &world, Aim::Explore, rng);
+        let done = pursue(&mut explorer, &mut rover, Aim::Explore, rng);
         let check = world.check(explorer.map(), explorer.at(), rover.at());
         self.runs += 1;
         self.right += u32::from((done, check) == (Done::Reached, MapCheck::Right));
@@ -50,41 +50,15 @@ impl Tally {
     }
 }
 
-/// What the paper's robot has and more: 10 % slip, one observation in ten mistaken.
-const NOISY: Noise = Noise {
-    substitution: 0.1,
-    insertion: 0.03,
-    deletion: 0.03,
-    slip: 0.1,
-    heading: 0.1,
-};
-
-/// The mazes of all sorts: from trees to all loops there may be, ports in four directions or in eight.
-fn any_maze(number: u32) -> MazeConfig {
-    MazeConfig {
-        columns: 3 + number % 2,
-        rows: 3 + number / 2 % 2,
-        loops: f64::from(number % 5) / 4.0,
-        diagonals: f64::from(number % 3) / 2.0,
-        ..MazeConfig::small()
-    }
-}
-
 #[test]
 fn aliased_and_symmetrical_mazes_are_mapped_rightly() {
     let mut rng = ChaCha8Rng::seed_from_u64(20);
     let mut tally = Tally::default();
     for number in 0..200 {
-        let likeness = Likeness::Kinds(1 + number % 3);
-        let symmetrical = f64::from(number % 4) / 3.0;
-        let maze = MazeConfig {
-            likeness,
-            symmetrical,
-            ..any_maze(number)
-        };
+        let maze = MazeConfig::any_alike(number);
         tally.explore(
             &maze,
-            NOISY,
+            Noise::NOISY,
             Reckoning::Bounded,
             CpmConfig::robust(),
             &mut rng,
@@ -104,7 +78,13 @@ fn online_walks_little_more_than_it_has_to() {
         let mut rng = ChaCha8Rng::seed_from_u64(21);
         let mut tally = Tally::default();
         for number in 0..200 {
-            tally.explore(&any_maze(number), Noise::NONE, reckoning, config, &mut rng);
+            tally.explore(
+                &MazeConfig::any(number),
+                Noise::NONE,
+                reckoning,
+                config,
+                &mut rng,
+            );
         }
         println!("{tally:?}: {:.3}", tally.mean_ratio());
         assert_eq!(tally.right, 200, "{tally:?}");

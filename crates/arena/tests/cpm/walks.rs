@@ -228,7 +228,7 @@ fn figure_10() {
     assert_eq!(explorer.map().open_ports().count(), 3);
     // (e) The complete optimized map.
     assert_eq!(
-        pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng),
+        pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng),
         Done::Reached
     );
     assert!(explorer.map().is_complete());
@@ -296,7 +296,7 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
             };
             let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-            pursue(&mut explorer, &mut rover, &world, Aim::Explore, &mut rng);
+            pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
             explorer.traversals()
         });
         f64::from(walked.sum::<u32>()) / 200.0

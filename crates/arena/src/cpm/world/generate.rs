@@ -7,8 +7,7 @@ use tolman_geom::Point;
 
 use super::rover::uniform;
 use super::{World, WorldBuilder, WorldError};
-use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
-use tolman_maps::cpm::{Matching, Similarity};
+use tolman_maps::cpm::{Dictionary, DictionaryError, Matching, PatternId, Similarity};
 use tolman_robot::Landmark;
 
 /// What a random world shall be like.
@@ -89,6 +88,28 @@ impl MazeConfig {
             persistence: 0.5,
             likeness: Likeness::Distinctive,
             symmetrical: 0.0,
+        }
+    }
+
+    /// One of the mazes of all sorts: from trees to all loops there may be, ports in four directions or in eight.
+    #[must_use]
+    pub fn any(number: u32) -> Self {
+        Self {
+            columns: 3 + number % 2,
+            rows: 3 + number / 2 % 2,
+            loops: f64::from(number % 5) / 4.0,
+            diagonals: f64::from(number % 3) / 2.0,
+            ..Self::small()
+        }
+    }
+
+    /// [One of all sorts](Self::any) whose corridors look alike and whose loops may be symmetrical.
+    #[must_use]
+    pub fn any_alike(number: u32) -> Self {
+        Self {
+            likeness: Likeness::Kinds(1 + number % 3),
+            symmetrical: f64::from(number % 4) / 3.0,
+            ..Self::any(number)
         }
     }
 

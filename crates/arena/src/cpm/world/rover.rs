@@ -4,11 +4,10 @@ use rand::{Rng, RngExt};
 use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
 
 use super::{Corridor, CorridorEnd, World, WorldPort};
-use tolman_maps::cpm::Bearings;
-use tolman_maps::cpm::PatternId;
-use tolman_maps::cpm::Sign;
-use tolman_maps::cpm::{Motion, Sighting, Traversal};
-use tolman_maps::cpm::{NoSuchTurn, Turn};
+use tolman_maps::cpm::{
+    Arrival, Bearings, CpmError, Motion, NoSuchTurn, PatternId, Sighting, Sign, Traversal, Turn,
+};
+use tolman_systems::cpm::{Aim, Decision, Done, Explorer, Leg};
 
 /// How a rover's senses err.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +33,15 @@ impl Noise {
         deletion: 0.0,
         slip: 0.0,
         heading: 0.0,
+    };
+
+    /// What the paper's robot has and more: 10 % slip, one observation in ten mistaken.
+    pub const NOISY: Self = Self {
+        substitution: 0.1,
+        insertion: 0.03,
+        deletion: 0.03,
+        slip: 0.1,
+        heading: 0.1,
     };
 }
 
@@ -146,6 +154,33 @@ impl<'a> Rover<'a> {
             sighting,
             bearings: self.looked(rng),
         }))
+    }
+
+    /// Walks as `explorer` decides until there is nothing more to do for `aim`. `see` is told of every fragment that
+    /// was walked to its end.
+    ///
+    /// # Errors
+    /// [`CpmError`] if the explorer decides on a turn that is not there, or refuses what is met.
+    pub fn pursue<G: Rng>(
+        &mut self,
+        explorer: &mut Explorer,
+        aim: Aim,
+        rng: &mut G,
+        mut see: impl FnMut(&Self, &Explorer, &Leg, Arrival),
+    ) -> Result<Done, CpmError> {
+        loop {
+            let leg = match explorer.decide(aim, rng) {
+                Decision::Done(done) => return Ok(done),
+                Decision::Go(leg) => leg,
+            };
+            match self.go(leg.turn, leg.give_up_after, rng)? {
+                Outcome::Arrived(walk) => {
+                    let arrival = explorer.arrive(leg.turn, &walk, &self.world.dictionary)?;
+                    see(self, explorer, &leg, arrival);
+                }
+                Outcome::TurnedBack(seen) => explorer.turned_back(leg.turn, seen.len() as u32)?,
+            }
+        }
     }
 
     /// Puts it into the midst of a corridor, entered at an end, after so many observations, and lets it walk on to the other end.
