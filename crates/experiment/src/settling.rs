@@ -9,7 +9,7 @@
 /// curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settling {
-    /// A field of [`Field::Curve`](crate::Field::Curve).
+    /// A field that holds numbers at equal steps.
     pub curve: String,
     /// How much of the metric's unit one number of the curve stands for.
     pub step: f64,

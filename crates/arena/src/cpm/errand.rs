@@ -92,7 +92,7 @@ const SEARCHES: usize = 3;
 const PATIENCE: u32 = 8;
 
 impl Trial<'_> {
-    /// After how many walks a robot that learns a map of this maze [gives up](tolman_maps::cpm::Done::OutOfPatience): eight for each
+    /// After how many walks a robot that learns a map of this maze [gives up](tolman_systems::cpm::Done::OutOfPatience): eight for each
     /// fragment that there is. The robot does not know how many there are; who sends it does.
     #[must_use]
     pub fn patience(&self) -> u32 {

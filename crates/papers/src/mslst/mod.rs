@@ -1,7 +1,7 @@
 //! MSLST itself: tables 1 to 3 of "Maze Solving by Learning State Topologies", and all tests of significance.
 //!
-//! In a paper's world every brain meets the same starts and the same noise. MSLST learns [`MAPS`] maps of each
-//! world and navigates by map number (run mod [`MAPS`]): the paper's 25 runs by 25 maps, a thousand runs by each map
+//! In a paper's world every brain meets the same starts and the same noise. MSLST learns `MAPS` maps of each
+//! world and navigates by map number (run mod `MAPS`): the paper's 25 runs by 25 maps, a thousand runs by each map
 //! twenty times.
 
 mod contest;
