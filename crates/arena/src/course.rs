@@ -84,13 +84,7 @@ impl Course {
             .cells()
             .filter(|cell| steps[maze.grid().index(*cell)].is_some_and(|steps| steps > 0))
             .collect();
-        let world = World::from_maze(
-            &maze,
-            &CorridorSize {
-                corridor_width,
-                wall_thickness: 0.0,
-            },
-        )?;
+        let world = World::from_maze(&maze, &CorridorSize::thin(corridor_width))?;
         let destination = world
             .zone("destination")
             .cloned()

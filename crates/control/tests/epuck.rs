@@ -11,55 +11,23 @@ use tolman_control::epuck::{
     Alignment, ForwardConfig, KeepOffConfig, MeetPointConfig, Pilot, PilotConfig, Place, Profile,
     RangeCurve, SegmentConfig, Segments,
 };
-use tolman_geom::{Heading, Point, Pose};
-use tolman_maze::{Cell, Direction, Maze};
-use tolman_robot::Robot;
-use tolman_robot::epuck::{EpuckSensing, MOST_WHEEL_SPEED, WheelSpeeds};
+use tolman_control::heading_of;
+use tolman_geom::{Point, Pose};
+use tolman_maze::{Cell, Maze};
+use tolman_robot::epuck::MOST_WHEEL_SPEED;
 use tolman_sim::noise::{Fault, Slip};
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::ResponseCurve;
-use tolman_sim::{CorridorSize, Solo, StepError, World};
+use tolman_sim::{CorridorSize, Solo, World};
 
 const WIDTH: f64 = 0.25;
 /// A sweep of 100 samples at 4.83 rad/s takes one sample a step.
 const STEP_US: u64 = 13_000;
 
-/// Counts what it touches.
-struct Careful {
-    solo: Solo<Epuck>,
-    bumps: u32,
-}
-
-impl Robot for Careful {
-    type Command = WheelSpeeds;
-    type Sensing = EpuckSensing;
-    type Error = StepError;
-
-    fn sensing(&self) -> &EpuckSensing {
-        self.solo.sensing()
-    }
-
-    fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
-        self.solo.step(command)?;
-        self.bumps += u32::from(self.solo.truth().bump);
-        Ok(())
-    }
-}
-
-fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Careful> {
-    let size = CorridorSize {
-        corridor_width: WIDTH,
-        wall_thickness: 0.0,
-    };
-    let world = World::from_maze(maze, &size).unwrap();
+fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Solo<Epuck>> {
+    let world = World::from_maze(maze, &CorridorSize::thin(WIDTH)).unwrap();
     let (cell, direction) = maze.start().unwrap();
-    let heading = match direction {
-        Direction::North => Heading::NORTH,
-        Direction::East => Heading::EAST,
-        Direction::South => Heading::SOUTH,
-        Direction::West => Heading::WEST,
-    };
-    let start = Pose::new(world.cell_centre(cell), heading);
+    let start = Pose::new(world.cell_centre(cell), heading_of(direction));
     let robot = Epuck::new(EpuckConfig {
         step_us: STEP_US,
         wheels: vec![Fault::Slip(Slip { share: slip })],
@@ -84,10 +52,10 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Careful> {
         forward: ForwardConfig::for_width(WIDTH),
         keep_off: KeepOffConfig::ours(),
     };
-    Pilot::new(Careful { solo, bumps: 0 }, config)
+    Pilot::new(solo, config)
 }
 
-fn look(pilot: &mut Pilot<Careful>) -> (Profile, Segments) {
+fn look(pilot: &mut Pilot<Solo<Epuck>>) -> (Profile, Segments) {
     let sweep = pilot.sweep().unwrap();
     let profile = Profile::of(&sweep, Alignment::Mounts).unwrap();
     let segments = profile.segments(&SegmentConfig::cut()).unwrap();
@@ -95,8 +63,8 @@ fn look(pilot: &mut Pilot<Careful>) -> (Profile, Segments) {
 }
 
 /// Where the robot is in its cell, and how many ways lead out of that.
-fn truth(pilot: &Pilot<Careful>, maze: &Maze) -> (Point, usize) {
-    let solo = &pilot.robot().solo;
+fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
+    let solo = pilot.robot();
     let (world, pose) = (solo.simulation().world(), solo.truth().pose);
     let cell = world.cell_at(pose.position).unwrap();
     let off = pose.position - world.cell_centre(cell);
@@ -155,7 +123,7 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
     }
     if slip < 0.2 {
         assert_eq!(
-            pilot.robot().bumps,
+            pilot.robot().bumps(),
             0,
             "slip {slip}, seed {seed}, in {maze}"
         );
@@ -218,11 +186,10 @@ o---o---o---o---o
             pilot.go_to(Point::new(-aside, 0.0)).unwrap();
             pilot.turn(PI / 2.0 + turned).unwrap();
             pilot.follow(WIDTH / pilot.config().forward.speed).unwrap();
-            let pose = pilot.robot().solo.truth().pose;
+            let pose = pilot.robot().truth().pose;
             let off = pose.position
                 - pilot
                     .robot()
-                    .solo
                     .simulation()
                     .world()
                     .cell_centre(Cell::new(2, 1));
@@ -231,7 +198,7 @@ o---o---o---o---o
                 "{aside} m aside, turned by {turned}: at {off}, {}",
                 pose.heading.radians()
             );
-            assert_eq!(pilot.robot().bumps, 0);
+            assert_eq!(pilot.robot().bumps(), 0);
         }
     }
 }
@@ -247,9 +214,9 @@ fn wheels_that_slip_by_half_still_find_the_middle_of_junctions() {
 fn a_sweep_ends_where_it_began() {
     let maze = mazes().remove(0);
     let mut pilot = pilot(&maze, 0.0, 1);
-    let before = pilot.robot().solo.truth().pose;
+    let before = pilot.robot().truth().pose;
     let sweep = pilot.sweep().unwrap();
-    let after = pilot.robot().solo.truth();
+    let after = pilot.robot().truth();
     assert_eq!(sweep.samples().len(), 100);
     assert!((after.pose.position - before.position).norm() < 1e-9);
     assert!(before.heading.turn_to(after.pose.heading).abs() < 1e-6);

@@ -41,11 +41,7 @@ fn main() {
         .unwrap();
         let poses = poses(&maze, &mut rng);
 
-        let size = CorridorSize {
-            corridor_width: 1.0,
-            wall_thickness: 0.0,
-        };
-        let world = World::from_maze(&maze, &size).unwrap();
+        let world = World::from_maze(&maze, &CorridorSize::thin(1.0)).unwrap();
         let casters: [(&str, Box<dyn Caster>); 5] = [
             (
                 "parry2d polyline",

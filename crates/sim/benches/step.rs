@@ -44,11 +44,7 @@ fn main() {
         }
         .generate(&mut rng)
         .unwrap();
-        let size = CorridorSize {
-            corridor_width: 1.0,
-            wall_thickness: 0.0,
-        };
-        let world = World::from_maze(&maze, &size).unwrap();
+        let world = World::from_maze(&maze, &CorridorSize::thin(1.0)).unwrap();
         let baseline = Arc::new(LatticeWalk::new(&world, Lanes::Baseline).unwrap());
         let parry = Arc::new(ParryPolyline::new(world.walls()));
         let worlds = [
@@ -100,11 +96,7 @@ fn epucks(criterion: &mut Criterion, table: &mut Table) {
     }
     .generate(&mut rng)
     .unwrap();
-    let size = CorridorSize {
-        corridor_width: 0.25,
-        wall_thickness: 0.0,
-    };
-    let world = World::from_maze(&maze, &size).unwrap();
+    let world = World::from_maze(&maze, &CorridorSize::thin(0.25)).unwrap();
     let parry = world
         .clone()
         .with_caster(Arc::new(ParryPolyline::new(world.walls())));

@@ -30,7 +30,7 @@
 //!
 //! let mut maze = Maze::open(Grid::new(3, 1));
 //! maze.set_goals(vec![Cell::new(2, 0)]);
-//! let world = World::from_maze(&maze, &CorridorSize { corridor_width: 0.95, wall_thickness: 0.0 })?;
+//! let world = World::from_maze(&maze, &CorridorSize::thin(0.95))?;
 //! let start = Pose::new(world.cell_centre(Cell::new(0, 0)), Heading::EAST);
 //!
 //! let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?;

@@ -10,6 +10,7 @@ use crate::{Model, PlaceError, RobotId, Simulation, StepError, Truth, World};
 pub struct Solo<M: Model> {
     simulation: Simulation<M>,
     robot: RobotId,
+    bumps: u32,
 }
 
 impl<M: Model> Solo<M> {
@@ -25,13 +26,23 @@ impl<M: Model> Solo<M> {
     ) -> Result<Self, PlaceError> {
         let mut simulation = Simulation::new(world, run);
         let robot = simulation.add(model, pose)?;
-        Ok(Self { simulation, robot })
+        Ok(Self {
+            simulation,
+            robot,
+            bumps: 0,
+        })
     }
 
     /// What really is.
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.simulation.truth(self.robot)
+    }
+
+    /// Returns the number of time steps in which the robot touched something.
+    #[must_use]
+    pub const fn bumps(&self) -> u32 {
+        self.bumps
     }
 
     /// Lifts the robot and sets it down at `pose`.
@@ -64,6 +75,8 @@ impl<M: Model> Robot for Solo<M> {
     }
 
     fn step(&mut self, command: &M::Command) -> Result<(), StepError> {
-        self.simulation.step(core::slice::from_ref(command))
+        self.simulation.step(core::slice::from_ref(command))?;
+        self.bumps += u32::from(self.truth().bump);
+        Ok(())
     }
 }

@@ -38,6 +38,15 @@ pub struct CorridorSize {
 }
 
 impl CorridorSize {
+    /// Returns corridors of this width, m, between walls that are lines.
+    #[must_use]
+    pub const fn thin(corridor_width: f64) -> Self {
+        Self {
+            corridor_width,
+            wall_thickness: 0.0,
+        }
+    }
+
     /// From the middle of one cell to that of the next, m.
     #[must_use]
     pub fn pitch(&self) -> f64 {

@@ -7,14 +7,13 @@ use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
 use tolman_maze::Maze;
 use tolman_sim::World;
-use tolman_sim::robots::{Epuck, EpuckConfig};
+use tolman_sim::robots::EpuckConfig;
 
 use super::fragments::{TrueFragments, Way};
 use super::robots::walker_config;
-use super::simulated::SimulatedEpuck;
 use super::spots::{Looks, Spot, knowable};
-use super::trial::{TrialError, world_of};
-use tolman_systems::cpm::{Approach, CommonPatterns, Walker, Whereabouts, find_out};
+use super::trial::{TrialError, walker_at, world_of};
+use tolman_systems::cpm::{Approach, CommonPatterns, Whereabouts, find_out};
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
 ///
@@ -107,9 +106,8 @@ impl PutDown<'_> {
         }
         let spot = &spots[rng.random_range(0..spots.len() as u32) as usize];
         let start = spot.pose(&world);
-        let robot = Epuck::new(self.robot.clone())?;
-        let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, self.seed)?;
-        let mut walker = Walker::new(body, walker_config(&self.robot, self.corridor_width)?);
+        let config = walker_config(&self.robot, self.corridor_width)?;
+        let mut walker = walker_at(Arc::clone(&world), start, &self.robot, config, self.seed)?;
         let maps: Vec<CpMap> = self.known.iter().map(|known| known.map.clone()).collect();
         // The ways that it came by to each place; to the first, from amid one, it is not told.
         let mut onward = Vec::new();

@@ -12,7 +12,6 @@ pub struct SimulatedEpuck {
     solo: Solo<Epuck>,
     landmarks: Vec<(Landmark, Zone)>,
     path: Vec<Pose>,
-    bumps: u32,
 }
 
 impl SimulatedEpuck {
@@ -21,17 +20,17 @@ impl SimulatedEpuck {
     /// # Errors
     /// If it cannot stand there.
     pub fn new(
-        world: Arc<World>,
+        world: impl Into<Arc<World>>,
         robot: Epuck,
         start: Pose,
         seed: u64,
     ) -> Result<Self, PlaceError> {
+        let world = world.into();
         let landmarks = landmarks(&world);
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
             landmarks,
             path: vec![start],
-            bumps: 0,
         })
     }
 
@@ -50,7 +49,7 @@ impl SimulatedEpuck {
     /// In how many steps it touched something.
     #[must_use]
     pub const fn bumps(&self) -> u32 {
-        self.bumps
+        self.solo.bumps()
     }
 
     /// Lifts it and sets it down elsewhere.
@@ -79,9 +78,7 @@ impl Robot for SimulatedEpuck {
 
     fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
         self.solo.step(command)?;
-        let truth = self.solo.truth();
-        self.bumps += u32::from(truth.bump);
-        self.path.push(truth.pose);
+        self.path.push(self.solo.truth().pose);
         Ok(())
     }
 }

@@ -5,12 +5,11 @@ use tolman_geom::Pose;
 use tolman_maps::cpm::Sighting;
 use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
-use tolman_sim::robots::{Epuck, EpuckConfig};
+use tolman_sim::robots::EpuckConfig;
+use tolman_systems::cpm::{Observation, Walk, WalkError, WalkerConfig};
 
 use super::fragments::{TrueFragments, Way};
-use super::simulated::SimulatedEpuck;
-use super::trial::{TrialError, world_of};
-use tolman_systems::cpm::{Observation, Walk, WalkError, Walker, WalkerConfig};
+use super::trial::{TrialError, walker_at, world_of};
 
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
@@ -44,9 +43,7 @@ pub fn survey(
     for (cell, out, way) in fragments.ways() {
         // Whoever came by this fragment looks into the place.
         let start = Pose::new(world.cell_centre(cell), heading_of(out.opposite()));
-        let body =
-            SimulatedEpuck::new(Arc::clone(&world), Epuck::new(robot.clone())?, start, seed)?;
-        let mut walker = Walker::new(body, config.clone());
+        let mut walker = walker_at(Arc::clone(&world), start, robot, config.clone(), seed)?;
         walker.begin()?;
         let Walk::Arrived {
             observations,
@@ -73,9 +70,11 @@ mod tests {
     use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
     use tolman_robot::{Landmark, Robot, SensesLandmarks};
     use tolman_sim::StepError;
+    use tolman_sim::robots::Epuck;
+    use tolman_systems::cpm::Walker;
 
     use super::*;
-    use crate::cpm::{epuck, walker_config};
+    use crate::cpm::{SimulatedEpuck, epuck, walker_config};
 
     /// An e-puck whose sensors still tell of the hand that carried it, until its next time step.
     struct Carried {
@@ -164,9 +163,8 @@ mod tests {
         let fragments = TrueFragments::of(&maze);
         for (from, out, way) in fragments.ways() {
             let start = Pose::new(world.cell_centre(from), heading_of(out.opposite()));
-            let robot = Epuck::new(epuck()).unwrap();
-            let body = SimulatedEpuck::new(Arc::clone(&world), robot, start, 2).unwrap();
-            let mut walker = Walker::new(body, config.clone());
+            let (here, robot) = (Arc::clone(&world), epuck());
+            let mut walker = walker_at(here, start, &robot, config.clone(), 2).unwrap();
             walker.begin().unwrap();
             for to in [way.to, from] {
                 walker.walk(0, 0, None).unwrap();

@@ -139,17 +139,24 @@ pub fn placed(
 ) -> Result<SimulatedEpuck, TrialError> {
     let world = world_of(maze, corridor_width)?;
     let start = start_of(maze, &world)?;
-    let robot = Epuck::new(robot)?;
-    Ok(SimulatedEpuck::new(Arc::new(world), robot, start, seed)?)
+    Ok(SimulatedEpuck::new(world, Epuck::new(robot)?, start, seed)?)
+}
+
+/// The robot anywhere in a world, driven like this.
+pub(super) fn walker_at(
+    world: impl Into<Arc<World>>,
+    start: Pose,
+    robot: &EpuckConfig,
+    config: WalkerConfig,
+    seed: u64,
+) -> Result<Walker<SimulatedEpuck>, TrialError> {
+    let body = SimulatedEpuck::new(world, Epuck::new(robot.clone())?, start, seed)?;
+    Ok(Walker::new(body, config))
 }
 
 /// A maze of thin walls.
 pub(super) fn world_of(maze: &Maze, corridor_width: f64) -> Result<World, TrialError> {
-    let size = CorridorSize {
-        corridor_width,
-        wall_thickness: 0.0,
-    };
-    Ok(World::from_maze(maze, &size)?)
+    Ok(World::from_maze(maze, &CorridorSize::thin(corridor_width))?)
 }
 
 pub(super) fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
@@ -182,9 +189,7 @@ impl Trial<'_> {
     ) -> Result<Walker<SimulatedEpuck>, TrialError> {
         let mut config = walker_config(&self.robot, self.corridor_width)?;
         config.heading = self.mode.heading();
-        let robot = Epuck::new(self.robot.clone())?;
-        let body = SimulatedEpuck::new(Arc::new(world), robot, start, self.seed)?;
-        Ok(Walker::new(body, config))
+        walker_at(world, start, &self.robot, config, self.seed)
     }
 
     /// The robot looks where it is and begins its map there, as its mode has it but for the configuration.

@@ -196,30 +196,16 @@ impl<'a> Survey<'a> {
         })?;
         let mut rover = surveyor(office, &config.robot, start.position, seed)?;
         let mapping = Mapping::begin(&mut rover, config.mapper.clone())?;
-        let visits = vec![Visit {
-            site: start.site,
-            place: mapping.observer().place(),
-        }];
-        let mut memory = Memory::default();
-        memory.see(start.site, mapping.exits());
-        Ok(Self {
-            office,
-            planner: Planner::new(config.heed),
-            rover,
-            mapping,
-            walk: stream(seed, 1),
-            doors: stream(seed, 2),
-            plans: stream(seed, 3),
-            shut: Vec::new(),
-            truth,
+        let past = Past {
             start: start.position,
-            site: start.site,
-            visits,
+            at: start.position,
+            visits: vec![Visit {
+                site: start.site,
+                place: mapping.observer().place(),
+            }],
             gone: Vec::new(),
-            errors: Vec::new(),
-            memory,
-            config,
-        })
+        };
+        Self::after(past, office, config, rover, mapping, seed)
     }
 
     /// A run that goes on where another ended. `seed` is that of all chance from now on; doorways are open.
@@ -235,6 +221,18 @@ impl<'a> Survey<'a> {
     ) -> Result<Self, RunError> {
         let mut rover = surveyor(office, &config.robot, past.at, seed)?;
         let mapping = Mapping::resume(&mut rover, observer)?;
+        Self::after(past, office, config, rover, mapping, seed)
+    }
+
+    /// The run of a robot that has this past.
+    fn after(
+        past: Past,
+        office: &'a Office,
+        config: SurveyConfig,
+        rover: OfficeSurveyor,
+        mapping: Mapping,
+        seed: u64,
+    ) -> Result<Self, RunError> {
         let mut survey = Self {
             office,
             planner: Planner::new(config.heed),

@@ -7,7 +7,7 @@
 use thiserror::Error;
 use tolman_maps::wall_belief::PoseFilterConfig;
 use tolman_maze::Maze;
-use tolman_robot::{LaserSensing, Ring, Robot, TurnTranslate};
+use tolman_robot::Ring;
 use tolman_sim::noise::{Fault, Gaussian, Slip};
 use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
@@ -170,40 +170,18 @@ pub fn send(maze: &Maze, config: &NoisyConfig, seed: u64) -> Result<NoisyTrial, 
     Ok(NoisyTrial {
         end,
         steps: outing.steps,
-        bumps: outing.body.bumps,
+        bumps: outing.body.bumps(),
         mean_error: outing.errors / f64::from(outing.stops.max(1)),
     })
 }
 
 struct Outing<'a> {
     maze: &'a Maze,
-    body: Body,
+    body: Solo<LaserPioneer>,
     mouse: NoisyMouse,
     steps: u32,
     stops: u32,
     errors: f64,
-}
-
-/// The mouse's body, and how often it touched a wall.
-struct Body {
-    solo: Solo<LaserPioneer>,
-    bumps: u32,
-}
-
-impl Robot for Body {
-    type Command = TurnTranslate;
-    type Sensing = LaserSensing;
-    type Error = StepError;
-
-    fn sensing(&self) -> &LaserSensing {
-        self.solo.sensing()
-    }
-
-    fn step(&mut self, command: &TurnTranslate) -> Result<(), StepError> {
-        self.solo.step(command)?;
-        self.bumps += u32::from(self.solo.sensing().bump == Some(true));
-        Ok(())
-    }
 }
 
 impl<'a> Outing<'a> {
@@ -211,10 +189,10 @@ impl<'a> Outing<'a> {
         let robot = config.robot();
         let mouse = NoisyMouse::new(brief(maze)?, config.mouse(&robot), seed)?;
         let world = World::from_maze(maze, &SIZE)?;
-        let solo = Solo::new(world, LaserPioneer::new(robot)?, mouse.start(), seed)?;
+        let body = Solo::new(world, LaserPioneer::new(robot)?, mouse.start(), seed)?;
         Ok(Self {
             maze,
-            body: Body { solo, bumps: 0 },
+            body,
             mouse,
             steps: 0,
             stops: 0,
@@ -228,7 +206,7 @@ impl<'a> Outing<'a> {
         }
         self.steps += 1;
         let run_1 = self.steps;
-        self.body.solo.place(self.mouse.start())?;
+        self.body.place(self.mouse.start())?;
         self.mouse.put_back();
         self.run(run_1)
     }
@@ -269,7 +247,7 @@ impl<'a> Outing<'a> {
     /// Lets the mouse look, and writes down how far it is from where it believes to be.
     fn stop(&mut self) -> Result<(), NoisyError> {
         self.mouse.look(&mut self.body)?;
-        let off = self.mouse.pose().position - self.body.solo.truth().pose.position;
+        let off = self.mouse.pose().position - self.body.truth().pose.position;
         self.errors += off.norm();
         self.stops += 1;
         Ok(())
@@ -277,7 +255,7 @@ impl<'a> Outing<'a> {
 
     /// Whether it really is in a goal.
     fn is_at_goal(&self) -> bool {
-        let position = self.body.solo.truth().pose.position;
+        let position = self.body.truth().pose.position;
         let cell = self.mouse.belief().cell_at(position);
         cell.is_some_and(|cell| self.maze.goals().contains(&cell))
     }

@@ -65,10 +65,7 @@ fn send<S: Search>(
     );
     let body = LaserPioneer::new(robot.clone()).unwrap();
     let mut solo = Solo::new(Arc::clone(&world), body, pose, 7).unwrap();
-    let mut outing = Outing {
-        cells: Vec::new(),
-        bumps: 0,
-    };
+    let mut outing = Vec::new();
     for task in tasks {
         let mut cells = Vec::new();
         let watch = |solo: &&mut Solo<LaserPioneer>, _: &TurnTranslate| {
@@ -76,14 +73,16 @@ fn send<S: Search>(
             if cells.last() != Some(&cell) {
                 cells.push(cell);
             }
-            outing.bumps += u32::from(tolman_robot::Robot::sensing(solo).bump == Some(true));
         };
         let mut watched = Watched::new(&mut solo, 3000, watch);
         let end = run(&mut watched, mouse, *task).unwrap().end;
         drop(watched);
-        outing.cells.push((cells, end));
+        outing.push((cells, end));
     }
-    outing
+    Outing {
+        cells: outing,
+        bumps: solo.bumps(),
+    }
 }
 
 #[test]

@@ -107,11 +107,7 @@ fn fuzz(count: u64, seed: u64) -> u64 {
     while cast < count {
         let side = rng.random_range(1..12_u32) as u16;
         let maze = maze(side, &mut rng);
-        let size = CorridorSize {
-            corridor_width: 1.0,
-            wall_thickness: 0.0,
-        };
-        let world = World::from_maze(&maze, &size).unwrap();
+        let world = World::from_maze(&maze, &CorridorSize::thin(1.0)).unwrap();
         let lattice = LatticeWalk::new(&world, Lanes::Widest).unwrap();
         let index = WallIndex::new(world.walls(), Lanes::Widest);
         let max_range = [0.8, 2.5, 20.0][rng.random_range(0..3_u32) as usize];

@@ -135,14 +135,7 @@ const UNIFORMS: [u64; 2] = [4_607_015_883_119_356_314, 4_604_924_097_590_130_789
 
 fn world() -> World {
     let maze = Maze::open(Grid::new(4, 4));
-    World::from_maze(
-        &maze,
-        &CorridorSize {
-            corridor_width: 0.95,
-            wall_thickness: 0.0,
-        },
-    )
-    .unwrap()
+    World::from_maze(&maze, &CorridorSize::thin(0.95)).unwrap()
 }
 
 fn noisy() -> LaserPioneerConfig {

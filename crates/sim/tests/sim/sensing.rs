@@ -17,13 +17,6 @@ fn at(x: f64, y: f64, degrees: f64) -> Pose {
     Pose::new(Point::new(x, y), Heading::from_degrees(degrees))
 }
 
-fn thin(width: f64) -> CorridorSize {
-    CorridorSize {
-        corridor_width: width,
-        wall_thickness: 0.0,
-    }
-}
-
 /// One wall across, at x = 3.
 fn wall() -> World {
     World::from_segments(vec![Wall::between(
@@ -152,7 +145,7 @@ fn a_command_that_is_no_number_moves_nothing() {
 #[test]
 fn impossible_places_are_refused() {
     let maze = Maze::open(Grid::new(3, 1));
-    let world = World::from_maze(&maze, &thin(0.95)).unwrap();
+    let world = World::from_maze(&maze, &CorridorSize::thin(0.95)).unwrap();
     let refuse = |pose| {
         Solo::new(world.clone(), robot(), pose, 1)
             .map(|_| ())
@@ -175,7 +168,7 @@ fn impossible_places_are_refused() {
     };
     assert!((free - 0.2).abs() < 1e-12 && (radius - 0.25).abs() < 1e-12);
     // A robot wider than the corridor fits nowhere.
-    let narrow = World::from_maze(&maze, &thin(0.4)).unwrap();
+    let narrow = World::from_maze(&maze, &CorridorSize::thin(0.4)).unwrap();
     let middle = Pose::new(narrow.cell_centre(Cell::new(1, 0)), Heading::EAST);
     let error = Solo::new(narrow, robot(), middle, 1)
         .map(|_| ())
@@ -231,7 +224,7 @@ fn impossible_places_are_refused() {
 #[test]
 fn impossible_worlds_are_refused() {
     let maze = Maze::open(Grid::new(1, 1));
-    let error = World::from_maze(&maze, &thin(f64::NAN)).unwrap_err();
+    let error = World::from_maze(&maze, &CorridorSize::thin(f64::NAN)).unwrap_err();
     assert!(matches!(error, WorldError::CorridorWidth { .. }));
     let negative = CorridorSize {
         corridor_width: 1.0,
@@ -281,7 +274,7 @@ fn a_maze_marks_its_zones_and_cells() {
     let mut maze = Maze::open(Grid::new(3, 2));
     maze.set_goals(vec![Cell::new(2, 0), Cell::new(2, 1)]);
     maze.set_start(Some((Cell::new(0, 1), Direction::East)));
-    let world = World::from_maze(&maze, &thin(0.5)).unwrap();
+    let world = World::from_maze(&maze, &CorridorSize::thin(0.5)).unwrap();
     for cell in maze.grid().cells() {
         let centre = world.cell_centre(cell);
         assert_eq!(world.cell_at(centre), Some(cell));
@@ -309,7 +302,10 @@ fn a_crowd_in_a_large_maze() {
             maze.set_wall(cell, Direction::North, true);
         }
     }
-    let mut sim = Simulation::new(World::from_maze(&maze, &thin(0.95)).unwrap(), 1);
+    let mut sim = Simulation::new(
+        World::from_maze(&maze, &CorridorSize::thin(0.95)).unwrap(),
+        1,
+    );
     for cell in maze.grid().cells().step_by(39) {
         let pose = Pose::new(sim.world().cell_centre(cell), Heading::EAST);
         sim.add(robot(), pose).unwrap();

@@ -40,11 +40,7 @@ fn robot() -> LaserPioneer {
 /// Two robots that drive about a room with a door, one of which is lifted.
 fn record(detail: Detail) -> String {
     let maze = Maze::open(Grid::new(4, 3));
-    let size = CorridorSize {
-        corridor_width: 0.95,
-        wall_thickness: 0.0,
-    };
-    let world = World::from_maze(&maze, &size).unwrap();
+    let world = World::from_maze(&maze, &CorridorSize::thin(0.95)).unwrap();
     let (north, south) = (
         world.cell_centre(Cell::new(2, 2)),
         world.cell_centre(Cell::new(2, 0)),
