@@ -70,7 +70,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Err(Failure::BadInput(error));
     };
     let read = maze::read(path)?;
-    let name = read.name.clone().unwrap_or_else(|| maze::name(path));
+    let name = maze::world_name(path, &read);
     let furniture = OfficeConfig {
         doorway_share: arguments.doorways,
         colours: arguments.colours,

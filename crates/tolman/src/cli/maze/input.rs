@@ -67,6 +67,11 @@ pub(in crate::cli) fn name(path: &Path) -> String {
     }
 }
 
+/// Returns the name that a maze file gives its maze, or what messages call the file.
+pub(in crate::cli) fn world_name(path: &Path, file: &MazeFile) -> String {
+    file.name.clone().unwrap_or_else(|| name(path))
+}
+
 fn text(path: &Path) -> Result<String, Failure> {
     let bytes = if is_stdin(path) {
         let mut bytes = Vec::new();

@@ -15,7 +15,7 @@ use clap::Subcommand;
 
 use super::failure::Failure;
 pub(super) use collection::{Collection, all_solved, each};
-pub(super) use input::{name, read};
+pub(super) use input::{name, read, world_name};
 
 /// Looks at mazes, checks, converts and makes them
 #[derive(Subcommand)]
