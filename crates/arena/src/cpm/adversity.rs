@@ -18,7 +18,7 @@ use tolman_systems::cpm::{
 use super::robots::{epuck, walker_config};
 use super::simulated::SimulatedEpuck;
 use super::trial::placed;
-use super::trial::tests::PATTERNS;
+use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
 
@@ -94,8 +94,7 @@ fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), ReasonerE
 
 #[test]
 fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
-    let text = include_str!("../../mazes/cpm-1.maze");
-    let maze = tolman_maze::read(text).unwrap().maze;
+    let maze = maze_1();
     let body = || placed(&maze, WIDTH, epuck(), 1).unwrap();
     let (mut blind_reached, mut stuck_told) = (0, 0);
     for sensor in 0..PROXIMITY_SENSORS {

@@ -220,13 +220,12 @@ mod tests {
     use tolman_systems::cpm::{Done, Mode};
 
     use super::super::robots::epuck;
-    use super::super::trial::tests::PATTERNS;
+    use super::super::trial::tests::{PATTERNS, maze_1};
     use super::*;
 
     #[test]
     fn a_robot_that_knows_nothing_again_gives_up_and_one_that_is_told_to_breaks_off() {
-        let maze = include_str!("../../mazes/cpm-1.maze");
-        let maze = tolman_maze::read(maze).unwrap().maze;
+        let maze = maze_1();
         // Nothing is similar to anything.
         let matching = Matching::Positions(Similarity {
             mu: 2.0,

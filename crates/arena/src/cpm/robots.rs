@@ -89,11 +89,11 @@ mod tests {
 
     use super::*;
     use crate::cpm::placed;
+    use crate::cpm::trial::tests::maze_1;
 
     #[test]
     fn sweeps_last_as_long_as_the_paper_says() {
-        let maze = include_str!("../../mazes/cpm-1.maze");
-        let maze = tolman_maze::read(maze).unwrap().maze;
+        let maze = maze_1();
         let sweep = |robot: &EpuckConfig| {
             let body = placed(&maze, 0.25, robot.clone(), 1).unwrap();
             let config = walker_config(robot, 0.25).unwrap();

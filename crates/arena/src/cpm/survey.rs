@@ -74,6 +74,7 @@ mod tests {
     use tolman_systems::cpm::Walker;
 
     use super::*;
+    use crate::cpm::trial::tests::maze_1;
     use crate::cpm::{SimulatedEpuck, epuck, walker_config};
 
     /// An e-puck whose sensors still tell of the hand that carried it, until its next time step.
@@ -105,8 +106,7 @@ mod tests {
 
     #[test]
     fn what_it_sensed_before_it_was_put_down_is_no_part_of_what_it_sees() {
-        let maze = include_str!("../../mazes/cpm-1.maze");
-        let maze = tolman_maze::read(maze).unwrap().maze;
+        let maze = maze_1();
         let world = Arc::new(world_of(&maze, 0.25).unwrap());
         let config = walker_config(&epuck(), 0.25).unwrap();
         for (from, out, _) in TrueFragments::of(&maze).ways() {

@@ -402,6 +402,11 @@ pub(super) mod tests {
         tolman_maze::read(text).unwrap().maze
     }
 
+    /// Maze 1 of the paper, for all tests of CPM.
+    pub(crate) fn maze_1() -> Maze {
+        read(include_str!("../../mazes/cpm-1.maze"))
+    }
+
     /// What a robot learns in the learning maze, for all tests of CPM.
     pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
         let maze = read(include_str!("../../mazes/cpm-learning.maze"));
@@ -425,7 +430,7 @@ pub(super) mod tests {
 
     #[test]
     fn the_second_episode_is_the_shorter_one_bit_for_bit() {
-        let maze = read(include_str!("../../mazes/cpm-1.maze"));
+        let maze = maze_1();
         let record = play(&maze, epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
         assert!(record.is_map_right);
@@ -458,7 +463,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_goal_that_is_walled_off_is_not_there() {
-        let mut maze = read(include_str!("../../mazes/cpm-1.maze"));
+        let mut maze = maze_1();
         let goal = maze.goals()[0];
         for direction in Direction::ALL {
             maze.set_wall(goal, direction, true);
@@ -483,7 +488,7 @@ pub(super) mod tests {
 
     #[test]
     fn loops_that_stay_open_on_the_map_are_missed() {
-        let maze = read(include_str!("../../mazes/cpm-1.maze"));
+        let maze = maze_1();
         // A robot to which nothing is similar closes none.
         let matching = Matching::Positions(Similarity {
             mu: 2.0,
@@ -513,7 +518,7 @@ pub(super) mod tests {
 
     #[test]
     fn sensors_that_fail_are_told() {
-        let maze = read(include_str!("../../mazes/cpm-1.maze"));
+        let maze = maze_1();
         let faulty = |fault| EpuckConfig {
             proximity: vec![fault],
             ..epuck()
@@ -531,7 +536,7 @@ pub(super) mod tests {
 
     #[test]
     fn wheels_that_slip_by_half_end_where_the_record_says() {
-        let maze = read(include_str!("../../mazes/cpm-1.maze"));
+        let maze = maze_1();
         let world = world_of(&maze, WIDTH).unwrap();
         for seed in 0..3 {
             let slipping = Trial {
@@ -552,7 +557,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_robot_put_down_amid_a_fragment_finds_out_where_it_is() {
-        let maze = read(include_str!("../../mazes/cpm-1.maze"));
+        let maze = maze_1();
         let record = play(&maze, epuck());
         let known = [KnownMaze {
             maze: &maze,

@@ -10,7 +10,6 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_control::epuck::{Alignment, Pilot, Profile, TURN_STEP};
 use tolman_maps::cpm::CpMap;
-use tolman_maze::Maze;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
 use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
@@ -22,7 +21,7 @@ use tolman_systems::cpm::{
 use super::robots::{epuck, walker_config};
 use super::simulated::SimulatedEpuck;
 use super::trial::placed;
-use super::trial::tests::PATTERNS;
+use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
 
@@ -148,13 +147,8 @@ impl Write for Line {
     }
 }
 
-fn maze() -> Maze {
-    let text = include_str!("../../mazes/cpm-1.maze");
-    tolman_maze::read(text).unwrap().maze
-}
-
 fn simulated(seed: u64) -> SimulatedEpuck {
-    placed(&maze(), WIDTH, epuck(), seed).unwrap()
+    placed(&maze_1(), WIDTH, epuck(), seed).unwrap()
 }
 
 fn line(seed: u64) -> Line {

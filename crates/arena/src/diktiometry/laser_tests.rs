@@ -10,7 +10,7 @@ use super::{Office, OfficeConfig, PlaceKind, SurveyorConfig, mapper};
 use crate::run::{End, Watched, run};
 
 /// The J maze in corridors 0.95 m wide with walls that are lines, as MSLST has it.
-fn j() -> Office {
+pub(super) fn j() -> Office {
     let file = tolman_maze::read(include_str!("../../mazes/j.maze")).unwrap();
     let furniture = OfficeConfig {
         corridor_width: file.corridor_width.unwrap(),

@@ -462,6 +462,7 @@ impl Scale<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::laser_tests::j;
     use super::*;
 
     #[test]
@@ -480,14 +481,7 @@ mod tests {
 
     #[test]
     fn what_leads_to_no_goal_is_no_part_of_it() {
-        let text = include_str!("../../mazes/j.maze");
-        let file = tolman_maze::read(text).unwrap();
-        let furniture = OfficeConfig {
-            corridor_width: 0.95,
-            wall_thickness: 0.0,
-            ..OfficeConfig::bare()
-        };
-        let office = Office::new(&file.maze, &furniture).unwrap();
+        let office = j();
         // A J has two ends and three bends.
         let places = office.places(&[]);
         assert_eq!(places.len(), 5);
