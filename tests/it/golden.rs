@@ -27,7 +27,13 @@ fn runs(jobs: u32) -> String {
     if out.exists() {
         fs::remove_dir_all(&out).unwrap();
     }
-    execute(&*experiment, &options, &Build::current(), &Silent).unwrap();
+    execute(
+        &*experiment,
+        &options,
+        &Build::current("unknown", "unknown"),
+        &Silent,
+    )
+    .unwrap();
     fs::read_to_string(out.join("runs.jsonl")).unwrap()
 }
 

@@ -24,7 +24,13 @@ fn baselines(name: &str, runs: u32, mazes: Vec<PathBuf>) -> Outcome {
         ..Options::default()
     };
     let experiment = open(tolman_papers::catalogue(), "baselines", &options).unwrap();
-    execute(&*experiment, &options, &Build::current(), &Silent).unwrap()
+    execute(
+        &*experiment,
+        &options,
+        &Build::current("unknown", "unknown"),
+        &Silent,
+    )
+    .unwrap()
 }
 
 /// 25 runs of each of 8 rows, told from 2 runs: a page grows by no more than its runs.

@@ -18,12 +18,13 @@ pub struct Build {
 }
 
 impl Build {
-    /// The running program. Reads the executable once.
-    pub fn current() -> Self {
+    /// Returns the build of the running program, which was built from this `commit` by this `compiler`. Reads the
+    /// executable once.
+    pub fn current(commit: &str, compiler: &str) -> Self {
         let executable = std::env::current_exe().and_then(fs::read);
         Self {
-            commit: env!("TOLMAN_COMMIT").to_owned(),
-            compiler: env!("TOLMAN_COMPILER").to_owned(),
+            commit: commit.to_owned(),
+            compiler: compiler.to_owned(),
             executable: executable.map_or_else(
                 |_| "unknown".to_owned(),
                 |bytes| Fnv64::new().write(&bytes).hex(),

@@ -2,8 +2,9 @@ use core::ops::Deref;
 
 use crate::{Landmark, Robot, SensesLandmarks};
 
-/// A robot that is told to stand still when this is dropped: at the end of a run, after an error, or when
-/// the program is interrupted.
+/// A robot that is told to stand still when this is dropped: at the end of a run, or after an error.
+///
+/// A signal such as Ctrl-C ends a program without dropping anything. Catch it and leave the loop that drives.
 ///
 /// ```
 /// use tolman_robot::{Robot, Stopping, TurnTranslate};

@@ -57,3 +57,10 @@ pub enum Standing {
         why: String,
     },
 }
+
+impl Standing {
+    /// Returns that the system gave up, and `why`.
+    pub fn gave_up(why: impl Into<String>) -> Self {
+        Self::GaveUp { why: why.into() }
+    }
+}

@@ -20,9 +20,9 @@ pub trait Brain: Mapper<Observation = TimeStep> + Debug {
     fn standing(&self, task: Task) -> Standing {
         match task {
             Task::Reach(Goal::Landmark(_)) => Standing::UnderWay,
-            Task::Reach(Goal::Place(_)) => gave_up("it has no map that names places"),
-            Task::Explore => gave_up("it learns no map"),
-            Task::Localize => gave_up("it has no map to find itself on"),
+            Task::Reach(Goal::Place(_)) => Standing::gave_up("it has no map that names places"),
+            Task::Explore => Standing::gave_up("it learns no map"),
+            Task::Localize => Standing::gave_up("it has no map to find itself on"),
         }
     }
 
@@ -45,10 +45,4 @@ impl<B: Brain + ?Sized> Brain for &mut B {
     fn words(&self) -> String {
         (**self).words()
     }
-}
-
-/// Returns that a brain gives up, and why.
-pub(crate) fn gave_up(why: &str) -> Standing {
-    let why = why.to_owned();
-    Standing::GaveUp { why }
 }

@@ -68,8 +68,9 @@ where
         task: Task,
     ) -> Result<Standing, Self::Failure> {
         if task != Task::Reach(Goal::Landmark(Landmark::Goal)) {
-            let why = "an oracle knows the way to the goal and nothing else".to_owned();
-            return Ok(Standing::GaveUp { why });
+            return Ok(Standing::gave_up(
+                "an oracle knows the way to the goal and nothing else",
+            ));
         }
         if robot.landmark() == Some(Landmark::Goal) {
             return Ok(Standing::Done);

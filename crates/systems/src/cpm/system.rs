@@ -153,7 +153,7 @@ impl Cpm {
     /// Comes to the next place on the way to knowing where it is.
     fn localize<R: CpmRobot>(&mut self, robot: &mut R) -> Result<Standing, CpmFailure<R::Error>> {
         let Some(layer) = &mut self.layer else {
-            return Ok(gave_up("it has no map to find itself on"));
+            return Ok(Standing::gave_up("it has no map to find itself on"));
         };
         let maps = [layer.explorer().map().clone()];
         let patterns = layer.patterns();
@@ -184,7 +184,7 @@ impl Cpm {
                     Standing::Done
                 } else {
                     self.standing = Stance::Anywhere;
-                    gave_up(format!(
+                    Standing::gave_up(format!(
                         "it is not sure where it is after {MOST_PLACES} places"
                     ))
                 })
@@ -215,8 +215,10 @@ impl Cpm {
         layer.optimize()?;
         Ok(match done {
             Done::Reached => Standing::Done,
-            Done::NotThere => gave_up("it has been everywhere, and the landmark is not there"),
-            Done::OutOfPatience => gave_up(format!(
+            Done::NotThere => {
+                Standing::gave_up("it has been everywhere, and the landmark is not there")
+            }
+            Done::OutOfPatience => Standing::gave_up(format!(
                 "it has walked {} fragments, as many as it may",
                 layer.explorer().traversals()
             )),
@@ -267,14 +269,12 @@ impl Cpm {
             (None, Goal::Landmark(landmark)) => self.pursue(robot, resting, Aim::Find(landmark)),
             (None, Goal::Place(place)) => {
                 self.standing = Stance::AtPlace(resting);
-                Ok(gave_up(format!("it knows no way to place {place}")))
+                Ok(Standing::gave_up(format!(
+                    "it knows no way to place {place}"
+                )))
             }
         }
     }
-}
-
-fn gave_up(why: impl Into<String>) -> Standing {
-    Standing::GaveUp { why: why.into() }
 }
 
 impl Mapper for Cpm {

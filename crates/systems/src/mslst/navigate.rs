@@ -10,7 +10,6 @@ use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, T
 use super::north_scan::north_scan;
 use super::{MslstConfig, MslstMap};
 use crate::baselines::Avoid;
-use crate::brain::gave_up;
 use crate::{Brain, Doing, TimeStep};
 
 /// The brain of Phase III, *Navigation Using the Graph*.
@@ -150,9 +149,9 @@ impl Navigator {
         } = localize(&self.map.graph, &self.memory);
         match candidates.len() {
             1 => Standing::Done,
-            count if count > 1 && matched >= self.config.memory as usize => gave_up(&format!(
-                "{count} nodes fit all {matched} experiences that it remembers"
-            )),
+            count if count > 1 && matched >= self.config.memory as usize => Standing::gave_up(
+                format!("{count} nodes fit all {matched} experiences that it remembers"),
+            ),
             _ => Standing::UnderWay,
         }
     }
@@ -212,7 +211,9 @@ impl Brain for Navigator {
         match task {
             Task::Explore => Standing::Done,
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
-            Task::Reach(_) => gave_up("its graph leads to the landmark of the goal alone"),
+            Task::Reach(_) => {
+                Standing::gave_up("its graph leads to the landmark of the goal alone")
+            }
             Task::Localize => self.localized(),
         }
     }

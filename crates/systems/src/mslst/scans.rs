@@ -6,7 +6,6 @@ use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
 
 use super::north_scan::north_scan;
 use crate::baselines::Avoid;
-use crate::brain::gave_up;
 use crate::{Brain, Doing, TimeStep};
 
 /// Phase I: "the robot wanders the maze at random, using the Avoid brain … It records its input vector at every
@@ -88,7 +87,7 @@ impl Brain for Scans {
         match task {
             Task::Explore if self.is_complete() => Standing::Done,
             Task::Explore => Standing::UnderWay,
-            Task::Reach(_) | Task::Localize => gave_up(NO_STATES),
+            Task::Reach(_) | Task::Localize => Standing::gave_up(NO_STATES),
         }
     }
 

@@ -9,7 +9,6 @@ use super::map::view;
 use super::north_scan::north_scan;
 use super::{MslstMap, States};
 use crate::baselines::Avoid;
-use crate::brain::gave_up;
 use crate::{Brain, Doing, TimeStep};
 
 /// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor data it
@@ -119,7 +118,7 @@ impl Brain for Topology {
         match task {
             Task::Explore if self.is_complete() => Standing::Done,
             Task::Explore => Standing::UnderWay,
-            Task::Reach(_) | Task::Localize => gave_up(NO_GRAPH),
+            Task::Reach(_) | Task::Localize => Standing::gave_up(NO_GRAPH),
         }
     }
 

@@ -86,7 +86,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     if let [table, row, run] = &arguments.replay[..] {
         return replay(arguments, table, row, run, out);
     }
-    let build = Build::current();
+    let build = Build::current(env!("TOLMAN_COMMIT"), env!("TOLMAN_COMPILER"));
     // The first Ctrl-C lets the runs that are being played finish.
     let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();

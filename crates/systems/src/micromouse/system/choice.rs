@@ -80,8 +80,7 @@ impl<S: Search> MazeMouse<S> {
 }
 
 fn give_up(why: &str) -> Choice {
-    let why = why.to_owned();
-    Choice::End(Standing::GaveUp { why })
+    Choice::End(Standing::gave_up(why))
 }
 
 /// The sides by which some leaps leave their cells, the first last.

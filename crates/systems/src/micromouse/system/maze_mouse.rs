@@ -131,10 +131,7 @@ where
         match self.look(robot)? {
             Look::Seen => {}
             Look::Blind => return Ok(Standing::UnderWay),
-            Look::Lost(error) => {
-                let why = error.to_string();
-                return Ok(Standing::GaveUp { why });
-            }
+            Look::Lost(error) => return Ok(Standing::gave_up(error.to_string())),
         }
         if self.route.is_empty() {
             match self.choose(task) {
@@ -197,12 +194,10 @@ impl<S: Search> MazeMouse<S> {
     fn standing(&self, arrival: Arrival) -> Standing {
         match arrival {
             Arrival::Arrived => Standing::UnderWay,
-            Arrival::OutOfPatience => Standing::GaveUp {
-                why: format!(
-                    "the robot did not come to rest in {} in {PATIENCE} time steps",
-                    self.at
-                ),
-            },
+            Arrival::OutOfPatience => Standing::gave_up(format!(
+                "the robot did not come to rest in {} in {PATIENCE} time steps",
+                self.at
+            )),
         }
     }
 }
