@@ -16,7 +16,7 @@ use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Robot, SensesLandmarks, S
 use tolman_sim::robots::LaserPioneer;
 use tolman_sim::{CorridorSize, Solo, World};
 use tolman_systems::Actor;
-use tolman_systems::cpm::{Cpm, CpmConfig, Mode, RingAsEpuck};
+use tolman_systems::cpm::{Cpm, CpmConfig, RingAsEpuck};
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::{Mslst, MslstConfig};
@@ -110,11 +110,8 @@ fn mslst_does() {
 
 #[test]
 fn cpm_does() {
-    let measures = ring_measures(&calibrated(), CORRIDOR_WIDTH).unwrap();
-    let mut config = measures.walker_config();
-    let mode = Mode::Unlearned(CpmConfig::robust());
-    config.heading = mode.heading();
-    let mut cpm = Cpm::unlearned(config, mode.novelty().unwrap(), mode.config(), SEED).unwrap();
+    let measures = ring_measures(&calibrated(), CORRIDOR_WIDTH);
+    let mut cpm = Cpm::unlearned(measures.walker_config(), CpmConfig::robust(), SEED).unwrap();
     let (explored, reached) = explore_and_reach(RingAsEpuck::new(pioneer(), measures), &mut cpm);
     assert!(is_whole_map_right(cpm.explorer().unwrap().map(), &maze()));
     assert!(8 * reached < explored, "{reached} of {explored}");

@@ -16,8 +16,8 @@ use tolman_robot::{
     Goal, Landmark, MapView, Mapper, Position, Robot, SensesLandmarks, Standing, System, Task,
 };
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Experience, Lesson, Mode, ObserveError,
-    Reasoner, Walk, Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Experience, Lesson, ObserveError, Reasoner,
+    Walk, Walker, WalkerConfig, soinn, wander,
 };
 
 /// From wall to wall, m.
@@ -52,26 +52,9 @@ struct ScriptedEpuck {
     sensing: EpuckSensing,
 }
 
-/// Raw values that reach 25 cm, as those of the paper's robot.
-fn curve() -> RangeCurve {
-    let points = [
-        (0.0, 3800.0),
-        (0.018, 1950.0),
-        (0.036, 1320.0),
-        (0.054, 504.0),
-        (0.071, 299.0),
-        (0.107, 158.0),
-        (0.143, 86.0),
-        (0.179, 50.0),
-        (0.214, 35.0),
-        (0.25, 0.0),
-    ];
-    RangeCurve::new(points.to_vec()).unwrap()
-}
-
 fn config() -> WalkerConfig {
     let measures = EpuckMeasures {
-        curve: curve(),
+        curve: RangeCurve::cpm(),
         step_us: STEP_US,
         most_wheel_speed: MOST_WHEEL_SPEED,
     };
@@ -129,7 +112,7 @@ impl ScriptedEpuck {
         let mut robot = Self {
             maze,
             walls,
-            curve: curve(),
+            curve: RangeCurve::cpm(),
             pose,
             path: vec![pose],
             sensing: EpuckSensing::default(),
@@ -200,10 +183,7 @@ where
 }
 
 fn unlearned(seed: u64) -> Cpm {
-    let mode = Mode::Unlearned(CpmConfig::robust());
-    let mut walker = config();
-    walker.heading = mode.heading();
-    Cpm::unlearned(walker, mode.novelty().unwrap(), mode.config(), seed).unwrap()
+    Cpm::unlearned(config(), CpmConfig::robust(), seed).unwrap()
 }
 
 const TO_GOAL: Task = Task::Reach(Goal::Landmark(Landmark::Goal));

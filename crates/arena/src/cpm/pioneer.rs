@@ -10,7 +10,7 @@ use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Position, SensesLandmarks
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_sim::{Solo, Truth};
 use tolman_systems::cpm::{
-    CommonPatterns, Cpm, CpmConfig, Lesson, Mode, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
+    CommonPatterns, Cpm, CpmConfig, Lesson, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
 };
 
 use super::map_right::is_whole_map_right;
@@ -48,7 +48,7 @@ type Epuck = RingAsEpuck<Landmarked<Solo<LaserPioneer>, Tells>>;
 fn placed(maze: &Maze, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
     let world = world_of(maze, CORRIDOR_WIDTH).unwrap();
     let (start, zones) = (start_of(maze, &world).unwrap(), landmarks(&world));
-    let measures = ring_measures(&robot, CORRIDOR_WIDTH).unwrap();
+    let measures = ring_measures(&robot, CORRIDOR_WIDTH);
     let config = measures.walker_config();
     let model = LaserPioneer::new(robot).unwrap();
     let solo = Solo::new(Arc::new(world), model, start, seed).unwrap();
@@ -103,11 +103,8 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
 fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
     let maze = tolman_maze::read(MAZE).unwrap().maze;
     for seed in 0..2 {
-        let (epuck, mut config) = placed(&maze, calibrated(), seed);
-        let mode = Mode::Unlearned(CpmConfig::robust());
-        config.heading = mode.heading();
-        let novelty = mode.novelty().unwrap();
-        let cpm = Cpm::unlearned(config, novelty, mode.config(), seed).unwrap();
+        let (epuck, config) = placed(&maze, calibrated(), seed);
+        let cpm = Cpm::unlearned(config, CpmConfig::robust(), seed).unwrap();
         play(cpm, epuck, &maze);
     }
 }

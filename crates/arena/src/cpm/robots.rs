@@ -64,22 +64,16 @@ fn curve(response: &ResponseCurve) -> Result<RangeCurve, RangeCurveError> {
 /// the paper's e-puck.
 ///
 /// A turn can be ended to twice what the motors miss by whenever they turn.
-///
-/// # Errors
-/// If the e-puck's response curve cannot be turned round.
-pub fn ring_measures(
-    robot: &LaserPioneerConfig,
-    width: f64,
-) -> Result<RingMeasures, RangeCurveError> {
-    Ok(RingMeasures {
+#[must_use]
+pub fn ring_measures(robot: &LaserPioneerConfig, width: f64) -> RingMeasures {
+    RingMeasures {
         corridor_width: width,
         body_radius: robot.radius,
         turn_per_step: robot.turn_per_step,
         translate_per_step: robot.translate_per_step,
         step_us: robot.step_us,
         turn_tolerance: (2.0 * robot.motor_noise.turn.absolute_sd).max(1e-9),
-        curve: curve(&epuck().response)?,
-    })
+    }
 }
 
 #[cfg(test)]

@@ -18,7 +18,29 @@ pub struct RangeCurve {
     points: Vec<(f64, f64)>,
 }
 
+/// Ranges, m, and values of CPM's simulated e-puck.
+const CPM: [(f64, f64); 10] = [
+    (0.0, 3800.0),
+    (0.018, 1950.0),
+    (0.036, 1320.0),
+    (0.054, 504.0),
+    (0.071, 299.0),
+    (0.107, 158.0),
+    (0.143, 86.0),
+    (0.179, 50.0),
+    (0.214, 35.0),
+    (0.25, 0.0),
+];
+
 impl RangeCurve {
+    /// Returns the curve of CPM's simulated e-puck, which sees 25 cm. The thresholds of its layers are meant for it.
+    #[must_use]
+    pub fn cpm() -> Self {
+        Self {
+            points: CPM.to_vec(),
+        }
+    }
+
     /// A curve through points of a range, m, and the value read there.
     ///
     /// # Errors

@@ -21,11 +21,12 @@ use super::walker_config::{EpuckMeasures, WalkerConfig};
 pub struct RingAsEpuck<R> {
     robot: R,
     measures: RingMeasures,
+    curve: RangeCurve,
     sensing: EpuckSensing,
 }
 
 /// What of a robot with a ring has to be known before it can look like an e-puck.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RingMeasures {
     /// From wall to wall of its corridors, m.
     pub corridor_width: f64,
@@ -39,8 +40,6 @@ pub struct RingMeasures {
     pub step_us: u64,
     /// How near to where it should a turn can be ended, rad: what a smallest turn of the motors misses by.
     pub turn_tolerance: f64,
-    /// What the e-puck that it looks like would sense: raw values by range, in the e-puck's scale.
-    pub curve: RangeCurve,
 }
 
 /// The width of an e-puck's corridors, m.
@@ -68,7 +67,7 @@ impl RingMeasures {
     #[must_use]
     pub fn walker_config(&self) -> WalkerConfig {
         let epuck = EpuckMeasures {
-            curve: self.curve.clone(),
+            curve: RangeCurve::cpm(),
             step_us: self.step_us,
             most_wheel_speed: MOST_WHEEL_SPEED,
         };
@@ -111,8 +110,8 @@ impl RingMeasures {
         }
     }
 
-    /// Returns what the e-puck's sensors would read; `None` where the ring does not go all round.
-    fn proximity(&self, scan: &Scan) -> Option<[f64; PROXIMITY_SENSORS]> {
+    /// Returns what the e-puck's sensors would read by `curve`; `None` where the ring does not go all round.
+    fn proximity(&self, scan: &Scan, curve: &RangeCurve) -> Option<[f64; PROXIMITY_SENSORS]> {
         let all_round = f64::from(scan.ring.beams) * scan.ring.spacing;
         if (all_round - TAU).abs() > 1e-6 || scan.ranges.len() != scan.ring.beams as usize {
             return None;
@@ -122,7 +121,7 @@ impl RingMeasures {
             let rim = mount.position.coords.norm();
             let range = range_at(scan, mount.heading.radians());
             let seen = range.map_or(f64::INFINITY, |range| range / self.scale() - rim);
-            self.curve.value(seen)
+            curve.value(seen)
         }))
     }
 }
@@ -156,6 +155,7 @@ where
         let mut epuck = Self {
             robot,
             measures,
+            curve: RangeCurve::cpm(),
             sensing: EpuckSensing::default(),
         };
         epuck.sense();
@@ -178,7 +178,7 @@ where
             time_us: sensing.time_us(),
             proximity: sensing
                 .scan()
-                .and_then(|scan| self.measures.proximity(scan)),
+                .and_then(|scan| self.measures.proximity(scan, &self.curve)),
             encoders: sensing
                 .odometry()
                 .map(|odometry| self.measures.encoders(odometry)),
@@ -231,7 +231,6 @@ mod tests {
             translate_per_step: 0.2,
             step_us: 100_000,
             turn_tolerance: 0.01,
-            curve: RangeCurve::new(vec![(0.0, 1000.0), (0.25, 0.0)]).unwrap(),
         }
     }
 
@@ -276,13 +275,14 @@ mod tests {
     #[test]
     fn walls_read_as_the_epuck_would_read_them() {
         let measures = measures();
+        let curve = RangeCurve::new(vec![(0.0, 1000.0), (0.25, 0.0)]).unwrap();
         for turned in [0.0, 0.02, 0.05, 0.3] {
-            let values = measures.proximity(&wall(0.6, turned)).unwrap();
+            let values = measures.proximity(&wall(0.6, turned), &curve).unwrap();
             for (mount, value) in proximity_mounts().iter().zip(values) {
                 let cos = (mount.heading.radians() + turned).cos();
                 let range = 0.15 / cos - mount.position.coords.norm();
                 let expected = if cos > 0.0 && 0.15 / cos < 0.5 {
-                    measures.curve.value(range)
+                    curve.value(range)
                 } else {
                     0.0
                 };
@@ -294,6 +294,6 @@ mod tests {
     #[test]
     fn a_ring_with_a_gap_reads_nothing() {
         let scan = Scan::clear(Ring::fan(181, core::f64::consts::PI, 8.0));
-        assert_eq!(measures().proximity(&scan), None);
+        assert_eq!(measures().proximity(&scan, &RangeCurve::cpm()), None);
     }
 }

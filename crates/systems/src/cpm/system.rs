@@ -14,6 +14,7 @@ use super::config::CpmConfig;
 use super::decision::{Aim, Done};
 use super::explorer::Explorer;
 use super::layer3::{Experience, Layer3};
+use super::mode::Mode;
 use super::reasoner::ReasonerError;
 use super::robot::CpmRobot;
 use super::search::{RestingSearch, Search};
@@ -76,21 +77,20 @@ impl Cpm {
         }
     }
 
-    /// Returns a robot that has been nowhere: what it observes becomes a pattern if it is farther than `novelty` from
-    /// all that it knows (section 8, "the CPs must be learned incrementally").
+    /// Returns a robot that has been nowhere: what it observes and finds far from all that it knows becomes a pattern
+    /// (section 8, "the CPs must be learned incrementally"). Dead reckoning takes its headings from the walls.
     ///
     /// # Errors
-    /// [`CpmError::Dictionary`], which no novelty causes.
-    pub fn unlearned(
-        walker: WalkerConfig,
-        novelty: f64,
-        config: CpmConfig,
-        seed: u64,
-    ) -> Result<Self, CpmError> {
-        let patterns = CommonPatterns::none()?;
+    /// [`CpmError::Dictionary`], which no configuration causes.
+    pub fn unlearned(walker: WalkerConfig, config: CpmConfig, seed: u64) -> Result<Self, CpmError> {
+        let mode = Mode::Unlearned(config);
+        let walker = WalkerConfig {
+            heading: mode.heading(),
+            ..walker
+        };
         Ok(Self {
-            novelty: Some(novelty),
-            ..Self::new(walker, patterns, config, seed)
+            novelty: mode.novelty(),
+            ..Self::new(walker, CommonPatterns::none()?, config, seed)
         })
     }
 

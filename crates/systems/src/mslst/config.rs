@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use super::ROBOT_UNIT;
+
 /// What can be chosen about MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MslstConfig {
@@ -38,6 +40,17 @@ impl MslstConfig {
             graph_actions: 8000,
             memory: 8,
             doubt: 8,
+        }
+    }
+
+    /// Returns this configuration for a robot `diameter` m across, above 0, in place of the paper's: the threshold
+    /// holds for the same scans in diameters of the robot.
+    #[must_use]
+    pub const fn on_robot(self, diameter: f64) -> Self {
+        let scale = diameter / ROBOT_UNIT;
+        Self {
+            threshold: self.threshold * scale * scale,
+            ..self
         }
     }
 }

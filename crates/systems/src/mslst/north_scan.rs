@@ -5,7 +5,8 @@ use tolman_robot::Scan;
 
 use crate::TimeStep;
 
-/// MSLST measures in robot units: one is the robot's diameter. Metres.
+/// Robot unit in which MSLST measures: the diameter of the calibrated robot, m. For another robot scale the
+/// [threshold](super::MslstConfig::on_robot).
 pub const ROBOT_UNIT: f64 = 0.5;
 
 /// Returns a scan as MSLST's quantizer sees it: in robot units, and turned by the compass, to the nearest beam,
