@@ -26,16 +26,17 @@ pub(crate) fn run() -> Result<()> {
 pub(crate) fn check_with(tolman: impl Fn() -> Result<Command>) -> Result<()> {
     let folder = workspace::root().join("mazes");
     let mut files = Vec::<PathBuf>::new();
-    for entry in
-        fs::read_dir(&folder).with_context(|| format!("cannot read {}", folder.display()))?
-    {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension != "md") {
-            files.push(path);
+    for folder in [&folder, &folder.join("grid")] {
+        let entries =
+            fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
+        for entry in entries {
+            let path = entry?.path();
+            if matches!(path.extension(), Some(extension) if extension != "md") {
+                files.push(path);
+            }
         }
     }
     files.sort();
-    ensure!(!files.is_empty(), "no maze in {}", folder.display());
     workspace::succeed(tolman()?.args(["maze", "check"]).args(files))?;
     let distinctive = DISTINCTIVE.map(|name| folder.join(name));
     workspace::succeed(tolman()?.args(["cpm", "distinct"]).args(distinctive))

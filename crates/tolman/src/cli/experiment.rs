@@ -22,7 +22,7 @@ figures/*.svg and config.toml. An interrupted experiment goes on where it stoppe
 Examples:
   tolman experiment baselines
   tolman experiment baselines --quick --out /tmp/look
-  tolman experiment baselines --maze taiwan2016f.txt --maze mine.maze --runs 100
+  tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 100
   tolman experiment diktiometry --table 3b --runs 100
   tolman experiment baselines --replay '2 (J)' Avoid 137
   tolman experiment --compare results/baselines /tmp/look")]

@@ -51,7 +51,7 @@ Examples:
   tolman cpm learn --maze mazes/cpm-3.maze --out map.json
   tolman survey --maze mazes/j.maze --out j-survey.json
   tolman maze show mazes/j.maze
-  tolman mouse mazes/classic --worst 3
+  tolman mouse mazes/grid --worst 3
   tolman experiment baselines --quick
 
 Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, or an

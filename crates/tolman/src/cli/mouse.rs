@@ -26,10 +26,10 @@ floor is the score of a mouse that knows the maze. With --mms the rules are thos
 mouse: it speaks with it on stdin and stdout, and logs to stderr.
 
 Examples:
-  tolman mouse taiwan2016f.txt
-  tolman mouse mazes/classic --worst 3
+  tolman mouse mazes/grid/braided-2.txt
+  tolman mouse mazes/grid --worst 3
   tolman mouse test_maze_02.txt --steps steps.jsonl
-  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/classic")]
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
 pub(super) struct Arguments {
     /// A maze file of any format, or a folder of them
     #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]

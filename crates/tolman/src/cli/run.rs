@@ -25,7 +25,7 @@ Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman run wall-follow --maze mazes/large.maze --live
   tolman run wall-follow --maze mazes/large.maze --replay run.html
-  tolman run avoid --maze taiwan2016f.txt --start marked --steps 20000")]
+  tolman run avoid --maze mazes/grid/braided-2.txt --start marked --steps 20000")]
 pub(super) struct Arguments {
     /// Who chooses the actions
     brain: Brain,

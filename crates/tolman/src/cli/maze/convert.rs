@@ -13,7 +13,7 @@ Formats: numbers (of the micromouse test program), mazefiles (drawings), num (of
 mms), tolman (docs/maze-format.md). The format read is found out from the text.
 
 Example:
-  tolman maze convert taiwan2016f.txt --to num --out taiwan2016f.num")]
+  tolman maze convert mazes/grid/braided-2.txt --to num --out braided-2.num")]
 pub(crate) struct Arguments {
     /// The maze file; - reads standard input
     file: PathBuf,
