@@ -1,0 +1,147 @@
+//! Every command that README, the pages and the help texts show is one that works: it is run as it stands, in a folder
+//! that holds nothing but `mazes`, and ends with the exit code that a comment behind it names, else 0.
+//!
+//! Minutes in a debug build: `cargo test --release -p tolman --test commands -- --ignored`.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const TOLMAN: &str = env!("CARGO_BIN_EXE_tolman");
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Runs a line as a shell does in `folder`.
+fn sh(folder: &Path, line: &str) -> Output {
+    let bin = Path::new(TOLMAN).parent().unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let mut command = Command::new("sh");
+    command.args(["-c", line]).current_dir(folder);
+    command.env("PATH", path).env("HOME", folder);
+    command.stdin(Stdio::null()).output().unwrap()
+}
+
+/// A command and the exit code it should have.
+fn expected(line: &str) -> (String, i32) {
+    let (command, comment) = line.split_once(" # ").unwrap_or((line, ""));
+    let code = comment.trim().strip_prefix("exits ");
+    let code = code.map_or(0, |code| code.trim().parse().unwrap());
+    let command = command.trim();
+    // A picture in the terminal needs one.
+    if command.contains("--live") {
+        return (
+            format!("script --quiet --return --command \"{command}\" /dev/null"),
+            code,
+        );
+    }
+    (command.to_owned(), code)
+}
+
+/// Runs the lines of one page one after the other and returns what went wrong.
+fn run(page: &str, lines: &[String]) -> Vec<String> {
+    let name = page.replace(['/', ' '], "-");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("commands")
+        .join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    symlink(
+        root().join("mazes").canonicalize().unwrap(),
+        folder.join("mazes"),
+    )
+    .unwrap();
+    let mut wrong = Vec::new();
+    for line in lines {
+        let (command, code) = expected(line);
+        let output = sh(&folder, &command);
+        if output.status.code() != Some(code) {
+            let err = String::from_utf8_lossy(&output.stderr);
+            wrong.push(format!(
+                "{page}: `{line}` ends with {}: {err}",
+                output.status
+            ));
+        }
+    }
+    wrong
+}
+
+/// The lines of the fenced blocks of a page that call `tolman`.
+fn commands_of_page(text: &str) -> Vec<String> {
+    let blocks = text.split("\n```").skip(1).step_by(2);
+    let lines = blocks.flat_map(str::lines).map(|line| {
+        let line = line.strip_prefix("$ ").unwrap_or(line);
+        line.replace("cargo run --release -p tolman --", "tolman")
+    });
+    lines.filter(|line| line.starts_with("tolman ")).collect()
+}
+
+/// The examples of a verb's help.
+fn commands_of_help(verb: &[String]) -> Vec<String> {
+    let help = Command::new(TOLMAN)
+        .args(verb)
+        .arg("--help")
+        .output()
+        .unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let lines = help.lines().map(str::trim);
+    lines
+        .filter(|line| line.starts_with("tolman "))
+        .map(str::to_owned)
+        .collect()
+}
+
+/// The verbs below `verb`, by the list that its help begins with.
+fn verbs(verb: &[String]) -> Vec<Vec<String>> {
+    let help = Command::new(TOLMAN)
+        .args(verb)
+        .arg("--help")
+        .output()
+        .unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let listed = help.split("Commands:\n").nth(1).unwrap_or_default();
+    let names = listed.lines().take_while(|line| !line.is_empty());
+    let names = names.filter_map(|line| line.split_whitespace().next());
+    let below = names.filter(|name| *name != "help").map(|name| {
+        let mut below = verb.to_vec();
+        below.push(name.to_owned());
+        below
+    });
+    let mut found = vec![verb.to_vec()];
+    found.extend(below.flat_map(|verb| verbs(&verb)));
+    found
+}
+
+#[test]
+#[ignore = "takes minutes in a debug build"]
+fn every_command_that_is_shown_works() {
+    let mut pages = vec![root().join("README.md")];
+    let docs = fs::read_dir(root().join("docs")).unwrap();
+    pages.extend(docs.map(|entry| entry.unwrap().path()));
+    pages.retain(|page| page.extension().is_some_and(|extension| extension == "md"));
+    pages.sort();
+    let mut count = 0;
+    let mut wrong = Vec::new();
+    for page in pages {
+        let lines = commands_of_page(&fs::read_to_string(&page).unwrap());
+        let name = page.file_name().unwrap().to_string_lossy().into_owned();
+        count += lines.len();
+        wrong.extend(run(&name, &lines));
+    }
+    for verb in verbs(&[]) {
+        let lines = commands_of_help(&verb);
+        count += lines.len();
+        wrong.extend(run(&format!("tolman {} --help", verb.join(" ")), &lines));
+    }
+    assert!(count > 60, "only {count} commands are shown");
+    assert!(
+        wrong.is_empty(),
+        "{} of {count} fail:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+}
