@@ -4,7 +4,7 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::Drive;
-use tolman_robot::{Body, Task, TurnTranslate};
+use tolman_robot::{Body, System, Task, TurnTranslate};
 use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
 use tolman_systems::{Actor, TimeStep, stream};
@@ -81,12 +81,14 @@ pub fn learn_graph(
     let topology = Topology::new(states, actions, &TimeStep::put_down(&wanderer.robot));
     let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
     let mut actor = Actor::new(topology, wanderer.drive, wanderer.rng);
-    run::run_seen(&mut robot, &mut actor, Task::Explore, |actor, robot| {
+    run::until_done(&mut robot, |robot| {
+        let standing = actor.act(robot, Task::Explore);
         let topology = actor.brain();
         if topology.nodes().len() > survey.positions.len() {
             survey.positions.push(robot.robot().truth().pose.position);
             survey.made_by.push(topology.actions());
         }
+        standing
     })
     .map_err(|error| broken(&robot, error))?;
     let map = actor.brain().finished();

@@ -66,13 +66,4 @@ impl TimeStep {
             doing,
         }
     }
-
-    /// Returns the same reading of a robot that is at rest.
-    #[must_use]
-    pub fn at_rest(&self) -> Self {
-        Self {
-            doing: Doing::PutDown,
-            ..self.clone()
-        }
-    }
 }

@@ -5,7 +5,7 @@ use rand::Rng;
 use tolman_control::Outcome;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Position, Robot, TurnTranslate};
+use tolman_robot::{Guess, Mapper, Position, Robot, TurnTranslate};
 use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::mslst::{ROBOT_UNIT, heading_free};
@@ -260,11 +260,6 @@ impl Mapper for UnlocalizedOracle {
         }
         self.update(seen);
         Ok(())
-    }
-
-    /// Its map is the maze itself, which it did not learn.
-    fn map(&self) -> MapView {
-        MapView::default()
     }
 
     fn belief(&self) -> Vec<Guess> {

@@ -2,7 +2,7 @@ use core::convert::Infallible;
 
 use rand::Rng;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
+use tolman_robot::{Mapper, Standing, Task};
 
 use super::north_scan::north_scan;
 use crate::baselines::Avoid;
@@ -67,14 +67,6 @@ impl Mapper for Scans {
         }
         self.steps += 1;
         Ok(())
-    }
-
-    fn map(&self) -> MapView {
-        MapView::default()
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        Vec::new()
     }
 }
 
