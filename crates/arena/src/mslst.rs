@@ -7,7 +7,7 @@ use tolman_control::Drive;
 use tolman_robot::{Body, System, Task, TurnTranslate};
 use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
-use tolman_systems::{Actor, TimeStep, stream};
+use tolman_systems::{Actor, Doing, TimeStep, stream};
 
 use crate::course::Course;
 use crate::episode::{EpisodeError, broken, layers};
@@ -78,7 +78,11 @@ pub fn learn_graph(
         positions: vec![wanderer.robot.truth().pose.position],
         made_by: vec![0],
     };
-    let topology = Topology::new(states, actions, &TimeStep::put_down(&wanderer.robot));
+    let topology = Topology::new(
+        states,
+        actions,
+        &TimeStep::of(&wanderer.robot, Doing::PutDown),
+    );
     let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
     let mut actor = Actor::new(topology, wanderer.drive, wanderer.rng);
     run::until_done(&mut robot, |robot| {
