@@ -23,7 +23,7 @@ const GLANCE: Duration = Duration::from_millis(100);
 
 /// A run on the terminal, which is given back when this is dropped.
 #[derive(Debug)]
-pub(super) struct Screen<'a> {
+pub(in crate::cli::run) struct Screen<'a> {
     terminal: DefaultTerminal,
     view: View<'a>,
     pace: Pace,
