@@ -104,12 +104,9 @@ impl Cast {
         course: &Course,
         robot: &LaserPioneerConfig,
     ) -> Result<Arc<Chart>, EpisodeError> {
-        if let Some(chart) = self.chart.get() {
-            return Ok(Arc::clone(chart));
-        }
-        let chart = Chart::new(course, robot, self.policy(course, robot)?)?;
-        // As with the policy.
-        Ok(Arc::clone(self.chart.get_or_init(|| Arc::new(chart))))
+        once(&self.chart, || {
+            Chart::new(course, robot, self.policy(course, robot)?)
+        })
     }
 
     fn policy(
@@ -117,11 +114,18 @@ impl Cast {
         course: &Course,
         robot: &LaserPioneerConfig,
     ) -> Result<Arc<Policy>, EpisodeError> {
-        if let Some(policy) = self.policy.get() {
-            return Ok(Arc::clone(policy));
-        }
-        let policy = Policy::new(course, robot)?;
-        // Two threads may work it out at once; they get the same.
-        Ok(Arc::clone(self.policy.get_or_init(|| Arc::new(policy))))
+        once(&self.policy, || Policy::new(course, robot))
     }
+}
+
+/// Returns what is in `cell`, or else what `make` makes for it. Two threads may make it at once; they make the same.
+fn once<T, E>(cell: &OnceLock<Arc<T>>, make: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
+    let made = match cell.get() {
+        Some(made) => made,
+        None => {
+            let made = Arc::new(make()?);
+            cell.get_or_init(|| made)
+        }
+    };
+    Ok(Arc::clone(made))
 }

@@ -18,7 +18,6 @@ use crate::oracle::Seer;
 use crate::pioneer::CoursePioneer;
 use crate::run::{self, End, Watched, WatchedError};
 
-use step::Shown;
 pub use step::Step;
 
 /// Why a run could not be made.
@@ -136,16 +135,22 @@ pub fn run(
     };
     let ended = match mind {
         Mind::Brain(brain) => {
-            let actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
-            let mut system = Shown::new(actor, |brain, step| see(&Step::of(Some(brain), step)));
-            run::run(&mut robot, &mut system, ARRIVE).map_err(|error| broken(&robot, error))
+            let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
+            run::until_done(&mut robot, |robot| {
+                actor.act_seen(robot, ARRIVE, |brain, step| {
+                    see(&Step::of(Some(&**brain), step));
+                })
+            })
         }
         Mind::Oracle(oracle) => {
-            let mut system = Seer::new(oracle, drive, |step| see(&Step::of(None, step)));
-            let ended = run::run(&mut robot, &mut system, ARRIVE);
-            ended.map_err(|source| broken(&robot, ActorError::Robot(source)))
+            let mut seer = Seer::new(oracle, drive);
+            run::until_done(&mut robot, |robot| {
+                let standing = seer.act(robot, |step| see(&Step::of(None, step)));
+                standing.map_err(ActorError::Robot)
+            })
         }
-    }?;
+    }
+    .map_err(|error| broken(&robot, error))?;
     drop(robot);
     Ok(Episode {
         reached: ended.end == End::Done,

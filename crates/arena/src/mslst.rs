@@ -4,10 +4,10 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::Drive;
-use tolman_robot::{Body, Task, TurnTranslate};
+use tolman_robot::{Body, System, Task, TurnTranslate};
 use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
-use tolman_systems::{Actor, TimeStep, stream};
+use tolman_systems::{Actor, Doing, TimeStep, stream};
 
 use crate::course::Course;
 use crate::episode::{EpisodeError, broken, layers};
@@ -78,15 +78,21 @@ pub fn learn_graph(
         positions: vec![wanderer.robot.truth().pose.position],
         made_by: vec![0],
     };
-    let topology = Topology::new(states, actions, &TimeStep::put_down(&wanderer.robot));
+    let topology = Topology::new(
+        states,
+        actions,
+        &TimeStep::of(&wanderer.robot, Doing::PutDown),
+    );
     let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
     let mut actor = Actor::new(topology, wanderer.drive, wanderer.rng);
-    run::run_seen(&mut robot, &mut actor, Task::Explore, |actor, robot| {
+    run::until_done(&mut robot, |robot| {
+        let standing = actor.act(robot, Task::Explore);
         let topology = actor.brain();
         if topology.nodes().len() > survey.positions.len() {
             survey.positions.push(robot.robot().truth().pose.position);
             survey.made_by.push(topology.actions());
         }
+        standing
     })
     .map_err(|error| broken(&robot, error))?;
     let map = actor.brain().finished();

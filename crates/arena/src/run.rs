@@ -119,24 +119,21 @@ where
     F: FnMut(&R, &R::Command),
     S: System<Watched<R, F>>,
 {
-    run_seen(robot, system, task, |_, _| {})
+    until_done(robot, |robot| system.act(robot, task))
 }
 
-/// Lets `system` pursue `task` as [`run`] does. `see` is shown the system and its robot after every action; nothing
-/// of the run depends on it.
+/// Lets `act` make one action with `robot` after the other until one says that the task is done or given up, or the robot
+/// is out of time.
 ///
 /// # Errors
-/// As [`run`].
-pub fn run_seen<R, F, S>(
+/// What `act` says when the robot fails or it cannot go on.
+pub fn until_done<R, F, E>(
     robot: &mut Watched<R, F>,
-    system: &mut S,
-    task: Task,
-    mut see: impl FnMut(&S, &Watched<R, F>),
-) -> Result<Ended, S::Failure>
+    mut act: impl FnMut(&mut Watched<R, F>) -> Result<Standing, E>,
+) -> Result<Ended, E>
 where
     R: Robot,
     F: FnMut(&R, &R::Command),
-    S: System<Watched<R, F>>,
 {
     let mut actions = 0;
     let end = loop {
@@ -144,9 +141,7 @@ where
             break End::OutOfTime;
         }
         actions += 1;
-        let standing = system.act(robot, task);
-        see(system, robot);
-        match standing {
+        match act(robot) {
             Ok(Standing::UnderWay) => {}
             Ok(Standing::Done) => break End::Done,
             Ok(Standing::GaveUp { why }) => break End::GaveUp { why },

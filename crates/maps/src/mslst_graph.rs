@@ -38,7 +38,7 @@ mod localize;
 mod mapper;
 mod memory;
 
-pub use graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
+pub use graph::{Edge, GraphError, MslstGraph, Node, Zone};
 pub use localize::{Localization, localize};
 pub use mapper::Mapper;
 pub use memory::{Experience, Memory};

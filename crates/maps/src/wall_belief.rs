@@ -12,4 +12,4 @@ mod filter;
 mod walls;
 
 pub use filter::{FilterError, PoseFilter, PoseFilterConfig};
-pub use walls::{Meeting, Meetings, RangeReading, WallBelief};
+pub use walls::{Meeting, RangeReading, WallBelief};

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use tolman_maps::mslst_graph::{
-    DUMMY, Edge, GraphError, Mapper, Memory, MslstGraph, Node, Zone, localize,
+    Edge, GraphError, Mapper, Memory, MslstGraph, Node, Zone, localize,
 };
 use tolman_maze::Direction;
 
@@ -59,8 +59,8 @@ fn distances(graph: &MslstGraph) -> Vec<Option<u32>> {
     loop {
         let before = distances.clone();
         for (id, node) in graph.nodes().iter().enumerate() {
-            for edge in node.edges.iter().filter(|edge| edge.head != DUMMY) {
-                if let Some(there) = before[edge.head as usize] {
+            for head in node.edges.iter().filter_map(|edge| edge.head) {
+                if let Some(there) = before[head as usize] {
                     distances[id] =
                         Some(distances[id].map_or(there + 1, |here| here.min(there + 1)));
                 }
@@ -77,9 +77,10 @@ proptest! {
     fn every_edge_is_entered_both_ways(events in wandering()) {
         let graph = mapped(&events).finish();
         for (id, node) in graph.ids().zip(graph.nodes()) {
-            for edge in node.edges.iter().filter(|edge| edge.head != DUMMY) {
-                let back = Edge { action: edge.action.opposite(), head: id };
-                prop_assert!(graph.node(edge.head).unwrap().edges.contains(&back));
+            for edge in &node.edges {
+                let Some(head) = edge.head else { continue };
+                let back = Edge { action: edge.action.opposite(), head: Some(id) };
+                prop_assert!(graph.node(head).unwrap().edges.contains(&back));
             }
         }
         // What is checked on loading holds of everything that is learned.
@@ -97,7 +98,7 @@ proptest! {
                 }
                 None => {
                     mapper.failed(action);
-                    let failure = Edge { action, head: DUMMY };
+                    let failure = Edge { action, head: None };
                     let edges = &mapper.nodes()[at as usize].edges;
                     prop_assert_eq!(edges.iter().filter(|edge| **edge == failure).count(), 1);
                     prop_assert_eq!((mapper.at(), mapper.nodes().len()), (at, count));
@@ -105,7 +106,6 @@ proptest! {
             }
         }
         let graph = mapper.finish();
-        prop_assert_eq!((graph.node(DUMMY), graph.distance(DUMMY)), (None, None));
         for id in graph.ids() {
             prop_assert!(graph.follow(id, Direction::North, STATES).is_none());
         }
@@ -158,8 +158,8 @@ proptest! {
             for action in path {
                 let step = |id: &u32| graph.node(*id).unwrap().edges.clone();
                 reached = reached.iter().flat_map(step)
-                    .filter(|edge| edge.action == action && edge.head != DUMMY)
-                    .map(|edge| edge.head)
+                    .filter(|edge| edge.action == action)
+                    .filter_map(|edge| edge.head)
                     .collect();
             }
             prop_assert!(reached.iter().any(|id| graph.is_destination(*id)));
@@ -207,14 +207,14 @@ fn an_action_may_lead_to_several_states() {
     mapper.failed(Direction::East);
     mapper.succeeded(Direction::East, 2, Zone::Destination);
     let graph = mapper.finish();
-    let east: Vec<u32> = graph
+    let east: Vec<Option<u32>> = graph
         .node(0)
         .unwrap()
         .edges
         .iter()
         .map(|edge| edge.head)
         .collect();
-    assert_eq!(east, [1, DUMMY, 2]);
+    assert_eq!(east, [Some(1), None, Some(2)]);
     assert_eq!(graph.follow(0, Direction::East, 2), Some(2));
     assert_eq!(
         graph.path_to_destination(0, &[]),
@@ -260,7 +260,7 @@ fn the_papers_example() {
 
 #[test]
 fn what_is_no_graph_is_refused() {
-    let node = |edges: &[(Direction, u32)]| Node {
+    let node = |edges: &[(Direction, Option<u32>)]| Node {
         state: 0,
         zone: Zone::Elsewhere,
         edges: edges
@@ -272,7 +272,7 @@ fn what_is_no_graph_is_refused() {
     for (nodes, expected) in [
         (vec![], GraphError::Empty),
         (
-            vec![node(&[(East, 1)])],
+            vec![node(&[(East, Some(1))])],
             GraphError::NoSuchNode {
                 node: 0,
                 action: East,
@@ -281,7 +281,7 @@ fn what_is_no_graph_is_refused() {
             },
         ),
         (
-            vec![node(&[(East, 1)]), node(&[(North, 0)])],
+            vec![node(&[(East, Some(1))]), node(&[(North, Some(0))])],
             GraphError::OneWay {
                 node: 0,
                 action: East,
@@ -290,9 +290,9 @@ fn what_is_no_graph_is_refused() {
         ),
         (
             vec![
-                node(&[(East, 1), (East, 2)]),
-                node(&[(West, 0)]),
-                node(&[(West, 0)]),
+                node(&[(East, Some(1)), (East, Some(2))]),
+                node(&[(West, Some(0))]),
+                node(&[(West, Some(0))]),
             ],
             GraphError::Ambiguous {
                 node: 0,
@@ -300,7 +300,7 @@ fn what_is_no_graph_is_refused() {
             },
         ),
         (
-            vec![node(&[(North, DUMMY), (North, DUMMY)])],
+            vec![node(&[(North, None), (North, None)])],
             GraphError::Ambiguous {
                 node: 0,
                 action: North,

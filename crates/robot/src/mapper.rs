@@ -23,11 +23,16 @@ pub trait Mapper {
     /// If the observation is no number, or cannot follow what was seen before. The map is then as before.
     fn observe(&mut self, seen: &Self::Observation) -> Result<(), Self::Error>;
 
-    /// Returns what it has learned, as places and links that any scorer and any drawing can read. O(map).
-    fn map(&self) -> MapView;
+    /// Returns what it has learned, as places and links that any scorer and any drawing can read; empty if it learns
+    /// no map. O(map).
+    fn map(&self) -> MapView {
+        MapView::default()
+    }
 
     /// Returns where it believes the robot to be, the likeliest first; empty if it does not ask.
-    fn belief(&self) -> Vec<Guess>;
+    fn belief(&self) -> Vec<Guess> {
+        Vec::new()
+    }
 }
 
 impl<M: Mapper + ?Sized> Mapper for &mut M {

@@ -8,7 +8,7 @@ use tolman_robot::{
     TurnTranslate,
 };
 
-use crate::{Brain, TimeStep, stream};
+use crate::{Brain, Doing, TimeStep, stream};
 
 /// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses ranges, its
 /// heading and landmarks.
@@ -99,7 +99,7 @@ impl<B: Brain> Actor<B> {
         R::Sensing: Ranges + Compass,
     {
         if self.before == Before::PutDown {
-            let observed = self.brain.observe(&TimeStep::put_down(robot));
+            let observed = self.brain.observe(&TimeStep::of(robot, Doing::PutDown));
             observed.map_err(ActorError::Brain)?;
             self.before = Before::Action;
         }
@@ -117,7 +117,7 @@ impl<B: Brain> Actor<B> {
         let mut observed = Ok(());
         let outcome = drive.carry_out(robot, action, |step| {
             see(brain, step);
-            observed = brain.observe(&TimeStep::driven(step));
+            observed = brain.observe(&TimeStep::of(step.robot, Doing::of(step)));
             if observed.is_err() || has_arrived(step.robot, task) {
                 return ControlFlow::Break(());
             }

@@ -58,7 +58,7 @@ pub enum FileError {
     /// The format is one that is no longer read.
     #[error(
         "its format, {:?}, is no longer read: make a new {} with `{}`",
-        .system.former_format(), .system.file_name(), .system.command()
+        .system.words().former_format, .system.words().file_name, .system.words().command
     )]
     FormerFormat {
         /// System that once wrote this format.
@@ -81,7 +81,7 @@ pub enum FileError {
     /// The map is that of another system.
     #[error(
         "this is a {}, expected a {}: make one with `{}`",
-        .found.file_name(), .expected.file_name(), .expected.command()
+        .found.words().file_name, .expected.words().file_name, .expected.words().command
     )]
     System {
         /// System that the file names.
@@ -90,7 +90,7 @@ pub enum FileError {
         expected: MapSystem,
     },
     /// The header is sound, but what follows is not. The source has line and column.
-    #[error("this {} cannot be read: make one with `{}`", .system.file_name(), .system.command())]
+    #[error("this {} cannot be read: make one with `{}`", .system.words().file_name, .system.words().command)]
     Body {
         /// System that the file names.
         system: MapSystem,
@@ -98,7 +98,7 @@ pub enum FileError {
         source: serde_json::Error,
     },
     /// The map has no JSON form.
-    #[error("this {} has no JSON form", .system.file_name())]
+    #[error("this {} has no JSON form", .system.words().file_name)]
     Unwritable {
         /// System of the map.
         system: MapSystem,
@@ -146,7 +146,7 @@ impl MapSystem {
             }
         })?;
         let mut systems = Self::ALL.into_iter();
-        if let Some(system) = systems.find(|system| system.former_format() == format) {
+        if let Some(system) = systems.find(|system| system.words().former_format == format) {
             return Err(FileError::FormerFormat { system });
         }
         if format != FORMAT {
@@ -200,30 +200,27 @@ impl MapSystem {
         Ok((origin, body))
     }
 
-    const fn file_name(self) -> &'static str {
-        match self {
-            Self::Mslst => "map of MSLST",
-            Self::Cpm => "map of CPM",
-            Self::Diktiometry => "survey",
+    const fn words(self) -> Words {
+        let (file_name, command, former_format) = match self {
+            Self::Mslst => ("map of MSLST", "tolman learn", "tolman-mslst-map"),
+            Self::Cpm => ("map of CPM", "tolman cpm learn", "tolman-cpm"),
+            Self::Diktiometry => ("survey", "tolman survey", "tolman-survey"),
+        };
+        Words {
+            file_name,
+            command,
+            former_format,
         }
     }
+}
 
-    const fn command(self) -> &'static str {
-        match self {
-            Self::Mslst => "tolman learn",
-            Self::Cpm => "tolman cpm learn",
-            Self::Diktiometry => "tolman survey",
-        }
-    }
-
-    /// Returns what `format` said when every system had a format of its own.
-    const fn former_format(self) -> &'static str {
-        match self {
-            Self::Mslst => "tolman-mslst-map",
-            Self::Cpm => "tolman-cpm",
-            Self::Diktiometry => "tolman-survey",
-        }
-    }
+/// How messages speak of a system's files.
+struct Words {
+    file_name: &'static str,
+    /// Writes one.
+    command: &'static str,
+    /// What `format` said when every system had a format of its own.
+    former_format: &'static str,
 }
 
 #[cfg(test)]

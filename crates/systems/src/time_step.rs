@@ -1,7 +1,7 @@
 use tolman_control::{Driven, Outcome};
 use tolman_geom::Heading;
 use tolman_maze::Direction;
-use tolman_robot::{Compass, Landmark, Ranges, Robot, Scan, SensesLandmarks};
+use tolman_robot::{Compass, Landmark, Ranges, Scan, SensesLandmarks};
 
 /// One time step as a [`Brain`](crate::Brain) observes it: what the robot sensed at its end, and the high-level
 /// action it belongs to.
@@ -30,32 +30,21 @@ pub enum Doing {
     Ended(Direction, Outcome),
 }
 
+impl Doing {
+    /// Returns what the robot did in a time step that was just driven.
+    pub const fn of<R>(step: &Driven<'_, R>) -> Self {
+        match step.ends {
+            Some(outcome) => Self::Ended(step.action, outcome),
+            None => Self::UnderWay(step.action),
+        }
+    }
+}
+
 impl TimeStep {
-    /// Returns what `robot` senses, which has just been put down.
-    pub fn put_down<R>(robot: &R) -> Self
+    /// Returns what `robot` senses at the end of a time step in which it was `doing` that.
+    pub fn of<R>(robot: &R, doing: Doing) -> Self
     where
         R: SensesLandmarks,
-        R::Sensing: Ranges + Compass,
-    {
-        Self::of(robot, Doing::PutDown)
-    }
-
-    /// Returns the time step that was just driven.
-    pub fn driven<R>(step: &Driven<'_, R>) -> Self
-    where
-        R: SensesLandmarks,
-        R::Sensing: Ranges + Compass,
-    {
-        let doing = match step.ends {
-            Some(outcome) => Doing::Ended(step.action, outcome),
-            None => Doing::UnderWay(step.action),
-        };
-        Self::of(step.robot, doing)
-    }
-
-    fn of<R>(robot: &R, doing: Doing) -> Self
-    where
-        R: Robot + SensesLandmarks,
         R::Sensing: Ranges + Compass,
     {
         let sensing = robot.sensing();
@@ -64,15 +53,6 @@ impl TimeStep {
             heading: sensing.heading(),
             landmark: robot.landmark(),
             doing,
-        }
-    }
-
-    /// Returns the same reading of a robot that is at rest.
-    #[must_use]
-    pub fn at_rest(&self) -> Self {
-        Self {
-            doing: Doing::PutDown,
-            ..self.clone()
         }
     }
 }

@@ -14,7 +14,7 @@ use tolman_robot::{
     Task, TurnTranslate,
 };
 use tolman_systems::mslst::{Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, Survey};
-use tolman_systems::{Actor, Brain, Origin, TimeStep, baselines};
+use tolman_systems::{Actor, Brain, Doing, Origin, TimeStep, baselines};
 
 const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
@@ -307,11 +307,11 @@ fn mslst_learns_from_a_log() {
     let mut log = Vec::new();
     let mut wanderer = Actor::seeded(Mslst::new(config()), layers(), 5);
     let mut robot = Digger::new(cells('.')[0], 5);
-    log.push(TimeStep::put_down(&robot));
+    log.push(TimeStep::of(&robot, Doing::PutDown));
     while wanderer.brain().learned().is_none() {
         wanderer
             .act_seen(&mut robot, Task::Explore, |_, step| {
-                log.push(TimeStep::driven(step));
+                log.push(TimeStep::of(step.robot, Doing::of(step)));
             })
             .unwrap();
     }

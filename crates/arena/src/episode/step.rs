@@ -1,12 +1,7 @@
-use core::convert::Infallible;
-
 use tolman_control::{Driven, Outcome};
 use tolman_maze::Direction;
-use tolman_robot::{
-    Compass, Guess, MapView, Mapper, Ranges, Robot, SensesLandmarks, Standing, System, Task,
-    TurnTranslate,
-};
-use tolman_systems::{Actor, ActorError, Brain, TimeStep};
+use tolman_robot::{Guess, Mapper, TurnTranslate};
+use tolman_systems::Brain;
 
 use crate::mind::AnyBrain;
 use crate::pioneer::CoursePioneer;
@@ -56,52 +51,5 @@ impl<'a> Step<'a> {
     #[must_use]
     pub fn belief(&self) -> Vec<Guess> {
         self.brain.map_or_else(Vec::new, Mapper::belief)
-    }
-}
-
-/// An actor whose brain and time steps are shown.
-#[derive(Debug)]
-pub(super) struct Shown<'b, S> {
-    actor: Actor<&'b mut AnyBrain>,
-    see: S,
-}
-
-impl<'b, S> Shown<'b, S> {
-    pub(super) const fn new<R>(actor: Actor<&'b mut AnyBrain>, see: S) -> Self
-    where
-        S: FnMut(&AnyBrain, &Driven<'_, R>),
-    {
-        Self { actor, see }
-    }
-}
-
-impl<S> Mapper for Shown<'_, S> {
-    type Observation = TimeStep;
-    type Error = Infallible;
-
-    fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
-        self.actor.observe(seen)
-    }
-
-    fn map(&self) -> MapView {
-        self.actor.map()
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        self.actor.belief()
-    }
-}
-
-impl<S, R> System<R> for Shown<'_, S>
-where
-    S: FnMut(&AnyBrain, &Driven<'_, R>),
-    R: Robot<Command = TurnTranslate> + SensesLandmarks,
-    R::Sensing: Ranges + Compass,
-{
-    type Failure = ActorError<R::Error, Infallible>;
-
-    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
-        let Self { actor, see } = self;
-        actor.act_seen(robot, task, |brain, step| see(&**brain, step))
     }
 }

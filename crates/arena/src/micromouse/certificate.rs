@@ -231,8 +231,8 @@ o---o---o---o---o---o
 
     fn certificate(maze: &Maze) -> Certificate {
         let mut mouse = Searcher::Certify.mouse(&brief(maze).unwrap(), 0).unwrap();
-        Trial::play(maze, &mut *mouse).unwrap();
-        mouse.certificate().unwrap()
+        Trial::play(maze, &mut mouse).unwrap();
+        mouse.certificate().unwrap().clone()
     }
 
     /// What the checker says once the certificate is changed.

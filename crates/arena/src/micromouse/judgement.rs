@@ -4,7 +4,7 @@ use serde::Serialize;
 use tolman_maze::Maze;
 use tolman_planners::moves::MoveMap;
 use tolman_planners::{Passages, Unknown};
-use tolman_systems::micromouse::{Mouse, MouseError, SIDE, Searcher};
+use tolman_systems::micromouse::{Driver, SIDE, Search, Searcher};
 
 use super::{Trial, TrialError, brief, check};
 
@@ -26,29 +26,17 @@ pub struct Judgement {
     pub certified: bool,
 }
 
-/// Why a mouse could not be judged.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum JudgeError {
-    /// No mouse for this maze.
-    #[error(transparent)]
-    Mouse(#[from] MouseError),
-    /// No trial.
-    #[error(transparent)]
-    Trial(#[from] TrialError),
-}
-
 impl Judgement {
     /// Judges a trial that `mouse` has played in `maze`.
     #[must_use]
-    pub fn of(maze: &Maze, mouse: &dyn Mouse, trial: &Trial) -> Self {
+    pub fn of(maze: &Maze, mouse: &Driver<impl Search>, trial: &Trial) -> Self {
         let passages = Passages::<SIDE>::new(maze, Unknown::Closed);
         let map = MoveMap::new(&passages, maze.goals().iter().copied());
         let optimum = maze.start().and_then(|(start, _)| map.moves(start));
         let optimum = optimum.map_or(0, u32::from);
         let verdict = trial.verdict;
         let certified = mouse.certificate().is_some_and(|certificate| {
-            Some(certificate.closed_cost) == verdict.run_2 && check(&certificate, maze).is_ok()
+            Some(certificate.closed_cost) == verdict.run_2 && check(certificate, maze).is_ok()
         });
         Self {
             run_1: verdict.run_1,
@@ -76,10 +64,9 @@ pub fn try_on(
     maze: &Maze,
     searcher: Searcher,
     seed: u64,
-) -> Result<(Trial, Judgement), JudgeError> {
-    let brief = brief(maze).map_err(TrialError::from)?;
-    let mut mouse = searcher.mouse(&brief, seed)?;
-    let trial = Trial::play(maze, &mut *mouse)?;
-    let judgement = Judgement::of(maze, &*mouse, &trial);
+) -> Result<(Trial, Judgement), TrialError> {
+    let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
+    let trial = Trial::play(maze, &mut mouse)?;
+    let judgement = Judgement::of(maze, &mouse, &trial);
     Ok((trial, judgement))
 }

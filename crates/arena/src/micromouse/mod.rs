@@ -1,7 +1,7 @@
 //! The virtual maze of "Plot and Navigate a Virtual Maze" (Wang): the two runs of a mouse, and the
 //! referee.
 //!
-//! A [`Mouse`](tolman_systems::micromouse::Mouse) may give up to 1000 orders. In the first run it
+//! A mouse, a [`Driver`](tolman_systems::micromouse::Driver), may give up to 1000 orders. In the first run it
 //! explores; in the second it has to reach the goal. The [`Referee`] moves it and keeps the score:
 //! a thirtieth of the steps of the first run, and those of the second. A [`Trial`] is both runs of
 //! one mouse in one maze, a [`Judgement`] what it was worth, and [`check`] verifies a mouse's proof
@@ -26,10 +26,10 @@
 //! ";
 //! let maze = tolman_maze::read(text)?.maze;
 //! let mut mouse = Searcher::Certify.mouse(&brief(&maze)?, 0)?;
-//! let trial = Trial::play(&maze, &mut *mouse)?;
+//! let trial = Trial::play(&maze, &mut mouse)?;
 //! assert_eq!(trial.verdict.run_2, Some(4));
 //! let certificate = mouse.certificate().ok_or("no proof")?;
-//! check(&certificate, &maze)?;
+//! check(certificate, &maze)?;
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
@@ -43,7 +43,7 @@ mod referee;
 mod trial;
 
 pub use certificate::{CertificateError, check};
-pub use judgement::{JudgeError, Judgement, try_on};
+pub use judgement::{Judgement, try_on};
 pub use q_learning::CellTask;
 pub use referee::{Event, MAX_STEPS, Referee, RefereeError, Verdict, brief};
 pub use trial::{Step, Trial, TrialError};

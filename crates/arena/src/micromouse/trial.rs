@@ -1,7 +1,7 @@
 //! Both runs of one mouse in one maze.
 
 use tolman_maze::{Cell, Maze};
-use tolman_systems::micromouse::{Mouse, MouseError, Order, OrderError};
+use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search};
 
 use super::{Event, Referee, RefereeError, Verdict};
 
@@ -28,12 +28,15 @@ pub struct Step {
 }
 
 /// Why there was no trial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrialError {
     /// The maze will not do.
     #[error(transparent)]
     Referee(#[from] RefereeError),
+    /// There is no mouse for this maze.
+    #[error(transparent)]
+    Mouse(#[from] MouseError),
     /// The mouse gave an order that the rules do not know.
     #[error("the mouse broke the rules")]
     Order(#[from] OrderError),
@@ -44,7 +47,7 @@ impl Trial {
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.
-    pub fn play(maze: &Maze, mouse: &mut dyn Mouse) -> Result<Self, TrialError> {
+    pub fn play(maze: &Maze, mouse: &mut Driver<impl Search>) -> Result<Self, TrialError> {
         let mut referee = Referee::new(maze)?;
         let mut steps = Vec::new();
         let mut gave_up = None;

@@ -3,9 +3,9 @@ use core::convert::Infallible;
 
 use rand::Rng;
 use tolman_control::Outcome;
-use tolman_geom::{Heading, Point, Pose};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Position, Robot, TurnTranslate};
+use tolman_robot::{Guess, Mapper, Position, Robot, TurnTranslate};
 use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::mslst::{ROBOT_UNIT, heading_free};
@@ -138,7 +138,7 @@ impl Chart {
             let expected = self.policy.end(from, action);
             let (end, mass) = match (outcome.moved(), expected) {
                 (true, Some(end)) => (end, *mass),
-                (true, None) => (nominal(place.position, action), mass * SURPRISE),
+                (true, None) => (place.position + unit(action) * ACTION_WAY, mass * SURPRISE),
                 (false, None) => (place.position, *mass),
                 (false, Some(_)) => (place.position, mass * SURPRISE),
             };
@@ -153,8 +153,7 @@ impl Chart {
 
     /// Adds probability around an end, along the direction of travel.
     fn spread(&self, end: Point, action: Direction, mass: f64, after: &mut [f64]) {
-        let (east, north) = action.step();
-        let step = tolman_geom::Vector::new(f64::from(east), f64::from(north)) * SPREAD_STEP;
+        let step = unit(action) * SPREAD_STEP;
         for offset in -SPREAD_STEPS..=SPREAD_STEPS {
             let way = f64::from(offset) * SPREAD_STEP / self.scatter.max(SPREAD_STEP);
             if let Some(number) = self.number(end + step * f64::from(offset)) {
@@ -178,9 +177,10 @@ const SPREAD_STEPS: i32 = 6;
 /// Places less probable than that are not followed.
 const NEGLIGIBLE: f64 = 1e-9;
 
-fn nominal(position: Point, action: Direction) -> Point {
+/// One metre that way.
+fn unit(action: Direction) -> Vector {
     let (east, north) = action.step();
-    position + tolman_geom::Vector::new(f64::from(east), f64::from(north)) * ACTION_WAY
+    Vector::new(f64::from(east), f64::from(north))
 }
 
 impl UnlocalizedOracle {
@@ -238,13 +238,10 @@ impl UnlocalizedOracle {
 
     /// The most likely place; the first of equals.
     fn most_likely(&self) -> Option<Point> {
-        let mut best: Option<(Point, f64)> = None;
-        for (position, mass) in self.probabilities() {
-            if best.is_none_or(|(_, most)| mass > most) {
-                best = Some((position, mass));
-            }
-        }
-        best.map(|(position, _)| position)
+        let likelier = |best: (Point, f64), next: (Point, f64)| {
+            if next.1 > best.1 { next } else { best }
+        };
+        self.probabilities().reduce(likelier).map(|(at, _)| at)
     }
 }
 
@@ -260,11 +257,6 @@ impl Mapper for UnlocalizedOracle {
         }
         self.update(seen);
         Ok(())
-    }
-
-    /// Its map is the maze itself, which it did not learn.
-    fn map(&self) -> MapView {
-        MapView::default()
     }
 
     fn belief(&self) -> Vec<Guess> {

@@ -4,12 +4,6 @@ use thiserror::Error;
 use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to, steps_from};
 
-/// The dummy node, where the edges of failed actions lead ("Nodes can also have connections to a dummy
-/// node, which represent failed actions").
-///
-/// It has no state and no edges, it is no node of any list, and no search passes through it.
-pub const DUMMY: u32 = u32::MAX;
-
 /// Where a node was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Zone {
@@ -35,8 +29,9 @@ pub struct Node {
 pub struct Edge {
     /// The action that leads along it.
     pub action: Direction,
-    /// The node it leads to, or [`DUMMY`] where the action failed.
-    pub head: u32,
+    /// The node it leads to; `None` where the action failed ("Nodes can also have connections to a dummy node, which
+    /// represent failed actions"). No search passes through the dummy node.
+    pub head: Option<u32>,
 }
 
 /// Why a list of nodes is no graph of MSLST.
@@ -146,7 +141,7 @@ impl MslstGraph {
         self.nodes.is_empty()
     }
 
-    /// The node of an id; none for [`DUMMY`] and ids the graph does not have.
+    /// The node of an id; none for ids the graph does not have.
     #[must_use]
     pub fn node(&self, id: u32) -> Option<&Node> {
         self.nodes.get(id as usize)
@@ -189,7 +184,7 @@ impl MslstGraph {
         let hops = way.iter().zip(way.iter().skip(1));
         hops.map(|(&tail, &head)| {
             let mut edges = self.node(tail)?.edges.iter();
-            let edge = edges.find(|edge| edge.head == head && view.allows(tail, edge));
+            let edge = edges.find(|edge| edge.head == Some(head) && view.allows(tail, edge));
             Some(edge?.action)
         })
         .collect()
@@ -203,8 +198,8 @@ impl Graph for MslstGraph {
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
         let edges = self.node(node).map_or(&[][..], |node| &node.edges);
-        for edge in edges.iter().filter(|edge| edge.head != DUMMY) {
-            visit(edge.head, 1);
+        for head in edges.iter().filter_map(|edge| edge.head) {
+            visit(head, 1);
         }
     }
 }
@@ -229,35 +224,33 @@ impl Graph for Without<'_> {
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
         let edges = self.graph.node(node).map_or(&[][..], |node| &node.edges);
-        for edge in edges.iter().filter(|edge| self.allows(node, edge)) {
-            // Arcs to the dummy node reach no node of the graph, and searches pass them over.
-            visit(edge.head, 1);
+        let allowed = edges.iter().filter(|edge| self.allows(node, edge));
+        for head in allowed.filter_map(|edge| edge.head) {
+            visit(head, 1);
         }
     }
 }
 
 pub(super) fn follow(nodes: &[Node], id: u32, action: Direction, state: u32) -> Option<u32> {
     let edges = &nodes.get(id as usize)?.edges;
-    edges
+    let heads = edges
         .iter()
         .filter(|edge| edge.action == action)
-        .find(|edge| {
-            let head = nodes.get(edge.head as usize);
-            head.is_some_and(|head| head.state == state)
-        })
-        .map(|edge| edge.head)
+        .filter_map(|edge| edge.head);
+    let leads_there = |head: &u32| nodes.get(*head as usize).map(|node| node.state) == Some(state);
+    heads.into_iter().find(leads_there)
 }
 
 fn check(nodes: &[Node]) -> Result<(), GraphError> {
     let count = match u32::try_from(nodes.len()) {
         Ok(0) => return Err(GraphError::Empty),
-        Ok(count) if count < DUMMY => count,
-        _ => return Err(GraphError::TooMany { count: nodes.len() }),
+        Ok(count) => count,
+        Err(_) => return Err(GraphError::TooMany { count: nodes.len() }),
     };
-    let state = |head: u32| nodes.get(head as usize).map(|node| node.state);
+    let state = |head: Option<u32>| nodes.get(head? as usize).map(|node| node.state);
     for (id, node) in (0..count).zip(nodes) {
         for (place, &Edge { action, head }) in node.edges.iter().enumerate() {
-            if head != DUMMY {
+            if let Some(head) = head {
                 let Some(there) = nodes.get(head as usize) else {
                     return Err(GraphError::NoSuchNode {
                         node: id,
@@ -268,7 +261,7 @@ fn check(nodes: &[Node]) -> Result<(), GraphError> {
                 };
                 let back = Edge {
                     action: action.opposite(),
-                    head: id,
+                    head: Some(id),
                 };
                 if !there.edges.contains(&back) {
                     return Err(GraphError::OneWay {

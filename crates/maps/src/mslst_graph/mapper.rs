@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use tolman_maze::Direction;
 
-use super::graph::{DUMMY, Edge, MslstGraph, Node, Zone, follow};
+use super::graph::{Edge, MslstGraph, Node, Zone, follow};
 
 /// Builds the graph while the robot wanders (Phase II).
 #[derive(Clone, Debug)]
@@ -47,14 +47,17 @@ impl Mapper {
         let new = self.nodes.len() as u32;
         let back = Edge {
             action: action.opposite(),
-            head: self.at,
+            head: Some(self.at),
         };
         self.nodes.push(Node {
             state,
             zone,
             edges: vec![back],
         });
-        self.enter(Edge { action, head: new });
+        self.enter(Edge {
+            action,
+            head: Some(new),
+        });
         self.at = new;
         new
     }
@@ -62,10 +65,7 @@ impl Mapper {
     /// "If the last action failed, then it adds a connection from the previous node to the dummy node."
     /// One that is there already is not added again.
     pub fn failed(&mut self, action: Direction) {
-        let failure = Edge {
-            action,
-            head: DUMMY,
-        };
+        let failure = Edge { action, head: None };
         if !self.nodes[self.at as usize].edges.contains(&failure) {
             self.enter(failure);
         }

@@ -61,26 +61,17 @@ impl PoseFilter {
     /// # Errors
     /// If a number of the configuration is out of its range.
     pub fn new(config: PoseFilterConfig, pose: Pose) -> Result<Self, FilterError> {
+        let positive = |field, value| (field, value, value > 0.0);
+        let at_least_0 = |field, value| (field, value, value >= 0.0);
+        let share = (0.0..=1.0).contains(&config.outliers);
         let fields = [
-            (
-                "particles",
-                f64::from(config.particles),
-                config.particles > 0,
-            ),
-            ("slip", config.slip, config.slip >= 0.0),
-            ("drift", config.drift, config.drift >= 0.0),
-            ("spread", config.spread, config.spread >= 0.0),
-            ("range", config.range, config.range > 0.0),
-            (
-                "relative_range",
-                config.relative_range,
-                config.relative_range >= 0.0,
-            ),
-            (
-                "outliers",
-                config.outliers,
-                (0.0..=1.0).contains(&config.outliers),
-            ),
+            positive("particles", f64::from(config.particles)),
+            at_least_0("slip", config.slip),
+            at_least_0("drift", config.drift),
+            at_least_0("spread", config.spread),
+            positive("range", config.range),
+            at_least_0("relative_range", config.relative_range),
+            ("outliers", config.outliers, share),
         ];
         if let Some((field, value, _)) = fields
             .into_iter()

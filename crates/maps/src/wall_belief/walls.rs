@@ -1,7 +1,9 @@
+use core::iter;
+
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
-use crate::wall_map::TooLarge;
+use crate::wall_map::{TooLarge, inner_wall};
 
 /// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
@@ -53,16 +55,6 @@ pub struct Meeting {
     pub range: f64,
     /// Whether the wall is believed in; else it is unknown.
     pub known: Knowledge,
-}
-
-/// The lines of the grid that a ray crosses where a wall may stand, the nearest first, up to the first that is believed
-/// in. See [`WallBelief::meetings`].
-#[derive(Clone, Debug)]
-pub struct Meetings<'a, const N: usize> {
-    belief: &'a WallBelief<N>,
-    crossings: Crossings,
-    max_range: f64,
-    ended: bool,
 }
 
 /// How far from a line, as a share of the pitch, a reading may end and still count as the wall on it.
@@ -133,17 +125,17 @@ impl<const N: usize> WallBelief<N> {
         }
         let met = reading.range < reading.max_range;
         let face = self.thickness / 2.0;
-        for crossing in Crossings::new(self, pose.position, heading) {
+        for crossing in self.crossings(pose.position, heading) {
             if !crossing.along_axis {
                 // It leaves its row: what it sees from there on is to the side.
                 return;
             }
-            let beyond = reading.range + face - crossing.distance;
+            let beyond = reading.range + face - crossing.line.distance;
             if beyond > TOLERANCE * self.pitch {
-                self.vote(crossing.cell, crossing.side, -1);
+                self.vote(crossing.cell, crossing.line.side, -1);
             } else {
                 if met && beyond > -TOLERANCE * self.pitch {
-                    self.vote(crossing.cell, crossing.side, 1);
+                    self.vote(crossing.cell, crossing.line.side, 1);
                 }
                 return;
             }
@@ -151,14 +143,12 @@ impl<const N: usize> WallBelief<N> {
     }
 
     fn vote(&mut self, cell: Cell, side: Direction, vote: i8) {
-        let Some(beyond) = self.grid.neighbour(cell, side) else {
+        let Some((cell, side)) = inner_wall(self.grid, cell, side) else {
             return;
         };
-        let (plane, cell) = match side {
-            Direction::East => (&mut self.east, cell),
-            Direction::West => (&mut self.east, beyond),
-            Direction::North => (&mut self.north, cell),
-            Direction::South => (&mut self.north, beyond),
+        let plane = match side {
+            Direction::East => &mut self.east,
+            _ => &mut self.north,
         };
         let row = plane.get_mut(usize::from(cell.y));
         if let Some(votes) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
@@ -166,15 +156,70 @@ impl<const N: usize> WallBelief<N> {
         }
     }
 
-    /// Where a ray from `origin` may end that reaches `max_range`.
-    #[must_use]
-    pub fn meetings(&self, origin: Point, heading: Heading, max_range: f64) -> Meetings<'_, N> {
-        Meetings {
-            belief: self,
-            crossings: Crossings::new(self, origin, heading),
-            max_range,
-            ended: false,
-        }
+    /// Where a ray from `origin` may end that reaches `max_range`: at the lines of the grid that it crosses where a wall may
+    /// stand, the nearest first, up to the first that is believed in.
+    pub fn meetings(
+        &self,
+        origin: Point,
+        heading: Heading,
+        max_range: f64,
+    ) -> impl Iterator<Item = Meeting> {
+        let mut ended = false;
+        let meetings = self.crossings(origin, heading).map_while(move |crossing| {
+            let face = self.thickness / 2.0 / crossing.line.slope;
+            let range = (crossing.line.distance - face).max(0.0);
+            if ended || range >= max_range {
+                return None;
+            }
+            let known = self.knowledge(crossing.cell, crossing.line.side);
+            ended = known == Knowledge::Wall;
+            Some(Meeting { range, known })
+        });
+        meetings.filter(|meeting| meeting.known != Knowledge::Open)
+    }
+
+    /// The sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A fast voxel traversal algorithm for
+    /// ray tracing", 1987).
+    fn crossings(
+        &self,
+        origin: Point,
+        heading: Heading,
+    ) -> impl Iterator<Item = Crossing> + use<N> {
+        let (grid, pitch, unit) = (self.grid, self.pitch, heading.unit());
+        let axis = |at: f64, slope: f64, ahead: Direction, back: Direction| {
+            let line = if slope > 0.0 {
+                libm::floor(at / pitch) + 1.0
+            } else {
+                libm::floor(at / pitch)
+            };
+            let steep = slope.abs().max(1e-12);
+            Axis {
+                distance: (line * pitch - at).abs() / steep,
+                step: pitch / steep,
+                side: if slope > 0.0 { ahead } else { back },
+                slope: steep,
+            }
+        };
+        let mut x = axis(origin.x, unit.x, Direction::East, Direction::West);
+        let mut y = axis(origin.y, unit.y, Direction::North, Direction::South);
+        let mut ahead = self.cell_at(origin);
+        iter::from_fn(move || {
+            let cell = ahead?;
+            let (axis, other) = if x.distance <= y.distance {
+                (&mut x, y)
+            } else {
+                (&mut y, x)
+            };
+            let line = *axis;
+            axis.distance += axis.step;
+            ahead = grid.neighbour(cell, line.side);
+            let along_axis = line.slope > other.slope;
+            Some(Crossing {
+                cell,
+                line,
+                along_axis,
+            })
+        })
     }
 }
 
@@ -184,15 +229,12 @@ impl<const N: usize> Walls for WallBelief<N> {
     }
 
     fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
-        let beyond = self.grid.neighbour(cell, direction);
-        let (Some(beyond), true) = (beyond, self.grid.contains(cell)) else {
+        let Some((cell, direction)) = inner_wall(self.grid, cell, direction) else {
             return Knowledge::Wall;
         };
-        let (plane, cell) = match direction {
-            Direction::East => (&self.east, cell),
-            Direction::West => (&self.east, beyond),
-            Direction::North => (&self.north, cell),
-            Direction::South => (&self.north, beyond),
+        let plane = match direction {
+            Direction::East => &self.east,
+            _ => &self.north,
         };
         let row = plane.get(usize::from(cell.y));
         let votes = row.and_then(|row| row.get(usize::from(cell.x)));
@@ -204,101 +246,21 @@ impl<const N: usize> Walls for WallBelief<N> {
     }
 }
 
-impl<const N: usize> Iterator for Meetings<'_, N> {
-    type Item = Meeting;
-
-    fn next(&mut self) -> Option<Meeting> {
-        while !self.ended {
-            let crossing = self.crossings.next()?;
-            let face = self.belief.thickness / 2.0 / crossing.slope;
-            let range = (crossing.distance - face).max(0.0);
-            if range >= self.max_range {
-                self.ended = true;
-                return None;
-            }
-            let known = self.belief.knowledge(crossing.cell, crossing.side);
-            self.ended = known == Knowledge::Wall;
-            if known != Knowledge::Open {
-                return Some(Meeting { range, known });
-            }
-        }
-        None
-    }
-}
-
-/// The sides of cells that a ray crosses, the nearest first (Amanatides and Woo, "A fast voxel traversal algorithm for ray
-/// tracing", 1987).
-#[derive(Clone, Debug)]
-struct Crossings {
-    grid: Grid,
-    cell: Option<Cell>,
-    /// Along x and y: the distance to the next line, from one line to the next, the side crossed there, and the share of
-    /// the ray that goes that way.
-    axes: [Axis; 2],
-}
-
-#[derive(Clone, Copy, Debug)]
+/// The next line that a ray crosses along x or y.
+#[derive(Clone, Copy)]
 struct Axis {
-    next: f64,
+    distance: f64,
+    /// From one line to the next.
     step: f64,
+    /// The side crossed there.
     side: Direction,
+    /// The share of the ray that goes that way.
     slope: f64,
 }
 
 struct Crossing {
     cell: Cell,
-    side: Direction,
-    distance: f64,
-    slope: f64,
+    line: Axis,
     /// Whether the ray runs along the axis it crosses here, more than across it.
     along_axis: bool,
-}
-
-impl Crossings {
-    fn new<const N: usize>(belief: &WallBelief<N>, origin: Point, heading: Heading) -> Self {
-        let unit = heading.unit();
-        let pitch = belief.pitch;
-        let axis = |at: f64, slope: f64, ahead: Direction, back: Direction| {
-            let line = if slope > 0.0 {
-                libm::floor(at / pitch) + 1.0
-            } else {
-                libm::floor(at / pitch)
-            };
-            let steep = slope.abs().max(1e-12);
-            Axis {
-                next: (line * pitch - at).abs() / steep,
-                step: pitch / steep,
-                side: if slope > 0.0 { ahead } else { back },
-                slope: steep,
-            }
-        };
-        Self {
-            grid: belief.grid,
-            cell: belief.cell_at(origin),
-            axes: [
-                axis(origin.x, unit.x, Direction::East, Direction::West),
-                axis(origin.y, unit.y, Direction::North, Direction::South),
-            ],
-        }
-    }
-}
-
-impl Iterator for Crossings {
-    type Item = Crossing;
-
-    fn next(&mut self) -> Option<Crossing> {
-        let cell = self.cell?;
-        let [x, y] = &mut self.axes;
-        let (axis, other) = if x.next <= y.next { (x, y) } else { (y, x) };
-        let crossing = Crossing {
-            cell,
-            side: axis.side,
-            distance: axis.next,
-            slope: axis.slope,
-            along_axis: axis.slope > other.slope,
-        };
-        axis.next += axis.step;
-        self.cell = self.grid.neighbour(cell, axis.side);
-        Some(crossing)
-    }
 }

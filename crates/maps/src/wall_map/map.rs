@@ -1,7 +1,7 @@
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Wall, Walls};
 
 use super::log::Log;
-use super::{CellSet, Ray, RayEnd};
+use super::{Ray, RayEnd};
 
 /// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been.
 ///
@@ -267,39 +267,6 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         self.count(cell, Knowledge::Wall) >= 3
     }
 
-    /// The cells that lead nowhere but to dead ends, of which only `kept` cells are none: those whose open or
-    /// unknown sides, except one, all lead to such cells. O(cells²) at worst, O(cells) on the whole.
-    #[must_use]
-    pub fn blind_alleys(&self, kept: &CellSet<N>) -> CellSet<N> {
-        let mut blind = CellSet::default();
-        for cell in self.grid.cells() {
-            // Filling one cell may make the next one of its corridor a dead end.
-            let mut at = cell;
-            while let Some(next) = self.only_way(at, kept, &blind) {
-                blind.insert(at);
-                match next {
-                    Some(next) => at = next,
-                    None => break,
-                }
-            }
-        }
-        blind
-    }
-
-    /// Where the only way out of a cell leads, if it has at most one and is neither kept nor filled.
-    fn only_way(&self, cell: Cell, kept: &CellSet<N>, blind: &CellSet<N>) -> Option<Option<Cell>> {
-        if kept.contains(cell) || blind.contains(cell) {
-            return None;
-        }
-        let mut ways = Direction::ALL.into_iter().filter_map(|direction| {
-            let beyond = self.grid.neighbour(cell, direction)?;
-            let passable = self.knowledge(cell, direction) != Knowledge::Wall;
-            (passable && !blind.contains(beyond)).then_some(beyond)
-        });
-        let way = ways.next();
-        ways.next().is_none().then_some(way)
-    }
-
     fn count(&self, cell: Cell, what: Knowledge) -> u8 {
         Direction::ALL
             .into_iter()
@@ -352,14 +319,10 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
     }
 
     fn set(&mut self, cell: Cell, direction: Direction, knowledge: Knowledge) {
-        let Some(beyond) = self.grid.neighbour(cell, direction) else {
-            return;
-        };
-        match direction {
-            Direction::East => self.east.set(cell, knowledge),
-            Direction::West => self.east.set(beyond, knowledge),
-            Direction::North => self.north.set(cell, knowledge),
-            Direction::South => self.north.set(beyond, knowledge),
+        match inner_wall(self.grid, cell, direction) {
+            Some((cell, Direction::East)) => self.east.set(cell, knowledge),
+            Some((cell, _)) => self.north.set(cell, knowledge),
+            None => {}
         }
     }
 }
@@ -370,17 +333,19 @@ impl<const N: usize, const LOG: usize> Walls for WallMap<N, LOG> {
     }
 
     fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
-        if !self.grid.contains(cell) {
-            return Knowledge::Wall;
-        }
-        let Some(beyond) = self.grid.neighbour(cell, direction) else {
-            return Knowledge::Wall;
-        };
-        match direction {
-            Direction::East => self.east.knowledge(cell),
-            Direction::West => self.east.knowledge(beyond),
-            Direction::North => self.north.knowledge(cell),
-            Direction::South => self.north.knowledge(beyond),
+        match inner_wall(self.grid, cell, direction) {
+            Some((cell, Direction::East)) => self.east.knowledge(cell),
+            Some((cell, _)) => self.north.knowledge(cell),
+            None => Knowledge::Wall,
         }
     }
+}
+
+/// Returns the wall on a side of a cell as that in the east or north of a cell; `None` on the border and beyond.
+pub(crate) fn inner_wall(grid: Grid, cell: Cell, side: Direction) -> Option<(Cell, Direction)> {
+    let beyond = grid.neighbour(cell, side).filter(|_| grid.contains(cell))?;
+    Some(match side {
+        Direction::North | Direction::East => (cell, side),
+        Direction::South | Direction::West => (beyond, side.opposite()),
+    })
 }

@@ -6,12 +6,11 @@
 //!
 //! Two bits a wall and no allocation: `WallMap<16>` holds mazes up to 16 × 16, `WallMap<32>` up to 32 × 32.
 
-mod cell_set;
 mod draw;
 mod log;
 mod map;
 mod ray;
 
-pub use cell_set::CellSet;
+pub(crate) use map::inner_wall;
 pub use map::{ClosedCells, ObserveError, TooLarge, WallMap};
 pub use ray::{Ray, RayEnd};

@@ -13,7 +13,7 @@ use tolman_arena::micromouse::{Event, Referee, brief};
 use tolman_draw::{Drawing, Figure, Plan, Series, Shade};
 use tolman_experiment::{BoxError, Run};
 use tolman_systems::micromouse::{
-    Certify, CounterSearch, Driver, Mouse, RunTwo, SIDE, Search, Searcher, TargetSearch,
+    Certify, CounterSearch, Driver, RunTwo, SIDE, Search, Searcher, TargetSearch,
 };
 
 /// Width of a plan, user units.

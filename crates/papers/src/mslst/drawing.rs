@@ -1,6 +1,6 @@
 //! Pictures of what was learned, for reports and the command.
 
-use tolman_maps::mslst_graph::{Edge, Zone};
+use tolman_maps::mslst_graph::Zone;
 
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
@@ -51,10 +51,11 @@ pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
         graph.node(GraphNode::at(*position).mark(mark).series(Series(0)));
     }
     for (from, node) in nodes.iter().enumerate() {
-        // Every edge is entered both ways; once is enough to draw. The dummy node is none of them.
-        let onward = |edge: &&Edge| (from..shown).contains(&(edge.head as usize));
-        for edge in node.edges.iter().filter(onward) {
-            graph.edge(GraphEdge::between(from, edge.head as usize));
+        // Every edge is entered both ways; once is enough to draw.
+        let heads = node.edges.iter().filter_map(|edge| edge.head);
+        let heads = heads.map(|head| head as usize);
+        for head in heads.filter(|head| (from..shown).contains(head)) {
+            graph.edge(GraphEdge::between(from, head));
         }
     }
     let mut plan = crate::plan_of_course(course, WIDTH);

@@ -1,7 +1,7 @@
 //! The states of Phase I, the graph of Phase II over its maze, and where the runs of Phase III went.
 
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{DUMMY, Node};
+use tolman_maps::mslst_graph::Node;
 
 use super::contest::{Apprentice, Contest};
 use super::drawing::{self, SHOWN_ACTIONS};
@@ -69,7 +69,7 @@ fn graph(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str
 
 /// How many edges lead to other nodes.
 fn ways_from(node: &Node) -> usize {
-    node.edges.iter().filter(|edge| edge.head != DUMMY).count()
+    node.edges.iter().filter(|edge| edge.head.is_some()).count()
 }
 
 /// How many runs a map must have for its success to be drawn.

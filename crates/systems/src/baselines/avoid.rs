@@ -3,7 +3,7 @@ use core::convert::Infallible;
 use rand::{Rng, RngExt};
 use tolman_control::Outcome;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper};
+use tolman_robot::Mapper;
 
 use crate::{Brain, Doing, TimeStep};
 
@@ -64,14 +64,6 @@ impl Mapper for Avoid {
     fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
         self.learn(seen.doing);
         Ok(())
-    }
-
-    fn map(&self) -> MapView {
-        MapView::default()
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        Vec::new()
     }
 }
 

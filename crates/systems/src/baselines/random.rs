@@ -2,7 +2,7 @@ use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper};
+use tolman_robot::Mapper;
 
 use crate::{Brain, TimeStep};
 
@@ -16,14 +16,6 @@ impl Mapper for Random {
 
     fn observe(&mut self, _seen: &TimeStep) -> Result<(), Infallible> {
         Ok(())
-    }
-
-    fn map(&self) -> MapView {
-        MapView::default()
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        Vec::new()
     }
 }
 

@@ -5,7 +5,7 @@ use rand::{Rng, RngExt};
 use tolman_control::{Outcome, heading_of};
 use tolman_geom::Heading;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Scan};
+use tolman_robot::{Mapper, Scan};
 
 use crate::{Brain, Doing, TimeStep};
 
@@ -72,14 +72,6 @@ impl Mapper for WallFollow {
         }
         self.view = seen.scan.clone().zip(seen.heading);
         Ok(())
-    }
-
-    fn map(&self) -> MapView {
-        MapView::default()
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        Vec::new()
     }
 }
 

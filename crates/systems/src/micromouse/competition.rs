@@ -164,12 +164,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
 
 /// What sensors see that look no farther than the walls of their own cell.
 fn rays(open: [bool; 4]) -> [Ray; 4] {
-    let mut open = open.into_iter();
-    Direction::ALL.map(|side| {
-        if open.next() == Some(true) {
-            Ray::out_of_range(side, 1)
-        } else {
-            Ray::to_wall(side, 0)
-        }
+    Direction::ALL.map(|side| match open[side.index()] {
+        true => Ray::out_of_range(side, 1),
+        false => Ray::to_wall(side, 0),
     })
 }

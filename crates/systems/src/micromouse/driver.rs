@@ -5,12 +5,18 @@ use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::{Leap, MouseStep};
 use tolman_planners::{Passages, Unknown};
 
-use super::{Brief, Certificate, Mouse, MouseError, Order, RunTwo, SIDE, Sight};
+use super::{Brief, Certificate, MouseError, Order, RunTwo, SIDE, Sight};
 
 /// How to explore.
 pub trait Search {
     /// What to do next in the first run.
     fn next(&mut self, view: &View<'_>) -> Next;
+}
+
+impl<S: Search + ?Sized> Search for Box<S> {
+    fn next(&mut self, view: &View<'_>) -> Next {
+        (**self).next(view)
+    }
 }
 
 /// What a search decides on.
@@ -112,10 +118,12 @@ impl<S: Search> Driver<S> {
         (self.at, self.heading) = (self.brief.start, self.brief.heading);
         Ok(Order::RESET)
     }
-}
 
-impl<S: Search> Mouse for Driver<S> {
-    fn next(&mut self, sight: Sight) -> Result<Order, MouseError> {
+    /// What to do next, in view of what the sensors see now. Called once a step.
+    ///
+    /// # Errors
+    /// If the mouse is at a loss.
+    pub fn next(&mut self, sight: Sight) -> Result<Order, MouseError> {
         if let Some(plan) = &mut self.plan {
             let leap = plan.pop().ok_or(MouseError::Stuck)?;
             return Ok(self.drive(leap));
@@ -138,7 +146,8 @@ impl<S: Search> Mouse for Driver<S> {
         }
     }
 
-    fn certificate(&self) -> Option<Certificate> {
-        self.certificate.clone()
+    /// The proof that no second run is shorter, once the mouse has one.
+    pub const fn certificate(&self) -> Option<&Certificate> {
+        self.certificate.as_ref()
     }
 }

@@ -1,12 +1,11 @@
 //! The mice of "Plot and Navigate a Virtual Maze" (Wang), and of the competitions.
 //!
 //! A [`Brief`] is all that a mouse is told of a maze; none of them sees a wall but by its sensors.
-//! In the paper's rules a [`Mouse`] is told what its three sensors see and answers with an
-//! [`Order`]. In its first run it explores; once it has been at the goal it may ask to be put back
-//! to the start, and makes its second run.
+//! In the paper's rules a mouse, a [`Driver`], is told what its three sensors see and answers with
+//! an [`Order`]. In its first run it explores; once it has been at the goal it may ask to be put
+//! back to the start, and makes its second run.
 //!
-//! A [`Driver`] is a mouse with a [`Search`] for its first run and a plan for its second,
-//! [`RunTwo`]. [`Certify`] stops when the best run is proven and hands out a [`Certificate`];
+//! A [`Driver`] has a [`Search`] for its first run and a plan for its second, [`RunTwo`]. [`Certify`] stops when the best run is proven and hands out a [`Certificate`];
 //! [`TargetSearch`], [`CounterSearch`] and [`RandomSearch`] are the paper's. A [`Searcher`] is one
 //! of them by name.
 //!
@@ -55,7 +54,7 @@ pub use certificate::Certificate;
 pub use certify::Certify;
 pub use counter::CounterSearch;
 pub use driver::{Driver, Next, Search, View};
-pub use mouse::{Mouse, MouseError, SIDE, Sight};
+pub use mouse::{MouseError, SIDE, Sight};
 pub use order::{Movement, Order, OrderError, Rotation};
 pub use random::RandomSearch;
 pub use run_two::RunTwo;

@@ -3,8 +3,6 @@
 use tolman_maps::wall_map::{ObserveError, TooLarge};
 use tolman_planners::moves::MoveExplorerConfigError;
 
-use super::{Certificate, Order};
-
 /// The largest maze our mice hold, columns or rows.
 pub const SIDE: usize = 32;
 
@@ -17,20 +15,6 @@ pub struct Sight {
     pub front: u16,
     /// To the right.
     pub right: u16,
-}
-
-/// What explores a maze and then runs.
-pub trait Mouse {
-    /// What to do next, in view of what the sensors see now. Called once a step.
-    ///
-    /// # Errors
-    /// If the mouse is at a loss.
-    fn next(&mut self, sight: Sight) -> Result<Order, MouseError>;
-
-    /// The proof that no second run is shorter, once the mouse has one.
-    fn certificate(&self) -> Option<Certificate> {
-        None
-    }
 }
 
 /// Why a mouse does not know what to do.

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use super::{
-    Brief, Certify, CounterSearch, Driver, Mouse, MouseError, RandomSearch, RunTwo, TargetSearch,
+    Brief, Certify, CounterSearch, Driver, MouseError, RandomSearch, RunTwo, Search, TargetSearch,
 };
 
 /// A search that a mouse can be given.
@@ -62,33 +62,25 @@ impl Searcher {
     ///
     /// # Errors
     /// If the maze is too large.
-    pub fn mouse(self, brief: &Brief, seed: u64) -> Result<Box<dyn Mouse>, MouseError> {
-        let rng = || ChaCha8Rng::seed_from_u64(seed);
-        let cells = RunTwo::FewestCells;
-        Ok(match self {
-            Self::Certify => certify(brief, Some(RolloutConfig::tuned()))?,
-            Self::CertifyPlain => certify(brief, None)?,
-            Self::Target => Box::new(Driver::new(brief.clone(), TargetSearch::new(), cells)?),
-            Self::Counter50 => Box::new(Driver::new(
-                brief.clone(),
-                CounterSearch::new(50, rng()),
-                cells,
-            )?),
-            Self::Counter75 => Box::new(Driver::new(
-                brief.clone(),
-                CounterSearch::new(75, rng()),
-                cells,
-            )?),
-            Self::Random => Box::new(Driver::new(brief.clone(), RandomSearch::new(rng()), cells)?),
-        })
+    pub fn mouse(self, brief: &Brief, seed: u64) -> Result<Driver<Box<dyn Search>>, MouseError> {
+        let rng = ChaCha8Rng::seed_from_u64(seed);
+        let certify = |rollouts| {
+            let explorer = MoveExplorerConfig::tuned();
+            Certify::new(explorer, rollouts, brief.grid, brief.start)
+        };
+        let (search, run_two): (Box<dyn Search>, _) = match self {
+            Self::Certify => {
+                let search = certify(Some(RolloutConfig::tuned()))?;
+                (Box::new(search), RunTwo::FewestMoves)
+            }
+            Self::CertifyPlain => (Box::new(certify(None)?), RunTwo::FewestMoves),
+            Self::Target => (Box::new(TargetSearch::new()), RunTwo::FewestCells),
+            Self::Counter50 => (Box::new(CounterSearch::new(50, rng)), RunTwo::FewestCells),
+            Self::Counter75 => (Box::new(CounterSearch::new(75, rng)), RunTwo::FewestCells),
+            Self::Random => (Box::new(RandomSearch::new(rng)), RunTwo::FewestCells),
+        };
+        Driver::new(brief.clone(), search, run_two)
     }
-}
-
-fn certify(brief: &Brief, rollouts: Option<RolloutConfig>) -> Result<Box<dyn Mouse>, MouseError> {
-    let (grid, start) = (brief.grid, brief.start);
-    let search = Certify::new(MoveExplorerConfig::tuned(), rollouts, grid, start)?;
-    let mouse = Driver::new(brief.clone(), search, RunTwo::FewestMoves)?;
-    Ok(Box::new(mouse))
 }
 
 impl fmt::Display for Searcher {

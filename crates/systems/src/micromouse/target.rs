@@ -52,7 +52,7 @@ impl Search for TargetSearch {
 }
 
 /// The path to the nearest of the cells of largest uncertainty.
-fn path_to_target(view: &View<'_>) -> Vec<Cell> {
+fn path_to_target(view: &View<'_>) -> Vec<Direction> {
     let hoped = Passages::<SIDE>::new(view.map, Unknown::Open);
     let steps = StepMap::new(&hoped, [view.at]);
     let cells = view.map.grid().cells();
@@ -65,42 +65,29 @@ fn path_to_target(view: &View<'_>) -> Vec<Cell> {
 }
 
 /// As far along the path as one step goes.
-fn leap(view: &View<'_>, path: &[Cell]) -> Option<Leap> {
+fn leap(view: &View<'_>, path: &[Direction]) -> Option<Leap> {
     let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
-    let direction = side(view.at, *path.first()?)?;
-    let leaps = Leap::along(&known, view.at, direction).zip(path);
-    leaps
-        .take_while(|(leap, cell)| leap.end == **cell)
-        .map(|(leap, _)| leap)
-        .last()
+    let direction = *path.first()?;
+    let straight = path.iter().take_while(|side| **side == direction);
+    let leaps = Leap::along(&known, view.at, direction).zip(straight);
+    leaps.map(|(leap, _)| leap).last()
 }
 
-/// A shortest path to the nearest of `targets`, straight on where it can, without `from`.
-fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Cell> {
+/// A shortest path to the nearest of `targets`, straight on where it can: the sides by which it leaves its cells.
+fn path(passages: &Passages<SIDE>, from: Cell, targets: &[Cell]) -> Vec<Direction> {
     let steps = StepMap::new(passages, targets.iter().copied());
-    let mut cells = Vec::new();
+    let mut path = Vec::new();
     let mut at = from;
-    let mut ahead = None;
     while steps.steps(at).is_some_and(|steps| steps > 0) {
-        let order = ahead.into_iter().chain(Direction::ALL);
+        let order = path.last().copied().into_iter().chain(Direction::ALL);
         let Some(direction) = steps.descend(passages, at, order) else {
             break;
         };
         let Some(leap) = Leap::along(passages, at, direction).next() else {
             break;
         };
-        cells.push(leap.end);
+        path.push(direction);
         at = leap.end;
-        ahead = Some(direction);
     }
-    cells
-}
-
-/// On which side of `cell` its neighbour `beside` lies.
-fn side(cell: Cell, beside: Cell) -> Option<Direction> {
-    Direction::ALL.into_iter().find(|direction| {
-        let (east, north) = direction.step();
-        cell.x.checked_add_signed(east.into()) == Some(beside.x)
-            && cell.y.checked_add_signed(north.into()) == Some(beside.y)
-    })
+    path
 }

@@ -1,5 +1,5 @@
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{DUMMY, MslstGraph, Node, Zone};
+use tolman_maps::mslst_graph::{MslstGraph, Node, Zone};
 use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::States;
@@ -48,13 +48,14 @@ pub(super) fn view(nodes: &[Node]) -> MapView {
         position: None,
         landmark: (node.zone == Zone::Destination).then_some(Landmark::Goal),
     };
-    let links = |(from, node): (u32, &Node)| {
-        let heads: Vec<u32> = node.edges.iter().map(|edge| edge.head).collect();
-        let known = heads.into_iter().filter(|head| *head != DUMMY);
-        known.map(move |to| MapLink { from, to })
-    };
     MapView {
         places: (0..).zip(nodes).map(place).collect(),
-        links: (0..).zip(nodes).flat_map(links).collect(),
+        links: (0..)
+            .zip(nodes)
+            .flat_map(|(from, node)| {
+                let heads = node.edges.iter().filter_map(|edge| edge.head);
+                heads.map(move |to| MapLink { from, to })
+            })
+            .collect(),
     }
 }

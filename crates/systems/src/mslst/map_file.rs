@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{DUMMY, Edge, GraphError, MslstGraph, Node, Zone};
+use tolman_maps::mslst_graph::{Edge, GraphError, MslstGraph, Node, Zone};
 use tolman_maze::Direction;
 
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
@@ -80,7 +80,11 @@ impl MapFile {
                 .map(|(id, node)| SavedNode {
                     state: node.state,
                     destination: node.zone == Zone::Destination,
-                    edges: node.edges.iter().map(saved).collect(),
+                    edges: node
+                        .edges
+                        .iter()
+                        .map(|edge| (edge.action, edge.head))
+                        .collect(),
                     made_at: survey.positions.get(id).map(|point| [point.x, point.y]),
                     made_by: survey.made_by.get(id).copied(),
                 })
@@ -132,15 +136,8 @@ fn surveyed(nodes: &[SavedNode]) -> Survey {
     }
 }
 
-fn saved(edge: &Edge) -> (Direction, Option<u32>) {
-    (edge.action, (edge.head != DUMMY).then_some(edge.head))
-}
-
 fn restored(node: SavedNode) -> Node {
-    let edges = node.edges.into_iter().map(|(action, head)| Edge {
-        action,
-        head: head.unwrap_or(DUMMY),
-    });
+    let edges = node.edges.into_iter();
     Node {
         state: node.state,
         zone: if node.destination {
@@ -148,6 +145,6 @@ fn restored(node: SavedNode) -> Node {
         } else {
             Zone::Elsewhere
         },
-        edges: edges.collect(),
+        edges: edges.map(|(action, head)| Edge { action, head }).collect(),
     }
 }

@@ -2,7 +2,7 @@ use core::convert::Infallible;
 
 use rand::Rng;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
+use tolman_robot::{Mapper, Standing, Task};
 
 use super::north_scan::north_scan;
 use crate::baselines::Avoid;
@@ -68,14 +68,6 @@ impl Mapper for Scans {
         self.steps += 1;
         Ok(())
     }
-
-    fn map(&self) -> MapView {
-        MapView::default()
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        Vec::new()
-    }
 }
 
 impl Brain for Scans {
@@ -84,11 +76,8 @@ impl Brain for Scans {
     }
 
     fn standing(&self, task: Task) -> Standing {
-        match task {
-            Task::Explore if self.is_complete() => Standing::Done,
-            Task::Explore => Standing::UnderWay,
-            Task::Reach(_) | Task::Localize => Standing::gave_up(NO_STATES),
-        }
+        let why = "it has learned no states yet: let it explore first";
+        standing_of_phase(task, self.is_complete(), why)
     }
 
     fn words(&self) -> String {
@@ -96,4 +85,11 @@ impl Brain for Scans {
     }
 }
 
-const NO_STATES: &str = "it has learned no states yet: let it explore first";
+/// Returns how a task stands in a phase that is for exploring alone; `why` it can do nothing else.
+pub(super) fn standing_of_phase(task: Task, is_complete: bool, why: &str) -> Standing {
+    match task {
+        Task::Explore if is_complete => Standing::Done,
+        Task::Explore => Standing::UnderWay,
+        Task::Reach(_) | Task::Localize => Standing::gave_up(why),
+    }
+}

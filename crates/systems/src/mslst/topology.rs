@@ -7,6 +7,7 @@ use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
 use super::map::view;
 use super::north_scan::north_scan;
+use super::scans::standing_of_phase;
 use super::{MslstMap, States};
 use crate::baselines::Avoid;
 use crate::{Brain, Doing, TimeStep};
@@ -115,11 +116,8 @@ impl Brain for Topology {
     }
 
     fn standing(&self, task: Task) -> Standing {
-        match task {
-            Task::Explore if self.is_complete() => Standing::Done,
-            Task::Explore => Standing::UnderWay,
-            Task::Reach(_) | Task::Localize => Standing::gave_up(NO_GRAPH),
-        }
+        let why = "its graph is not finished yet: let it explore first";
+        standing_of_phase(task, self.is_complete(), why)
     }
 
     fn words(&self) -> String {
@@ -130,8 +128,6 @@ impl Brain for Topology {
         )
     }
 }
-
-const NO_GRAPH: &str = "its graph is not finished yet: let it explore first";
 
 fn state_of(states: &States, seen: &TimeStep) -> Option<u32> {
     states.nearest(&north_scan(seen)?).ok()

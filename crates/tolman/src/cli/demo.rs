@@ -11,8 +11,8 @@ use tolman_arena::pioneer::{body, calibrated};
 use tolman_papers::Recorder;
 use tolman_replay::Fact;
 
+use super::Failure;
 use super::replay_file::{self, Overwrite};
-use super::{Failure, called};
 
 /// Runs a robot through the Large maze and leaves a replay to open in a browser
 #[derive(clap::Args)]
@@ -62,8 +62,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let episode = episode::run(&trial, &mut mind, |step| recorder.see(step))?;
     let mut replay = recorder.finish("A wall follower in the Large maze", &episode);
     replay.facts.insert(1, Fact::new("brain", AGENT.name()));
-    let replay = replay.fact("made by", called::command());
-    replay_file::write(&path, &replay, overwrite)?;
+    replay_file::write(&path, replay, overwrite)?;
     let steps = episode.steps;
     if !episode.reached {
         return Err(Failure::Failed(anyhow!(

@@ -150,17 +150,13 @@ impl Arguments {
         if let Some(name) = &self.name {
             return vec![(name, options)];
         }
-        let each = |name: &'static str| {
+        let names = catalogue().iter().map(|entry| entry.name);
+        let chosen = names.map(|name| {
             let out = self.out.as_ref().map(|out| out.join(name));
-            (
-                name,
-                Options {
-                    out,
-                    ..options.clone()
-                },
-            )
-        };
-        catalogue().iter().map(|entry| each(entry.name)).collect()
+            let options = options.clone();
+            (name, Options { out, ..options })
+        });
+        chosen.collect()
     }
 }
 

@@ -7,23 +7,17 @@ use tolman_experiment::files;
 
 use super::Failure;
 
-/// Writes `text` to the file at `path`, whole or not at all.
+/// Writes `contents` to the file at `path`, whole or not at all.
 ///
 /// # Errors
 /// A failure that names the file and a repair.
-pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    write_bytes(path, text.as_bytes())
-}
-
-/// Writes `bytes` to the file at `path`, whole or not at all.
-///
-/// # Errors
-/// A failure that names the file and a repair.
-pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    Ok(files::write_whole(path, bytes).with_context(|| {
-        format!(
-            "cannot write {}: give a path in a folder that can be written to",
-            path.display()
-        )
-    })?)
+pub(super) fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), Failure> {
+    Ok(
+        files::write_whole(path, contents.as_ref()).with_context(|| {
+            format!(
+                "cannot write {}: give a path in a folder that can be written to",
+                path.display()
+            )
+        })?,
+    )
 }

@@ -9,8 +9,7 @@ use tolman_arena::pioneer::{LASER_PIONEER, calibrated};
 use tolman_systems::Origin;
 use tolman_systems::mslst::{MapFile, MslstConfig};
 
-use super::failure::OrBadInput;
-use super::{Failure, file, run};
+use super::{Failure, OrBadInput, file, run};
 
 /// Lets MSLST wander through a maze, learn its states and its graph, and writes both down
 #[derive(clap::Args)]
@@ -65,7 +64,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         config,
         learned,
     };
-    file::write(&arguments.out, &map.to_json()?)?;
+    file::write(&arguments.out, map.to_json()?)?;
     writeln!(out, "{states} states, a graph of {nodes} nodes")?;
     Ok(())
 }

@@ -16,8 +16,7 @@ use clap::Subcommand;
 use tolman_maps::diktiometry::Action;
 use tolman_maze::Direction;
 
-use super::Failure;
-use super::failure::OrBadInput;
+use super::{Failure, OrBadInput};
 
 /// Looks at learned maps
 #[derive(Subcommand)]

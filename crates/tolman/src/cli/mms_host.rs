@@ -8,9 +8,8 @@ use anyhow::anyhow;
 use serde_json::json;
 use tolman_arena::mms::{Ended, Hosted, Limits, Log, host};
 
-use super::failure::OrBadInput;
 use super::maze::Collection;
-use super::{Failure, maze};
+use super::{Failure, OrBadInput, maze};
 
 /// Hosts a mouse that speaks the protocol of the simulator mms, without a window, and scores it
 #[derive(clap::Args)]
@@ -77,12 +76,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     // What was hosted stands before what could not be, wherever the two streams end up.
     out.flush()?;
     unsound.complain(mazes.len())?;
-    let unsolved = mazes
-        .iter()
-        .zip(&hosted)
-        .filter(|(_, hosted)| !hosted.solved);
-    let unsolved: Vec<&Path> = unsolved.map(|((file, _), _)| file.as_path()).collect();
-    maze::all_solved(&unsolved, hosted.len())
+    maze::all_solved(&mazes, hosted.iter().map(|hosted| hosted.solved))
 }
 
 impl Arguments {

@@ -3,6 +3,7 @@
 //! Results go to stdout, everything else to stderr. A verb writes to the `out` it is given and
 //! returns a [`Failure`] if there is something to complain about.
 
+mod bar;
 mod called;
 mod completions;
 mod cpm;
@@ -25,12 +26,13 @@ mod solve;
 mod start;
 mod stdout;
 mod survey;
+mod words;
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use failure::Failure;
+use failure::{Failure, OrBadInput};
 use stdout::{Stdout, ink};
 
 /// Robots with laser rings in mazes: runs them, measures them, and sets them beside the papers.

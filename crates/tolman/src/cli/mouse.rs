@@ -11,11 +11,11 @@ use serde_json::json;
 use tolman_arena::micromouse::{self, Judgement, Trial};
 use tolman_maze::Maze;
 use tolman_systems::micromouse::Searcher;
+use tolman_systems::micromouse::mms::Until;
 
-use super::failure::OrBadInput;
 use super::maze::Collection;
-use super::{Failure, file, maze};
-use mms::UntilArgument;
+use super::words::words;
+use super::{Failure, OrBadInput, file, maze};
 
 /// Sends a micromouse through mazes: it explores, proves its run, and makes it
 #[derive(clap::Args)]
@@ -38,8 +38,8 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with_all = ["maze", "search", "seed", "steps", "worst", "jobs", "json"])]
     mms: bool,
     /// When the mouse of --mms has explored enough
-    #[arg(long, value_enum, default_value_t = UntilArgument::Proof, requires = "mms")]
-    until: UntilArgument,
+    #[arg(long, default_value = "proof", value_parser = words(UNTIL), requires = "mms")]
+    until: Until,
     /// How to explore: certify (until the run is proven), certify-plain (the same, without rollouts), or as the paper does: target, counter-50, counter-75, random
     #[arg(long, value_name = "SEARCH", default_value_t = Searcher::Certify)]
     search: Searcher,
@@ -60,10 +60,20 @@ pub(super) struct Arguments {
     json: bool,
 }
 
+/// When a mouse has explored enough.
+const UNTIL: [(&str, &str, Until); 2] = [
+    ("goal", "It has been at the goal", Until::Goal),
+    (
+        "proof",
+        "No run can score less than the best one it knows",
+        Until::Proof,
+    ),
+];
+
 /// One maze and what became of the mouse in it.
-struct Tried {
-    file: PathBuf,
-    maze: Maze,
+struct Tried<'a> {
+    file: &'a Path,
+    maze: &'a Maze,
     trial: Trial,
     judgement: Judgement,
 }
@@ -82,7 +92,14 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         )));
     }
     let tried = maze::each(&mazes, arguments.jobs, |file, maze| {
-        arguments.try_on(file, maze)
+        let tried = micromouse::try_on(maze, arguments.search, arguments.seed);
+        let (trial, judgement) = tried.with_context(|| maze::name(file)).or_bad_input()?;
+        Ok(Tried {
+            file,
+            maze,
+            trial,
+            judgement,
+        })
     })?;
     for tried in &tried {
         arguments.tell(tried, out)?;
@@ -95,30 +112,17 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         }
     }
     if let (Some(path), Some(tried)) = (&arguments.steps, tried.first()) {
-        file::write(path, &steps(&tried.trial)?)?;
+        file::write(path, steps(&tried.trial)?)?;
     }
     out.flush()?;
     unsound.complain(tried.len())?;
-    let unsolved = tried.iter().filter(|tried| tried.judgement.score.is_none());
-    let unsolved: Vec<&Path> = unsolved.map(|tried| tried.file.as_path()).collect();
-    maze::all_solved(&unsolved, tried.len())
+    let solved = tried.iter().map(|tried| tried.judgement.score.is_some());
+    maze::all_solved(&mazes, solved)
 }
 
 impl Arguments {
-    fn try_on(&self, file: &Path, maze: &Maze) -> Result<Tried, Failure> {
-        let (trial, judgement) = micromouse::try_on(maze, self.search, self.seed)
-            .with_context(|| maze::name(file))
-            .or_bad_input()?;
-        Ok(Tried {
-            file: file.to_owned(),
-            maze: maze.clone(),
-            trial,
-            judgement,
-        })
-    }
-
-    fn tell(&self, tried: &Tried, out: &mut dyn Write) -> Result<(), Failure> {
-        let name = maze::name(&tried.file);
+    fn tell(&self, tried: &Tried<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+        let name = maze::name(tried.file);
         let judgement = &tried.judgement;
         if self.json {
             let mut line = serde_json::to_value(judgement)?;
@@ -150,15 +154,15 @@ impl Arguments {
 }
 
 /// Those that did not finish first, then by how far they are above the floor.
-fn draw_worst(tried: &[Tried], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
-    let mut order: Vec<&Tried> = tried.iter().collect();
+fn draw_worst(tried: &[Tried<'_>], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
+    let mut order: Vec<&Tried<'_>> = tried.iter().collect();
     order.sort_by(|a, b| {
-        let above = |tried: &Tried| tried.judgement.above_floor().unwrap_or(f64::INFINITY);
+        let above = |tried: &Tried<'_>| tried.judgement.above_floor().unwrap_or(f64::INFINITY);
         above(b).total_cmp(&above(a))
     });
     for tried in order.into_iter().take(count) {
-        let name = maze::name(&tried.file);
-        let drawing = drawing::of(&tried.maze, &tried.trial);
+        let name = maze::name(tried.file);
+        let drawing = drawing::of(tried.maze, &tried.trial);
         writeln!(
             out,
             "\n{name}, with the stops of the first run (.) and of the second (*):\n{drawing}"
@@ -167,7 +171,7 @@ fn draw_worst(tried: &[Tried], count: usize, out: &mut dyn Write) -> Result<(), 
     Ok(())
 }
 
-fn summary(tried: &[Tried]) -> String {
+fn summary(tried: &[Tried<'_>]) -> String {
     let count = tried.len();
     let done: Vec<&Judgement> = tried
         .iter()

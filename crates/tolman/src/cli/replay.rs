@@ -8,9 +8,8 @@ use anyhow::{Context, anyhow};
 use tolman_replay::{Replay, Trace};
 use tolman_sim::robots::LaserPioneer;
 
-use super::failure::OrBadInput;
 use super::replay_file::{self, Overwrite};
-use super::{Failure, called, maze};
+use super::{Failure, OrBadInput, maze};
 
 /// Makes a replay of a trace: one HTML file that plays it in any browser
 #[derive(clap::Args)]
@@ -48,8 +47,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         traces.push(read(path, arguments.short_name(path))?);
     }
     let (replay, verdicts) = Replay::of_traces(&traces).or_bad_input()?;
-    let replay = replay.fact("made by", called::command());
-    replay_file::write(&path, &replay, overwrite)?;
+    replay_file::write(&path, replay, overwrite)?;
     for verdict in &verdicts {
         writeln!(out, "{verdict}")?;
     }
@@ -67,9 +65,7 @@ impl Arguments {
             ))),
         }
     }
-}
 
-impl Arguments {
     /// The name of a trace without its folder, unless another one has the same.
     fn short_name(&self, path: &Path) -> String {
         let file_name = path.file_name();

@@ -7,8 +7,7 @@ use std::path::Path;
 use anyhow::{Context, anyhow};
 use tolman_replay::{Replay, is_replay, page};
 
-use super::failure::OrBadInput;
-use super::{Failure, file};
+use super::{Failure, OrBadInput, called, file};
 
 /// Whether a file that is no replay may be overwritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,9 +29,10 @@ impl Overwrite {
 ///
 /// # Errors
 /// Bad input if the file is there and is no replay; a failure if it cannot be written.
-pub(super) fn write(path: &Path, replay: &Replay, overwrite: Overwrite) -> Result<(), Failure> {
+pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result<(), Failure> {
     check(path, overwrite)?;
-    let page = page(replay).context("cannot write the replay")?;
+    let replay = replay.fact("made by", called::command());
+    let page = page(&replay).context("cannot write the replay")?;
     file::write(path, &page)
 }
 

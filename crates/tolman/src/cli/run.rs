@@ -1,6 +1,5 @@
 //! `tolman run`: one robot, one maze, one seed.
 
-mod brain;
 mod live;
 mod outing;
 mod picture;
@@ -8,10 +7,10 @@ mod trace;
 
 use std::io::Write;
 
-use brain::Brain;
-use tolman_arena::cast::Cast;
+use tolman_arena::cast::{Agent, Cast};
 
 use super::Failure;
+use super::words::words;
 pub(super) use outing::{Name, Outing, carry_out as send, course};
 
 /// Sends one robot through a maze and tells what became of it
@@ -28,15 +27,25 @@ Examples:
   tolman run avoid --maze mazes/grid/braided-2.txt --start marked --steps 20000")]
 pub(super) struct Arguments {
     /// Who chooses the actions
-    brain: Brain,
+    #[arg(value_parser = words(BRAINS.map(|(word, agent)| (word, agent.description(), (word, agent)))))]
+    brain: (&'static str, Agent),
     #[command(flatten)]
     outing: Outing,
 }
 
+/// The agents by the names the command line has for them.
+const BRAINS: [(&str, Agent); 5] = [
+    ("avoid", Agent::Avoid),
+    ("wall-follow", Agent::WallFollow),
+    ("random", Agent::Random),
+    ("oracle", Agent::Oracle),
+    ("unlocalized-oracle", Agent::UnlocalizedOracle),
+];
+
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let agent = arguments.brain.0;
+    let (word, agent) = arguments.brain;
     let name = Name {
-        word: arguments.brain.word(),
+        word,
         title: agent.name(),
         nodes: &[],
     };

@@ -11,9 +11,8 @@ use tolman_arena::diktiometry::{
 use tolman_maps::diktiometry::{JournalLength, Use};
 use tolman_systems::Origin;
 
-use super::failure::OrBadInput;
 use super::share::share;
-use super::{Failure, file, map, maze};
+use super::{Failure, OrBadInput, file, map, maze};
 
 /// Lets a robot walk a maze from place to place while the diktiometry maps it, and writes the map down
 #[derive(clap::Args)]
@@ -103,7 +102,7 @@ fn walk(
         survey.step()?;
     }
     let written = SurveyFile::of(world, seed, office, &survey);
-    file::write(&arguments.out, &written.to_json()?)?;
+    file::write(&arguments.out, written.to_json()?)?;
     let score = survey.score();
     writeln!(
         out,

@@ -11,4 +11,4 @@ mod config;
 mod mouse;
 
 pub use config::{Localization, NoisyMouseConfig, NoisyMouseError};
-pub use mouse::{NoisyMouse, NoisyNext};
+pub use mouse::{NoisyBody, NoisyMouse, NoisyNext};

@@ -16,6 +16,11 @@ use crate::micromouse::Brief;
 /// The largest maze, columns or rows.
 const SIDE: usize = 16;
 
+/// A robot that a noisy mouse can drive.
+pub trait NoisyBody: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps> {}
+
+impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>> NoisyBody for R {}
+
 /// What a noisy mouse has done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisyNext {
@@ -101,10 +106,7 @@ impl NoisyMouse {
     ///
     /// # Errors
     /// If the robot fails.
-    pub fn look<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
-    {
+    pub fn look<R: NoisyBody>(&mut self, robot: &mut R) -> Result<(), R::Error> {
         for _ in 0..LOOKS {
             self.time_step(robot, TurnTranslate::STOP)?;
             for reading in readings(robot.sensing()) {
@@ -118,10 +120,7 @@ impl NoisyMouse {
     ///
     /// # Errors
     /// If the robot fails.
-    pub fn explore<R>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error>
-    where
-        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
-    {
+    pub fn explore<R: NoisyBody>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error> {
         let at = self.cell();
         let decision = self.explorer.decide(&self.belief, &self.brief.goals, at);
         match decision {
@@ -138,10 +137,7 @@ impl NoisyMouse {
     ///
     /// # Errors
     /// If the robot fails.
-    pub fn run<R>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error>
-    where
-        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
-    {
+    pub fn run<R: NoisyBody>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error> {
         if self.brief.goals.contains(&self.cell()) {
             return Ok(NoisyNext::Done);
         }
@@ -181,10 +177,7 @@ impl NoisyMouse {
     }
 
     /// One step of the paper's rules: a turn, then cells ahead or back.
-    fn leap<R>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
-    {
+    fn leap<R: NoisyBody>(&mut self, robot: &mut R, leap: Leap) -> Result<(), R::Error> {
         let mut looks = self.looks_to();
         let MouseStep { cells, .. } = MouseStep::of_leap(&mut looks, leap);
         self.turn_to(robot, looks)?;
@@ -225,10 +218,7 @@ impl NoisyMouse {
         Ok(())
     }
 
-    fn turn_to<R>(&mut self, robot: &mut R, side: Direction) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
-    {
+    fn turn_to<R: NoisyBody>(&mut self, robot: &mut R, side: Direction) -> Result<(), R::Error> {
         for _ in 0..PATIENCE {
             let off = self.pose().heading.turn_to(heading_of(side));
             if off.abs() < CLOSE.0 {
@@ -244,10 +234,11 @@ impl NoisyMouse {
     }
 
     /// One time step; whether the mouse touched a wall.
-    fn time_step<R>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<bool, R::Error>
-    where
-        R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps>,
-    {
+    fn time_step<R: NoisyBody>(
+        &mut self,
+        robot: &mut R,
+        command: TurnTranslate,
+    ) -> Result<bool, R::Error> {
         robot.step(&command)?;
         let sensing = robot.sensing();
         let (turn, distance) = (

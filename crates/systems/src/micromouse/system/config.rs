@@ -46,19 +46,12 @@ impl MazeMouseConfig {
 
     pub(super) fn check(&self) -> Result<(), MazeMouseError> {
         let thin = (0.0..0.5 * self.pitch).contains(&self.wall_thickness);
+        let positive = |field, value| (field, value, value > 0.0);
         let fields = [
-            ("pitch", self.pitch, self.pitch > 0.0),
+            positive("pitch", self.pitch),
             ("wall_thickness", self.wall_thickness, thin),
-            (
-                "turn_per_step",
-                self.turn_per_step,
-                self.turn_per_step > 0.0,
-            ),
-            (
-                "translate_per_step",
-                self.translate_per_step,
-                self.translate_per_step > 0.0,
-            ),
+            positive("turn_per_step", self.turn_per_step),
+            positive("translate_per_step", self.translate_per_step),
         ];
         let wrong = fields
             .into_iter()

@@ -2,7 +2,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_control::heading_of;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::wall_map::{ClosedCells, ObserveError, WallMap};
+use tolman_maps::wall_map::{ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 use tolman_planners::Unknown;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
@@ -128,10 +128,8 @@ where
         if self.task.replace(task) != Some(task) {
             self.route.clear();
         }
-        match self.look(robot)? {
-            Look::Seen => {}
-            Look::Blind => return Ok(Standing::UnderWay),
-            Look::Lost(error) => return Ok(Standing::gave_up(error.to_string())),
+        if let Some(standing) = self.look(robot)? {
+            return Ok(standing);
         }
         if self.route.is_empty() {
             match self.choose(task) {
@@ -150,25 +148,15 @@ where
     }
 }
 
-/// What came of looking at the walls.
-enum Look {
-    /// They are in the map.
-    Seen,
-    /// There were no ranges.
-    Blind,
-    /// They contradict the map.
-    Lost(ObserveError),
-}
-
 impl<S: Search> MazeMouse<S> {
-    /// Takes in the walls that are seen from here.
-    fn look<R: Body>(&mut self, robot: &mut R) -> Result<Look, R::Error> {
+    /// Takes in the walls that are seen from here. `Some` if there were no ranges, or they contradict the map.
+    fn look<R: Body>(&mut self, robot: &mut R) -> Result<Option<Standing>, R::Error> {
         let cell = self.at;
         let Some(rays) = self.pilot.look(robot, self.config.middle(cell))? else {
-            return Ok(Look::Blind);
+            return Ok(Some(Standing::UnderWay));
         };
-        let seen = self.observe(&CellSight { cell, rays });
-        Ok(seen.map_or_else(Look::Lost, |()| Look::Seen))
+        let lost = self.observe(&CellSight { cell, rays }).err();
+        Ok(lost.map(|error| Standing::gave_up(error.to_string())))
     }
 
     fn turn_to<R: Body>(&mut self, robot: &mut R, heading: Heading) -> Result<Standing, R::Error> {

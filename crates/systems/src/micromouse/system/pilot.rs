@@ -4,7 +4,7 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::wall_map::Ray;
 use tolman_robot::{Compass, Ranges, Robot, Rolls, TurnTranslate};
 
-use super::whereabouts::Whereabouts;
+use super::whereabouts::next_pose;
 use super::{MazeMouseConfig, sight};
 
 /// Time steps that a way from cell to cell, or a turn, may take.
@@ -40,21 +40,18 @@ pub(super) enum Arrival {
 /// Drives a robot on the grid, and knows where it is.
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
-    whereabouts: Whereabouts,
+    pose: Pose,
     config: MazeMouseConfig,
 }
 
 impl Pilot {
     pub(super) const fn new(pose: Pose, config: MazeMouseConfig) -> Self {
-        Self {
-            whereabouts: Whereabouts(pose),
-            config,
-        }
+        Self { pose, config }
     }
 
     /// Returns where it believes the robot to be.
     pub(super) const fn pose(&self) -> Pose {
-        self.whereabouts.0
+        self.pose
     }
 
     /// Stands still and returns what is seen of the walls from the cell whose middle is `middle`;
@@ -123,8 +120,7 @@ impl Pilot {
 
     fn step<R: Body>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<(), R::Error> {
         robot.step(&command)?;
-        self.whereabouts
-            .take_in(robot.sensing(), &command, &self.config);
+        self.pose = next_pose(self.pose, robot.sensing(), &command, &self.config);
         Ok(())
     }
 }

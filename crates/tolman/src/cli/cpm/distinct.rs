@@ -9,9 +9,8 @@ use tolman_maps::cpm::Sense;
 
 use super::learn::LEARNING_MAZE;
 use super::venue;
-use crate::cli::Failure;
-use crate::cli::failure::OrBadInput;
 use crate::cli::share::share;
+use crate::cli::{Failure, OrBadInput};
 
 /// Lets an e-puck walk every fragment of mazes both ways, and exits 2 if two of them look alike
 #[derive(clap::Args)]

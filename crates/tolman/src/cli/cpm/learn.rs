@@ -2,20 +2,19 @@
 
 use core::ops::ControlFlow;
 use core::sync::atomic::Ordering;
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tolman_arena::cpm::{Learned, Progress, Trial, Venue, epuck, learn};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_systems::Origin;
-use tolman_systems::cpm::{Aim, Done};
-use tolman_systems::cpm::{CommonPatterns, MapFile, Preset};
+use tolman_systems::cpm::{Aim, CommonPatterns, Done, MapFile, Preset};
 
 use super::{classify, venue};
+use crate::cli::bar::bar;
+use crate::cli::words::words;
 use crate::cli::{Failure, file, interrupt};
 
 /// Lets an e-puck learn common patterns in the learning maze, then a map of a maze, and writes both down
@@ -36,43 +35,48 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// How it maps
-    #[arg(long, value_enum, default_value_t = Choice::Faithful)]
-    system: Choice,
+    #[arg(long, default_value = "faithful", value_parser = words(SYSTEMS))]
+    system: Preset,
     /// When it has learned enough
-    #[arg(long, value_enum, default_value_t = Until::Goal)]
-    until: Until,
+    #[arg(long, default_value = "goal", value_parser = words(UNTIL))]
+    until: Aim,
     /// The file to write the map to
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Choice {
-    /// As the paper's robot, online: by common patterns alone
-    Faithful,
-    /// By dead reckoning too, for fragments that look alike
-    Better,
-    /// The same without a learning maze: patterns are learned on the way
-    Unlearned,
-}
+/// The ways of mapping by the names the command line has for them.
+const SYSTEMS: [(&str, &str, Preset); 3] = [
+    (
+        "faithful",
+        "As the paper's robot, online: by common patterns alone",
+        Preset::Faithful,
+    ),
+    (
+        "better",
+        "By dead reckoning too, for fragments that look alike",
+        Preset::Better,
+    ),
+    (
+        "unlearned",
+        "The same without a learning maze: patterns are learned on the way",
+        Preset::Unlearned,
+    ),
+];
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Until {
-    /// The goal is found
-    Goal,
-    /// Every fragment was walked
-    Explored,
-}
+/// When a robot has learned enough.
+const UNTIL: [(&str, &str, Aim); 2] = [
+    ("goal", "The goal is found", Aim::Find(Landmark::Goal)),
+    ("explored", "Every fragment was walked", Aim::Explore),
+];
 
-impl Choice {
-    /// What may help where the robot lost itself.
-    const fn remedy(self) -> &'static str {
-        match self {
-            Self::Faithful => {
-                "try --system better, which tells fragments apart that look alike, or another --seed"
-            }
-            Self::Better | Self::Unlearned => "try another --seed",
+/// What may help where the robot lost itself.
+const fn remedy(system: Preset) -> &'static str {
+    match system {
+        Preset::Faithful => {
+            "try --system better, which tells fragments apart that look alike, or another --seed"
         }
+        Preset::Better | Preset::Unlearned => "try another --seed",
     }
 }
 
@@ -81,11 +85,7 @@ pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-le
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let venue = venue(&arguments.maze)?;
-    let system = match arguments.system {
-        Choice::Faithful => Preset::Faithful,
-        Choice::Better => Preset::Better,
-        Choice::Unlearned => Preset::Unlearned,
-    };
+    let (system, aim) = (arguments.system, arguments.until);
     let patterns = match system {
         Preset::Faithful | Preset::Better => {
             let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
@@ -101,12 +101,9 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         mode: system.mode(),
         seed: arguments.seed,
     };
-    let aim = match arguments.until {
-        Until::Goal => Aim::Find(Landmark::Goal),
-        Until::Explored => Aim::Explore,
-    };
     let stop = interrupt::flag()?;
-    let line = line(&trial);
+    let template = "{bar:30} {pos} fragments walked, of {len} at most, {msg}";
+    let line = bar(trial.patience(), template);
     let learned = trial.learn(aim, |progress| {
         line.set_position(u64::from(progress.walks));
         line.set_message(format!(
@@ -131,7 +128,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     if errand.episode.done != Done::Reached {
         let came = came_to_nothing(errand.episode.done, &progress);
-        let remedy = arguments.system.remedy();
+        let remedy = remedy(system);
         return Err(Failure::Failed(anyhow!(
             "{context}: the robot {came}; {remedy}"
         )));
@@ -158,14 +155,14 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         patterns: errand.patterns,
         map: errand.map,
     };
-    file::write(&arguments.out, &file.to_json()?)?;
+    file::write(&arguments.out, file.to_json()?)?;
     if aim == Aim::Explore && fragments != there_are as usize {
         return Err(Failure::Failed(anyhow!(
             "the map in {} is wrong, with {fragments} for the {there_are} fragments of {}{room}: the robot took some for others, or overlooked \
              them; {}",
             arguments.out.display(),
             file.origin.world,
-            arguments.system.remedy()
+            remedy(system)
         )));
     }
     writeln!(
@@ -193,17 +190,4 @@ fn came_to_nothing(done: Done, progress: &Progress) -> String {
     format!(
         "{gave_up} after {seconds:.0} s: {walks} fragments walked, {fragments} on the map, {recognized} of {untried} untried ways recognized"
     )
-}
-
-/// What shows on a terminal how far it has come.
-fn line(trial: &Trial<'_>) -> ProgressBar {
-    let target = if io::stderr().is_terminal() {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    };
-    let template = "{bar:30} {pos} fragments walked, of {len} at most, {msg}";
-    let style =
-        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::with_draw_target(Some(u64::from(trial.patience())), target).with_style(style)
 }

@@ -11,8 +11,7 @@ use anyhow::{Context, Error};
 use clap::Subcommand;
 use tolman_arena::cpm::{TrialError, Venue};
 
-use super::failure::OrBadInput;
-use super::{Failure, maze};
+use super::{Failure, OrBadInput, maze};
 
 /// An e-puck that learns a common-pattern map of a maze, and drives by it
 #[derive(Subcommand)]

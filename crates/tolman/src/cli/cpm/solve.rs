@@ -15,9 +15,8 @@ use tolman_systems::cpm::Done;
 use tolman_systems::cpm::MapFile;
 
 use super::{classify, venue};
-use crate::cli::failure::OrBadInput;
 use crate::cli::start::Start;
-use crate::cli::{Failure, file, map};
+use crate::cli::{Failure, OrBadInput, file, map};
 
 /// Drives an e-puck to the goal by learned maps, and exits 1 if it does not arrive
 ///
@@ -106,7 +105,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         let drawing = drawing::drive(&errand.map, &venue.maze, &world, &errand.path);
         file::write(
             path,
-            &Figure::new("drive", &venue.name, drawing).standalone(),
+            Figure::new("drive", &venue.name, drawing).standalone(),
         )?;
     }
     let learned_in = |map: usize| files.get(map).map_or("", |file| file.origin.world.as_str());

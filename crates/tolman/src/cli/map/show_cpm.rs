@@ -12,9 +12,8 @@ use tolman_systems::Origin;
 use tolman_systems::cpm::MapFile;
 
 use super::show::Arguments;
-use crate::cli::failure::OrBadInput;
 use crate::cli::maze::name as maze_name;
-use crate::cli::{Failure, cpm, file};
+use crate::cli::{Failure, OrBadInput, cpm, file};
 
 pub(super) fn carry_out(
     arguments: &Arguments,
@@ -40,7 +39,7 @@ pub(super) fn carry_out(
         }
         let walls = venue.world().or_bad_input()?;
         let drawing = drawing::over_maze(map, &venue.maze, &walls);
-        file::write(path, &Figure::new("map", &venue.name, drawing).standalone())?;
+        file::write(path, Figure::new("map", &venue.name, drawing).standalone())?;
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
     let (fragments, junctions) = (map.fragments().len(), map.junctions().len());

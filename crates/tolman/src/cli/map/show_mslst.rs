@@ -21,7 +21,7 @@ pub(super) fn carry_out(
         let course = run::course(maze)?;
         let drawing = drawing::graph_over_maze(&course, &map.learned);
         let figure = Figure::new("map", &course.name, drawing);
-        file::write(path, &figure.standalone())?;
+        file::write(path, figure.standalone())?;
     }
     let MapFile {
         origin: Origin { world, seed, .. },

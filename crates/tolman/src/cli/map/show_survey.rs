@@ -10,8 +10,7 @@ use tolman_maps::diktiometry::{Link, PlaceId};
 use tolman_papers::diktiometry::drawing::map_over_world;
 
 use super::show::Arguments;
-use crate::cli::failure::OrBadInput;
-use crate::cli::{Failure, file};
+use crate::cli::{Failure, OrBadInput, file};
 
 /// A survey's map: its places with where they lie as seen from the start, and its links.
 pub(super) fn carry_out(
@@ -30,7 +29,7 @@ pub(super) fn carry_out(
     if let Some(path) = &arguments.svg {
         let drawing = map_over_world(&read.office, &survey);
         let figure = Figure::new("map", &read.origin.world, drawing);
-        file::write(path, &figure.standalone())?;
+        file::write(path, figure.standalone())?;
     }
     let score = survey.score();
     let paths = &read.observer.map().paths;

@@ -39,10 +39,10 @@ impl Collection {
 ///
 /// # Errors
 /// What `work` fails with, or if no threads can be started.
-pub(in crate::cli) fn each<T: Send>(
-    mazes: &[(PathBuf, Maze)],
+pub(in crate::cli) fn each<'a, T: Send>(
+    mazes: &'a [(PathBuf, Maze)],
     jobs: Option<u16>,
-    work: impl Fn(&Path, &Maze) -> Result<T, Failure> + Sync,
+    work: impl Fn(&'a Path, &'a Maze) -> Result<T, Failure> + Sync,
 ) -> Result<Vec<T>, Failure> {
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(jobs.map_or(0, usize::from))
@@ -64,15 +64,20 @@ pub(in crate::cli) fn each<T: Send>(
     })
 }
 
-/// Fails if the mouse did not solve some of `all` mazes. A single maze is named.
+/// Fails if the mouse did not solve some of the mazes. A single one is named.
 ///
 /// # Errors
 /// A failure.
-pub(in crate::cli) fn all_solved(unsolved: &[&Path], all: usize) -> Result<(), Failure> {
-    let which = match unsolved {
-        [] => return Ok(()),
-        [only] if all == 1 => input::name(only),
-        _ => format!("{} of {all} mazes", unsolved.len()),
+pub(in crate::cli) fn all_solved(
+    mazes: &[(PathBuf, Maze)],
+    solved: impl Iterator<Item = bool>,
+) -> Result<(), Failure> {
+    let tried = mazes.iter().zip(solved);
+    let unsolved: Vec<_> = tried.filter(|(_, solved)| !solved).collect();
+    let which = match (&unsolved[..], mazes) {
+        ([], _) => return Ok(()),
+        (_, [(only, _)]) => input::name(only),
+        _ => format!("{} of {} mazes", unsolved.len(), mazes.len()),
     };
     Err(Failure::Failed(anyhow!("the mouse did not solve {which}")))
 }

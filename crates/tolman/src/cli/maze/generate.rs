@@ -7,9 +7,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Perfect, Rooms};
 
-use super::Failure;
 use super::output::Output;
-use crate::cli::failure::OrBadInput;
+use super::{Failure, OrBadInput};
 
 /// Makes a maze by chance; the same seed makes the same maze
 #[derive(clap::Args)]

@@ -8,8 +8,7 @@ use anyhow::{Context, anyhow};
 use tolman_experiment::files::files_in;
 use tolman_maze::MazeFile;
 
-use super::Failure;
-use crate::cli::failure::OrBadInput;
+use super::{Failure, OrBadInput};
 
 /// Reads a sound maze from a file in any format, or from stdin if the path is `-`.
 ///

@@ -13,7 +13,7 @@ use std::io::Write;
 
 use clap::Subcommand;
 
-use super::failure::Failure;
+use super::{Failure, OrBadInput, file};
 pub(super) use collection::{Collection, all_solved, each};
 pub(super) use input::{name, read, world_name};
 

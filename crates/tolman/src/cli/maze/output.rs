@@ -7,9 +7,7 @@ use anyhow::Context;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tolman_maze::{Format, MazeFile, write};
 
-use super::Failure;
-use crate::cli::failure::OrBadInput;
-use crate::cli::file;
+use super::{Failure, OrBadInput, file};
 
 /// Where to, and as what.
 #[derive(clap::Args)]
@@ -40,9 +38,7 @@ impl Output {
             None => Ok(out.write_all(text.as_bytes())?),
         }
     }
-}
 
-impl Output {
     /// What the maze file says beside its maze and the format cannot hold, in words.
     fn lost(&self, maze: &MazeFile) -> Option<&'static str> {
         if self.to == Format::Tolman {

@@ -11,24 +11,21 @@ mod view;
 mod window;
 mod wish;
 
+use core::ops::ControlFlow;
 use std::io::{self, IsTerminal};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use ratatui::crossterm::terminal;
-use screen::{Attention, Screen};
+use screen::Screen;
 use tolman_arena::episode::{Step, Trial};
 use view::{LEAST_COLUMNS, LEAST_ROWS, View};
 
+use crate::cli::bar::bar;
 use crate::cli::{Failure, ink, interrupt};
 
 /// Somebody's view of a run.
 #[derive(Debug)]
-pub(super) struct Live<'a> {
-    seen: Seen<'a>,
-}
-
-#[derive(Debug)]
-enum Seen<'a> {
+pub(super) enum Live<'a> {
     /// On the whole terminal, at the pace of who looks.
     Screen(Box<Screen<'a>>),
     /// As a line on stderr, as fast as it goes.
@@ -44,44 +41,37 @@ impl<'a> Live<'a> {
             let view = View::new(trial, brain, ink());
             // A terminal that cannot be drawn on, as without a keyboard, gets the line.
             if let Ok(screen) = Screen::open(view, interrupt::flag()?) {
-                let mut live = Self {
-                    seen: Seen::Screen(Box::new(screen)),
-                };
+                let mut live = Self::Screen(Box::new(screen));
                 live.wait();
                 return Ok(live);
             }
         }
-        let line = ProgressBar::with_draw_target(
-            Some(u64::from(trial.step_limit)),
-            ProgressDrawTarget::stderr(),
-        );
-        Ok(Self {
-            seen: Seen::Line(line.with_style(style())),
-        })
+        let template = "{bar:30} step {pos} of {len}, at {msg}";
+        Ok(Self::Line(bar(trial.step_limit, template)))
     }
 
     /// Shows one more step until the next is due.
     pub(super) fn watch(&mut self, step: &Step<'_>) {
-        match &mut self.seen {
-            Seen::Screen(screen) => {
+        match self {
+            Self::Screen(screen) => {
                 screen.view().take(step);
                 self.wait();
             }
-            Seen::Line(line) => {
+            Self::Line(line) => {
                 let position = step.robot.truth().pose.position;
                 line.set_message(format!("{:.2}, {:.2} m", position.x, position.y));
                 line.inc(1);
             }
-            Seen::Closed(_) => {}
+            Self::Closed(_) => {}
         }
     }
 
     fn wait(&mut self) {
-        if let Seen::Screen(screen) = &mut self.seen {
+        if let Self::Screen(screen) = self {
             match screen.until_next_step() {
-                Ok(Attention::Stays) => {}
-                Ok(Attention::Goes) => self.seen = Seen::Closed(Ok(())),
-                Err(error) => self.seen = Seen::Closed(Err(error)),
+                Ok(ControlFlow::Continue(())) => {}
+                Ok(ControlFlow::Break(())) => *self = Self::Closed(Ok(())),
+                Err(error) => *self = Self::Closed(Err(error)),
             }
         }
     }
@@ -91,16 +81,16 @@ impl<'a> Live<'a> {
     /// # Errors
     /// If the terminal has gone meanwhile.
     pub(super) fn close(self, told: &str) -> io::Result<()> {
-        match self.seen {
-            Seen::Screen(mut screen) => {
+        match self {
+            Self::Screen(mut screen) => {
                 screen.view().told = Some(told.to_owned());
                 screen.until_closed()
             }
-            Seen::Line(line) => {
+            Self::Line(line) => {
                 line.finish_and_clear();
                 Ok(())
             }
-            Seen::Closed(done) => done,
+            Self::Closed(done) => done,
         }
     }
 }
@@ -111,9 +101,4 @@ fn on_terminal() -> bool {
     let able = std::env::var_os("TERM").map_or(cfg!(windows), |terminal| terminal != "dumb");
     let large = |(columns, rows)| columns >= LEAST_COLUMNS && rows >= LEAST_ROWS;
     able && io::stdout().is_terminal() && terminal::size().is_ok_and(large)
-}
-
-fn style() -> ProgressStyle {
-    ProgressStyle::with_template("{bar:30} step {pos} of {len}, at {msg}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar())
 }

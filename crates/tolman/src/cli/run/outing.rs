@@ -16,10 +16,9 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use super::live::Live;
 use super::{picture, trace};
-use crate::cli::failure::OrBadInput;
 use crate::cli::replay_file::{self, Overwrite};
 use crate::cli::start::Start;
-use crate::cli::{Failure, called, file, maze};
+use crate::cli::{Failure, OrBadInput, file, maze};
 
 /// Where and how a robot runs, and what is kept of it.
 #[derive(clap::Args)]
@@ -130,18 +129,17 @@ pub(in crate::cli) fn carry_out(
         live.close(&told).context("the terminal has gone")?;
     }
     if let Some(path) = &arguments.trace {
-        file::write_bytes(path, &trace::of(&trial, &commands)?)?;
+        file::write(path, trace::of(&trial, &commands)?)?;
     }
     if let Some(path) = &arguments.svg {
-        file::write(path, &picture::of(&course, &episode, &told))?;
+        file::write(path, picture::of(&course, &episode, &told))?;
     }
     if let Some(path) = &arguments.replay {
         let title = format!("{} in {}", name.title, course.name);
         let mut replay = recorder.finish(title, &episode);
         let brain = Fact::new("brain", name.title);
         replay.facts.insert(1, brain);
-        let replay = replay.fact("made by", called::command());
-        replay_file::write(path, &replay, overwrite)?;
+        replay_file::write(path, replay, overwrite)?;
     }
     if arguments.json {
         let json = json!({

@@ -9,6 +9,7 @@ use ratatui::widgets::canvas::{Canvas, Circle, Context, Line, Points};
 use tolman_geom::{Point, Pose};
 use tolman_sim::{Area, Zone};
 
+use super::palette;
 use super::view::{Beams, View};
 use super::window::Window;
 
@@ -44,30 +45,40 @@ pub(super) fn draw(view: &View<'_>, frame: &mut Frame<'_>, area: Rect) {
 /// From below to above; what shares a character has the colour of the last.
 fn paint(view: &View<'_>, window: Window, context: &mut Context<'_>) {
     let course = view.trial.course;
-    let palette = &view.palette;
-    floor(context, course.destination(), window, palette.destination);
+    let inked = |color| palette::inked(color, view.ink);
+    floor(
+        context,
+        course.destination(),
+        window,
+        inked(palette::DESTINATION),
+    );
     let trail: Vec<Point> = view.trail.iter().copied().collect();
-    dotted(context, &trail, window.metres_per_dot, palette.trail);
+    dotted(
+        context,
+        &trail,
+        window.metres_per_dot,
+        inked(palette::TRAIL),
+    );
     if let (Beams::Shown, Some(scan)) = (view.beams, &view.scan) {
         let stride = scan.ranges.len().div_ceil(BEAMS).max(1);
         for (beam, range) in (0..).zip(&scan.ranges).step_by(stride) {
             let heading = view.pose.heading.turned(scan.ring.bearing(beam));
             let end = view.pose.position + heading.unit() * *range;
-            line(context, view.pose.position, end, palette.beams);
+            line(context, view.pose.position, end, inked(palette::BEAMS));
         }
     }
     for wall in course.world.walls() {
-        line(context, wall.start, wall.end, palette.walls);
+        line(context, wall.start, wall.end, inked(palette::WALLS));
     }
     let Pose { position, heading } = view.pose;
     context.draw(&Circle::new(
         position.x,
         position.y,
         view.trial.robot.radius,
-        palette.robot,
+        inked(palette::ROBOT),
     ));
     let arrow = arrow(heading.radians());
-    let style = Style::new().fg(palette.robot).bold();
+    let style = Style::new().fg(inked(palette::ROBOT)).bold();
     context.print(position.x, position.y, Text::styled(arrow, style));
 }
 

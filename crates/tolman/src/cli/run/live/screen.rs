@@ -1,6 +1,7 @@
 //! A run on a terminal of its own: draws it, keeps its pace, listens to the keys.
 
 use alloc::sync::Arc;
+use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use std::io;
@@ -22,7 +23,7 @@ const GLANCE: Duration = Duration::from_millis(100);
 
 /// A run on the terminal, which is given back when this is dropped.
 #[derive(Debug)]
-pub(super) struct Screen<'a> {
+pub(in crate::cli::run) struct Screen<'a> {
     terminal: DefaultTerminal,
     view: View<'a>,
     pace: Pace,
@@ -32,13 +33,6 @@ pub(super) struct Screen<'a> {
     drawn: Instant,
     stale: bool,
     interrupted: Arc<AtomicBool>,
-}
-
-/// Whether somebody still looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Attention {
-    Stays,
-    Goes,
 }
 
 impl<'a> Screen<'a> {
@@ -65,11 +59,11 @@ impl<'a> Screen<'a> {
         &mut self.view
     }
 
-    /// Shows what there is until the next step is due.
+    /// Shows what there is until the next step is due. Breaks if nobody looks any more.
     ///
     /// # Errors
     /// If the terminal has gone.
-    pub(super) fn until_next_step(&mut self) -> io::Result<Attention> {
+    pub(super) fn until_next_step(&mut self) -> io::Result<ControlFlow<()>> {
         let now = Instant::now();
         // Behind by more than a moment, as after a pause: nothing to catch up with.
         let late = now.saturating_duration_since(self.due) > GLANCE;
@@ -85,11 +79,11 @@ impl<'a> Screen<'a> {
                 Some(Wish::Step) => {
                     self.pace.motion = Motion::Paused;
                     self.stale = true;
-                    return Ok(Attention::Stays);
+                    return Ok(ControlFlow::Continue(()));
                 }
-                Some(Wish::Close) => return Ok(Attention::Goes),
+                Some(Wish::Close) => return Ok(ControlFlow::Break(())),
                 Some(wish) => self.grant(wish),
-                None if left.is_zero() => return Ok(Attention::Stays),
+                None if left.is_zero() => return Ok(ControlFlow::Continue(())),
                 None => {}
             }
         }

@@ -15,7 +15,7 @@ use tolman_maze::Direction;
 use tolman_robot::{Robot, Scan};
 
 use super::pace::{Motion, Pace};
-use super::palette::Palette;
+use super::palette::{BUMP, LABEL, inked};
 use super::picture;
 use super::wish::Wish;
 
@@ -35,7 +35,7 @@ pub(super) struct View<'a> {
     pub(super) trial: &'a Trial<'a>,
     /// Who chooses the actions.
     brain: String,
-    pub(super) palette: Palette,
+    pub(super) ink: Ink,
     /// Steps made.
     step: u32,
     time_us: u64,
@@ -67,7 +67,7 @@ impl<'a> View<'a> {
         Self {
             trial,
             brain: brain.to_owned(),
-            palette: Palette::of(ink),
+            ink,
             step: 0,
             time_us: 0,
             bumps: 0,
@@ -123,9 +123,7 @@ impl<'a> View<'a> {
     }
 
     fn draw_panel(&self, frame: &mut Frame<'_>, area: Rect, pace: Pace) {
-        let rim = Block::new()
-            .borders(Borders::LEFT)
-            .border_style(Palette::label());
+        let rim = Block::new().borders(Borders::LEFT).border_style(LABEL);
         let inside = rim.inner(area);
         frame.render_widget(rim, area);
         let [above, below] = Layout::vertical([
@@ -147,14 +145,14 @@ impl<'a> View<'a> {
                 told_area,
             );
         }
-        let keys = Wish::KEYS.map(|keys| Line::styled(format!(" {keys}"), Palette::label()));
+        let keys = Wish::KEYS.map(|keys| Line::styled(format!(" {keys}"), LABEL));
         frame.render_widget(Paragraph::new(Vec::from(keys)), below);
     }
 
     fn numbers(&self, pace: Pace) -> Vec<Line<'static>> {
         let Point { coords: at, .. } = self.pose.position;
         let bumps = if self.bump {
-            Style::new().fg(self.palette.bump).bold()
+            Style::new().fg(inked(BUMP, self.ink)).bold()
         } else {
             Style::new()
         };
@@ -186,10 +184,7 @@ impl<'a> View<'a> {
 }
 
 fn field(label: &str, value: Span<'static>) -> Line<'static> {
-    Line::from(vec![
-        Span::styled(format!(" {label:<8}"), Palette::label()),
-        value,
-    ])
+    Line::from(vec![Span::styled(format!(" {label:<8}"), LABEL), value])
 }
 
 /// The end of a name that is too long for the panel: of a path the file.

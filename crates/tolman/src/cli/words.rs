@@ -1,0 +1,18 @@
+//! Words of the command line that stand for values.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// Takes one of some words, each with its help and what it stands for.
+pub(super) fn words<T: Clone + Send + Sync + 'static, const N: usize>(
+    words: [(&'static str, &'static str, T); N],
+) -> impl TypedValueParser<Value = T> {
+    let shown = words
+        .each_ref()
+        .map(|(word, help, _)| PossibleValue::new(*word).help(*help));
+    PossibleValuesParser::new(shown).try_map(move |given: String| {
+        let meant = words.iter().find(|(word, ..)| *word == given);
+        meant
+            .map(|(.., value)| value.clone())
+            .ok_or("this word is none of them")
+    })
+}
