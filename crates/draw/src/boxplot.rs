@@ -71,7 +71,6 @@ pub struct BoxPlot {
 
 impl BoxPlot {
     /// The finished picture.
-    #[expect(clippy::cast_precision_loss, reason = "a plot has few groups")]
     pub fn drawing(&self) -> Drawing {
         let width = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
         let names = self
@@ -204,13 +203,11 @@ fn paper_mark(paper: PaperMark, x: f64, y: &impl Fn(f64) -> f64) -> Markup {
 /// Places the dots: those that share a band of the value axis lie side by side from `left` on, so
 /// that a crowd looks wide; a crowd too wide for its room is packed closer.
 fn swarm(dots: &[Dot], left: f64, y: &impl Fn(f64) -> f64) -> Vec<(f64, Dot)> {
-    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
     let band = |dot: &Dot| (y(dot.value) / DOT).floor() as i64;
     let mut sorted = dots.to_vec();
     sorted.sort_by(|a, b| band(a).cmp(&band(b)).then(a.run.cmp(&b.run)));
     let mut placed = Vec::with_capacity(sorted.len());
     for crowd in sorted.chunk_by(|a, b| band(a) == band(b)) {
-        #[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
         let spacing = DOT.min(DOTS / crowd.len() as f64);
         let mut x = left;
         for dot in crowd {

@@ -74,7 +74,7 @@ impl Axis {
     /// Sets the ends; what lies beyond them is cut off.
     #[must_use]
     pub const fn between(mut self, low: f64, high: f64) -> Self {
-        self.ends = Some(Interval { low, high });
+        self.ends = Some(Interval::new(low, high));
         self
     }
 
@@ -501,15 +501,9 @@ mod tests {
     #[test]
     fn values_lie_where_the_axes_say() {
         let mut chart = square(unit("x"), unit("y"));
-        let spread = Interval {
-            low: 0.25,
-            high: 1.0,
-        };
+        let spread = Interval::new(0.25, 1.0);
         let points = vec![
-            LinePoint::new(0.0, 0.0).spread(Interval {
-                low: 0.0,
-                high: 0.5,
-            }),
+            LinePoint::new(0.0, 0.0).spread(Interval::new(0.0, 0.5)),
             LinePoint::new(1.0, 0.5).spread(spread),
         ];
         chart.line(Line::new("", Series(0), points));

@@ -2,10 +2,6 @@
 
 /// A coordinate rounded to a tenth of a unit, without a needless `.0`. Coordinates that are not
 /// finite are drawn at 0.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the cast saturates and NaN becomes 0"
-)]
 pub(super) fn tenths(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let sign = if tenths < 0 { "-" } else { "" };
@@ -26,11 +22,6 @@ pub(super) fn tick_label(value: f64, step: f64) -> String {
     if exponent < -4.0 {
         return power_of_ten(value, exponent);
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 4"
-    )]
     let decimals = (-exponent).clamp(0.0, 4.0) as usize;
     grouped(&format!("{value:.decimals$}"))
 }

@@ -88,9 +88,9 @@ pub struct Disagreement {
 
 impl Analysis {
     /// Measures runs that are sorted by table, row and index.
-    pub(super) fn of(experiment: &dyn Experiment, runs: &[Run], master_seed: u64) -> Self {
+    pub(super) fn of(experiment: &Experiment, runs: &[Run], master_seed: u64) -> Self {
         let tables = experiment
-            .tables()
+            .tables
             .iter()
             .filter(|table| table.is_filled())
             .map(|table| TableAnalysis {
@@ -144,8 +144,8 @@ impl Analysis {
 
 fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> MetricAnalysis {
     let runs_of = |row: &str| -> Vec<&Run> {
-        let of_row = |run: &&Run| run.table == table.name && run.row == row;
-        runs.iter().filter(of_row).collect()
+        let own = runs.iter().filter(|run| run.is_of(&table.name, row));
+        own.collect()
     };
     let others = match &metric.statistic {
         Statistic::Multiple { of, .. } => runs_of(of),

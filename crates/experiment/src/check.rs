@@ -3,14 +3,14 @@
 use alloc::collections::BTreeSet;
 
 use super::{
-    BoxError, Column, Error, Experiment, Kind, Metric, Options, Presence, Run, Settling, Statistic,
-    Table, Tolerance, plots,
+    BoxError, Column, Entry, Error, Experiment, Kind, Metric, Options, Presence, Run, Settling,
+    Statistic, Table, Tolerance, plots,
 };
 use tolman_draw::Figure;
 
 /// Refuses options that would run nothing, more than there is room for, or could not be written down.
-pub(super) fn options(options: &Options, experiment: &dyn Experiment) -> Result<(), Error> {
-    match options.runs_of(experiment) {
+pub(super) fn options(options: &Options, entry: &Entry) -> Result<(), Error> {
+    match options.runs_of(entry) {
         0 => return Err(Error::Zero { option: "--runs" }),
         1..=Options::MOST_RUNS => {}
         runs => {
@@ -30,14 +30,14 @@ pub(super) fn options(options: &Options, experiment: &dyn Experiment) -> Result<
 }
 
 /// Refuses tables whose rows or metrics could not be told apart or refer to what is not there.
-pub(super) fn tables(experiment: &dyn Experiment) -> Result<(), Error> {
+pub(super) fn tables(experiment: &Experiment) -> Result<(), Error> {
     let refuse = |what: String| {
         Err(Error::Tables {
-            name: experiment.name().to_owned(),
+            name: experiment.entry.name.to_owned(),
             what,
         })
     };
-    let tables = experiment.tables();
+    let tables = &experiment.tables;
     if let Some(name) = repeated(tables.iter().map(|table| &table.name)) {
         return refuse(format!("two tables are named {name:?}"));
     }
@@ -178,8 +178,8 @@ const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
 
 /// Refuses a run, just played or read back, that is no record of its table or has a value that none can
 /// have.
-pub(super) fn run(experiment: &dyn Experiment, run: &Run) -> Result<(), BoxError> {
-    let mut tables = experiment.tables().iter();
+pub(super) fn run(experiment: &Experiment, run: &Run) -> Result<(), BoxError> {
+    let mut tables = experiment.tables.iter();
     let Some(table) = tables.find(|table| table.name == run.table) else {
         return Err(format!("there is no table {:?}", run.table).into());
     };
@@ -205,10 +205,10 @@ pub(super) fn run(experiment: &dyn Experiment, run: &Run) -> Result<(), BoxError
 }
 
 /// Refuses figures whose names do not serve as file names and ids.
-pub(super) fn figures(experiment: &dyn Experiment, figures: &[Figure]) -> Result<(), Error> {
+pub(super) fn figures(experiment: &Experiment, figures: &[Figure]) -> Result<(), Error> {
     let names: Vec<String> = figures.iter().map(|figure| figure.name.clone()).collect();
     figure_names(&names).map_err(|what| Error::Figures {
-        name: experiment.name().to_owned(),
+        name: experiment.entry.name.to_owned(),
         source: what.into(),
     })
 }

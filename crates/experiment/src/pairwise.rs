@@ -51,8 +51,8 @@ impl Pairwise {
             .rows
             .iter()
             .filter_map(|row| {
-                let of_row = |run: &&Run| run.table == table.name && run.row == *row;
-                let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
+                let own = runs.iter().filter(|run| run.is_of(&table.name, row));
+                let runs: Vec<&Run> = own.collect();
                 Some((row, Sample::of(&statistic, &runs, &[], &[])?.numbers()))
             })
             .collect();

@@ -29,9 +29,7 @@ pub trait Record: Serialize + DeserializeOwned {
     /// # Errors
     /// [`RecordError::Read`] if one is no such record.
     fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, RecordError> {
-        let own = runs
-            .iter()
-            .filter(|run| run.table == table && run.row == row);
+        let own = runs.iter().filter(|run| run.is_of(table, row));
         own.map(Run::record).collect()
     }
 

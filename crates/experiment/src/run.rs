@@ -5,7 +5,7 @@ use core::any::type_name;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Column, Kind, Record, RecordError};
+use super::{Column, Kind, Record, RecordError, run_seed};
 
 /// A run to be played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,25 @@ pub struct Run {
     pub fields: Fields,
 }
 
+impl<'a> Job<'a> {
+    /// The run of this number in a row.
+    pub(super) fn of(master_seed: u64, table: &'a str, row: &'a str, run: u32) -> Self {
+        let seed = run_seed(master_seed, table, run);
+        Self {
+            table,
+            row,
+            run,
+            seed,
+        }
+    }
+}
+
 impl Run {
+    /// Whether it is of this row of this table.
+    pub fn is_of(&self, table: &str, row: &str) -> bool {
+        self.table == table && self.row == row
+    }
+
     /// The job that plays this run again.
     pub fn job(&self) -> Job<'_> {
         Job {
@@ -148,10 +166,6 @@ impl Field {
     }
 
     /// Returns what serde reads as this field.
-    #[expect(
-        clippy::cast_possible_wrap,
-        reason = "counts of steps stay far below 2^63"
-    )]
     fn written(&self) -> toml::Value {
         match self {
             Self::Flag(flag) => (*flag).into(),
@@ -191,10 +205,6 @@ impl Field {
     }
 
     /// The number of a count or a number.
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "counts of steps stay far below 2^53"
-    )]
     pub(super) fn as_number(&self) -> Option<f64> {
         match self {
             Self::Count(count) => Some(*count as f64),

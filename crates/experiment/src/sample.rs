@@ -243,7 +243,6 @@ fn zeros_and_ones(flags: &[bool]) -> Vec<f64> {
         .collect()
 }
 
-#[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
 fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }

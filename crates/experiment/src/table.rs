@@ -50,6 +50,13 @@ impl Table {
         self
     }
 
+    /// Adds rows.
+    #[must_use]
+    pub fn rows(mut self, rows: impl IntoIterator<Item = Row>) -> Self {
+        self.rows.extend(rows);
+        self
+    }
+
     /// Whether a row has runs.
     #[must_use]
     pub fn is_filled(&self) -> bool {

@@ -84,11 +84,6 @@ pub(super) fn u_statistic(a: &[f64], b: &[f64]) -> Result<(f64, f64), SampleErro
 ///
 /// N(u; n, m) arrangements have U = u, and N(u; n, m) = N(u; n, m − 1) + N(u − m; n − 1, m): the
 /// greatest value is of the one sample or of the other. Only sums, so nothing cancels.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "U is a whole number between 0 and n m where there are no ties"
-)]
 fn exact_tail(n: usize, m: usize, u: f64) -> f64 {
     let (n, m) = (n.min(m), n.max(m));
     let mut ways = vec![vec![0.0_f64; n * m + 1]; n + 1];

@@ -83,11 +83,6 @@ pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, Sample
 
 /// The probability that the rank sum of `n` differences is `sum` or more under the hypothesis: the
 /// share of subsets of the ranks 1 to n whose sum is that large.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "without ties the sum is a whole number"
-)]
 fn exact_tail(n: usize, sum: f64) -> f64 {
     // Shares rather than numbers of subsets, which would overflow beyond a thousand pairs.
     let mut share = vec![0.0_f64; n * (n + 1) / 2 + 1];

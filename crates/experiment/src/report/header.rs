@@ -21,8 +21,8 @@ pub(super) fn header(outcome: &Outcome) -> Markup {
     html! {
         header {
             button #theme type="button" title="light or dark" aria-label="dark colours" { "◐" }
-            h1 { (outcome.title) }
-            @if !outcome.source.is_empty() { p.source { (outcome.source) } }
+            h1 { (outcome.entry.title) }
+            @if !outcome.entry.source.is_empty() { p.source { (outcome.entry.source) } }
             p.meta {
                 "commit " (outcome.build.commit)
                 " · " (short_compiler(&outcome.build.compiler))

@@ -22,13 +22,13 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
     let mut figures = Vec::new();
     for (number, contest) in (1_u32..).zip(&experiment.contests) {
         for (place, apprentice) in (1_u32..).zip(&contest.apprentices) {
-            let learned = apprentice.learned(contest, &experiment.robot, 0)?;
+            let learned = apprentice.learned(&contest.venue, 0)?;
             let at = format!("{number}-{place}");
             figures.push(states(contest, apprentice, &learned, &at));
             figures.push(graph(contest, apprentice, &learned, &at));
-            let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+            let of_row = |run: &&Run| run.is_of(&contest.venue.table, &apprentice.row);
             let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
-            figures.push(ways(experiment, contest, apprentice, &shown, &at)?);
+            figures.push(ways(contest, apprentice, &shown, &at)?);
         }
         figures.extend(between_maps(contest, runs, number)?);
     }
@@ -85,7 +85,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
     let mut drawn = 0;
     for (index, apprentice) in (0_u32..).zip(&contest.apprentices) {
         let mut maps = vec![(0_u64, 0_u64); MAPS as usize];
-        let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+        let of_row = |run: &&Run| run.is_of(&contest.venue.table, &apprentice.row);
         for run in runs.iter().filter(of_row) {
             let (arrived, all) = &mut maps[(run.run % MAPS) as usize];
             *arrived += u64::from(run.record::<MazeRun>()?.reached);
@@ -119,7 +119,6 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
 
 /// Where the first runs went.
 fn ways(
-    experiment: &Mslst,
     contest: &Contest,
     apprentice: &Apprentice,
     runs: &[&Run],
@@ -127,7 +126,7 @@ fn ways(
 ) -> Result<Figure, BoxError> {
     let mut plan = crate::plan_of_course(&contest.venue.course, WIDTH);
     for run in runs {
-        let (episode, _) = contest.episode(&run.job(), &experiment.robot)?;
+        let (episode, _) = contest.episode(&run.job())?;
         let positions: Vec<Point> = episode.path.iter().map(|pose| pose.position).collect();
         plan.faint_trajectory(&positions, Series(0));
     }

@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{Cell, Direction, Grid, Maze, MazeFile};
 
 use crate::venue::{PaperRow, Venue, large_like};
-use tolman_arena::cast::{Agent, Cast};
+use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
 use tolman_arena::episode;
 use tolman_arena::pioneer;
@@ -241,12 +241,10 @@ fn near(
     corridors: Corridors,
     seed: u64,
 ) -> Result<bool, BoxError> {
-    let robot = pioneer::calibrated();
-    let cast = Cast::default();
     let (mut reached, mut actions, mut steps) = (0, 0, 0);
     for run in 0..RUNS {
-        let trial = venue.trial(&robot, run_seed(seed, "drawings", run));
-        let mut mind = cast.mind(agent, &venue.course, &robot)?;
+        let trial = venue.trial(run_seed(seed, "drawings", run));
+        let mut mind = venue.mind(agent)?;
         let episode = episode::run(&trial, &mut mind, |_| {})?;
         reached += u32::from(episode.reached);
         actions += episode.actions;

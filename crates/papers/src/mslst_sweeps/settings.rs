@@ -8,7 +8,7 @@ use tolman_robot::Ring;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::drawings::{self, Corridors};
-use crate::venue;
+use crate::venue::{self, Venue};
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
@@ -234,15 +234,11 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
 
 /// The paper's two worlds with its limits.
 fn fixed() -> Result<[World; 2], BoxError> {
-    let mut venues = venue::papers()?.into_iter();
-    let mut next = || -> Result<World, BoxError> {
-        let venue = venues.next().ok_or("the paper has two mazes")?;
-        Ok(World::Fixed {
-            steps: venue.step_limit,
-            course: Box::new(venue.course),
-        })
+    let fixed = |venue: Venue| World::Fixed {
+        steps: venue.step_limit,
+        course: Box::new(venue.course),
     };
-    Ok([next()?, next()?])
+    Ok(venue::papers()?.map(fixed))
 }
 
 fn noisy(times: f64) -> LaserPioneerConfig {

@@ -26,8 +26,8 @@ const DOTS: u32 = Series::COLOURS - 1;
 
 pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let first = |table: &str, row: &str| {
-        runs.iter()
-            .find(|run| run.table == table && run.row == row && run.run == 0)
+        let mut runs = runs.iter();
+        runs.find(|run| run.is_of(table, row) && run.run == 0)
     };
     let mut figures = Vec::new();
     for (name, row) in [("states-j", "J 100"), ("states-large", "Large 20")] {
@@ -169,10 +169,7 @@ fn errors(runs: &[Run]) -> Result<Figure, BoxError> {
             .filter_map(|(mark, inputs)| {
                 let values: Vec<f64> = of_row.iter().map(|run| run.errors()[mark]).collect();
                 let at = |share| quantile(&values, share).ok();
-                let spread = Interval {
-                    low: at(0.0)?,
-                    high: at(1.0)?,
-                };
+                let spread = Interval::new(at(0.0)?, at(1.0)?);
                 Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
             });
         chart.line(Line::new(row, Series(series), points.collect()));
