@@ -1,11 +1,9 @@
 //! A frame with two axes: lines with bands of spread, points, and graphs over them.
 
-use core::fmt::Write;
-
 use maud::{Markup, html};
 use tolman_geom::Point;
 
-use super::number::tenths;
+use super::number::{line, tenths};
 use super::scale::{Scale, Spacing};
 use super::words;
 use super::{Drawing, Graph, Series};
@@ -431,19 +429,19 @@ impl Frame<'_> {
         }
     }
 
-    fn line(&self, line: &Line) -> Markup {
-        let values = line.points.iter();
-        let path = path(values.clone().filter_map(|point| self.at(point.x, point.y)));
-        let with_spread = || line.points.iter().filter_map(|p| Some((p.x, p.spread?)));
+    fn line(&self, shown: &Line) -> Markup {
+        let values = shown.points.iter();
+        let path = line(values.clone().filter_map(|point| self.at(point.x, point.y)));
+        let with_spread = || shown.points.iter().filter_map(|p| Some((p.x, p.spread?)));
         let above = with_spread().map(|(x, spread)| (x, spread.high));
         let below: Vec<(f64, f64)> = with_spread().map(|(x, spread)| (x, spread.low)).collect();
         let around = above.chain(below.into_iter().rev());
-        let band = self::path(around.filter_map(|(x, y)| self.at(x, y)));
+        let band = line(around.filter_map(|(x, y)| self.at(x, y)));
         html! {
-            g class=(line.series.class()) {
+            g class=(shown.series.class()) {
                 @if !band.is_empty() { path class="band" d={ (band) "Z" } {} }
                 path class="line" d=(path) {}
-                @if line.points.len() <= 30 {
+                @if shown.points.len() <= 30 {
                     g class="points" {
                         @for (x, y) in values.filter_map(|point| self.at(point.x, point.y)) {
                             circle cx=(tenths(x)) cy=(tenths(y)) r="2.4" {}
@@ -468,16 +466,6 @@ impl Frame<'_> {
             }
         }
     }
-}
-
-fn path(positions: impl Iterator<Item = (f64, f64)>) -> String {
-    let mut path = String::new();
-    for (x, y) in positions {
-        let verb = if path.is_empty() { 'M' } else { 'L' };
-        // Writing to a string cannot fail.
-        let _ = write!(path, "{verb}{} {}", tenths(x), tenths(y));
-    }
-    path
 }
 
 #[cfg(test)]

@@ -12,6 +12,29 @@ pub(super) fn tenths(value: f64) -> String {
     }
 }
 
+/// Path data of a line through places; empty for none.
+pub(super) fn line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
+    joined(places.into_iter().map(place).collect())
+}
+
+/// The same, without a place that rounds to the one before.
+pub(super) fn short_line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
+    let mut places: Vec<String> = places.into_iter().map(place).collect();
+    places.dedup();
+    joined(places)
+}
+
+fn place((x, y): (f64, f64)) -> String {
+    format!("{} {}", tenths(x), tenths(y))
+}
+
+fn joined(places: Vec<String>) -> String {
+    match places.is_empty() {
+        true => String::new(),
+        false => format!("M{}", places.join("L")),
+    }
+}
+
 /// The label of a value on an axis with this distance between labels: as many decimals as that needs,
 /// digits in groups of three, powers of ten where there would be too many.
 pub(super) fn tick_label(value: f64, step: f64) -> String {

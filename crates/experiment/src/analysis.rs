@@ -1,9 +1,7 @@
 //! What the runs say: every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
-use super::{
-    Experiment, Metric, Pair, PaperValue, Reached, Run, Statistic, Table, Verdict, run_seed,
-};
+use super::{Experiment, Metric, Pair, PaperValue, Reached, Run, Table, Verdict, run_seed};
 use tolman_stats::{Interval, Method, PValue};
 
 /// All tables of an experiment, measured.
@@ -147,10 +145,8 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
         let own = runs.iter().filter(|run| run.is_of(&table.name, row));
         own.collect()
     };
-    let others = match &metric.statistic {
-        Statistic::Multiple { of, .. } => runs_of(of),
-        _ => Vec::new(),
-    };
+    let others = metric.statistic.other_row();
+    let others = others.map_or_else(Vec::new, |of| runs_of(of));
     let by_row: Vec<Vec<&Run>> = table.rows.iter().map(|row| runs_of(&row.name)).collect();
     let mut samples = Vec::new();
     for (row, runs) in table.rows.iter().zip(&by_row) {
@@ -162,13 +158,13 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
         .iter()
         .map(|(row, sample)| {
             let stream = format!("bootstrap of {}, {}, {}", table.name, row.name, metric.name);
-            let value = sample.value();
+            let (value, reached) = sample.value();
             let paper = row.paper_value(&metric.name);
             Measured {
                 row: row.name.clone(),
                 n: sample.len() as u64,
                 value,
-                reached: sample.reached(),
+                reached,
                 sd: sample.sd(),
                 mean: sample.mean(),
                 median: sample.median(),
@@ -188,7 +184,7 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
 }
 
 /// Compares every row with the reference row, if the table wants that and the row was measured.
-fn contrast(table: &Table, samples: &[(&super::Row, Sample)], rows: &mut [Measured]) {
+fn contrast(table: &Table, samples: &[(&super::Row, Sample<'_>)], rows: &mut [Measured]) {
     let Some(comparison) = &table.comparison else {
         return;
     };

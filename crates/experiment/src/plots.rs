@@ -1,6 +1,5 @@
 //! The box plots that every experiment gets.
 
-use super::run::Field;
 use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
@@ -45,7 +44,7 @@ fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[R
     let groups = (0..).zip(&table.rows).map(|(i, row)| {
         let runs = runs.iter().filter(|run| run.is_of(&table.name, &row.name));
         let dots = runs.filter_map(|run| {
-            let value = run.fields.get(field).and_then(Field::as_number)?;
+            let value = run.fields.number(field)?;
             Some(Dot {
                 value,
                 run: run.run,
