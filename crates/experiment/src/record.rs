@@ -2,7 +2,6 @@
 
 use alloc::collections::BTreeSet;
 use core::any::type_name;
-use core::fmt;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -186,7 +185,7 @@ pub enum RecordError {
 }
 
 /// The record of a table, without its type.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct RecordType {
     name: &'static str,
     columns: Vec<Column>,
@@ -227,13 +226,6 @@ impl RecordType {
     /// Refuses columns that are not those of the struct.
     pub(super) fn compare(&self) -> Result<(), RecordError> {
         (self.compare)(&self.columns)
-    }
-}
-
-impl fmt::Debug for RecordType {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut debug = f.debug_struct(self.name);
-        debug.field("columns", &self.columns).finish()
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
-use super::{Better, Column, Kind, Pairwise, Record, RecordType, Settling};
+use super::{Better, Column, Contrast, Kind, Pairwise, Record, RecordType, Settling};
 use tolman_stats::PValue;
 
 /// One table of a paper.
@@ -148,11 +148,16 @@ impl Correction {
         }
     }
 
-    /// Corrects p-values.
-    pub(super) fn correct(self, p_values: &[PValue]) -> Vec<PValue> {
-        match self {
-            Self::Bonferroni => tolman_stats::bonferroni(p_values),
-            Self::Holm => tolman_stats::holm(p_values),
+    /// Corrects the p-values of all contrasts that are compared together.
+    pub(super) fn correct<'a>(self, contrasts: impl Iterator<Item = &'a mut Contrast>) {
+        let contrasts: Vec<&mut Contrast> = contrasts.collect();
+        let p_values: Vec<PValue> = contrasts.iter().map(|contrast| contrast.p).collect();
+        let corrected = match self {
+            Self::Bonferroni => tolman_stats::bonferroni(&p_values),
+            Self::Holm => tolman_stats::holm(&p_values),
+        };
+        for (contrast, p) in contrasts.into_iter().zip(corrected) {
+            contrast.p = p;
         }
     }
 }

@@ -112,7 +112,7 @@ impl Contest {
     pub(super) fn table(&self) -> Table {
         let oracle = Agent::Oracle.name();
         let unlocalized = Agent::UnlocalizedOracle.name();
-        let mut table = self
+        let table = self
             .venue
             .table::<ContestRun>()
             .metric(Metric::percent("success_percent", MazeRun::reached))
@@ -131,18 +131,12 @@ impl Contest {
         let names = |agents: &[Agent]| -> Vec<String> {
             agents.iter().map(|agent| agent.name().to_owned()).collect()
         };
-        let mut rows = names(baselines);
-        rows.extend(self.apprentices.iter().map(|one| one.row.clone()));
-        let competitors = rows.clone();
-        rows.extend(names(yardsticks));
-        for name in &rows {
-            table = table.row(self.venue.row(name));
-        }
-        let own = |row: &str| competitors.iter().any(|name| name == row);
-        let paper = PAPER_P
-            .iter()
-            .filter(|(row, ..)| own(row))
-            .map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
+        let apprentices = self.apprentices.iter().map(|one| one.row.clone());
+        let competitors: Vec<String> = names(baselines).into_iter().chain(apprentices).collect();
+        let rows = [competitors.clone(), names(yardsticks)].concat();
+        let own = PAPER_P.iter();
+        let own = own.filter(|(row, ..)| competitors.iter().any(|name| name == row));
+        let paper = own.map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
         let paper = paper.collect();
         let note = format!(
             "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
@@ -150,6 +144,7 @@ impl Contest {
             table.note
         );
         table
+            .rows(rows.iter().map(|name| self.venue.row(name)))
             .pairwise(Pairwise {
                 field: MazeRun::steps.to_owned(),
                 rows: competitors,

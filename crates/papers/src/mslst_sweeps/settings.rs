@@ -43,7 +43,7 @@ pub(super) enum World {
     /// The same for all runs, with a step limit of its own.
     Fixed { course: Box<Course>, steps: u32 },
     /// Another drawing of the Large maze for each run.
-    Redrawn(Corridors),
+    Redrawn(&'static Corridors),
     /// A random maze for each run, without loops.
     Perfect { side: u16 },
     /// A random maze for each run with every other dead end opened.
@@ -87,7 +87,7 @@ impl World {
     fn name(&self) -> String {
         match self {
             Self::Fixed { course, .. } => course.name.clone(),
-            Self::Redrawn(corridors) => format!("Large, redrawn: {}", corridors.name()),
+            Self::Redrawn(corridors) => format!("Large, redrawn: {}", corridors.name),
             Self::Perfect { side } => format!("perfect {side} × {side}"),
             Self::Braided { side } => format!("braided {side} × {side}"),
         }
@@ -142,61 +142,61 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
     let steps = [500, 1000, 2000, 4000, 8000];
     let memories = [1, 2, 4, 6, 8, 12, 16, 24];
     let noises = [0.0, 0.5, 1.0, 1.5, 2.0];
+    let by = |name, title, axis, settings| Sweep {
+        name,
+        title,
+        axis: Some(axis),
+        settings,
+        note: "Large maze, threshold 50.",
+    };
+    let threshold = |threshold| at(threshold, MslstConfig { threshold, ..base });
+    let graph = |graph_actions| {
+        let config = MslstConfig {
+            graph_actions,
+            ..base
+        };
+        at(f64::from(graph_actions), config)
+    };
+    let scans = |scan_steps| at(f64::from(scan_steps), MslstConfig { scan_steps, ..base });
+    let memory = |memory| at(f64::from(memory), MslstConfig { memory, ..base });
+    let noise = |times| Setting {
+        robot: noisy(times),
+        ..at(times, base)
+    };
     Ok(vec![
         Sweep {
-            name: "threshold",
-            title: "The error threshold of the quantizer",
-            axis: Some("threshold, squared robot units"),
-            settings: thresholds
-                .map(|threshold| at(threshold, MslstConfig { threshold, ..base }))
-                .into(),
             note: "Large maze.",
+            ..by(
+                "threshold",
+                "The error threshold of the quantizer",
+                "threshold, squared robot units",
+                thresholds.map(threshold).into(),
+            )
         },
-        Sweep {
-            name: "graph",
-            title: "The length of Phase II",
-            axis: Some("actions of Phase II"),
-            settings: actions
-                .map(|graph_actions| {
-                    let config = MslstConfig {
-                        graph_actions,
-                        ..base
-                    };
-                    at(f64::from(graph_actions), config)
-                })
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
-        Sweep {
-            name: "scans",
-            title: "The length of Phase I",
-            axis: Some("time steps of Phase I"),
-            settings: steps
-                .map(|scan_steps| at(f64::from(scan_steps), MslstConfig { scan_steps, ..base }))
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
-        Sweep {
-            name: "memory",
-            title: "How much is remembered",
-            axis: Some("pairs of state and action"),
-            settings: memories
-                .map(|memory| at(f64::from(memory), MslstConfig { memory, ..base }))
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
-        Sweep {
-            name: "noise",
-            title: "The noise of the motors",
-            axis: Some("times the calibrated noise"),
-            settings: noises
-                .map(|times| Setting {
-                    robot: noisy(times),
-                    ..at(times, base)
-                })
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
+        by(
+            "graph",
+            "The length of Phase II",
+            "actions of Phase II",
+            actions.map(graph).into(),
+        ),
+        by(
+            "scans",
+            "The length of Phase I",
+            "time steps of Phase I",
+            steps.map(scans).into(),
+        ),
+        by(
+            "memory",
+            "How much is remembered",
+            "pairs of state and action",
+            memories.map(memory).into(),
+        ),
+        by(
+            "noise",
+            "The noise of the motors",
+            "times the calibrated noise",
+            noises.map(noise).into(),
+        ),
         Sweep {
             name: "drawings",
             title: "Other drawings of the Large maze",
@@ -212,8 +212,8 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
                     let name = |what: &str| format!("{what}, MSLST {threshold}");
                     [
                         ours.named(name("our drawing")),
-                        redrawn(Corridors::Long).named(name("long corridors")),
-                        redrawn(Corridors::Short).named(name("short corridors")),
+                        redrawn(drawings::LONG).named(name("long corridors")),
+                        redrawn(drawings::SHORT).named(name("short corridors")),
                     ]
                 })
                 .collect(),
