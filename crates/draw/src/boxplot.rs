@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::number::tenths;
+use super::number::{extent, tenths, trimmed};
 use super::scale::Scale;
 use super::words;
 use super::{Drawing, Series};
@@ -85,11 +85,8 @@ impl BoxPlot {
                 .map(|paper| paper.mean + paper.sd.unwrap_or(0.0));
             group.dots.iter().map(|dot| dot.value).chain(reach)
         });
-        let (low, high) = values
-            .filter(|value| value.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(low, high), v| {
-                (low.min(v), high.max(v))
-            });
+        let finite = values.filter(|value| value.is_finite());
+        let (low, high) = extent(finite, (0.0, 0.0));
         let scale = match low < 0.0 {
             true => Scale::linear(1.04 * low, 1.04 * high, 5.0),
             false => Scale::up_to(high, 5.0),
@@ -126,7 +123,7 @@ impl BoxPlot {
                 g class="dots" {
                     @for (x, dot) in swarm(&dots, left + 24.0 + BOX + 8.0, y) {
                         circle cx=(tenths(x)) cy=(tenths(y(dot.value))) r="1.8"
-                            data-run=(dot.run) data-seed=(dot.seed) data-value=(short(dot.value)) {}
+                            data-run=(dot.run) data-seed=(dot.seed) data-value=(trimmed(dot.value, 4)) {}
                     }
                 }
             }
@@ -157,12 +154,6 @@ impl BoxPlot {
         }
         text
     }
-}
-
-/// A value as short as it can be told: at most four decimals.
-fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn finite(dots: &[Dot]) -> Vec<Dot> {

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use tolman_geom::Point;
 
-use super::number::{line, tenths};
+use super::number::{NOTHING, extent, line, tenths};
 use super::scale::{Scale, Spacing};
 use super::words;
 use super::{Drawing, Graph, Series};
@@ -80,11 +80,7 @@ impl Axis {
     fn scale(&self, values: impl Iterator<Item = f64>, steps: f64) -> Scale {
         let positive = self.spacing == Spacing::Log;
         let usable = |value: &f64| value.is_finite() && (!positive || *value > 0.0);
-        let (low, high) = values
-            .filter(usable)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
+        let (low, high) = extent(values.filter(usable), NOTHING);
         let steps = match self.ticks {
             Ticks::Anywhere => steps,
             // Steps of 1 or longer are whole numbers.

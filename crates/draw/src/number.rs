@@ -35,6 +35,22 @@ fn joined(places: Vec<String>) -> String {
     }
 }
 
+/// A value without needless zeros, with at most so many decimals.
+pub(super) fn trimmed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The least and the greatest of values and of `extent`.
+pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (f64, f64) {
+    values.fold(extent, |(low, high), value| {
+        (low.min(value), high.max(value))
+    })
+}
+
+/// Of no values: nothing is below its low end or above its high end.
+pub(super) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
 /// The label of a value on an axis with this distance between labels: as many decimals as that needs,
 /// digits in groups of three, powers of ten where there would be too many.
 pub(super) fn tick_label(value: f64, step: f64) -> String {

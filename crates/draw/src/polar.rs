@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use tolman_robot::{Ring, Scan};
 
-use super::number::{line, tenths};
+use super::number::{line, tenths, trimmed};
 use super::{Drawing, Series};
 
 /// Room around the outer ring for its label, user units.
@@ -75,7 +75,7 @@ impl PolarPlot {
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let middle = tenths(self.middle());
         let (half, full) = (0.5 * self.radius(), self.radius());
-        let reach = format!("{} m", tenths_or_hundredths(self.reach));
+        let reach = format!("{} m", trimmed(self.reach, 2));
         let body = html! {
             circle class="grid" cx=(middle) cy=(middle) r=(tenths(full)) {}
             circle class="grid" cx=(middle) cy=(middle) r=(tenths(half)) {}
@@ -119,12 +119,6 @@ impl PolarPlot {
     }
 }
 
-/// A reach in metres without needless zeros.
-fn tenths_or_hundredths(reach: f64) -> String {
-    let text = format!("{reach:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,7 +152,7 @@ mod tests {
     #[test]
     fn reaches_lose_their_zeros() {
         for (reach, expect) in [(1.25, "1.25"), (8.0, "8"), (2.5, "2.5"), (0.304, "0.3")] {
-            assert_eq!(tenths_or_hundredths(reach), expect);
+            assert_eq!(trimmed(reach, 2), expect);
         }
     }
 }

@@ -110,11 +110,7 @@ impl Setting {
             fixed: Option<venue::World>,
         }
         let fixed = match &self.world {
-            World::Fixed { course, steps } => Some(venue::World {
-                maze: course.maze.to_string(),
-                corridor_width: course.corridor_width,
-                step_limit: *steps,
-            }),
+            World::Fixed { course, steps } => Some(venue::World::of(course, *steps)),
             _ => None,
         };
         Config {

@@ -9,14 +9,13 @@ use super::any::ROWS;
 use super::shapes::ShapesRun;
 use super::states::Mazes;
 use super::{five, shapes, states};
-use tolman_arena::pioneer;
+use crate::plan::model_scan;
 use tolman_draw::{
     Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, NodeMark, Points,
-    PolarPlot, Series, Tiles,
+    Series, Tiles,
 };
 use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{Interval, quantile};
-use tolman_systems::mslst::ROBOT_UNIT;
 
 /// How many data points a picture shows at most.
 const SHOWN: usize = 700;
@@ -77,20 +76,11 @@ fn model_scans(mazes: &Mazes, run: &Run, name: &str) -> Result<Figure, BoxError>
     for scan in &scans {
         *won.entry(network.nearest(scan)?.id).or_default() += 1;
     }
-    let ring = pioneer::ring();
     let mut tiles = Tiles::new(8);
     for (state, id) in (0_u32..).zip(network.ids()) {
-        let metres: Vec<f64> = network
-            .prototype(id)?
-            .map(|range| range * ROBOT_UNIT)
-            .collect();
-        let mut plot = PolarPlot::new(ring.max_range, 92.0);
-        plot.ranges(&ring, &metres, Series(0));
+        let scan = model_scan(network.prototype(id)?, 92.0, format!("State {state}."));
         let share = 100.0 * f64::from(won.get(&id).copied().unwrap_or(0)) / scans.len() as f64;
-        tiles.tile(
-            format!("{state}: {share:.1} %"),
-            plot.drawing(format!("State {state}.")),
-        );
+        tiles.tile(format!("{state}: {share:.1} %"), scan);
     }
     let row = &run.row;
     let title = format!("The states of {row}");

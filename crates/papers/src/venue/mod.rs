@@ -39,11 +39,21 @@ pub(super) struct Venue {
 /// A world as it stands in a configuration.
 #[derive(Debug, Serialize)]
 pub(super) struct World {
-    pub(super) maze: String,
+    maze: String,
     /// In metres.
-    pub(super) corridor_width: f64,
+    corridor_width: f64,
     /// In time steps.
-    pub(super) step_limit: u32,
+    step_limit: u32,
+}
+
+impl World {
+    pub(super) fn of(course: &Course, step_limit: u32) -> Self {
+        Self {
+            maze: course.maze.to_string(),
+            corridor_width: course.corridor_width,
+            step_limit,
+        }
+    }
 }
 
 /// The paper's own worlds.
@@ -113,11 +123,7 @@ impl Venue {
 
     /// What the runs here depend on.
     pub(super) fn world(&self) -> World {
-        World {
-            maze: self.course.maze.to_string(),
-            corridor_width: self.course.corridor_width,
-            step_limit: self.step_limit,
-        }
+        World::of(&self.course, self.step_limit)
     }
 
     /// The run of a seed, from the start that belongs to it.
