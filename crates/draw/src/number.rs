@@ -14,21 +14,21 @@ pub(super) fn tenths(value: f64) -> String {
 
 /// Path data of a line through places; empty for none.
 pub(super) fn line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
-    joined(places.into_iter().map(place).collect())
+    joined(&places.into_iter().map(place).collect::<Vec<_>>())
 }
 
 /// The same, without a place that rounds to the one before.
 pub(super) fn short_line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
     let mut places: Vec<String> = places.into_iter().map(place).collect();
     places.dedup();
-    joined(places)
+    joined(&places)
 }
 
 fn place((x, y): (f64, f64)) -> String {
     format!("{} {}", tenths(x), tenths(y))
 }
 
-fn joined(places: Vec<String>) -> String {
+fn joined(places: &[String]) -> String {
     match places.is_empty() {
         true => String::new(),
         false => format!("M{}", places.join("L")),

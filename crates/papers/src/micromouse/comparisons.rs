@@ -133,6 +133,7 @@ pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxErr
         maze.goals().iter().map(distance).min().unwrap_or(0)
     };
     let cells = Cells(maze);
+    let counted = |Found { cost, expanded, .. }: Found| (cost, Some(expanded));
     let found = match job.row {
         "breadth-first" => {
             let path = path_to(&cells, source, is_goal);
@@ -148,10 +149,6 @@ pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxErr
         expanded,
     };
     Ok(run.fields()?)
-}
-
-fn counted(found: Found) -> (u32, Option<u32>) {
-    (found.cost, Some(found.expanded))
 }
 
 /// Learns one maze.
