@@ -28,7 +28,7 @@ fn runs(jobs: u32) -> String {
         fs::remove_dir_all(&out).unwrap();
     }
     execute(
-        &*experiment,
+        &experiment,
         &options,
         &Build::current("unknown", "unknown"),
         &Silent,

@@ -25,7 +25,7 @@ fn baselines(name: &str, runs: u32, mazes: Vec<PathBuf>) -> Outcome {
     };
     let experiment = open(tolman_papers::catalogue(), "baselines", &options).unwrap();
     execute(
-        &*experiment,
+        &experiment,
         &options,
         &Build::current("unknown", "unknown"),
         &Silent,

@@ -3,12 +3,11 @@
 
 mod links;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 
-use crate::workspace::{cargo, root, succeed};
+use crate::workspace::{cargo, entries, read, root, succeed};
 
 /// Both halves.
 ///
@@ -37,8 +36,7 @@ pub(crate) fn pages() -> Result<()> {
     pages.sort();
     let mut broken = Vec::new();
     for page in &pages {
-        let text =
-            fs::read_to_string(page).with_context(|| format!("cannot read {}", page.display()))?;
+        let text = read(page)?;
         for link in links::of(&text) {
             if let Some(fault) = links::fault(page, &text, link.target) {
                 let page = page.strip_prefix(root()).unwrap_or(page);
@@ -59,10 +57,7 @@ pub(crate) fn pages() -> Result<()> {
 
 /// The Markdown files below `folder`, build products and hidden folders left out.
 fn collect(folder: &Path, pages: &mut Vec<PathBuf>) -> Result<()> {
-    for entry in
-        fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?
-    {
-        let path = entry?.path();
+    for path in entries(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.is_dir() {
             if !name.starts_with('.') && name != "target" && name != "results" {

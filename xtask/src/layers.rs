@@ -6,8 +6,6 @@ mod page;
 mod rules;
 mod size;
 
-use std::fs;
-
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
@@ -48,9 +46,7 @@ pub(crate) fn run() -> Result<()> {
 /// If the page cannot be read or a row of a table is not understood.
 pub(crate) fn read_page() -> Result<Page> {
     let path = workspace::root().join(PAGE);
-    let text =
-        fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
-    Page::parse(&text).with_context(|| PAGE.to_owned())
+    Page::parse(&workspace::read(&path)?).with_context(|| PAGE.to_owned())
 }
 
 const PAGE: &str = "docs/architecture.md";

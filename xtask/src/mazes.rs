@@ -1,10 +1,8 @@
 //! `cargo xtask mazes`: every maze of the project can be read and solved, and the fragments of Mazes 1 to 3 of CPM are distinctive.
 
-use std::fs;
-use std::path::PathBuf;
 use std::process::Command;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 use crate::workspace;
 
@@ -25,18 +23,9 @@ pub(crate) fn run() -> Result<()> {
 /// As [`run`].
 pub(crate) fn check_with(tolman: impl Fn() -> Result<Command>) -> Result<()> {
     let folder = workspace::root().join("mazes");
-    let mut files = Vec::<PathBuf>::new();
-    for folder in [&folder, &folder.join("grid")] {
-        let entries =
-            fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
-        for entry in entries {
-            let path = entry?.path();
-            if matches!(path.extension(), Some(extension) if extension != "md") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
+    let mut files = workspace::entries(&folder)?;
+    files.extend(workspace::entries(&folder.join("grid"))?);
+    files.retain(|path| path.extension().is_some_and(|extension| extension != "md"));
     workspace::succeed(tolman()?.args(["maze", "check"]).args(files))?;
     let distinctive = DISTINCTIVE.map(|name| folder.join(name));
     workspace::succeed(tolman()?.args(["cpm", "distinct"]).args(distinctive))

@@ -1,8 +1,8 @@
 //! Where the workspace lies, and starting other programs in it.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
@@ -34,6 +34,22 @@ pub(crate) fn cargo(arguments: &str) -> Command {
 pub(crate) fn metadata() -> Result<Value> {
     let text = output(&mut cargo("metadata --format-version 1 --no-deps"))?;
     serde_json::from_str(&text).context("`cargo metadata` is not JSON")
+}
+
+/// The text of a file.
+pub(crate) fn read(path: &Path) -> Result<String> {
+    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// What lies in a folder, by name.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+    let entries =
+        fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
+    let mut paths: Vec<_> = entries
+        .map(|entry| Ok(entry?.path()))
+        .collect::<Result<_>>()?;
+    paths.sort();
+    Ok(paths)
 }
 
 /// The folder that cargo builds into.

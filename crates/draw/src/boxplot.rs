@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::number::tenths;
+use super::number::{extent, tenths, trimmed};
 use super::scale::Scale;
 use super::words;
 use super::{Drawing, Series};
@@ -71,7 +71,6 @@ pub struct BoxPlot {
 
 impl BoxPlot {
     /// The finished picture.
-    #[expect(clippy::cast_precision_loss, reason = "a plot has few groups")]
     pub fn drawing(&self) -> Drawing {
         let width = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
         let names = self
@@ -86,11 +85,8 @@ impl BoxPlot {
                 .map(|paper| paper.mean + paper.sd.unwrap_or(0.0));
             group.dots.iter().map(|dot| dot.value).chain(reach)
         });
-        let (low, high) = values
-            .filter(|value| value.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(low, high), v| {
-                (low.min(v), high.max(v))
-            });
+        let finite = values.filter(|value| value.is_finite());
+        let (low, high) = extent(finite, (0.0, 0.0));
         let scale = match low < 0.0 {
             true => Scale::linear(1.04 * low, 1.04 * high, 5.0),
             false => Scale::up_to(high, 5.0),
@@ -127,7 +123,7 @@ impl BoxPlot {
                 g class="dots" {
                     @for (x, dot) in swarm(&dots, left + 24.0 + BOX + 8.0, y) {
                         circle cx=(tenths(x)) cy=(tenths(y(dot.value))) r="1.8"
-                            data-run=(dot.run) data-seed=(dot.seed) data-value=(short(dot.value)) {}
+                            data-run=(dot.run) data-seed=(dot.seed) data-value=(trimmed(dot.value, 4)) {}
                     }
                 }
             }
@@ -158,12 +154,6 @@ impl BoxPlot {
         }
         text
     }
-}
-
-/// A value as short as it can be told: at most four decimals.
-fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn finite(dots: &[Dot]) -> Vec<Dot> {
@@ -204,13 +194,11 @@ fn paper_mark(paper: PaperMark, x: f64, y: &impl Fn(f64) -> f64) -> Markup {
 /// Places the dots: those that share a band of the value axis lie side by side from `left` on, so
 /// that a crowd looks wide; a crowd too wide for its room is packed closer.
 fn swarm(dots: &[Dot], left: f64, y: &impl Fn(f64) -> f64) -> Vec<(f64, Dot)> {
-    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
     let band = |dot: &Dot| (y(dot.value) / DOT).floor() as i64;
     let mut sorted = dots.to_vec();
     sorted.sort_by(|a, b| band(a).cmp(&band(b)).then(a.run.cmp(&b.run)));
     let mut placed = Vec::with_capacity(sorted.len());
     for crowd in sorted.chunk_by(|a, b| band(a) == band(b)) {
-        #[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
         let spacing = DOT.min(DOTS / crowd.len() as f64);
         let mut x = left;
         for dot in crowd {

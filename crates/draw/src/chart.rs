@@ -1,11 +1,9 @@
 //! A frame with two axes: lines with bands of spread, points, and graphs over them.
 
-use core::fmt::Write;
-
 use maud::{Markup, html};
 use tolman_geom::Point;
 
-use super::number::tenths;
+use super::number::{NOTHING, extent, line, tenths};
 use super::scale::{Scale, Spacing};
 use super::words;
 use super::{Drawing, Graph, Series};
@@ -74,7 +72,7 @@ impl Axis {
     /// Sets the ends; what lies beyond them is cut off.
     #[must_use]
     pub const fn between(mut self, low: f64, high: f64) -> Self {
-        self.ends = Some(Interval { low, high });
+        self.ends = Some(Interval::new(low, high));
         self
     }
 
@@ -82,11 +80,7 @@ impl Axis {
     fn scale(&self, values: impl Iterator<Item = f64>, steps: f64) -> Scale {
         let positive = self.spacing == Spacing::Log;
         let usable = |value: &f64| value.is_finite() && (!positive || *value > 0.0);
-        let (low, high) = values
-            .filter(usable)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
+        let (low, high) = extent(values.filter(usable), NOTHING);
         let steps = match self.ticks {
             Ticks::Anywhere => steps,
             // Steps of 1 or longer are whole numbers.
@@ -431,19 +425,19 @@ impl Frame<'_> {
         }
     }
 
-    fn line(&self, line: &Line) -> Markup {
-        let values = line.points.iter();
-        let path = path(values.clone().filter_map(|point| self.at(point.x, point.y)));
-        let with_spread = || line.points.iter().filter_map(|p| Some((p.x, p.spread?)));
+    fn line(&self, shown: &Line) -> Markup {
+        let values = shown.points.iter();
+        let path = line(values.clone().filter_map(|point| self.at(point.x, point.y)));
+        let with_spread = || shown.points.iter().filter_map(|p| Some((p.x, p.spread?)));
         let above = with_spread().map(|(x, spread)| (x, spread.high));
         let below: Vec<(f64, f64)> = with_spread().map(|(x, spread)| (x, spread.low)).collect();
         let around = above.chain(below.into_iter().rev());
-        let band = self::path(around.filter_map(|(x, y)| self.at(x, y)));
+        let band = line(around.filter_map(|(x, y)| self.at(x, y)));
         html! {
-            g class=(line.series.class()) {
+            g class=(shown.series.class()) {
                 @if !band.is_empty() { path class="band" d={ (band) "Z" } {} }
                 path class="line" d=(path) {}
-                @if line.points.len() <= 30 {
+                @if shown.points.len() <= 30 {
                     g class="points" {
                         @for (x, y) in values.filter_map(|point| self.at(point.x, point.y)) {
                             circle cx=(tenths(x)) cy=(tenths(y)) r="2.4" {}
@@ -470,16 +464,6 @@ impl Frame<'_> {
     }
 }
 
-fn path(positions: impl Iterator<Item = (f64, f64)>) -> String {
-    let mut path = String::new();
-    for (x, y) in positions {
-        let verb = if path.is_empty() { 'M' } else { 'L' };
-        // Writing to a string cannot fail.
-        let _ = write!(path, "{verb}{} {}", tenths(x), tenths(y));
-    }
-    path
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -501,15 +485,9 @@ mod tests {
     #[test]
     fn values_lie_where_the_axes_say() {
         let mut chart = square(unit("x"), unit("y"));
-        let spread = Interval {
-            low: 0.25,
-            high: 1.0,
-        };
+        let spread = Interval::new(0.25, 1.0);
         let points = vec![
-            LinePoint::new(0.0, 0.0).spread(Interval {
-                low: 0.0,
-                high: 0.5,
-            }),
+            LinePoint::new(0.0, 0.0).spread(Interval::new(0.0, 0.5)),
             LinePoint::new(1.0, 0.5).spread(spread),
         ];
         chart.line(Line::new("", Series(0), points));

@@ -1,12 +1,10 @@
 //! A graph whose nodes lie at coordinates of their own: a learned map, a network over its data.
 
-use core::fmt::Write;
-
 use maud::{Markup, html};
 use tolman_geom::Point;
 
 use super::Series;
-use super::number::tenths;
+use super::number::{line, tenths};
 use super::words;
 
 /// A graph to be drawn over a [`Plan`](super::Plan) or in a [`Chart`](super::Chart), each node at its
@@ -172,16 +170,11 @@ impl Graph {
 
     /// The labels of nodes, each with where its text begins: beside its node, where it covers least of the nodes, the signs and the labels before it.
     fn labels(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(&str, (f64, f64))> {
-        let labelled = self
-            .nodes
-            .iter()
-            .filter(|node| is_finite(node) && !node.label.is_empty());
         let nodes = self.nodes.iter().filter(|node| is_finite(node));
+        let labelled = nodes.clone().filter(|node| !node.label.is_empty());
         let nodes = nodes.map(|node| Patch::about(at(node.position), self.radius, self.radius));
-        let signs = self
-            .signs
-            .iter()
-            .map(|sign| Patch::about(at(*sign), 5.0, 5.0));
+        let signs = self.signs.iter();
+        let signs = signs.map(|sign| Patch::about(at(*sign), 5.0, 5.0));
         // Without labels nothing is to be laid out.
         let mut taken: Vec<Patch> = Vec::new();
         if labelled.clone().next().is_some() {
@@ -195,15 +188,12 @@ impl Graph {
                 let label = Patch::of_text(x, y, width);
                 taken.iter().map(|other| label.overlap(other)).sum::<f64>()
             };
-            let mut best = (f64::INFINITY, (0.0, 0.0));
-            for place in self.beside_node(at(node.position), width) {
-                let covered = covered(place);
-                // Of equals the first.
-                if covered < best.0 {
-                    best = (covered, place);
-                }
-            }
-            let (_, (x, y)) = best;
+            let places = self.beside_node(at(node.position), width);
+            // Of equals the first.
+            let best = places
+                .into_iter()
+                .min_by(|a, b| covered(*a).total_cmp(&covered(*b)));
+            let Some((x, y)) = best else { continue };
             taken.push(Patch::of_text(x, y, width));
             placed.push((node.label.as_str(), (x, y)));
         }
@@ -242,26 +232,12 @@ impl Graph {
     fn lines(&self, at: &dyn Fn(Point) -> (f64, f64)) -> Vec<(Series, EdgeLine, String)> {
         let mut paths: Vec<(Series, EdgeLine, String)> = Vec::new();
         for (edge, [from, to]) in self.sound_edges() {
-            let ((x0, y0), (x1, y1)) = (at(from), at(to));
-            let same = |path: &&mut (Series, EdgeLine, String)| {
-                path.0 == edge.series && path.1 == edge.line
-            };
-            let index = match paths.iter_mut().position(|path| same(&path)) {
-                Some(index) => index,
-                None => {
-                    paths.push((edge.series, edge.line, String::new()));
-                    paths.len() - 1
-                }
-            };
-            // Writing to a string cannot fail.
-            let _ = write!(
-                paths[index].2,
-                "M{} {}L{} {}",
-                tenths(x0),
-                tenths(y0),
-                tenths(x1),
-                tenths(y1)
-            );
+            let shown = line([at(from), at(to)]);
+            let mut same = paths.iter_mut();
+            match same.find(|path| (path.0, path.1) == (edge.series, edge.line)) {
+                Some((_, _, path)) => path.push_str(&shown),
+                None => paths.push((edge.series, edge.line, shown)),
+            }
         }
         paths
     }
@@ -282,16 +258,12 @@ impl Graph {
                 let size = 1.4 * self.radius;
                 let (ux, uy) = (size * dx / length, size * dy / length);
                 let (x, y) = (x0 + dx * 2.0 / 3.0, y0 + dy * 2.0 / 3.0);
-                let path = format!(
-                    "M{} {}L{} {}L{} {}Z",
-                    tenths(x + ux),
-                    tenths(y + uy),
-                    tenths(x - ux - 0.7 * uy),
-                    tenths(y - uy + 0.7 * ux),
-                    tenths(x - ux + 0.7 * uy),
-                    tenths(y - uy - 0.7 * ux)
-                );
-                Some((path, edge.series))
+                let head = line([
+                    (x + ux, y + uy),
+                    (x - ux - 0.7 * uy, y - uy + 0.7 * ux),
+                    (x - ux + 0.7 * uy, y - uy - 0.7 * ux),
+                ]);
+                Some((head + "Z", edge.series))
             })
             .collect()
     }

@@ -45,7 +45,6 @@ pub struct HeatMap {
 
 impl HeatMap {
     /// The finished picture; `description` says in words what it shows.
-    #[expect(clippy::cast_precision_loss, reason = "far fewer cells than 2^53")]
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let widest = |texts: &[String]| texts.iter().map(|t| words::width(t)).fold(0.0, f64::max);
         let written = self

@@ -2,10 +2,6 @@
 
 /// A coordinate rounded to a tenth of a unit, without a needless `.0`. Coordinates that are not
 /// finite are drawn at 0.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the cast saturates and NaN becomes 0"
-)]
 pub(super) fn tenths(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let sign = if tenths < 0 { "-" } else { "" };
@@ -15,6 +11,45 @@ pub(super) fn tenths(value: f64) -> String {
         rest => format!("{sign}{whole}.{rest}"),
     }
 }
+
+/// Path data of a line through places; empty for none.
+pub(super) fn line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
+    joined(&places.into_iter().map(place).collect::<Vec<_>>())
+}
+
+/// The same, without a place that rounds to the one before.
+pub(super) fn short_line(places: impl IntoIterator<Item = (f64, f64)>) -> String {
+    let mut places: Vec<String> = places.into_iter().map(place).collect();
+    places.dedup();
+    joined(&places)
+}
+
+fn place((x, y): (f64, f64)) -> String {
+    format!("{} {}", tenths(x), tenths(y))
+}
+
+fn joined(places: &[String]) -> String {
+    match places.is_empty() {
+        true => String::new(),
+        false => format!("M{}", places.join("L")),
+    }
+}
+
+/// A value without needless zeros, with at most so many decimals.
+pub(super) fn trimmed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The least and the greatest of values and of `extent`.
+pub(super) fn extent(values: impl Iterator<Item = f64>, extent: (f64, f64)) -> (f64, f64) {
+    values.fold(extent, |(low, high), value| {
+        (low.min(value), high.max(value))
+    })
+}
+
+/// Of no values: nothing is below its low end or above its high end.
+pub(super) const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 /// The label of a value on an axis with this distance between labels: as many decimals as that needs,
 /// digits in groups of three, powers of ten where there would be too many.
@@ -26,11 +61,6 @@ pub(super) fn tick_label(value: f64, step: f64) -> String {
     if exponent < -4.0 {
         return power_of_ten(value, exponent);
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and 4"
-    )]
     let decimals = (-exponent).clamp(0.0, 4.0) as usize;
     grouped(&format!("{value:.decimals$}"))
 }

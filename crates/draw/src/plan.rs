@@ -1,12 +1,10 @@
 //! The plan of a world, seen from above.
 
-use core::fmt::Write;
-
 use maud::{Markup, html};
 use tolman_geom::Point;
 use tolman_sim::{Bounds, World};
 
-use super::number::tenths;
+use super::number::{line, short_line, tenths};
 use super::simplify::simplified;
 use super::words;
 use super::{Drawing, Graph, Region, Series, Shade};
@@ -77,19 +75,8 @@ impl Plan {
     pub fn of_walls(walls: &[[Point; 2]], width: f64) -> Self {
         let bounds = Bounds::of(walls.iter().flatten().copied());
         let mut plan = Self::of_bounds(&bounds, width);
-        let mut path = String::new();
-        for [from, to] in walls {
-            let ((x0, y0), (x1, y1)) = (plan.at(*from), plan.at(*to));
-            // Writing to a string cannot fail.
-            let _ = write!(
-                path,
-                "M{} {}L{} {}",
-                tenths(x0),
-                tenths(y0),
-                tenths(x1),
-                tenths(y1)
-            );
-        }
+        let lines = walls.iter().map(|wall| line(wall.map(|end| plan.at(end))));
+        let path: String = lines.collect();
         plan.walls = html! { path class="wall" stroke-width="2.5" d=(path) {} };
         plan
     }
@@ -278,22 +265,8 @@ impl Plan {
     /// SVG path data through positions. Corners that nobody would see are left out, and so is a place
     /// that rounds to the one before.
     fn path(&self, positions: &[Point]) -> String {
-        let places: Vec<(f64, f64)> = positions
-            .iter()
-            .map(|position| self.at(*position))
-            .collect();
-        let mut path = String::new();
-        let mut last = (String::new(), String::new());
-        for (x, y) in simplified(&places) {
-            let here = (tenths(x), tenths(y));
-            if here != last {
-                let verb = if path.is_empty() { 'M' } else { 'L' };
-                // Writing to a string cannot fail.
-                let _ = write!(path, "{verb}{} {}", here.0, here.1);
-                last = here;
-            }
-        }
-        path
+        let places = positions.iter().map(|position| self.at(*position));
+        short_line(simplified(&places.collect::<Vec<_>>()))
     }
 }
 

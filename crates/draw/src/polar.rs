@@ -1,11 +1,9 @@
 //! Scans as seen from the robot.
 
-use core::fmt::Write;
-
 use maud::{Markup, html};
 use tolman_robot::{Ring, Scan};
 
-use super::number::tenths;
+use super::number::{line, tenths, trimmed};
 use super::{Drawing, Series};
 
 /// Room around the outer ring for its label, user units.
@@ -54,28 +52,20 @@ impl PolarPlot {
 
     /// Adds one range for each beam of a ring, such as a prototype that a quantizer has learned.
     pub fn ranges(&mut self, ring: &Ring, ranges: &[f64], series: Series) {
-        let mut outline = String::new();
-        let mut met = Vec::new();
-        for (beam, &range) in (0..ring.beams).zip(ranges) {
-            let (x, y) = self.at(ring.bearing(beam), range);
-            let verb = if outline.is_empty() { 'M' } else { 'L' };
-            // Writing to a string cannot fail.
-            let _ = write!(outline, "{verb}{} {}", tenths(x), tenths(y));
-            if range < ring.max_range.min(self.reach) {
-                met.push((x, y));
-            }
-        }
+        let beams = (0..ring.beams).zip(ranges);
+        let ends = beams.map(|(beam, range)| (self.at(ring.bearing(beam), *range), *range));
+        let reach = ring.max_range.min(self.reach);
+        let met = ends.clone().filter(|(_, range)| *range < reach);
         // A fan ends at the robot, a whole turn at its first beam.
         let turn = ring.spacing * f64::from(ring.beams);
-        if turn < 0.99 * core::f64::consts::TAU {
-            let middle = tenths(self.middle());
-            let _ = write!(outline, "L{middle} {middle}");
-        }
+        let middle =
+            (turn < 0.99 * core::f64::consts::TAU).then_some((self.middle(), self.middle()));
+        let outline = line(ends.map(|(end, _)| end).chain(middle));
         self.layers.push(html! {
             g class=(series.class()) {
                 path class="outline" d={ (outline) "Z" } {}
                 g class="points" {
-                    @for (x, y) in met { circle cx=(tenths(x)) cy=(tenths(y)) r="1.5" {} }
+                    @for ((x, y), _) in met { circle cx=(tenths(x)) cy=(tenths(y)) r="1.5" {} }
                 }
             }
         });
@@ -85,7 +75,7 @@ impl PolarPlot {
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let middle = tenths(self.middle());
         let (half, full) = (0.5 * self.radius(), self.radius());
-        let reach = format!("{} m", tenths_or_hundredths(self.reach));
+        let reach = format!("{} m", trimmed(self.reach, 2));
         let body = html! {
             circle class="grid" cx=(middle) cy=(middle) r=(tenths(full)) {}
             circle class="grid" cx=(middle) cy=(middle) r=(tenths(half)) {}
@@ -129,12 +119,6 @@ impl PolarPlot {
     }
 }
 
-/// A reach in metres without needless zeros.
-fn tenths_or_hundredths(reach: f64) -> String {
-    let text = format!("{reach:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,7 +152,7 @@ mod tests {
     #[test]
     fn reaches_lose_their_zeros() {
         for (reach, expect) in [(1.25, "1.25"), (8.0, "8"), (2.5, "2.5"), (0.304, "0.3")] {
-            assert_eq!(tenths_or_hundredths(reach), expect);
+            assert_eq!(trimmed(reach, 2), expect);
         }
     }
 }

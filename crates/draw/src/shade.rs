@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::Series;
-use super::number::tenths;
+use super::number::{NOTHING, extent, tenths};
 
 /// How values become depths of one colour: none at the low end, full at the high end. Works on light and
 /// dark pages alike, and one colour tells more from less to every reader.
@@ -36,9 +36,7 @@ impl Shade {
     /// From the least to the greatest of these values; those that are not finite do not count.
     pub fn of(title: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
         let finite = values.into_iter().filter(|value| value.is_finite());
-        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
+        let (low, high) = extent(finite, NOTHING);
         if low <= high {
             Self::new(title, low, high)
         } else {

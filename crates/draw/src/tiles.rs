@@ -48,7 +48,6 @@ impl Tiles {
     }
 
     /// The finished picture; `description` says in words what it shows.
-    #[expect(clippy::cast_precision_loss, reason = "far fewer tiles than 2^53")]
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let widest = |size: fn(&Drawing) -> f64| {
             self.tiles
@@ -91,11 +90,6 @@ impl Tiles {
 }
 
 /// As much of a caption as there is room for.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates"
-)]
 fn cut(caption: &str, room: f64) -> String {
     // Small text is ten user units high and not twelve.
     let most = (room / words::width("x") * 1.2) as usize;

@@ -8,7 +8,6 @@ use super::number::tenths;
 pub(super) const LINE: f64 = 14.0;
 
 /// About the width of a text in the font of drawings, user units.
-#[expect(clippy::cast_precision_loss, reason = "far fewer characters than 2^53")]
 pub(super) fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
@@ -39,7 +38,6 @@ pub(super) fn lines(text: &str, most: usize) -> Vec<String> {
 }
 
 /// Lines centred below each other, the first with its base at `y`.
-#[expect(clippy::cast_precision_loss, reason = "three lines at most")]
 pub(super) fn centred(lines: &[String], x: f64, y: f64) -> Markup {
     html! {
         @for (i, line) in lines.iter().enumerate() {

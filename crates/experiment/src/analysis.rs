@@ -1,9 +1,7 @@
 //! What the runs say: every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
-use super::{
-    Experiment, Metric, Pair, PaperValue, Reached, Run, Statistic, Table, Verdict, run_seed,
-};
+use super::{Experiment, Metric, Pair, PaperValue, Reached, Row, Run, Table, Verdict, run_seed};
 use tolman_stats::{Interval, Method, PValue};
 
 /// All tables of an experiment, measured.
@@ -86,11 +84,20 @@ pub struct Disagreement {
     pub accepted: Interval,
 }
 
+impl Contrast {
+    /// How two samples differ, not corrected; `None` if one has no numbers.
+    pub(super) fn of(a: &[f64], b: &[f64]) -> Option<Self> {
+        let p = tolman_stats::mann_whitney(a, b, Method::Auto).ok()?.p;
+        let a12 = tolman_stats::a12(a, b).ok()?;
+        Some(Self { p, a12 })
+    }
+}
+
 impl Analysis {
     /// Measures runs that are sorted by table, row and index.
-    pub(super) fn of(experiment: &dyn Experiment, runs: &[Run], master_seed: u64) -> Self {
+    pub(super) fn of(experiment: &Experiment, runs: &[Run], master_seed: u64) -> Self {
         let tables = experiment
-            .tables()
+            .tables
             .iter()
             .filter(|table| table.is_filled())
             .map(|table| TableAnalysis {
@@ -111,22 +118,18 @@ impl Analysis {
 
     /// The values that do not match the paper's, for `--check`.
     pub fn disagreements(&self) -> Vec<Disagreement> {
-        let mut found = Vec::new();
-        for (table, metric, measured) in self.values() {
-            if let (Some(paper), Some(verdict)) = (&measured.paper, measured.verdict)
-                && !verdict.matches
-            {
-                found.push(Disagreement {
-                    table: table.name.clone(),
-                    row: measured.row.clone(),
-                    metric: metric.name.clone(),
-                    ours: measured.value,
-                    paper: paper.value,
-                    accepted: verdict.accepted,
-                });
-            }
-        }
-        found
+        let disagreement = |(table, metric, measured): (&Table, &Metric, &Measured)| {
+            let (paper, verdict) = (measured.paper.as_ref()?, measured.verdict?);
+            (!verdict.matches).then(|| Disagreement {
+                table: table.name.clone(),
+                row: measured.row.clone(),
+                metric: metric.name.clone(),
+                ours: measured.value,
+                paper: paper.value,
+                accepted: verdict.accepted,
+            })
+        };
+        self.values().filter_map(disagreement).collect()
     }
 
     /// Every measured value with its table and metric.
@@ -144,13 +147,11 @@ impl Analysis {
 
 fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> MetricAnalysis {
     let runs_of = |row: &str| -> Vec<&Run> {
-        let of_row = |run: &&Run| run.table == table.name && run.row == row;
-        runs.iter().filter(of_row).collect()
+        let own = runs.iter().filter(|run| run.is_of(&table.name, row));
+        own.collect()
     };
-    let others = match &metric.statistic {
-        Statistic::Multiple { of, .. } => runs_of(of),
-        _ => Vec::new(),
-    };
+    let others = metric.statistic.other_row();
+    let others = others.map_or_else(Vec::new, |of| runs_of(of));
     let by_row: Vec<Vec<&Run>> = table.rows.iter().map(|row| runs_of(&row.name)).collect();
     let mut samples = Vec::new();
     for (row, runs) in table.rows.iter().zip(&by_row) {
@@ -162,13 +163,13 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
         .iter()
         .map(|(row, sample)| {
             let stream = format!("bootstrap of {}, {}, {}", table.name, row.name, metric.name);
-            let value = sample.value();
+            let (value, reached) = sample.value();
             let paper = row.paper_value(&metric.name);
             Measured {
                 row: row.name.clone(),
                 n: sample.len() as u64,
                 value,
-                reached: sample.reached(),
+                reached,
                 sd: sample.sd(),
                 mean: sample.mean(),
                 median: sample.median(),
@@ -188,32 +189,20 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
 }
 
 /// Compares every row with the reference row, if the table wants that and the row was measured.
-fn contrast(table: &Table, samples: &[(&super::Row, Sample)], rows: &mut [Measured]) {
+fn contrast(table: &Table, samples: &[(&Row, Sample<'_>)], rows: &mut [Measured]) {
     let Some(comparison) = &table.comparison else {
         return;
     };
-    let Some((_, reference)) = samples
-        .iter()
-        .find(|(row, _)| row.name == comparison.reference)
-    else {
+    let is_reference = |row: &Row| row.name == comparison.reference;
+    let Some((_, reference)) = samples.iter().find(|(row, _)| is_reference(row)) else {
         return;
     };
     let reference = reference.numbers();
-    let mut compared = Vec::new();
-    for (place, (row, sample)) in samples.iter().enumerate() {
-        let numbers = sample.numbers();
-        if row.name != comparison.reference
-            && let Ok(test) = tolman_stats::mann_whitney(&numbers, &reference, Method::Auto)
-            && let Ok(a12) = tolman_stats::a12(&numbers, &reference)
-        {
-            compared.push((place, test.p, a12));
+    for ((row, sample), measured) in samples.iter().zip(&mut *rows) {
+        if !is_reference(row) {
+            measured.contrast = Contrast::of(&sample.numbers(), &reference);
         }
     }
-    let p_values: Vec<PValue> = compared.iter().map(|(_, p, _)| *p).collect();
-    for ((place, _, a12), p) in compared
-        .into_iter()
-        .zip(comparison.correction.correct(&p_values))
-    {
-        rows[place].contrast = Some(Contrast { p, a12 });
-    }
+    let contrasts = rows.iter_mut().filter_map(|row| row.contrast.as_mut());
+    comparison.correction.correct(contrasts);
 }

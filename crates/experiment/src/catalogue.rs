@@ -1,42 +1,35 @@
 //! Experiments by their names.
 
-use super::chosen::choose;
 use super::{BoxError, Error, Experiment, Options};
 
 /// One experiment of a catalogue.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// The name it is called by.
+    /// The name it is called by on the command line and in `summary.json`.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// What it is, in one line: the title of the report.
     pub title: &'static str,
+    /// The paper whose tables these are, as a reader would cite it; empty if there is none.
+    pub source: &'static str,
+    /// Runs of each row when the caller names no number.
+    pub runs: u32,
+    /// Runs of each row under `--quick`, for a first look.
+    pub quick_runs: u32,
     /// Makes it ready: reads the mazes that the options name.
-    pub open: fn(&Options) -> Result<Box<dyn Experiment>, BoxError>,
+    pub open: fn(&Options) -> Result<Experiment, BoxError>,
 }
 
 /// Makes the experiment of a catalogue that bears this name ready.
 ///
 /// # Errors
-/// [`Error::Unknown`] if there is none of that name, [`Error::Open`] if what it needs cannot be read, [`Error::NoRow`]
-/// if it lacks a table that the options choose.
-pub fn open(
-    catalogue: &[Entry],
-    name: &str,
-    options: &Options,
-) -> Result<Box<dyn Experiment>, Error> {
-    let entry = catalogue
-        .iter()
-        .find(|entry| entry.name == name)
-        .ok_or_else(|| {
-            let known: Vec<&str> = catalogue.iter().map(|entry| entry.name).collect();
-            Error::Unknown {
-                name: name.to_owned(),
-                known: known.join(", "),
-            }
-        })?;
+/// [`Error::Unknown`] if there is none of that name, or it lacks a table that the options choose; [`Error::Open`] if what
+/// it needs cannot be read.
+pub fn open(catalogue: &[Entry], name: &str, options: &Options) -> Result<Experiment, Error> {
+    let names = catalogue.iter().map(|entry| entry.name);
+    let entry = &catalogue[Error::place_of("experiment", name, names)?];
     let experiment = (entry.open)(options).map_err(|source| Error::Open {
         name: name.to_owned(),
         source,
     })?;
-    choose(experiment, &options.tables)
+    experiment.choose(&options.tables)
 }

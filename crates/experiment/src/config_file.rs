@@ -22,26 +22,18 @@ pub(super) struct ConfigFile {
 
 impl ConfigFile {
     /// The configuration of an experiment that is about to run.
-    pub(super) fn new(
-        experiment: &dyn Experiment,
-        options: &Options,
-        build: &Build,
-    ) -> Result<Self, Error> {
-        let name = experiment.name().to_owned();
-        let configuration = experiment.config().map_err(|source| Error::Config {
-            name: name.clone(),
-            source,
-        })?;
-        Ok(Self {
+    pub(super) fn new(experiment: &Experiment, options: &Options, build: &Build) -> Self {
+        let entry = &experiment.entry;
+        Self {
             format: FORMAT.to_owned(),
             version: 1,
-            command: options.command_of(&name, experiment),
-            experiment: name,
+            command: options.command_of(entry),
+            experiment: entry.name.to_owned(),
             seed: options.seed,
-            runs: options.runs_of(experiment),
+            runs: options.runs_of(entry),
             build: build.clone(),
-            configuration,
-        })
+            configuration: experiment.config.clone(),
+        }
     }
 
     /// Reads the text of a `config.toml`; `None` if it is none of ours.
@@ -53,9 +45,9 @@ impl ConfigFile {
 
     /// The text of `config.toml`.
     pub(super) fn text(&self) -> Result<String, Error> {
-        toml::to_string_pretty(self).map_err(|error| Error::Config {
+        toml::to_string_pretty(self).map_err(|source| Error::Config {
             name: self.experiment.clone(),
-            source: error.into(),
+            source,
         })
     }
 

@@ -9,9 +9,11 @@ use super::{BoxError, Job};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// There is no experiment of that name.
-    #[error("there is no experiment named {name:?}; choose one of: {known}")]
+    /// There is no experiment, table or row of that name.
+    #[error("there is no {what} named {name:?}; choose one of: {known}")]
     Unknown {
+        /// `experiment`, `table` or `row`.
+        what: &'static str,
         /// The name asked for.
         name: String,
         /// The names there are.
@@ -92,7 +94,7 @@ pub enum Error {
         /// The experiment.
         name: String,
         /// Why.
-        source: BoxError,
+        source: toml::ser::Error,
     },
     /// The summary cannot be written as JSON.
     #[error("the summary of experiment {name} cannot be written as JSON")]
@@ -123,16 +125,6 @@ pub enum Error {
         seed: u64,
         /// Why.
         source: BoxError,
-    },
-    /// There is no such table or row.
-    #[error("there is no {what} named {name:?}; choose one of: {known}")]
-    NoRow {
-        /// `table` or `row`.
-        what: &'static str,
-        /// The name asked for.
-        name: String,
-        /// The names there are.
-        known: String,
     },
     /// The runs of a table cannot be replayed.
     #[error("the runs of table {table} are not recorded, so there is nothing to replay")]
@@ -177,6 +169,22 @@ pub enum Error {
 }
 
 impl Error {
+    /// The place of a name among those there are.
+    pub(super) fn place_of<'a>(
+        what: &'static str,
+        name: &str,
+        mut known: impl Iterator<Item = &'a str> + Clone,
+    ) -> Result<usize, Self> {
+        let all = known.clone();
+        known
+            .position(|known| known == name)
+            .ok_or_else(|| Self::Unknown {
+                what,
+                name: name.to_owned(),
+                known: all.collect::<Vec<_>>().join(", "),
+            })
+    }
+
     /// A run that could not be played.
     pub(super) fn run(job: &Job<'_>, source: BoxError) -> Self {
         Self::Run {
@@ -200,7 +208,6 @@ impl Error {
                 | Self::Seed { .. }
                 | Self::ForeignFolder { .. }
                 | Self::Busy { .. }
-                | Self::NoRow { .. }
                 | Self::NoReplay { .. }
                 | Self::NoRuns { .. }
         )

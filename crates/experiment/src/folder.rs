@@ -64,7 +64,7 @@ impl Folder {
     /// `spare.jsonl`. Returns the kept ones.
     pub(super) fn resume(
         &self,
-        experiment: &dyn Experiment,
+        experiment: &Experiment,
         master_seed: u64,
         runs: u32,
         progress: &dyn Progress,

@@ -4,7 +4,7 @@ use std::env;
 use std::path::PathBuf;
 use std::thread;
 
-use super::Experiment;
+use super::Entry;
 use crate::shell::quoted;
 
 /// What the caller calls experiments with.
@@ -65,10 +65,10 @@ impl Options {
     pub const MOST_JOBS: u32 = 256;
 
     /// Runs of each row: the caller's number, else the experiment's, quick or full.
-    pub fn runs_of(&self, experiment: &dyn Experiment) -> u32 {
-        self.runs.unwrap_or_else(|| match self.quick {
-            true => experiment.quick_runs(),
-            false => experiment.default_runs(),
+    pub fn runs_of(&self, entry: &Entry) -> u32 {
+        self.runs.unwrap_or(match self.quick {
+            true => entry.quick_runs,
+            false => entry.runs,
         })
     }
 
@@ -92,12 +92,13 @@ impl Options {
     }
 
     /// The command that makes the same results again.
-    pub fn command_of(&self, name: &str, experiment: &dyn Experiment) -> String {
+    pub fn command_of(&self, entry: &Entry) -> String {
         let mut command = format!(
-            "{} experiment {name} --seed {} --runs {}",
+            "{} experiment {} --seed {} --runs {}",
             self.program.command(),
+            entry.name,
             self.seed,
-            self.runs_of(experiment)
+            self.runs_of(entry)
         );
         if self.quick {
             command += " --quick";

@@ -1,8 +1,7 @@
 //! All rows of a table against each other, as papers report them.
 
 use super::sample::Sample;
-use super::{Correction, Run, Statistic, Table};
-use tolman_stats::{Method, PValue};
+use super::{Contrast, Correction, Run, Statistic, Table};
 
 /// Which rows are compared with each other, and in what.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,10 +25,8 @@ pub struct Pair {
     pub second: String,
     /// Runs of both.
     pub n: u64,
-    /// Mann and Whitney's p-value, two-sided, corrected for the number of pairs.
-    pub p: PValue,
-    /// The probability that a run of the first row has a greater value than one of the second.
-    pub a12: f64,
+    /// How the first row differs from the second; its p-value is corrected for the number of pairs.
+    pub contrast: Contrast,
     /// The paper's p-value.
     pub paper: Option<f64>,
 }
@@ -51,32 +48,25 @@ impl Pairwise {
             .rows
             .iter()
             .filter_map(|row| {
-                let of_row = |run: &&Run| run.table == table.name && run.row == *row;
-                let runs: Vec<&Run> = runs.iter().filter(of_row).collect();
+                let own = runs.iter().filter(|run| run.is_of(&table.name, row));
+                let runs: Vec<&Run> = own.collect();
                 Some((row, Sample::of(&statistic, &runs, &[], &[])?.numbers()))
             })
             .collect();
         let mut pairs = Vec::new();
         for (place, (first, a)) in samples.iter().enumerate() {
             for (second, b) in &samples[place + 1..] {
-                if let Ok(test) = tolman_stats::mann_whitney(a, b, Method::Auto)
-                    && let Ok(a12) = tolman_stats::a12(a, b)
-                {
-                    pairs.push(Pair {
-                        first: (*first).clone(),
-                        second: (*second).clone(),
-                        n: (a.len() + b.len()) as u64,
-                        p: test.p,
-                        a12,
-                        paper: self.paper_value(first, second),
-                    });
-                }
+                pairs.extend(Contrast::of(a, b).map(|contrast| Pair {
+                    first: (*first).clone(),
+                    second: (*second).clone(),
+                    n: (a.len() + b.len()) as u64,
+                    contrast,
+                    paper: self.paper_value(first, second),
+                }));
             }
         }
-        let p_values: Vec<PValue> = pairs.iter().map(|pair| pair.p).collect();
-        for (pair, p) in pairs.iter_mut().zip(self.correction.correct(&p_values)) {
-            pair.p = p;
-        }
+        let contrasts = pairs.iter_mut().map(|pair| &mut pair.contrast);
+        self.correction.correct(contrasts);
         pairs
     }
 

@@ -1,27 +1,26 @@
 //! The box plots that every experiment gets.
 
-use super::run::Field;
 use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
 /// One box plot for every field of which a metric is the mean or the median, in the order of tables and
 /// metrics.
-pub(super) fn box_plots(experiment: &dyn Experiment, runs: &[Run]) -> Vec<Figure> {
+pub(super) fn box_plots(experiment: &Experiment, runs: &[Run]) -> Vec<Figure> {
     plotted(experiment)
         .map(|(name, table, metric, field)| box_plot(name, table, metric, field, runs))
         .collect()
 }
 
 /// The names of the box plots, known before any run.
-pub(super) fn names(experiment: &dyn Experiment) -> Vec<String> {
+pub(super) fn names(experiment: &Experiment) -> Vec<String> {
     plotted(experiment).map(|(name, ..)| name).collect()
 }
 
 /// What gets a box plot: its name, the table, the metric and the metric's field. Tables go by number,
 /// since their names may be any text of a maze file.
-fn plotted(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
+fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
     (1_u32..)
-        .zip(experiment.tables())
+        .zip(&experiment.tables)
         .filter(|(_, table)| table.is_filled())
         .flat_map(|(number, table)| {
             let mut seen: Vec<&str> = Vec::new();
@@ -43,11 +42,9 @@ fn plotted(experiment: &dyn Experiment) -> impl Iterator<Item = (String, &Table,
 
 fn box_plot(name: String, table: &Table, metric: &Metric, field: &str, runs: &[Run]) -> Figure {
     let groups = (0..).zip(&table.rows).map(|(i, row)| {
-        let runs = runs
-            .iter()
-            .filter(|run| run.table == table.name && run.row == row.name);
+        let runs = runs.iter().filter(|run| run.is_of(&table.name, &row.name));
         let dots = runs.filter_map(|run| {
-            let value = run.fields.get(field).and_then(Field::as_number)?;
+            let value = run.fields.number(field)?;
             Some(Dot {
                 value,
                 run: run.run,

@@ -2,7 +2,6 @@
 
 use alloc::collections::BTreeSet;
 use core::any::type_name;
-use core::fmt;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -29,9 +28,7 @@ pub trait Record: Serialize + DeserializeOwned {
     /// # Errors
     /// [`RecordError::Read`] if one is no such record.
     fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, RecordError> {
-        let own = runs
-            .iter()
-            .filter(|run| run.table == table && run.row == row);
+        let own = runs.iter().filter(|run| run.is_of(table, row));
         own.map(Run::record).collect()
     }
 
@@ -188,7 +185,7 @@ pub enum RecordError {
 }
 
 /// The record of a table, without its type.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct RecordType {
     name: &'static str,
     columns: Vec<Column>,
@@ -229,13 +226,6 @@ impl RecordType {
     /// Refuses columns that are not those of the struct.
     pub(super) fn compare(&self) -> Result<(), RecordError> {
         (self.compare)(&self.columns)
-    }
-}
-
-impl fmt::Debug for RecordType {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut debug = f.debug_struct(self.name);
-        debug.field("columns", &self.columns).finish()
     }
 }
 
@@ -356,7 +346,7 @@ mod tests {
     #[test]
     fn a_number_that_is_not_finite_stays_one_for_the_runner_to_refuse() {
         let fields = Hit { miss: f64::NAN }.fields().unwrap();
-        assert!(fields.get("miss").unwrap().as_number().unwrap().is_nan());
+        assert!(fields.number("miss").unwrap().is_nan());
     }
 
     #[test]

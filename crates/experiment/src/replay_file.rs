@@ -12,31 +12,16 @@ use super::{Error, Experiment, Job, Options, check, run_seed};
 /// # Errors
 /// If there is no such table or row, its runs are not recorded, or the run or the file cannot be made.
 pub fn write_replay(
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     options: &Options,
     table: &str,
     row: &str,
     run: u32,
 ) -> Result<PathBuf, Error> {
-    check::options(options, experiment)?;
-    let no_row = |known: Vec<&str>, what: &'static str, name: &str| Error::NoRow {
-        what,
-        name: name.to_owned(),
-        known: known.join(", "),
-    };
-    let tables = experiment.tables();
-    let t = tables
-        .iter()
-        .position(|one| one.name == table)
-        .ok_or_else(|| {
-            let known = tables.iter().map(|one| one.name.as_str()).collect();
-            no_row(known, "table", table)
-        })?;
-    let rows = &tables[t].rows;
-    let r = rows.iter().position(|one| one.name == row).ok_or_else(|| {
-        let known = rows.iter().map(|one| one.name.as_str()).collect();
-        no_row(known, "row", row)
-    })?;
+    check::options(options, &experiment.entry)?;
+    let (t, one) = experiment.table(table)?;
+    let rows = one.rows.iter().map(|row| row.name.as_str());
+    let r = Error::place_of("row", row, rows)?;
     let seed = run_seed(options.seed, table, run);
     let job = Job {
         table,
@@ -45,6 +30,7 @@ pub fn write_replay(
         seed,
     };
     let replay = experiment
+        .procedure
         .replay(&job)
         .map_err(|source| Error::run(&job, source))?;
     let replay = replay.ok_or_else(|| Error::NoReplay {
@@ -52,7 +38,7 @@ pub fn write_replay(
     })?;
     let page = tolman_replay::page(&replay).map_err(|source| Error::run(&job, source.into()))?;
     let folder = options
-        .folder_of(experiment.name())
+        .folder_of(experiment.entry.name)
         .join(super::folder::REPLAYS);
     make_folder(&folder)?;
     let file = folder.join(format!("{}-{}-{run}.html", t + 1, r + 1));

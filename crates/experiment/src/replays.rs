@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::{Error, Experiment, Job, Progress, run_seed};
+use super::{Error, Experiment, Job, Progress};
 
 /// The most runs of each row that are recorded: as many as MSLST made of each. With more runs a row, the
 /// others are a small part of the time and would be most of the page.
@@ -43,7 +43,7 @@ pub struct Recorded {
 /// the budget; where no room is left for a run as large as those before, none is played in vain. `None` if the caller
 /// asked to stop.
 pub(super) fn record(
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     master_seed: u64,
     runs_per_row: u32,
     progress: &dyn Progress,
@@ -103,29 +103,20 @@ fn room(done: u32, bytes: usize) -> u32 {
 }
 
 /// The job of one run index for every row.
-fn jobs_of(
-    experiment: &dyn Experiment,
-    master_seed: u64,
-    run: u32,
-) -> impl Iterator<Item = Job<'_>> {
-    experiment.tables().iter().flat_map(move |table| {
-        let seed = run_seed(master_seed, &table.name, run);
+fn jobs_of(experiment: &Experiment, master_seed: u64, run: u32) -> impl Iterator<Item = Job<'_>> {
+    experiment.tables.iter().flat_map(move |table| {
         // A row with a number of its own may have fewer.
         let rows = table
             .rows
             .iter()
             .filter(move |row| row.runs_of(run + 1) > run);
-        rows.map(move |row| Job {
-            table: &table.name,
-            row: &row.name,
-            run,
-            seed,
-        })
+        rows.map(move |row| Job::of(master_seed, &table.name, &row.name, run))
     })
 }
 
-fn record_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Option<Recorded>, Error> {
+fn record_one(experiment: &Experiment, job: &Job<'_>) -> Result<Option<Recorded>, Error> {
     let replay = experiment
+        .procedure
         .replay(job)
         .map_err(|source| Error::run(job, source))?;
     let Some(replay) = replay else {

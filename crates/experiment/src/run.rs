@@ -5,7 +5,7 @@ use core::any::type_name;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Column, Kind, Record, RecordError};
+use super::{Column, Kind, Record, RecordError, run_seed};
 
 /// A run to be played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,25 @@ pub struct Run {
     pub fields: Fields,
 }
 
+impl<'a> Job<'a> {
+    /// The run of this number in a row.
+    pub(super) fn of(master_seed: u64, table: &'a str, row: &'a str, run: u32) -> Self {
+        let seed = run_seed(master_seed, table, run);
+        Self {
+            table,
+            row,
+            run,
+            seed,
+        }
+    }
+}
+
 impl Run {
+    /// Whether it is of this row of this table.
+    pub fn is_of(&self, table: &str, row: &str) -> bool {
+        self.table == table && self.row == row
+    }
+
     /// The job that plays this run again.
     pub fn job(&self) -> Job<'_> {
         Job {
@@ -109,6 +127,31 @@ impl Fields {
         self.0.get(name)
     }
 
+    /// Returns the number of a count or a number.
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            Field::Count(count) => Some(*count as f64),
+            Field::Number(number) => Some(*number),
+            Field::Flag(_) | Field::Text(_) | Field::Curve(_) => None,
+        }
+    }
+
+    /// Returns a flag.
+    pub(super) fn flag(&self, name: &str) -> Option<bool> {
+        match self.get(name)? {
+            Field::Flag(flag) => Some(*flag),
+            _ => None,
+        }
+    }
+
+    /// Returns the numbers of a curve.
+    pub(super) fn curve(&self, name: &str) -> Option<&[f64]> {
+        match self.get(name)? {
+            Field::Curve(values) => Some(values),
+            _ => None,
+        }
+    }
+
     /// Returns all fields, alphabetically.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &Field)> {
         self.0.iter().map(|(name, field)| (name.as_str(), field))
@@ -148,10 +191,6 @@ impl Field {
     }
 
     /// Returns what serde reads as this field.
-    #[expect(
-        clippy::cast_possible_wrap,
-        reason = "counts of steps stay far below 2^63"
-    )]
     fn written(&self) -> toml::Value {
         match self {
             Self::Flag(flag) => (*flag).into(),
@@ -163,9 +202,13 @@ impl Field {
     }
 
     /// Returns the numbers that the range of a column is for.
-    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
-        let curve = self.as_curve().unwrap_or_default().iter().copied();
-        self.as_number().into_iter().chain(curve)
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        match self {
+            Self::Count(count) => vec![*count as f64],
+            Self::Number(number) => vec![*number],
+            Self::Curve(values) => values.clone(),
+            Self::Flag(_) | Self::Text(_) => Vec::new(),
+        }
     }
 
     /// Returns any field of a kind.
@@ -187,35 +230,6 @@ impl Field {
             Self::Number(_) => Kind::Number,
             Self::Text(_) => Kind::Text,
             Self::Curve(_) => Kind::Curve,
-        }
-    }
-
-    /// The number of a count or a number.
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "counts of steps stay far below 2^53"
-    )]
-    pub(super) fn as_number(&self) -> Option<f64> {
-        match self {
-            Self::Count(count) => Some(*count as f64),
-            Self::Number(number) => Some(*number),
-            Self::Flag(_) | Self::Text(_) | Self::Curve(_) => None,
-        }
-    }
-
-    /// The flag.
-    pub(super) fn as_flag(&self) -> Option<bool> {
-        match self {
-            Self::Flag(flag) => Some(*flag),
-            Self::Count(_) | Self::Number(_) | Self::Text(_) | Self::Curve(_) => None,
-        }
-    }
-
-    /// The numbers of a curve.
-    pub(super) fn as_curve(&self) -> Option<&[f64]> {
-        match self {
-            Self::Curve(values) => Some(values),
-            Self::Flag(_) | Self::Count(_) | Self::Number(_) | Self::Text(_) => None,
         }
     }
 }

@@ -10,8 +10,8 @@ use super::config_file::ConfigFile;
 use super::folder::Folder;
 use super::runs_file::{Appender, Key, Runs};
 use super::{
-    Analysis, Build, Error, Event, Experiment, Job, Options, Progress, Replays, Run, Summary,
-    check, plots, replays, run_seed,
+    Analysis, Build, Entry, Error, Event, Experiment, Job, Options, Progress, Replays, Run,
+    Summary, check, plots, replays,
 };
 use crate::report;
 use tolman_draw::Figure;
@@ -20,12 +20,8 @@ use tolman_draw::Figure;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// The experiment's name.
-    pub name: String,
-    /// The experiment's title.
-    pub title: String,
-    /// The paper whose tables these are; empty if there is none.
-    pub source: String,
+    /// What the catalogue says of the experiment.
+    pub entry: Entry,
     /// What the experiment leaves out because it is not here.
     pub skipped: Option<String>,
     /// Where the results lie.
@@ -65,19 +61,19 @@ pub struct Outcome {
 /// # Errors
 /// Typed with place and repair; finished runs are kept in every case. See [`Error::is_bad_input`].
 pub fn execute(
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     options: &Options,
     build: &Build,
     progress: &dyn Progress,
 ) -> Result<Outcome, Error> {
-    check::options(options, experiment)?;
+    check::options(options, &experiment.entry)?;
     check::tables(experiment)?;
-    let runs_per_row = options.runs_of(experiment);
-    if let Some(what) = experiment.skipped() {
+    let runs_per_row = options.runs_of(&experiment.entry);
+    if let Some(what) = &experiment.skipped {
         progress.event(&Event::Skipped { what });
     }
-    let config = ConfigFile::new(experiment, options, build)?;
-    let path = options.folder_of(experiment.name());
+    let config = ConfigFile::new(experiment, options, build);
+    let path = options.folder_of(experiment.entry.name);
     let folder = Folder::open(&path, &config, progress)?;
     let known = folder.resume(experiment, options.seed, runs_per_row, progress)?;
 
@@ -122,11 +118,11 @@ pub fn execute(
     let runs: Vec<Run> = all.into_values().collect();
     folder.write_runs(&runs)?;
     let analysis = Analysis::of(experiment, &runs, options.seed);
-    let summary = Summary::of(experiment.name(), options.seed, &analysis);
+    let summary = Summary::of(experiment.entry.name, options.seed, &analysis);
     folder.write("summary.json", &summary.to_json()?)?;
     let mut figures = plots::box_plots(experiment, &runs);
     figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
-        name: experiment.name().to_owned(),
+        name: experiment.entry.name.to_owned(),
         source,
     })?);
     check::figures(experiment, &figures)?;
@@ -135,10 +131,8 @@ pub fn execute(
     let record = || replays::record(experiment, options.seed, runs_per_row, progress);
     let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
     let outcome = Outcome {
-        name: experiment.name().to_owned(),
-        title: experiment.title().to_owned(),
-        source: experiment.source().to_owned(),
-        skipped: experiment.skipped().map(str::to_owned),
+        entry: experiment.entry,
+        skipped: experiment.skipped.clone(),
         folder: path,
         command: config.command,
         seed: options.seed,
@@ -158,22 +152,13 @@ pub fn execute(
 }
 
 /// Every job of the experiment with its place in the order of results.
-fn jobs(experiment: &dyn Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
+fn jobs(experiment: &Experiment, master_seed: u64, runs: u32) -> Vec<(Key, Job<'_>)> {
     let mut jobs = Vec::new();
-    for (t, table) in experiment.tables().iter().enumerate() {
+    for (t, table) in experiment.tables.iter().enumerate() {
         for (r, row) in table.rows.iter().enumerate() {
-            jobs.extend((0..row.runs_of(runs)).map(|run| {
-                let seed = run_seed(master_seed, &table.name, run);
-                (
-                    (t, r, run),
-                    Job {
-                        table: &table.name,
-                        row: &row.name,
-                        run,
-                        seed,
-                    },
-                )
-            }));
+            let runs = 0..row.runs_of(runs);
+            let job = |run| Job::of(master_seed, &table.name, &row.name, run);
+            jobs.extend(runs.map(|run| ((t, r, run), job(run))));
         }
     }
     jobs
@@ -182,7 +167,7 @@ fn jobs(experiment: &dyn Experiment, master_seed: u64, runs: u32) -> Vec<(Key, J
 /// Plays the jobs that are not known yet, in parallel; every finished run is in the file before the
 /// next one begins. Returns fewer than are missing only if the caller asked to stop.
 fn play(
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     jobs: &[(Key, Job<'_>)],
     known: &Runs,
     file: &Appender,
@@ -205,8 +190,8 @@ fn play(
         .collect()
 }
 
-fn play_one(experiment: &dyn Experiment, job: &Job<'_>) -> Result<Run, Error> {
-    let played = experiment.run(job).and_then(|fields| {
+fn play_one(experiment: &Experiment, job: &Job<'_>) -> Result<Run, Error> {
+    let played = experiment.procedure.run(job).and_then(|fields| {
         let run = Run {
             table: job.table.to_owned(),
             row: job.row.to_owned(),

@@ -31,7 +31,7 @@ struct Broken<'a> {
 /// Of two lines that contradict each other none is used: nothing says which one is right.
 pub(super) fn read<'a>(
     files: impl IntoIterator<Item = &'a Path>,
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     master_seed: u64,
     wanted: u32,
     progress: &dyn Progress,
@@ -78,11 +78,11 @@ pub(super) fn read<'a>(
 fn tell(
     broken: &[Broken<'_>],
     runs: &Runs,
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     wanted: u32,
     progress: &dyn Progress,
 ) {
-    let rows = experiment.tables().iter().flat_map(|table| &table.rows);
+    let rows = experiment.tables.iter().flat_map(|table| &table.rows);
     let all: u64 = rows.map(|row| u64::from(row.runs_of(wanted))).sum();
     let is_wanted = |key: &Key| is_wanted(*key, experiment, wanted);
     let complete = runs.keys().filter(|key| is_wanted(key)).count() as u64 == all;
@@ -108,8 +108,8 @@ fn tell(
 }
 
 /// Whether a run is one of those to be made when `runs` of each row are.
-pub(super) fn is_wanted((table, row, run): Key, experiment: &dyn Experiment, runs: u32) -> bool {
-    let table = experiment.tables().get(table);
+pub(super) fn is_wanted((table, row, run): Key, experiment: &Experiment, runs: u32) -> bool {
+    let table = experiment.tables.get(table);
     let row = table.and_then(|table| table.rows.get(row));
     row.is_some_and(|row| run < row.runs_of(runs))
 }
@@ -117,7 +117,7 @@ pub(super) fn is_wanted((table, row, run): Key, experiment: &dyn Experiment, run
 /// The run of a line; or what is wrong with the line, and which run it was if it says so.
 fn parse(
     line: &[u8],
-    experiment: &dyn Experiment,
+    experiment: &Experiment,
     master: u64,
 ) -> Result<(Key, Run), (String, Option<Key>)> {
     let run: Run = serde_json::from_slice(line).map_err(|error| {
@@ -145,15 +145,15 @@ fn parse(
 }
 
 /// Which run a line is of whose fields hold what no field can.
-fn identity(line: &[u8], experiment: &dyn Experiment) -> Option<Key> {
+fn identity(line: &[u8], experiment: &Experiment) -> Option<Key> {
     let mut line: serde_json::Value = serde_json::from_slice(line).ok()?;
     line.as_object_mut()?
         .retain(|name, _| check::RESERVED.contains(&name.as_str()));
     key_of(experiment, &serde_json::from_value(line).ok()?)
 }
 
-fn key_of(experiment: &dyn Experiment, run: &Run) -> Option<Key> {
-    let tables = experiment.tables();
+fn key_of(experiment: &Experiment, run: &Run) -> Option<Key> {
+    let tables = &experiment.tables;
     let table = tables.iter().position(|table| table.name == run.table)?;
     let row = tables[table]
         .rows

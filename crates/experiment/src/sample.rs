@@ -3,7 +3,6 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::run::Field;
 use super::settling::settles;
 use super::{Reached, Run, Settling, Statistic};
 use tolman_stats::Interval;
@@ -15,7 +14,7 @@ pub(crate) const LEVEL: f64 = 0.95;
 
 /// The measured values of one metric in one row. Never empty.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Sample {
+pub(super) enum Sample<'a> {
     /// Whether each run succeeded; the value is `whole` × the share of those that did.
     Flags { flags: Vec<bool>, whole: f64 },
     /// One number for each run.
@@ -24,7 +23,7 @@ pub(super) enum Sample {
     Pairs(Vec<(f64, f64)>),
     /// A curve for each run, and the limit that their mean is to stay below.
     Curves {
-        curves: Vec<Vec<f64>>,
+        curves: Vec<&'a [f64]>,
         step: f64,
         limit: f64,
     },
@@ -38,26 +37,32 @@ pub(super) enum Centre {
     Least,
 }
 
-impl Sample {
+impl<'a> Sample<'a> {
     /// What a statistic measures of runs; `None` if no run has the field. `others` are the runs of the row
     /// that [`Statistic::Multiple`] names, sorted by index; `table` are those of all rows, row by row.
     pub(super) fn of(
         statistic: &Statistic,
-        runs: &[&Run],
+        runs: &[&'a Run],
         others: &[&Run],
         table: &[Vec<&Run>],
     ) -> Option<Self> {
-        let number = |run: &Run, field: &str| run.fields.get(field).and_then(Field::as_number);
+        let runs = runs.iter().copied();
         let flags = |field: &str, whole: f64| Self::Flags {
             flags: runs
-                .iter()
-                .filter_map(|run| run.fields.get(field)?.as_flag())
+                .clone()
+                .filter_map(|run| run.fields.flag(field))
                 .collect(),
             whole,
         };
         let numbers = |field: &str, centre: Centre| Self::Numbers {
-            numbers: runs.iter().filter_map(|run| number(run, field)).collect(),
+            numbers: runs
+                .clone()
+                .filter_map(|run| run.fields.number(field))
+                .collect(),
             centre,
+        };
+        let pair = |run: &Run, over: &str, other: &Run, under: &str| {
+            Some((run.fields.number(over)?, other.fields.number(under)?))
         };
         let sample = match statistic {
             Statistic::Percent { field } => flags(field, 100.0),
@@ -65,29 +70,27 @@ impl Sample {
             Statistic::Mean { field } => numbers(field, Centre::Mean),
             Statistic::Median { field } => numbers(field, Centre::Median),
             Statistic::Least { field } => numbers(field, Centre::Least),
-            Statistic::Ratio { over, under } => Self::Pairs(
-                runs.iter()
-                    .filter_map(|run| Some((number(run, over)?, number(run, under)?)))
-                    .collect(),
-            ),
-            Statistic::Multiple { field, .. } => Self::Pairs(
-                runs.iter()
-                    .filter_map(|run| {
-                        let place = others.binary_search_by_key(&run.run, |other| other.run);
-                        Some((number(run, field)?, number(others[place.ok()?], field)?))
-                    })
-                    .collect(),
-            ),
-            Statistic::Settling(settling) => Self::Curves {
-                curves: runs
-                    .iter()
-                    .filter(|run| number(run, &settling.level).is_some())
-                    .filter(|run| number(run, &settling.scale).is_some())
-                    .filter_map(|run| Some(run.fields.get(&settling.curve)?.as_curve()?.to_vec()))
-                    .collect(),
-                step: settling.step,
-                limit: limit(settling, table)?,
-            },
+            Statistic::Ratio { over, under } => {
+                let pairs = runs.filter_map(|run| pair(run, over, run, under));
+                Self::Pairs(pairs.collect())
+            }
+            Statistic::Multiple { field, .. } => {
+                let pairs = runs.filter_map(|run| {
+                    let place = others.binary_search_by_key(&run.run, |other| other.run);
+                    pair(run, field, others[place.ok()?], field)
+                });
+                Self::Pairs(pairs.collect())
+            }
+            Statistic::Settling(settling) => {
+                let measured = runs.filter(|run| is_measured(settling, run));
+                Self::Curves {
+                    curves: measured
+                        .filter_map(|run| run.fields.curve(&settling.curve))
+                        .collect(),
+                    step: settling.step,
+                    limit: limit(settling, table)?,
+                }
+            }
         };
         (sample.len() > 0).then_some(sample)
     }
@@ -102,9 +105,10 @@ impl Sample {
         }
     }
 
-    /// The value: part of a whole, mean, median, least, ratio of sums, or when the mean curve settles.
-    pub(super) fn value(&self) -> f64 {
-        match self {
+    /// The value: part of a whole, mean, median, least, ratio of sums, or when the mean curve settles; and whether what
+    /// the metric waits for came about, always where it waits for nothing.
+    pub(super) fn value(&self) -> (f64, Reached) {
+        let value = match self {
             Self::Flags { flags, whole } => whole * mean(&zeros_and_ones(flags)),
             Self::Numbers { numbers, centre } => match centre {
                 Centre::Mean => mean(numbers),
@@ -113,27 +117,13 @@ impl Sample {
                 Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
-            Self::Curves { .. } => self.settles().0,
-        }
-    }
-
-    /// Whether what the metric waits for came about; always where it waits for nothing.
-    pub(super) fn reached(&self) -> Reached {
-        self.settles().1
-    }
-
-    fn settles(&self) -> (f64, Reached) {
-        match self {
             Self::Curves {
                 curves,
                 step,
                 limit,
-            } => {
-                let curves: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
-                settles(&curves, *step, *limit)
-            }
-            Self::Flags { .. } | Self::Numbers { .. } | Self::Pairs(_) => (f64::NAN, Reached::Yes),
-        }
+            } => return settles(curves, *step, *limit),
+        };
+        (value, Reached::Yes)
     }
 
     /// The standard deviation of two numbers or more.
@@ -186,9 +176,8 @@ impl Sample {
                 step,
                 limit,
             } => {
-                let curves: Vec<&[f64]> = curves.iter().map(Vec::as_slice).collect();
                 let value = |curves: &[&[f64]]| settles(curves, *step, *limit).0;
-                tolman_stats::bca_interval(&curves, value, RESAMPLES, LEVEL, rng)
+                tolman_stats::bca_interval(curves, value, RESAMPLES, LEVEL, rng)
             }
         }
         .ok()
@@ -211,16 +200,17 @@ impl Sample {
     }
 }
 
+/// Whether a run says both how low its curve ends and what the margin is a share of.
+fn is_measured(Settling { level, scale, .. }: &Settling, run: &Run) -> bool {
+    run.fields.number(level).is_some() && run.fields.number(scale).is_some()
+}
+
 /// What the mean curves of a table are to stay below; `None` if no run says so.
 fn limit(settling: &Settling, table: &[Vec<&Run>]) -> Option<f64> {
     let mean_of = |runs: &[&Run], field: &str| {
-        let has = |run: &&&Run| {
-            let number = |field: &str| run.fields.get(field).and_then(Field::as_number);
-            number(&settling.level).is_some() && number(&settling.scale).is_some()
-        };
-        let measured = runs.iter().filter(has);
+        let measured = runs.iter().filter(|run| is_measured(settling, run));
         let numbers: Vec<f64> = measured
-            .filter_map(|run| run.fields.get(field)?.as_number())
+            .filter_map(|run| run.fields.number(field))
             .collect();
         tolman_stats::mean(&numbers).ok()
     };
@@ -228,11 +218,10 @@ fn limit(settling: &Settling, table: &[Vec<&Run>]) -> Option<f64> {
         .iter()
         .filter_map(|runs| mean_of(runs, &settling.level));
     let lowest = levels.reduce(f64::min)?;
-    let scales = table.iter().filter(|runs| {
-        let row = runs.first().map(|run| &run.row);
-        row == Some(&settling.of)
-    });
-    let scale = scales.filter_map(|runs| mean_of(runs, &settling.scale));
+    let of = table
+        .iter()
+        .filter(|runs| runs.first().is_some_and(|run| run.row == settling.of));
+    let scale = of.filter_map(|runs| mean_of(runs, &settling.scale));
     Some(lowest + settling.margin * scale.reduce(f64::min)?)
 }
 
@@ -243,7 +232,6 @@ fn zeros_and_ones(flags: &[bool]) -> Vec<f64> {
         .collect()
 }
 
-#[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
 fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }

@@ -72,7 +72,7 @@ impl Summary {
                 table: P_TABLE.to_owned(),
                 row: format!("{}: {}", table.table.name, pair.name()),
                 metric: "p".to_owned(),
-                value: pair.p.value(),
+                value: pair.contrast.p.value(),
                 reached: None,
                 sd: None,
                 n: pair.n,

@@ -1,6 +1,6 @@
 //! What a table holds: rows, the metrics that summarize their runs, and the paper's values.
 
-use super::{Better, Column, Pairwise, Record, RecordType, Settling};
+use super::{Better, Column, Contrast, Kind, Pairwise, Record, RecordType, Settling};
 use tolman_stats::PValue;
 
 /// One table of a paper.
@@ -50,6 +50,13 @@ impl Table {
         self
     }
 
+    /// Adds rows.
+    #[must_use]
+    pub fn rows(mut self, rows: impl IntoIterator<Item = Row>) -> Self {
+        self.rows.extend(rows);
+        self
+    }
+
     /// Whether a row has runs.
     #[must_use]
     pub fn is_filled(&self) -> bool {
@@ -69,8 +76,10 @@ impl Table {
     /// from the column of its field.
     #[must_use]
     pub fn metric(mut self, mut metric: Metric) -> Self {
-        let field = metric.statistic.of();
-        if let Some(column) = field.and_then(|field| self.record.column(field)) {
+        // Of several fields no column says what is measured.
+        if let [(field, _)] = metric.statistic.fields()[..]
+            && let Some(column) = self.record.column(field)
+        {
             metric.complete(column);
         }
         if metric.title.is_empty() {
@@ -139,11 +148,16 @@ impl Correction {
         }
     }
 
-    /// Corrects p-values.
-    pub(super) fn correct(self, p_values: &[PValue]) -> Vec<PValue> {
-        match self {
-            Self::Bonferroni => tolman_stats::bonferroni(p_values),
-            Self::Holm => tolman_stats::holm(p_values),
+    /// Corrects the p-values of all contrasts that are compared together.
+    pub(super) fn correct<'a>(self, contrasts: impl Iterator<Item = &'a mut Contrast>) {
+        let contrasts: Vec<&mut Contrast> = contrasts.collect();
+        let p_values: Vec<PValue> = contrasts.iter().map(|contrast| contrast.p).collect();
+        let corrected = match self {
+            Self::Bonferroni => tolman_stats::bonferroni(&p_values),
+            Self::Holm => tolman_stats::holm(&p_values),
+        };
+        for (contrast, p) in contrasts.into_iter().zip(corrected) {
+            contrast.p = p;
         }
     }
 }
@@ -459,16 +473,31 @@ pub enum Statistic {
 }
 
 impl Statistic {
-    /// Returns the one field whose column says what is measured; none of a ratio or a settling.
-    fn of(&self) -> Option<&str> {
+    /// Returns the fields that it is of, each with the kinds that it may have.
+    pub(super) fn fields(&self) -> Vec<(&str, &'static [Kind])> {
+        const FLAG: &[Kind] = &[Kind::Flag];
+        const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
         match self {
-            Self::Percent { field }
-            | Self::Mean { field }
+            Self::Percent { field } | Self::Count { field, .. } => vec![(field, FLAG)],
+            Self::Mean { field }
             | Self::Median { field }
             | Self::Least { field }
-            | Self::Count { field, .. }
-            | Self::Multiple { field, .. } => Some(field),
-            Self::Ratio { .. } | Self::Settling(_) => None,
+            | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
+            Self::Ratio { over, under } => vec![(over, NUMERIC), (under, NUMERIC)],
+            Self::Settling(Settling {
+                curve,
+                level,
+                scale,
+                ..
+            }) => vec![(curve, &[Kind::Curve]), (level, NUMERIC), (scale, NUMERIC)],
+        }
+    }
+
+    /// Returns the row whose runs it needs beside a row's own.
+    pub(super) fn other_row(&self) -> Option<&String> {
+        match self {
+            Self::Multiple { of, .. } | Self::Settling(Settling { of, .. }) => Some(of),
+            _ => None,
         }
     }
 }

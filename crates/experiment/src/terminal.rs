@@ -144,7 +144,6 @@ pub(crate) fn duration(duration: Duration) -> String {
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
 fn rate(played: u64, elapsed: Duration) -> String {
     let seconds = elapsed.as_secs_f64();
     if played > 0 && seconds > 0.0 {

@@ -111,7 +111,7 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
         let paper = pair
             .paper
             .map_or_else(String::new, |p| format!(", paper {p}"));
-        let _ = writeln!(text, "p = {} for {}{paper}", pair.p, pair.name());
+        let _ = writeln!(text, "p = {} for {}{paper}", pair.contrast.p, pair.name());
     }
     text
 }

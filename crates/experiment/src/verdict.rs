@@ -34,10 +34,7 @@ impl Verdict {
         paper_runs: Option<u32>,
         metric: &Metric,
     ) -> Option<Self> {
-        let around = |half: f64| Interval {
-            low: paper.value - half,
-            high: paper.value + half,
-        };
+        let around = |half: f64| Interval::new(paper.value - half, paper.value + half);
         let (accepted, basis) = match metric.tolerance {
             Some(Tolerance::Absolute(half)) => (around(half), Basis::Tolerance),
             Some(Tolerance::Relative(share)) => {
@@ -46,10 +43,7 @@ impl Verdict {
             Some(Tolerance::Spread) => (around(paper.sd?), Basis::Tolerance),
             Some(Tolerance::Factor(factor)) => {
                 let (one, other) = (paper.value / factor, paper.value * factor);
-                let accepted = Interval {
-                    low: one.min(other),
-                    high: one.max(other),
-                };
+                let accepted = Interval::new(one.min(other), one.max(other));
                 (accepted, Basis::Tolerance)
             }
             None => {
@@ -86,17 +80,9 @@ impl Verdict {
 }
 
 fn within(interval: Interval, whole: f64) -> Interval {
-    Interval {
-        low: interval.low.max(0.0),
-        high: interval.high.min(whole),
-    }
+    Interval::new(interval.low.max(0.0), interval.high.min(whole))
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates"
-)]
 fn own_binomial(value: f64, whole: f64, runs: u32) -> Option<Interval> {
     let successes = (value / whole * f64::from(runs)).round() as u64;
     let rate = exact_binomial_interval(successes, u64::from(runs), LEVEL).ok()?;

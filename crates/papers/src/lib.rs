@@ -29,41 +29,13 @@ pub use recorder::Recorder;
 #[must_use]
 pub const fn catalogue() -> &'static [Entry] {
     &[
-        Entry {
-            name: "baselines",
-            title: "Mazes without a map: MSLST's baselines",
-            open: baselines::open,
-        },
-        Entry {
-            name: "quantizers",
-            title: "Quantizers: states out of scans, clusters out of noise",
-            open: quantizers::open,
-        },
-        Entry {
-            name: "mslst",
-            title: "MSLST: maze solving by learning state topologies",
-            open: mslst::open,
-        },
-        Entry {
-            name: "mslst-sweeps",
-            title: "MSLST under other settings and in other worlds",
-            open: mslst_sweeps::open,
-        },
-        Entry {
-            name: "micromouse",
-            title: "A micromouse in a virtual maze",
-            open: micromouse::open,
-        },
-        Entry {
-            name: "diktiometry",
-            title: "Diktiometry: maps considered as adaptive planning resources",
-            open: diktiometry::open,
-        },
-        Entry {
-            name: "cpm",
-            title: "CPM: common-pattern maps on an e-puck",
-            open: cpm::open,
-        },
+        baselines::ENTRY,
+        quantizers::ENTRY,
+        mslst::ENTRY,
+        mslst_sweeps::ENTRY,
+        micromouse::ENTRY,
+        diktiometry::ENTRY,
+        cpm::ENTRY,
     ]
 }
 
@@ -76,8 +48,7 @@ mod tests {
     #[test]
     fn every_configuration_can_be_written() {
         for entry in catalogue() {
-            let experiment = (entry.open)(&Options::default()).unwrap();
-            let config = experiment.config().unwrap();
+            let config = (entry.open)(&Options::default()).unwrap().config;
             let text = toml::to_string(&config).unwrap();
             assert_eq!(text.parse::<toml::Table>().unwrap(), config);
         }

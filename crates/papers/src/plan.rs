@@ -1,7 +1,18 @@
 use tolman_arena::course::Course;
-use tolman_draw::{Plan, Zone};
+use tolman_arena::pioneer;
+use tolman_draw::{Drawing, Plan, PolarPlot, Series, Zone};
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds};
+use tolman_systems::mslst::ROBOT_UNIT;
+
+/// A scan that MSLST has learned, in robot units, as seen from the robot; `size` user units wide.
+pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: String) -> Drawing {
+    let ring = pioneer::ring();
+    let metres: Vec<f64> = model.map(|range| range * ROBOT_UNIT).collect();
+    let mut plot = PolarPlot::new(ring.max_range, size);
+    plot.ranges(&ring, &metres, Series(0));
+    plot.drawing(what)
+}
 
 /// A plan of a course that is `width` user units wide, with its walls and its destination; what is
 /// walled off is solid.

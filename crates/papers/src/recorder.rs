@@ -2,7 +2,6 @@
 
 use tolman_control::{CorridorDetector, Outcome, View};
 use tolman_geom::Point;
-use tolman_maze::Direction;
 use tolman_robot::{Body, Guess, Position, Robot};
 
 use tolman_arena::episode::{Episode, Step, Trial};
@@ -122,7 +121,7 @@ impl<'a> Recorder<'a> {
         self.between_actions = seen.ends.is_some();
         self.step += 1;
         let step = self.step;
-        self.action.say(step, word(seen.action));
+        self.action.say(step, seen.action.to_string());
         if let Some(outcome) = seen.ends {
             let outcome_word = match outcome {
                 Outcome::Completed => "completed",
@@ -130,7 +129,7 @@ impl<'a> Recorder<'a> {
                 Outcome::Failed => "failed",
             };
             self.ended
-                .say(step, format!("{}: {outcome_word}", word(seen.action)));
+                .say(step, format!("{}: {outcome_word}", seen.action));
             if !outcome.moved() {
                 self.failures.steps.push(step);
             }
@@ -187,27 +186,12 @@ impl<'a> Recorder<'a> {
 }
 
 fn outcome(episode: &Episode) -> String {
-    let Episode {
-        reached,
-        actions,
-        failed_actions,
-        steps,
-        bumps,
-        ..
-    } = episode;
-    let came = if *reached {
-        "arrived"
-    } else {
-        "did not arrive"
+    let came = match episode.reached {
+        true => "arrived",
+        false => "did not arrive",
     };
-    format!("{came}: {steps} steps, {actions} actions, {failed_actions} failed, {bumps} bumps")
-}
-
-const fn word(action: Direction) -> &'static str {
-    match action {
-        Direction::North => "north",
-        Direction::East => "east",
-        Direction::South => "south",
-        Direction::West => "west",
-    }
+    format!(
+        "{came}: {} steps, {} actions, {} failed, {} bumps",
+        episode.steps, episode.actions, episode.failed_actions, episode.bumps
+    )
 }

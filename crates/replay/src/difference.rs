@@ -38,24 +38,17 @@ pub enum Differs {
 impl fmt::Display for Difference {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { step, robot, what } = self;
-        match what {
-            Differs::Command => write!(formatter, "first differ at step {step}: in the command")?,
-            Differs::Pose => write!(formatter, "first differ at step {step}: in the pose")?,
-            Differs::Bump => write!(formatter, "first differ at step {step}: in the bump")?,
-            Differs::FirstEnds => {
-                return write!(
-                    formatter,
-                    "are the same to the bit up to step {step}, where the first ends"
-                );
-            }
-            Differs::SecondEnds => {
-                return write!(
-                    formatter,
-                    "are the same to the bit up to step {step}, where the second ends"
-                );
-            }
-            Differs::Robots => return write!(formatter, "do not have the same number of robots"),
-        }
+        let ends =
+            |which| format!("are the same to the bit up to step {step}, where the {which} ends");
+        let part = match what {
+            Differs::Command => "command",
+            Differs::Pose => "pose",
+            Differs::Bump => "bump",
+            Differs::FirstEnds => return formatter.write_str(&ends("first")),
+            Differs::SecondEnds => return formatter.write_str(&ends("second")),
+            Differs::Robots => return formatter.write_str("do not have the same number of robots"),
+        };
+        write!(formatter, "first differ at step {step}: in the {part}")?;
         if *robot > 0 {
             write!(formatter, " of robot {robot}")?;
         }

@@ -1,6 +1,6 @@
 //! A replay as the player reads it: JSON, format `tolman-replay`, version 1 (`docs/replay.md`).
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use thiserror::Error;
 use tolman_geom::Point;
 use tolman_robot::{Body, Ring};
@@ -8,8 +8,8 @@ use tolman_sim::DoorState;
 
 use super::rounding::{Rounding, bounds_of};
 use super::{
-    Belief, Edge, EdgeKind, Exemplar, Fact, Field, MapGrowth, Mark, Marks, Node, Notes, Replay,
-    Scans, Scenery, Series, Shape, Track, ZoneKind, blob,
+    Belief, Door, Edge, Exemplar, Fact, Field, MapGrowth, Marks, Node, Notes, Replay, Scans,
+    Series, Shape, Track, Zone, blob,
 };
 
 const FORMAT: &str = "tolman-replay";
@@ -106,76 +106,48 @@ fn value(replay: &Replay) -> Result<Value, EncodeError> {
     if !replay.tracks.iter().any(|track| !track.poses.is_empty()) {
         return Err(EncodeError::Empty);
     }
-    let scenery = scenery(&replay.scenery)?;
+    let scenery = &replay.scenery;
+    all_finite("wall", &scenery.walls, |wall| wall.iter().all(finite))?;
+    all_finite("zone", &scenery.zones, |zone| {
+        zone.corners.iter().all(finite)
+    })?;
+    all_finite("door", &scenery.doors, |door| door.ends.iter().all(finite))?;
     for track in &replay.tracks {
         all_finite("pose", &track.poses, |pose| pose.is_finite())?;
     }
-    let ends = replay.scenery.walls.iter().flatten().copied();
+    let ends = scenery.walls.iter().flatten().copied();
     let positions = replay.tracks.iter().flat_map(|track| &track.poses);
     let bounds = bounds_of(ends.chain(positions.map(|pose| pose.position)));
     let rounding = Rounding { bounds };
-    let tracks: Result<Vec<Value>, EncodeError> = replay
-        .tracks
-        .iter()
-        .map(|track| self::track(track, &rounding))
-        .collect();
-    let mut value = json!({
+    let tracks = replay.tracks.iter();
+    let tracks = tracks.map(|track| self::track(track, &rounding));
+    Ok(json!({
         "format": FORMAT,
         "version": VERSION,
         "title": replay.title,
         "facts": facts(&replay.facts),
         "step_s": replay.step_s,
         "box": [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y],
-        "tracks": tracks?,
+        "walls": blob::floats(coordinates(scenery.walls.iter().flatten())),
+        "zones": scenery.zones.iter().map(zone).collect::<Value>(),
+        "doors": each(&scenery.doors, door)?,
+        "tracks": tracks.collect::<Result<Vec<_>, _>>()?,
         "marks": each(&replay.marks, marks)?,
-    });
-    if let Value::Object(object) = &mut value {
-        object.extend(scenery);
-    }
-    Ok(value)
+    }))
 }
 
-fn scenery(scenery: &Scenery) -> Result<Map<String, Value>, EncodeError> {
-    all_finite("wall", &scenery.walls, |wall| wall.iter().all(finite))?;
-    all_finite("zone", &scenery.zones, |zone| {
-        zone.corners.iter().all(finite)
-    })?;
-    all_finite("door", &scenery.doors, |door| door.ends.iter().all(finite))?;
-    let zones: Vec<Value> = scenery
-        .zones
-        .iter()
-        .map(|zone| {
-            let kind = match zone.kind {
-                ZoneKind::Destination => "destination",
-                ZoneKind::Start => "start",
-                ZoneKind::Region => "region",
-                ZoneKind::Solid => "solid",
-            };
-            let corners = zone.corners.iter().flat_map(|at| [at.x, at.y]);
-            json!({ "kind": kind, "name": zone.name, "corners": blob::floats(corners) })
-        })
-        .collect();
-    let mut doors = Vec::new();
-    for door in &scenery.doors {
-        ascend("change of a door", door.changes.iter().map(|c| c.step))?;
-        let changes: Vec<Value> = door
-            .changes
-            .iter()
-            .map(|change| json!([change.step, u8::from(change.state == DoorState::Shut)]))
-            .collect();
-        let [a, b] = door.ends;
-        doors.push(json!({ "name": door.name, "ends": [a.x, a.y, b.x, b.y], "shut": changes }));
-    }
-    let walls = scenery
-        .walls
-        .iter()
-        .flatten()
-        .flat_map(|end| [end.x, end.y]);
-    let mut object = Map::new();
-    object.insert("walls".to_owned(), blob::floats(walls).into());
-    object.insert("zones".to_owned(), zones.into());
-    object.insert("doors".to_owned(), doors.into());
-    Ok(object)
+fn zone(zone: &Zone) -> Value {
+    let corners = blob::floats(coordinates(&zone.corners));
+    json!({ "kind": zone.kind, "name": zone.name, "corners": corners })
+}
+
+fn door(door: &Door) -> Result<Value, EncodeError> {
+    ascend("change of a door", door.changes.iter().map(|c| c.step))?;
+    let changes = door.changes.iter();
+    let changes =
+        changes.map(|change| json!([change.step, u8::from(change.state == DoorState::Shut)]));
+    let ends: Vec<f64> = coordinates(&door.ends).collect();
+    Ok(json!({ "name": door.name, "ends": ends, "shut": changes.collect::<Value>() }))
 }
 
 fn track(track: &Track, rounding: &Rounding) -> Result<Value, EncodeError> {
@@ -190,8 +162,7 @@ fn track(track: &Track, rounding: &Rounding) -> Result<Value, EncodeError> {
     let body = match &track.body {
         Body::Circle { radius } => json!({ "radius": radius }),
         Body::Polygon { corners } => {
-            let corners = corners.iter().flat_map(|corner| [corner.x, corner.y]);
-            json!({ "corners": corners.collect::<Vec<f64>>() })
+            json!({ "corners": coordinates(corners).collect::<Vec<f64>>() })
         }
     };
     Ok(json!({
@@ -225,40 +196,37 @@ fn ring(ring: &Ring) -> Value {
 const FINE: f64 = 65535.0;
 const COARSE: f64 = 255.0;
 
-/// A range as a share of the ring's reach, in whole parts of `most`. What was not met, or read as NaN, lies at
-/// the reach.
-fn share(range: f64, reach: f64, most: f64) -> f64 {
-    let share = range / reach;
-    if share >= 0.0 {
-        libm::round(share.min(1.0) * most)
-    } else {
-        most
+/// Ranges as shares of the ring's reach, in whole parts of `most`. What was not met, or read as NaN, lies at the reach.
+fn shares<'a>(
+    (what, index): (&str, usize),
+    ring: &'a Ring,
+    ranges: &'a [f64],
+    most: f64,
+) -> Result<impl Iterator<Item = f64>, EncodeError> {
+    let (found, expected) = (ranges.len(), ring.beams as usize);
+    if found != expected {
+        return Err(EncodeError::Ranges {
+            what: what.to_owned(),
+            index,
+            found,
+            expected,
+        });
     }
+    let share = move |range: &f64| match range / ring.max_range {
+        share if share >= 0.0 => libm::round(share.min(1.0) * most),
+        _ => most,
+    };
+    Ok(ranges.iter().map(share))
 }
 
 fn scans(scans: &Scans) -> Result<Value, EncodeError> {
-    ascend("scan", scans.steps.iter().copied())?;
-    let expected = scans.ring.beams as usize;
+    let steps = steps("scan", scans.steps.iter().copied())?;
     let mut bytes = Vec::new();
     for (index, ranges) in scans.ranges.iter().enumerate() {
-        if ranges.len() != expected {
-            return Err(EncodeError::Ranges {
-                what: "scan".to_owned(),
-                index,
-                found: ranges.len(),
-                expected,
-            });
-        }
-        for range in ranges {
-            let share = share(*range, scans.ring.max_range, FINE) as u16;
-            bytes.extend_from_slice(&share.to_le_bytes());
-        }
+        let shares = shares(("scan", index), &scans.ring, ranges, FINE)?;
+        bytes.extend(shares.flat_map(|share| (share as u16).to_le_bytes()));
     }
-    Ok(json!({
-        "ring": ring(&scans.ring),
-        "steps": blob::steps(scans.steps.iter().copied()),
-        "ranges": blob::bytes(&bytes),
-    }))
+    Ok(json!({ "ring": ring(&scans.ring), "steps": steps, "ranges": blob::bytes(&bytes) }))
 }
 
 fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
@@ -287,75 +255,44 @@ fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
     Ok(json!({
         "name": map.name,
         "nodes": each(&map.nodes, node)?,
-        "edges": map.edges.iter().map(edge).collect::<Vec<Value>>(),
+        "edges": map.edges.iter().map(edge).collect::<Value>(),
     }))
 }
 
 /// What is empty is left out: maps have many nodes, and most say little.
 fn node(node: &Node) -> Result<Value, EncodeError> {
-    ascend("visit of a node", node.visits.iter().copied())?;
     ascend("move of a node", node.moves.iter().map(|moved| moved.step))?;
-    let mut object = Map::new();
-    let mut set = |name: &str, value: Value| object.insert(name.to_owned(), value);
-    set("id", node.id.into());
-    set("at", place(node.position));
-    set("born", node.born.into());
-    if let Some(died) = node.died {
-        set("died", died.into());
+    let moves = node.moves.iter();
+    let moves = moves.map(|moved| json!([moved.step, place(moved.position)]));
+    let mut value = json!({
+        "id": node.id,
+        "at": place(node.position),
+        "born": node.born,
+        "died": node.died,
+        "label": node.label,
+        "facts": facts(&node.facts),
+        "visits": steps("visit of a node", node.visits.iter().copied())?,
+        "moves": moves.collect::<Value>(),
+        "exemplar": node.exemplar.as_ref().map(exemplar).transpose()?,
+    });
+    if let Value::Object(object) = &mut value {
+        object.retain(|_, value| ![Value::Null, json!(""), json!([])].contains(value));
     }
-    if !node.label.is_empty() {
-        set("label", node.label.clone().into());
-    }
-    if !node.facts.is_empty() {
-        set("facts", facts(&node.facts));
-    }
-    if !node.visits.is_empty() {
-        set("visits", blob::steps(node.visits.iter().copied()).into());
-    }
-    if !node.moves.is_empty() {
-        let moves = node
-            .moves
-            .iter()
-            .map(|moved| json!([moved.step, place(moved.position)]));
-        set("moves", moves.collect());
-    }
-    if let Some(exemplar) = &node.exemplar {
-        set("exemplar", self::exemplar(exemplar)?);
-    }
-    Ok(Value::Object(object))
+    Ok(value)
 }
 
-fn exemplar(exemplar: &Exemplar) -> Result<Value, EncodeError> {
-    let Exemplar { heading, scan } = exemplar;
-    let (found, expected) = (scan.ranges.len(), scan.ring.beams as usize);
-    if found != expected {
-        return Err(EncodeError::Ranges {
-            what: "exemplar scan".to_owned(),
-            index: 0,
-            found,
-            expected,
-        });
-    }
-    let ranges: Vec<u8> = scan
-        .ranges
-        .iter()
-        .map(|range| share(*range, scan.ring.max_range, COARSE) as u8)
-        .collect();
+fn exemplar(Exemplar { heading, scan }: &Exemplar) -> Result<Value, EncodeError> {
+    let shares = shares(("exemplar scan", 0), &scan.ring, &scan.ranges, COARSE)?;
     Ok(json!({
         "heading": short(heading.radians()),
         "ring": ring(&scan.ring),
-        "ranges": blob::bytes(&ranges),
+        "ranges": blob::bytes(&shares.map(|share| share as u8).collect::<Vec<_>>()),
     }))
 }
 
 fn edge(edge: &Edge) -> Value {
-    let kind = match edge.kind {
-        EdgeKind::Passage => "passage",
-        EdgeKind::Wall => "wall",
-        EdgeKind::Relation => "relation",
-    };
     // Positions instead of names: a large map has many edges.
-    json!([edge.a, edge.b, kind, edge.born, edge.died, edge.label])
+    json!([edge.a, edge.b, edge.kind, edge.born, edge.died, edge.label])
 }
 
 fn belief(belief: &Belief) -> Result<Value, EncodeError> {
@@ -400,7 +337,7 @@ fn shape(shape: &Shape) -> Value {
 }
 
 fn field(field: &Field) -> Result<Value, EncodeError> {
-    ascend("change of a field", field.changes.iter().map(|c| c.step))?;
+    let steps = steps("change of a field", field.changes.iter().map(|c| c.step))?;
     if !(field.pitch.is_finite() && field.pitch > 0.0 && field.columns > 0) {
         return Err(EncodeError::Grid {
             field: field.name.clone(),
@@ -416,22 +353,18 @@ fn field(field: &Field) -> Result<Value, EncodeError> {
         "pitch": field.pitch,
         "columns": field.columns,
         "range": field.range,
-        "steps": blob::steps(field.changes.iter().map(|c| c.step)),
+        "steps": steps,
         "cells": blob::numbers(field.changes.iter().map(|c| c.cell)),
         "values": blob::floats(values),
     }))
 }
 
 fn series(series: &Series) -> Result<Value, EncodeError> {
-    ascend("sample", series.samples.iter().map(|sample| sample.step))?;
-    all_finite("sample", &series.samples, |sample| sample.value.is_finite())?;
     let steps = || series.samples.iter().map(|sample| sample.step);
+    let encoded = self::steps("sample", steps())?;
+    all_finite("sample", &series.samples, |sample| sample.value.is_finite())?;
     let values = || series.samples.iter().map(|sample| sample.value);
-    let mut object = json!({
-        "name": series.name,
-        "unit": series.unit,
-        "steps": blob::steps(steps()),
-    });
+    let mut object = json!({ "name": series.name, "unit": series.unit, "steps": encoded });
     let is_whole = |value: f64| (libm::trunc(value) - value).abs() <= 0.0 && value.abs() < 1e9;
     if values().all(is_whole) {
         object["whole"] = blob::changes(values().map(|value| value as i32)).into();
@@ -451,7 +384,7 @@ fn series(series: &Series) -> Result<Value, EncodeError> {
 
 /// The texts once each, in the order they first appear, and their numbers by step.
 fn notes(notes: &Notes) -> Result<Value, EncodeError> {
-    ascend("note", notes.notes.iter().map(|note| note.step))?;
+    let steps = steps("note", notes.notes.iter().map(|note| note.step))?;
     let mut texts: Vec<&str> = Vec::new();
     let mut numbers = alloc::collections::BTreeMap::new();
     let mut indices = Vec::new();
@@ -466,23 +399,14 @@ fn notes(notes: &Notes) -> Result<Value, EncodeError> {
     Ok(json!({
         "name": notes.name,
         "texts": texts,
-        "steps": blob::steps(notes.notes.iter().map(|note| note.step)),
+        "steps": steps,
         "index": blob::numbers(indices),
     }))
 }
 
 fn marks(marks: &Marks) -> Result<Value, EncodeError> {
-    ascend("mark", marks.steps.iter().copied())?;
-    let kind = match marks.kind {
-        Mark::Bump => "bump",
-        Mark::Failure => "failure",
-        Mark::Arrival => "arrival",
-        Mark::Kidnapping => "kidnapping",
-        Mark::Difference => "difference",
-        Mark::Event => "event",
-    };
-    let steps = blob::steps(marks.steps.iter().copied());
-    Ok(json!({ "kind": kind, "name": marks.name, "steps": steps }))
+    let steps = steps("mark", marks.steps.iter().copied())?;
+    Ok(json!({ "kind": marks.kind, "name": marks.name, "steps": steps }))
 }
 
 fn facts(facts: &[Fact]) -> Value {
@@ -523,6 +447,17 @@ fn all_finite<T>(what: &str, all: &[T], holds: impl Fn(&T) -> bool) -> Result<()
     }
 }
 
+/// The coordinates of points, one after the other.
+fn coordinates<'a>(points: impl IntoIterator<Item = &'a Point>) -> impl Iterator<Item = f64> {
+    points.into_iter().flat_map(|at| [at.x, at.y])
+}
+
+/// Steps that ascend.
+fn steps(what: &str, steps: impl Iterator<Item = u32> + Clone) -> Result<String, EncodeError> {
+    ascend(what, steps.clone())?;
+    Ok(blob::steps(steps))
+}
+
 fn ascend(what: &str, steps: impl Iterator<Item = u32>) -> Result<(), EncodeError> {
     let mut before = 0;
     for (index, step) in steps.enumerate() {
@@ -543,7 +478,7 @@ mod tests {
     use tolman_robot::Scan;
 
     use super::*;
-    use crate::{BeliefAt, FieldChange, NodeMove, Note, Sample, Zone};
+    use crate::{BeliefAt, FieldChange, NodeMove, Note, Sample, Scenery, ZoneKind};
 
     /// A replay with every layer there is.
     fn full() -> Replay {

@@ -1,7 +1,7 @@
 //! Which cells of a maze a robot can get to, and which it has been in.
 
 use tolman_geom::{Point, Vector};
-use tolman_maze::{Cell, Grid};
+use tolman_maze::{Cell, Direction, Grid};
 use tolman_sim::World;
 
 use super::{Sample, Series, Zone, ZoneKind};
@@ -15,17 +15,6 @@ pub struct Floor<'a> {
     /// By cell index.
     reachable: Vec<bool>,
 }
-
-/// Cells in a rectangle, the outermost ones.
-struct Rectangle {
-    west: u16,
-    east: u16,
-    south: u16,
-    north: u16,
-}
-
-/// North, east, south, west, in cells.
-const STEPS: [(i32, i32); 4] = [(0, 1), (1, 0), (0, -1), (-1, 0)];
 
 impl<'a> Floor<'a> {
     /// What can be reached from `start`; nothing in a world that was not made from a maze, or from outside
@@ -41,11 +30,11 @@ impl<'a> Floor<'a> {
         let mut open = vec![first];
         floor.reachable[grid.index(first)] = true;
         while let Some(cell) = open.pop() {
-            for (east, north) in STEPS {
-                let Some(next) = floor.neighbour(cell, east, north) else {
-                    continue;
-                };
-                if !floor.reachable[grid.index(next)] && floor.is_open(cell, east, north) {
+            for direction in Direction::ALL {
+                if let Some(next) = grid.neighbour(cell, direction)
+                    && !floor.reachable[grid.index(next)]
+                    && floor.is_open(cell, direction)
+                {
                     floor.reachable[grid.index(next)] = true;
                     open.push(next);
                 }
@@ -54,14 +43,9 @@ impl<'a> Floor<'a> {
         Some(floor)
     }
 
-    fn neighbour(&self, cell: Cell, east: i32, north: i32) -> Option<Cell> {
-        let x = u16::try_from(i32::from(cell.x) + east).ok()?;
-        let y = u16::try_from(i32::from(cell.y) + north).ok()?;
-        (x < self.grid.width() && y < self.grid.height()).then(|| Cell::new(x, y))
-    }
-
     /// Whether nothing stands between the middle of a cell and that of its neighbour.
-    fn is_open(&self, cell: Cell, east: i32, north: i32) -> bool {
+    fn is_open(&self, cell: Cell, direction: Direction) -> bool {
+        let (east, north) = direction.step();
         let direction = Vector::new(f64::from(east), f64::from(north));
         let caster = self.world.caster();
         caster.cast(self.world.cell_centre(cell), direction, self.pitch) > 0.9 * self.pitch
@@ -70,28 +54,25 @@ impl<'a> Floor<'a> {
     /// The cells that cannot be reached, as few solid rectangles.
     pub fn solid(&self) -> Vec<Zone> {
         // Runs of each row from the south, which grow northwards while the next row has the same.
-        let mut done: Vec<Rectangle> = Vec::new();
-        let mut growing: Vec<Rectangle> = Vec::new();
+        let mut done: Vec<(Cell, Cell)> = Vec::new();
+        let mut growing: Vec<(Cell, Cell)> = Vec::new();
         for y in 0..self.grid.height() {
             let mut next = Vec::new();
             for (west, east) in self.solid_runs(y) {
                 let below = growing
                     .iter()
-                    .position(|run| (run.west, run.east) == (west, east));
-                let south = below.map_or(y, |below| growing.swap_remove(below).south);
-                let north = y;
-                next.push(Rectangle {
-                    west,
-                    east,
-                    south,
-                    north,
-                });
+                    .position(|(first, last)| (first.x, last.x) == (west, east));
+                let south = below.map_or(y, |below| growing.swap_remove(below).0.y);
+                next.push((Cell::new(west, south), Cell::new(east, y)));
             }
             done.append(&mut growing);
             growing = next;
         }
         done.append(&mut growing);
-        done.iter().map(|rectangle| self.zone(rectangle)).collect()
+        let rectangles = done.into_iter();
+        rectangles
+            .map(|(first, last)| self.zone(first, last))
+            .collect()
     }
 
     /// The first and last column of each run of unreachable cells in a row.
@@ -109,16 +90,11 @@ impl<'a> Floor<'a> {
         runs
     }
 
-    fn zone(&self, rectangle: &Rectangle) -> Zone {
-        let Rectangle {
-            west,
-            east,
-            south,
-            north,
-        } = *rectangle;
+    /// The rectangle from its south-western to its north-eastern cell.
+    fn zone(&self, first: Cell, last: Cell) -> Zone {
         let half = Vector::new(0.5 * self.pitch, 0.5 * self.pitch);
-        let min = self.world.cell_centre(Cell::new(west, south)) - half;
-        let max = self.world.cell_centre(Cell::new(east, north)) + half;
+        let min = self.world.cell_centre(first) - half;
+        let max = self.world.cell_centre(last) + half;
         Zone {
             kind: ZoneKind::Solid,
             name: String::new(),

@@ -1,5 +1,6 @@
 //! What a robot knew, and when: layers that any system can hand over.
 
+use serde::Serialize;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::Scan;
 
@@ -108,7 +109,8 @@ impl Edge {
 }
 
 /// What an [`Edge`] means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum EdgeKind {
     /// A way from one to the other.
     Passage,
@@ -290,7 +292,8 @@ impl Marks {
 }
 
 /// What a mark on the slider says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Mark {
     /// The body touched something.
     Bump,

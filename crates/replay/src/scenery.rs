@@ -1,5 +1,6 @@
 use core::f64::consts::TAU;
 
+use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
@@ -27,7 +28,8 @@ pub struct Zone {
 }
 
 /// What a [`Zone`] means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ZoneKind {
     /// Where the robot is to go.
     Destination,

@@ -78,10 +78,7 @@ pub(super) fn from_replicates(
     let sorted = sorted(replicates);
     let (least, greatest) = (sorted[0], sorted[sorted.len() - 1]);
     if least >= greatest {
-        return Ok(Interval {
-            low: least,
-            high: greatest,
-        });
+        return Ok(Interval::new(least, greatest));
     }
     let total = count(replicates);
     let below = replicates.iter().filter(|value| **value < estimate).count();
@@ -89,7 +86,6 @@ pub(super) fn from_replicates(
         .iter()
         .filter(|value| **value <= estimate)
         .count();
-    #[expect(clippy::cast_precision_loss, reason = "far fewer replicates than 2^53")]
     let share = (below + not_above) as f64 / (2.0 * total);
     // An estimate outside all replicates would make the bias infinite; half a replicate is as far
     // as they can tell.
@@ -115,8 +111,5 @@ pub(super) fn from_replicates(
         of_sorted(&sorted, adjusted)
     };
     let tail = ((1.0 - level) / 2.0).clamp(1e-15, 0.5);
-    Ok(Interval {
-        low: end(tail),
-        high: end(1.0 - tail),
-    })
+    Ok(Interval::new(end(tail), end(1.0 - tail)))
 }

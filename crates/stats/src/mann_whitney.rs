@@ -38,14 +38,8 @@ pub fn mann_whitney(a: &[f64], b: &[f64], method: Method) -> Result<MannWhitney,
     let (u, ties) = u_statistic(a, b)?;
     let (n, m) = (count(a), count(b));
     let greater = u.max(n * m - u);
-    let tied = ties > 0.0;
-    let exact = match method {
-        Method::Exact if tied => return Err(SampleError::Ties),
-        Method::Exact => true,
-        Method::Asymptotic => false,
-        Method::Auto => !tied && a.len().min(b.len()) <= 8,
-    };
-    let p = if exact {
+    let method = method.of(ties > 0.0, a.len().min(b.len()) <= 8)?;
+    let p = if method == Method::Exact {
         PValue::two_sided(libm::log(exact_tail(a.len(), b.len(), greater)))
     } else {
         let total = n + m;
@@ -58,15 +52,7 @@ pub fn mann_whitney(a: &[f64], b: &[f64], method: Method) -> Result<MannWhitney,
             PValue::ONE // All values are equal.
         }
     };
-    Ok(MannWhitney {
-        u,
-        p,
-        method: if exact {
-            Method::Exact
-        } else {
-            Method::Asymptotic
-        },
-    })
+    Ok(MannWhitney { u, p, method })
 }
 
 /// U of the first sample, as in [`MannWhitney`], and how much the values of both are tied, as in `Ranks`.
@@ -84,11 +70,6 @@ pub(super) fn u_statistic(a: &[f64], b: &[f64]) -> Result<(f64, f64), SampleErro
 ///
 /// N(u; n, m) arrangements have U = u, and N(u; n, m) = N(u; n, m − 1) + N(u − m; n − 1, m): the
 /// greatest value is of the one sample or of the other. Only sums, so nothing cancels.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "U is a whole number between 0 and n m where there are no ties"
-)]
 fn exact_tail(n: usize, m: usize, u: f64) -> f64 {
     let (n, m) = (n.min(m), n.max(m));
     let mut ways = vec![vec![0.0_f64; n * m + 1]; n + 1];
@@ -104,5 +85,6 @@ fn exact_tail(n: usize, m: usize, u: f64) -> f64 {
         }
     }
     let ways = &ways[n];
+    // U is a whole number where there are no ties.
     ways[u as usize..].iter().sum::<f64>() / ways.iter().sum::<f64>()
 }

@@ -46,25 +46,16 @@ pub fn median_interval(sample: &[f64], level: f64) -> Result<Interval, SampleErr
             needed: least_size(tail),
         });
     }
-    Ok(Interval {
-        low: sorted[most - 1],
-        high: sorted[sorted.len() - most],
-    })
+    Ok(Interval::new(sorted[most - 1], sorted[sorted.len() - most]))
 }
 
 /// The probability that `flips` fair coins show at most `heads` heads, of which there are fewer than
 /// flips.
-#[expect(clippy::cast_precision_loss, reason = "far fewer runs than 2^53")]
 fn at_most_heads(heads: usize, flips: usize) -> f64 {
     regularized_incomplete_beta((flips - heads) as f64, heads as f64 + 1.0, 0.5)
 }
 
 /// The size from which on all coins show one side with a probability of at most `tail`.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the cast saturates"
-)]
 fn least_size(tail: f64) -> usize {
     // A rounded logarithm must not ask for one more.
     (-libm::log2(tail) - 1e-9).ceil() as usize

@@ -1,5 +1,7 @@
 //! How a p-value is found.
 
+use super::SampleError;
+
 /// How a rank test finds its p-value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
@@ -10,4 +12,16 @@ pub enum Method {
     Exact,
     /// From the normal distribution, with corrections for ties and continuity.
     Asymptotic,
+}
+
+impl Method {
+    /// The method to take for a sample that `is_small` or not, and has ties or not.
+    pub(super) const fn of(self, has_ties: bool, is_small: bool) -> Result<Self, SampleError> {
+        match self {
+            Self::Exact if has_ties => Err(SampleError::Ties),
+            Self::Auto if is_small && !has_ties => Ok(Self::Exact),
+            Self::Auto => Ok(Self::Asymptotic),
+            chosen => Ok(chosen),
+        }
+    }
 }

@@ -39,10 +39,6 @@ pub(super) fn of(sample: &[f64]) -> f64 {
 }
 
 /// The size of a sample as a number.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "samples are far smaller than 2^53"
-)]
 pub(super) fn count<T>(sample: &[T]) -> f64 {
     sample.len() as f64
 }

@@ -42,10 +42,6 @@ impl PValue {
 }
 
 impl fmt::Display for PValue {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "an exponent of at most five digits"
-    )]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.value();
         if value >= 0.0995 {
@@ -73,10 +69,6 @@ impl fmt::Display for PValue {
 /// let p = PValue::from_ln(0.01_f64.ln());
 /// assert_eq!(bonferroni(&[p, p])[0].to_string(), "0.020");
 /// ```
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "far fewer comparisons than 2^53"
-)]
 pub fn bonferroni(p_values: &[PValue]) -> Vec<PValue> {
     p_values
         .iter()
@@ -86,10 +78,6 @@ pub fn bonferroni(p_values: &[PValue]) -> Vec<PValue> {
 
 /// Holm's step-down correction ("A simple sequentially rejective multiple test procedure", 1979),
 /// in the order of the input. O(n log n).
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "far fewer comparisons than 2^53"
-)]
 pub fn holm(p_values: &[PValue]) -> Vec<PValue> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|&a, &b| p_values[a].ln.total_cmp(&p_values[b].ln));

@@ -16,10 +16,10 @@ pub fn wilson_interval(successes: u64, trials: u64, level: f64) -> Result<Interv
     let centre = rate + z2 / (2.0 * n);
     let half = z * (rate * (1.0 - rate) / n + z2 / (4.0 * n * n)).sqrt();
     let shrink = 1.0 + z2 / n;
-    Ok(Interval {
-        low: ((centre - half) / shrink).max(0.0),
-        high: ((centre + half) / shrink).min(1.0),
-    })
+    Ok(Interval::new(
+        ((centre - half) / shrink).max(0.0),
+        ((centre + half) / shrink).min(1.0),
+    ))
 }
 
 /// The exact binomial interval of a success rate (Clopper and Pearson, "The use of confidence or
@@ -51,10 +51,9 @@ pub fn exact_binomial_interval(
         0 => 1.0,
         _ => solve(|rate| regularized_incomplete_beta(k + 1.0, n - k, rate) - (1.0 - tail)),
     };
-    Ok(Interval { low, high })
+    Ok(Interval::new(low, high))
 }
 
-#[expect(clippy::cast_precision_loss, reason = "far fewer trials than 2^53")]
 fn check(successes: u64, trials: u64, level: f64) -> Result<(f64, f64), SampleError> {
     if trials == 0 {
         return Err(SampleError::TooSmall {

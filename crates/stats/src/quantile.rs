@@ -75,12 +75,6 @@ pub(super) fn sorted(sample: &[f64]) -> Vec<f64> {
 }
 
 /// The R-7 quantile of a sorted sample with at least one value.
-#[expect(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the place lies between 0 and the length, which is far below 2^53"
-)]
 pub(super) fn of_sorted(sorted: &[f64], probability: f64) -> f64 {
     let place = probability * (sorted.len() - 1) as f64;
     let below = place.floor() as usize;

@@ -10,10 +10,6 @@ pub(super) struct Ranks {
 }
 
 /// Ranks finite values. O(n log n).
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "samples are far smaller than 2^53"
-)]
 pub(super) fn ranks(values: &[f64]) -> Ranks {
     let mut order: Vec<usize> = (0..values.len()).collect();
     // -0.0 and 0.0 are ranked as equals, so not by total_cmp.

@@ -54,13 +54,8 @@ pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, Sample
     let greater = rank_sum.max(n * (n + 1.0) / 2.0 - rank_sum);
 
     let uneven = ranked.ties > 0.0 || differences.len() < a.len();
-    let exact = match method {
-        Method::Exact if uneven => return Err(SampleError::Ties),
-        Method::Exact => true,
-        Method::Asymptotic => false,
-        Method::Auto => !uneven && differences.len() <= 50,
-    };
-    let ln_tail = if exact {
+    let method = method.of(uneven, differences.len() <= 50)?;
+    let ln_tail = if method == Method::Exact {
         libm::log(exact_tail(differences.len(), greater))
     } else {
         let variance = (n * (n + 1.0) * (2.0 * n + 1.0) - ranked.ties / 2.0) / 24.0;
@@ -68,11 +63,6 @@ pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, Sample
         // At the very middle there is nothing to correct.
         let corrected = if distance > 0.0 { distance - 0.5 } else { 0.0 };
         ln_upper_tail(corrected / variance.sqrt())
-    };
-    let method = if exact {
-        Method::Exact
-    } else {
-        Method::Asymptotic
     };
     Ok(Wilcoxon {
         rank_sum,
@@ -83,11 +73,6 @@ pub fn wilcoxon(a: &[f64], b: &[f64], method: Method) -> Result<Wilcoxon, Sample
 
 /// The probability that the rank sum of `n` differences is `sum` or more under the hypothesis: the
 /// share of subsets of the ranks 1 to n whose sum is that large.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "without ties the sum is a whole number"
-)]
 fn exact_tail(n: usize, sum: f64) -> f64 {
     // Shares rather than numbers of subsets, which would overflow beyond a thousand pairs.
     let mut share = vec![0.0_f64; n * (n + 1) / 2 + 1];
@@ -100,5 +85,6 @@ fn exact_tail(n: usize, sum: f64) -> f64 {
             share[sum] = 0.5 * (share[sum] + with);
         }
     }
+    // Without ties the sum is a whole number.
     share[sum as usize..].iter().sum()
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 
 use super::Outcome;
 use crate::layers::{self, Library};
-use crate::workspace::{cargo, output, root, succeed};
+use crate::workspace::{cargo, output, read, root, succeed};
 
 /// A Cortex-M4F with 64-bit floats in software: the boards of small robots.
 const TARGET: &str = "thumbv7em-none-eabihf";
@@ -53,10 +53,8 @@ fn check_on_host(name: &str) -> Result<()> {
     )))?;
     let folder = name.strip_prefix("tolman-").unwrap_or(name);
     let library = root().join("crates").join(folder).join("src/lib.rs");
-    let text = std::fs::read_to_string(&library)
-        .with_context(|| format!("cannot read {}", library.display()))?;
     ensure!(
-        text.contains("#![no_std]"),
+        read(&library)?.contains("#![no_std]"),
         "{} lacks #![no_std]",
         library.display()
     );

@@ -53,30 +53,23 @@ impl Page {
     /// # Errors
     /// If a table is missing or empty, or a row is not understood.
     pub(super) fn parse(text: &str) -> Result<Self> {
-        let crates = rows(text, ["crate", "layer", "library", "may use", "what"])?;
-        let outside = rows(text, ["outside crate", "seen by", "why"])?;
+        let crates = ["crate", "layer", "library", "may use", "what"];
+        let outside = ["outside crate", "seen by", "why"];
         Ok(Self {
-            crates: crates
-                .into_iter()
-                .map(|(line, [name, layer, library, may_use, _])| {
-                    crate_row(name, layer, library, may_use).with_context(|| format!("line {line}"))
-                })
-                .collect::<Result<_>>()?,
-            outside: outside
-                .into_iter()
-                .map(|(line, [pattern, seen_by, _])| {
-                    let seen_by = names(seen_by).with_context(|| format!("line {line}"))?;
-                    Ok(OutsideRow {
-                        pattern: bare(pattern).to_owned(),
-                        seen_by,
-                    })
-                })
-                .collect::<Result<_>>()?,
+            crates: rows(text, crates, crate_row)?,
+            outside: rows(text, outside, outside_row)?,
         })
     }
 }
 
-fn crate_row(name: &str, layer: &str, library: &str, may_use: &str) -> Result<CrateRow> {
+fn outside_row([pattern, seen_by, _]: [&str; 3]) -> Result<OutsideRow> {
+    Ok(OutsideRow {
+        pattern: bare(pattern).to_owned(),
+        seen_by: names(seen_by)?,
+    })
+}
+
+fn crate_row([name, layer, library, may_use, _]: [&str; 5]) -> Result<CrateRow> {
     let layer = match layer {
         "–" => None,
         _ => Some(
@@ -100,10 +93,11 @@ fn crate_row(name: &str, layer: &str, library: &str, may_use: &str) -> Result<Cr
 }
 
 /// The rows below the header with these columns, each with its line counted from 1.
-fn rows<'a, const N: usize>(
-    text: &'a str,
+fn rows<T, const N: usize>(
+    text: &str,
     columns: [&str; N],
-) -> Result<Vec<(usize, [&'a str; N])>> {
+    read: fn([&str; N]) -> Result<T>,
+) -> Result<Vec<T>> {
     let mut lines = (1..).zip(text.lines());
     lines
         .find(|(_, line)| cells(line).is_ok_and(|cells| cells == columns))
@@ -111,7 +105,11 @@ fn rows<'a, const N: usize>(
     let rows: Vec<_> = lines
         .skip(1) // the rule below the header
         .take_while(|(_, line)| line.starts_with('|'))
-        .map(|(line, row)| Ok((line, cells(row).with_context(|| format!("line {line}"))?)))
+        .map(|(line, row)| {
+            cells(row)
+                .and_then(read)
+                .with_context(|| format!("line {line}"))
+        })
         .collect::<Result<_>>()?;
     ensure!(
         !rows.is_empty(),

@@ -1,9 +1,10 @@
 //! No crate grows into a house of its own.
 
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
+
+use crate::workspace::{entries, read};
 
 /// The largest share of all lines of `src` that one crate may have.
 const LARGEST_SHARE: f64 = 0.25;
@@ -14,7 +15,7 @@ const LARGEST_SHARE: f64 = 0.25;
 /// If a folder cannot be read.
 pub(super) fn faults(crates: &Path) -> Result<Vec<String>> {
     let mut lines = Vec::new();
-    for entry in read(crates)? {
+    for entry in entries(crates)? {
         let source = entry.join("src");
         if source.is_dir() {
             lines.push((entry, lines_below(&source)?));
@@ -36,28 +37,20 @@ pub(super) fn faults(crates: &Path) -> Result<Vec<String>> {
 /// The lines of all Rust files in a folder and those below it.
 fn lines_below(folder: &Path) -> Result<usize> {
     let mut lines = 0;
-    for path in read(folder)? {
+    for path in entries(folder)? {
         if path.is_dir() {
             lines += lines_below(&path)?;
         } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let text = fs::read_to_string(&path);
-            lines += text
-                .with_context(|| format!("cannot read {}", path.display()))?
-                .lines()
-                .count();
+            lines += read(&path)?.lines().count();
         }
     }
     Ok(lines)
 }
 
-fn read(folder: &Path) -> Result<Vec<std::path::PathBuf>> {
-    let entries =
-        fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
-    entries.map(|entry| Ok(entry?.path())).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

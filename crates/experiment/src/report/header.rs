@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::{Outcome, duration};
+use crate::{Contrast, Outcome, duration};
 
 /// Corrected p-values below this are called a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
@@ -21,8 +21,8 @@ pub(super) fn header(outcome: &Outcome) -> Markup {
     html! {
         header {
             button #theme type="button" title="light or dark" aria-label="dark colours" { "◐" }
-            h1 { (outcome.title) }
-            @if !outcome.source.is_empty() { p.source { (outcome.source) } }
+            h1 { (outcome.entry.title) }
+            @if !outcome.entry.source.is_empty() { p.source { (outcome.entry.source) } }
             p.meta {
                 "commit " (outcome.build.commit)
                 " · " (short_compiler(&outcome.build.compiler))
@@ -37,34 +37,23 @@ pub(super) fn header(outcome: &Outcome) -> Markup {
 
 /// The outcome in a few numbers.
 pub(super) fn cards(outcome: &Outcome) -> Markup {
-    let verdicts: Vec<bool> = outcome
-        .analysis
-        .values()
-        .filter_map(|(_, _, measured)| Some(measured.verdict?.matches))
-        .collect();
-    let matching = verdicts.iter().filter(|matches| **matches).count();
-    let contrasts: Vec<bool> = outcome
-        .analysis
-        .values()
-        .filter_map(|(_, _, measured)| Some(measured.contrast?.p.value() < SIGNIFICANT))
-        .collect();
-    let differing = contrasts.iter().filter(|differs| **differs).count();
+    let values = || outcome.analysis.values().map(|(_, _, measured)| measured);
+    let (matching, verdicts) = tally(values().filter_map(|one| Some(one.verdict?.matches)));
+    let differs = |contrast: Contrast| contrast.p.value() < SIGNIFICANT;
+    let (differing, contrasts) = tally(values().filter_map(|one| one.contrast.map(differs)));
     let total = outcome.runs.len() as u64;
     html! {
         div.cards {
-            @if !verdicts.is_empty() {
-                (card(&format!("{matching} / {}", verdicts.len()), "values match the paper's"))
+            @if verdicts > 0 {
+                (card(&format!("{matching} / {verdicts}"), "values match the paper's"))
             }
-            (card(
-                &grouped(total),
-                &runs_of_rows(outcome),
-            ))
+            (card(&grouped(total), &runs_of_rows(outcome)))
             @if outcome.played < total {
                 (card(&grouped(total - outcome.played), "runs reused from before"))
             }
-            @if !contrasts.is_empty() {
+            @if contrasts > 0 {
                 (card(
-                    &format!("{differing} / {}", contrasts.len()),
+                    &format!("{differing} / {contrasts}"),
                     &format!("comparisons differ (p < {SIGNIFICANT})"),
                 ))
             }
@@ -80,11 +69,8 @@ pub(super) fn contents(outcome: &Outcome) -> Markup {
         @if tables.len() > 1 {
             nav aria-label="tables" {
                 @for (number, table) in (1_u32..).zip(tables) {
-                    @let verdicts = || {
-                        let rows = table.metrics.iter().flat_map(|metric| &metric.rows);
-                        rows.filter_map(|row| row.verdict)
-                    };
-                    @let (matching, all) = (verdicts().filter(|v| v.matches).count(), verdicts().count());
+                    @let rows = table.metrics.iter().flat_map(|metric| &metric.rows);
+                    @let (matching, all) = tally(rows.filter_map(|row| Some(row.verdict?.matches)));
                     a href={ "#table-" (number) } {
                         "Table " (table.table.name)
                         @if all > 0 { span { (matching) " / " (all) " match" } }
@@ -93,6 +79,13 @@ pub(super) fn contents(outcome: &Outcome) -> Markup {
             }
         }
     }
+}
+
+/// How many of these hold, and how many there are.
+fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
+    these.fold((0, 0), |(hold, all), holds| {
+        (hold + usize::from(holds), all + 1)
+    })
 }
 
 /// How many runs the rows have, where all have the same number.

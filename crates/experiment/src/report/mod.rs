@@ -27,7 +27,7 @@ pub(crate) fn html(outcome: &Outcome) -> String {
                 meta name="generator" content="tolman report";
                 meta http-equiv="Content-Security-Policy"
                     content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
-                title { (outcome.title) }
+                title { (outcome.entry.title) }
                 style {
                     (PreEscaped(tolman_draw::style())) (PreEscaped(include_str!("style.css")))
                     (PreEscaped(replays::style(outcome)))

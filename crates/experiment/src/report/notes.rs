@@ -15,22 +15,12 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
         .flat_map(|table| table.metrics.iter().map(|metric| &metric.metric))
         .collect();
     let has = |wanted: fn(&Statistic) -> bool| metrics.iter().any(|m| wanted(&m.statistic));
-    let share = has(|statistic| {
-        matches!(
-            statistic,
-            Statistic::Percent { .. } | Statistic::Count { .. }
-        )
-    });
-    let count = has(|statistic| matches!(statistic, Statistic::Count { .. }));
-    let median = has(|statistic| matches!(statistic, Statistic::Median { .. }));
-    let mean = has(|statistic| matches!(statistic, Statistic::Mean { .. }));
-    let ratio = has(|statistic| {
-        matches!(
-            statistic,
-            Statistic::Ratio { .. } | Statistic::Multiple { .. }
-        )
-    });
-    let settling = has(|statistic| matches!(statistic, Statistic::Settling(_)));
+    let percent = has(|of| matches!(of, Statistic::Percent { .. }));
+    let count = has(|of| matches!(of, Statistic::Count { .. }));
+    let median = has(|of| matches!(of, Statistic::Median { .. }));
+    let mean = has(|of| matches!(of, Statistic::Mean { .. }));
+    let ratio = has(|of| matches!(of, Statistic::Ratio { .. } | Statistic::Multiple { .. }));
+    let settling = has(|of| matches!(of, Statistic::Settling(_)));
     let compared = analysis
         .tables
         .iter()
@@ -59,7 +49,7 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
                     }
                 }
                 li { b { "95 % interval. " }
-                    @if share { "Percentages and counts: exact binomial (Clopper–Pearson). " }
+                    @if percent || count { "Percentages and counts: exact binomial (Clopper–Pearson). " }
                     @if median { "Medians: the order statistics that hold it with at least that probability, whatever the distribution; six runs or more. " }
                     @if mean || ratio { "Means and ratios: BCa bootstrap, " (RESAMPLES) " resamples. " }
                     @if settling { "When a mean curve settles: the same bootstrap over runs, with the limit held. " }

@@ -28,8 +28,8 @@ pub(super) fn table(analysis: &TableAnalysis) -> Markup {
                 td {
                     @if let Some(p) = pair.paper { (p) } @else { span.quiet { "–" } }
                 }
-                td class=[(pair.p.value() < SIGNIFICANT).then_some("strong")] { (pair.p) }
-                td { (format!("{:.2}", pair.a12)) }
+                td class=[(pair.contrast.p.value() < SIGNIFICANT).then_some("strong")] { (pair.contrast.p) }
+                td { (format!("{:.2}", pair.contrast.a12)) }
             } } }
         }
     }

@@ -1,7 +1,7 @@
 //! The replays that the page carries, the player, and what stands in for the others.
 
 use maud::{Markup, PreEscaped, html};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::Outcome;
 use crate::shell;
@@ -77,26 +77,26 @@ pub(super) fn scripts(outcome: &Outcome) -> Markup {
 
 /// The command that plays a run again, in the parts the script puts together.
 fn data(outcome: &Outcome) -> String {
-    let mut tables = Map::new();
-    for (number, table) in (1_u32..).zip(&outcome.analysis.tables) {
-        let table = &table.table;
-        let mut rows = Map::new();
-        for (number, row) in (1_u32..).zip(&table.rows) {
-            let value = json!({ "number": number, "shell": shell::quoted(&row.name) });
-            rows.insert(row.name.clone(), value);
-        }
-        let value = json!({
-            "number": number,
-            "shell": shell::quoted(&table.name),
-            "recorded": outcome.replays.tables.contains(&table.name),
-            "rows": rows,
+    let tables = (1_u32..)
+        .zip(&outcome.analysis.tables)
+        .map(|(number, table)| {
+            let table = &table.table;
+            let rows = (1_u32..).zip(&table.rows).map(|(number, row)| {
+                let value = json!({ "number": number, "shell": shell::quoted(&row.name) });
+                (row.name.clone(), value)
+            });
+            let value = json!({
+                "number": number,
+                "shell": shell::quoted(&table.name),
+                "recorded": outcome.replays.tables.contains(&table.name),
+                "rows": rows.collect::<Value>(),
+            });
+            (table.name.clone(), value)
         });
-        tables.insert(table.name.clone(), value);
-    }
     let data = json!({
         "command": outcome.command,
         "runs": outcome.runs_per_row,
-        "tables": Value::Object(tables),
+        "tables": tables.collect::<Value>(),
     });
     // Nothing in a script element may look like its end.
     data.to_string().replace('<', "\\u003c")

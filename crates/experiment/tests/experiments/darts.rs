@@ -4,8 +4,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_draw::{Figure, Plan, Series, Zone};
 use tolman_experiment::{
-    Better, BoxError, Correction, Experiment, Fields, Job, Metric, Record, Row, Run, Table,
-    Tolerance, record,
+    Better, BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Procedure, Record, Row,
+    Run, Table, Tolerance, record,
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{Replay, Scenery, Track};
@@ -30,6 +30,7 @@ record! {
 }
 
 /// The experiment. Its fields are what tests change.
+#[derive(Clone, Debug)]
 pub(crate) struct Darts {
     pub(crate) tables: Vec<Table>,
     /// Half the side of the board.
@@ -111,36 +112,25 @@ fn hits(throw: Option<Point>) -> bool {
     throw.is_some_and(|throw| throw.coords.norm() < 0.3)
 }
 
-impl Experiment for Darts {
-    fn name(&self) -> &'static str {
-        "darts"
-    }
+pub(crate) const DARTS_ENTRY: Entry = Entry {
+    name: "darts",
+    title: "Throws until a hit, <by> skill & distance",
+    source: "After nobody's paper: values made up for tests",
+    runs: 400,
+    quick_runs: 10,
+    open: |_| Ok((&Darts::new()).into()),
+};
 
-    fn title(&self) -> &'static str {
-        "Throws until a hit, <by> skill & distance"
+impl From<&Darts> for Experiment {
+    fn from(darts: &Darts) -> Self {
+        let reach = [("reach".to_owned(), toml::Value::Float(darts.reach))];
+        let config = toml::toml! { darts = 10 }.into_iter().chain(reach);
+        let config = config.collect();
+        Self::new(DARTS_ENTRY, darts.tables.clone(), config, darts.clone())
     }
+}
 
-    fn source(&self) -> &'static str {
-        "After nobody's paper: values made up for tests"
-    }
-
-    fn default_runs(&self) -> u32 {
-        400
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        Ok(toml::toml! {
-            darts = 10
-        }
-        .into_iter()
-        .chain([("reach".to_owned(), toml::Value::Float(self.reach))])
-        .collect())
-    }
-
+impl Procedure for Darts {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let throws = self.throws(job);
         let last = throws.last().copied();

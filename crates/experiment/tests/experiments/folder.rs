@@ -4,11 +4,11 @@ use std::fs;
 
 use serde::{Deserialize, Serialize};
 use tolman_experiment::{
-    BoxError, Build, Column, Error, Event, Experiment, Fields, Job, Metric, Options, Progress,
-    Record, Silent, Table, execute, record,
+    BoxError, Build, Column, Entry, Error, Event, Experiment, Fields, Job, Metric, Options,
+    Procedure, Progress, Record, Silent, Table, execute, record,
 };
 
-use crate::darts::{Darts, Throws};
+use crate::darts::{DARTS_ENTRY, Darts, Throws};
 use crate::support::{Listener, build, fresh, options, read, run};
 
 #[test]
@@ -58,7 +58,12 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     run(&Darts::new(), &few).0.unwrap();
 
     let listener = Listener::stopping_after(100);
-    let stopped = execute(&Darts::new(), &options(&parts), &build(), &listener);
+    let stopped = execute(
+        &(&Darts::new()).into(),
+        &options(&parts),
+        &build(),
+        &listener,
+    );
     let Err(
         error @ Error::Interrupted {
             done, total: 240, ..
@@ -237,7 +242,7 @@ fn results_of_another_configuration_are_set_aside_whole() {
         ..build()
     };
     let listener = Listener::default();
-    execute(&wide, &slashed, &other, &listener).unwrap();
+    execute(&(&wide).into(), &slashed, &other, &listener).unwrap();
     assert_eq!(
         listener.messages()[0],
         "out.3 has another build, of commit 0123456789"
@@ -280,15 +285,22 @@ fn a_folder_is_open_only_once_at_a_time() {
     impl Progress for Intruder<'_> {
         fn event(&self, event: &Event<'_>) {
             if matches!(event, Event::Started { .. }) {
-                let error = execute(&Darts::new(), self.0, &build(), &Silent).unwrap_err();
+                let error =
+                    execute(&(&Darts::new()).into(), self.0, &build(), &Silent).unwrap_err();
                 assert!(matches!(error, Error::Busy { .. }), "{error:?}");
             }
         }
     }
     let out = fresh("busy").join("out");
     let options = options(&out);
-    execute(&Darts::new(), &options, &build(), &Intruder(&options)).unwrap();
-    execute(&Darts::new(), &options, &build(), &Silent).unwrap();
+    execute(
+        &(&Darts::new()).into(),
+        &options,
+        &build(),
+        &Intruder(&options),
+    )
+    .unwrap();
+    execute(&(&Darts::new()).into(), &options, &build(), &Silent).unwrap();
 }
 
 #[test]
@@ -433,25 +445,20 @@ record! {
 }
 
 /// Darts whose run 3 of Adept from far away gives the fields of the test.
+#[derive(Debug)]
 struct Spoilt(Fields);
 
-impl Experiment for Spoilt {
-    fn name(&self) -> &'static str {
-        "spoilt"
+impl From<Spoilt> for Experiment {
+    fn from(spoilt: Spoilt) -> Self {
+        let entry = Entry {
+            runs: 5,
+            ..DARTS_ENTRY
+        };
+        Self::new(entry, Darts::new().tables, toml::Table::new(), spoilt)
     }
-    fn title(&self) -> &'static str {
-        "Spoilt"
-    }
-    fn default_runs(&self) -> u32 {
-        5
-    }
-    fn tables(&self) -> &[Table] {
-        static TABLES: std::sync::OnceLock<Vec<Table>> = std::sync::OnceLock::new();
-        TABLES.get_or_init(|| Darts::new().tables)
-    }
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        Ok(toml::Table::new())
-    }
+}
+
+impl Procedure for Spoilt {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         if (job.table, job.row, job.run) == ("2 (far)", "Adept", 3) {
             return Ok(self.0.clone());
@@ -487,7 +494,7 @@ fn a_run_that_measures_nonsense_is_named() {
     {
         let out = fresh(&format!("nonsense-{i}")).join("out");
         let error = run(
-            &Spoilt(fields),
+            Spoilt(fields),
             &Options {
                 runs: None,
                 ..options(&out)
@@ -515,7 +522,7 @@ fn a_run_that_measures_nonsense_is_named() {
 fn a_field_that_some_runs_lack_is_measured_on_the_others() {
     let out = fresh("lacking").join("out");
     let outcome = run(
-        &Spoilt(hit().fields().unwrap()),
+        Spoilt(hit().fields().unwrap()),
         &Options {
             runs: None,
             ..options(&out)

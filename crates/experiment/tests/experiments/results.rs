@@ -141,7 +141,7 @@ fn rows_are_compared_each_with_each_and_with_one_among_them() {
     );
     let alone =
         tolman_stats::mann_whitney(&throws("Novice"), &throws("Adept"), Method::Auto).unwrap();
-    assert!((pairs[0].p.value() - (3.0 * alone.p.value()).min(1.0)).abs() < 1e-12);
+    assert!((pairs[0].contrast.p.value() - (3.0 * alone.p.value()).min(1.0)).abs() < 1e-12);
 
     let summary: serde_json::Value = serde_json::from_str(&read(&out, "summary.json")).unwrap();
     let rows = summary["rows"].as_array().unwrap();
@@ -247,7 +247,7 @@ fn a_run_is_one_line_that_names_what_plays_it_again() {
         "{line}"
     );
     let parsed: Run = serde_json::from_str(line).unwrap();
-    use tolman_experiment::Experiment;
+    use tolman_experiment::Procedure;
     assert_eq!(Darts::new().run(&parsed.job()).unwrap(), parsed.fields);
 }
 
@@ -422,7 +422,7 @@ fn the_report_carries_the_replays_of_the_first_runs_of_each_row() {
         .nth(1)
         .unwrap();
     let run_7 = run_7.split("</script>").next().unwrap();
-    let written = write_replay(&darts, &options(&out), "1 (near)", "Adept", 7).unwrap();
+    let written = write_replay(&(&darts).into(), &options(&out), "1 (near)", "Adept", 7).unwrap();
     assert!(written.ends_with("replays/1-2-7.html"));
     assert!(fs::read_to_string(written).unwrap().contains(run_7));
     // The script knows what plays the others.
@@ -459,13 +459,13 @@ fn replays_that_are_long_are_fewer_so_that_a_page_stays_below_its_size() {
 fn a_replay_can_be_written_before_the_experiment_is_run() {
     let out = fresh("replay-first").join("out");
     let (darts, options) = (Darts::new(), options(&out));
-    write_replay(&darts, &options, "1 (near)", "Master", 1000).unwrap();
+    write_replay(&(&darts).into(), &options, "1 (near)", "Master", 1000).unwrap();
     for (table, row, what) in [
         ("9", "Adept", "choose one of: 1 (near), 2 (far)"),
         ("1 (near)", "adept", "choose one of: Novice, Adept, Master"),
         ("2 (far)", "Adept", "not recorded"),
     ] {
-        let error = write_replay(&darts, &options, table, row, 0).unwrap_err();
+        let error = write_replay(&(&darts).into(), &options, table, row, 0).unwrap_err();
         assert!(
             error.is_bad_input() && error.to_string().contains(what),
             "{error}"

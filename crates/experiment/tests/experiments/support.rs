@@ -96,11 +96,14 @@ impl Progress for Listener {
 
 /// Runs an experiment and tells what was heard.
 pub(crate) fn run(
-    experiment: &dyn Experiment,
+    experiment: impl Into<Experiment>,
     options: &Options,
 ) -> (Result<Outcome, Error>, Listener) {
     let listener = Listener::default();
-    (execute(experiment, options, &build(), &listener), listener)
+    (
+        execute(&experiment.into(), options, &build(), &listener),
+        listener,
+    )
 }
 
 pub(crate) fn read(folder: &Path, name: &str) -> String {

@@ -45,14 +45,12 @@ const PLACES: [(&str, &[Direction]); 5] = [
 
 pub(super) fn table() -> Table {
     let title = "What the corridor detector takes for a corridor";
-    let mut table = Table::of::<CorridorRun>(NAME, title)
-        .metric(Metric::mean(CorridorRun::called_corridor_percent));
-    for (name, _) in PLACES {
-        table = table.row(Row::new(name));
-    }
-    table.note(format!(
-        "{POSES} poses a run, anywhere in the cell where the robot stands clear and with any heading."
-    ))
+    Table::of::<CorridorRun>(NAME, title)
+        .metric(Metric::mean(CorridorRun::called_corridor_percent))
+        .rows(PLACES.map(|(name, _)| Row::new(name)))
+        .note(format!(
+            "{POSES} poses a run, anywhere in the cell where the robot stands clear and with any heading."
+        ))
 }
 
 /// One run: the share of random poses in a place that look like a corridor.

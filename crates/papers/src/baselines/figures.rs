@@ -17,10 +17,8 @@ pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, Bo
     let mut figures = Vec::new();
     for (number, venue) in (1_u32..).zip(&experiment.venues) {
         for (series, row) in (0_u32..).zip(ROWS.map(Agent::name)) {
-            let of_row: Vec<&Run> = runs
-                .iter()
-                .filter(|run| run.table == venue.table && run.row == row)
-                .collect();
+            let of_row = runs.iter().filter(|run| run.is_of(&venue.table, row));
+            let of_row: Vec<&Run> = of_row.collect();
             if let Some(middle) = middle(&of_row)? {
                 let name = format!("plan-{number}-{}", series + 1);
                 figures.push(plan(

@@ -15,12 +15,13 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
-use tolman_arena::cast::{Agent, Cast};
+use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Experiment, Fields, Job, Metric, Options, Record, Run, Table, Tolerance,
+    BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Run,
+    Table, Tolerance,
 };
 use tolman_replay::Replay;
 
@@ -32,22 +33,26 @@ const ROWS: [Agent; 4] = [
     Agent::Oracle,
 ];
 
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "baselines",
+    title: "Mazes without a map: MSLST's baselines",
+    source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3",
+    runs: 25,
+    quick_runs: 10,
+    open,
+};
+
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Baselines {
-    robot: LaserPioneerConfig,
     venues: Vec<Venue>,
-    /// The agents of each venue.
-    casts: Vec<Cast>,
-    tables: Vec<Table>,
-    /// What is not here.
-    skipped: Option<String>,
 }
 
 /// What the runs depend on.
 #[derive(Serialize)]
 struct Config<'a> {
-    robot: &'a LaserPioneerConfig,
+    robot: LaserPioneerConfig,
     worlds: BTreeMap<&'a str, World>,
 }
 
@@ -55,22 +60,28 @@ struct Config<'a> {
 ///
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.
-pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(options: &Options) -> Result<Experiment, BoxError> {
     let (venues, skipped) = worlds::venues(&options.mazes)?;
     let mut tables: Vec<Table> = venues.iter().map(table).collect();
     tables.push(detector::table());
-    let casts = venues.iter().map(|_| Cast::default()).collect();
-    Ok(Box::new(Baselines {
+    let worlds = venues.iter();
+    let config = toml::Table::try_from(Config {
         robot: pioneer::calibrated(),
-        venues,
-        casts,
-        tables,
-        skipped,
-    }))
+        worlds: worlds.map(|venue| (&*venue.table, venue.world())).collect(),
+    })?;
+    Ok(Experiment::new(ENTRY, tables, config, Baselines { venues }).skipped(skipped))
 }
 
 fn table(venue: &Venue) -> Table {
-    let mut table = venue
+    let row = |agent: Agent| {
+        let row = venue.row(agent.name());
+        let paper = |metric| Some(row.paper_value(metric)?.value);
+        match paper("steps").zip(paper("actions")) {
+            Some((steps, actions)) => row.paper("steps_per_action", steps / actions),
+            None => row,
+        }
+    };
+    venue
         .table::<MazeRun>()
         .metric(
             Metric::percent("success_percent", MazeRun::reached)
@@ -83,35 +94,20 @@ fn table(venue: &Venue) -> Table {
                 .titled("steps / action")
                 .defined("Time steps of all runs for each of their actions.")
                 .tolerance(Tolerance::Relative(0.2)),
-        );
-    for name in ROWS.map(Agent::name) {
-        let row = venue.row(name);
-        let paper = |metric| Some(row.paper_value(metric)?.value);
-        table = table.row(match paper("steps").zip(paper("actions")) {
-            Some((steps, actions)) => row.paper("steps_per_action", steps / actions),
-            None => row,
-        });
-    }
-    table.compared_with(ROWS[0].name(), Correction::Bonferroni)
+        )
+        .rows(ROWS.map(row))
+        .compared_with(ROWS[0].name(), Correction::Bonferroni)
 }
 
 impl Baselines {
-    fn venue(&self, table: &str) -> Option<(usize, &Venue)> {
-        self.venues
-            .iter()
-            .enumerate()
-            .find(|(_, venue)| venue.table == table)
-    }
-
     /// What a run is made of; `None` for one of the detector.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Trial<'_>, Mind)>, EpisodeError> {
-        let (Some((index, venue)), Some(agent)) = (self.venue(job.table), Agent::named(job.row))
-        else {
+        let mut venues = self.venues.iter();
+        let venue = venues.find(|venue| venue.table == job.table);
+        let Some((venue, agent)) = venue.zip(Agent::named(job.row)) else {
             return Ok(None);
         };
-        let trial = venue.trial(&self.robot, job.seed);
-        let mind = self.casts[index].mind(agent, &venue.course, &self.robot)?;
-        Ok(Some((trial, mind)))
+        Ok(Some((venue.trial(job.seed), venue.mind(agent)?)))
     }
 
     /// Plays one run; also how figures play it again.
@@ -123,39 +119,7 @@ impl Baselines {
     }
 }
 
-impl Experiment for Baselines {
-    fn name(&self) -> &str {
-        "baselines"
-    }
-
-    fn title(&self) -> &str {
-        "Mazes without a map: MSLST's baselines"
-    }
-
-    fn source(&self) -> &str {
-        "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3"
-    }
-
-    fn default_runs(&self) -> u32 {
-        25
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn skipped(&self) -> Option<&str> {
-        self.skipped.as_deref()
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        let worlds = self.venues.iter();
-        Ok(toml::Table::try_from(Config {
-            robot: &self.robot,
-            worlds: worlds.map(|venue| (&*venue.table, venue.world())).collect(),
-        })?)
-    }
-
+impl Procedure for Baselines {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match self.episode(job)? {
             Some(episode) => Ok(MazeRun::of(&episode).fields()?),

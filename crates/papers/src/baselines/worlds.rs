@@ -18,7 +18,7 @@ pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), 
     if !files.is_empty() {
         return Ok((venue::from_files(files, &[detector::NAME])?, None));
     }
-    let mut venues = venue::papers()?;
+    let mut venues = Vec::from(venue::papers()?);
     let Some(folder) = data::folder() else {
         return Ok((venues, Some(data::missing("competition mazes"))));
     };

@@ -23,8 +23,7 @@ use tolman_sim::robots::EpuckConfig;
 use tolman_arena::cpm::{Record, Venue, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_draw::Figure;
-use tolman_experiment::Run;
-use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Table};
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table};
 use tolman_replay::Replay;
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::cpm::{CommonPatterns, Mode};
@@ -37,6 +36,17 @@ use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::{FIGURE_11, Real};
 use trials::{Modes, Trials};
+
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "cpm",
+    title: "CPM: common-pattern maps on an e-puck",
+    source: "A. Kawewong, Y. Honda, M. Tsuboyama, O. Hasegawa: Reasoning on the Self-Organizing Incremental Associative Memory for Online \
+             Robot Path Planning, figures 9 and 11",
+    runs: 10,
+    quick_runs: 3,
+    open,
+};
 
 /// The experiment, ready to run.
 #[derive(Debug)]
@@ -51,7 +61,6 @@ struct Cpm {
     /// What the robot learned of the venues.
     known: Known,
     master_seed: u64,
-    tables: Vec<Table>,
 }
 
 /// What the runs depend on.
@@ -71,7 +80,7 @@ struct Config<'a, R, D> {
 ///
 /// # Errors
 /// If a maze cannot be read, or nothing is learned.
-pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(options: &Options) -> Result<Experiment, BoxError> {
     let papers = options.mazes.is_empty();
     let venues = if papers {
         venue::papers()?
@@ -99,7 +108,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
     }
-    Ok(Box::new(Cpm {
+    let cpm = Cpm {
         venues,
         real,
         learning,
@@ -108,8 +117,8 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         explored,
         known: Known::default(),
         master_seed: options.seed,
-        tables,
-    }))
+    };
+    Ok(Experiment::new(ENTRY, tables, cpm.config()?, cpm))
 }
 
 impl Cpm {
@@ -141,33 +150,6 @@ impl Cpm {
         let venue = self.venues.iter().find(|venue| venue.name == name);
         venue.ok_or_else(|| format!("there is no row {name:?}").into())
     }
-}
-
-impl Experiment for Cpm {
-    fn name(&self) -> &str {
-        "cpm"
-    }
-
-    fn title(&self) -> &str {
-        "CPM: common-pattern maps on an e-puck"
-    }
-
-    fn source(&self) -> &str {
-        "A. Kawewong, Y. Honda, M. Tsuboyama, O. Hasegawa: Reasoning on the Self-Organizing Incremental Associative Memory for Online \
-         Robot Path Planning, figures 9 and 11"
-    }
-
-    fn default_runs(&self) -> u32 {
-        10
-    }
-
-    fn quick_runs(&self) -> u32 {
-        3
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
         let mut modes: BTreeMap<&str, Modes<'_>> = BTreeMap::new();
@@ -188,7 +170,9 @@ impl Experiment for Cpm {
             mazes: mazes.collect(),
         })?)
     }
+}
 
+impl Procedure for Cpm {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match job.table {
             FIGURE_11 => self.real.run(job),

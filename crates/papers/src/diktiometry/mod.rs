@@ -10,28 +10,45 @@ use alloc::collections::BTreeMap;
 use tolman_arena::diktiometry::{ErrorSummary, Isomorphism, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Settling,
-    Table, record,
+    BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row,
+    Run, Settling, Table, record,
 };
 use tolman_replay::Replay;
 
 use settings::{Rows, Setting, Subject, Trial};
 
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "diktiometry",
+    title: "Diktiometry: maps considered as adaptive planning resources",
+    source: "S. Engelson, D. McDermott: Maps Considered as Adaptive Planning Resources, figures 3 and 4",
+    runs: 10,
+    quick_runs: 2,
+    open,
+};
+
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Diktiometry {
     trials: Vec<Trial>,
-    tables: Vec<Table>,
 }
 
 /// Builds the offices. Maze files have no part in it.
 ///
 /// # Errors
 /// If an office cannot be built.
-pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(_options: &Options) -> Result<Experiment, BoxError> {
     let trials = settings::all()?;
     let tables = trials.iter().map(table).collect();
-    Ok(Box::new(Diktiometry { trials, tables }))
+    let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
+    for trial in &trials {
+        let rows = trial.settings.iter();
+        let rows = rows.map(|setting| (setting.row, setting.config()));
+        config.insert(trial.name, rows.collect());
+    }
+    let config = toml::Table::try_from(config)?;
+    let procedure = Diktiometry { trials };
+    Ok(Experiment::new(ENTRY, tables, config, procedure))
 }
 
 record! {
@@ -177,41 +194,7 @@ impl Diktiometry {
     }
 }
 
-impl Experiment for Diktiometry {
-    fn name(&self) -> &str {
-        "diktiometry"
-    }
-
-    fn title(&self) -> &str {
-        "Diktiometry: maps considered as adaptive planning resources"
-    }
-
-    fn source(&self) -> &str {
-        "S. Engelson, D. McDermott: Maps Considered as Adaptive Planning Resources, figures 3 and 4"
-    }
-
-    fn default_runs(&self) -> u32 {
-        10
-    }
-
-    fn quick_runs(&self) -> u32 {
-        2
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
-        for trial in &self.trials {
-            let rows = trial.settings.iter();
-            let rows = rows.map(|setting| (setting.row, setting.config()));
-            config.insert(trial.name, rows.collect());
-        }
-        Ok(toml::Table::try_from(config)?)
-    }
-
+impl Procedure for Diktiometry {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;

@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Maze};
 use tolman_planners::{Found, Graph, a_star, best_first, path_to};
 
 use super::paper::PaperTable;
-use super::{Fields, Metric, Row, Table};
+use super::{Fields, Job, Metric, Row, Table};
 use tolman_arena::micromouse::{CellTask, MAX_STEPS};
 use tolman_experiment::{BoxError, Record, record, require};
 use tolman_systems::baselines::q_learning::{QLearner, QLearningConfig};
@@ -61,28 +61,25 @@ pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     if mazes.is_empty() {
         return Vec::new();
     }
-    let mut planners = Table::of::<PlannerRun>(PLANNERS, "Searches in a known maze, by cells")
+    let of_all = |row| Row::new(row).runs(mazes.len() as u32);
+    let planners = Table::of::<PlannerRun>(PLANNERS, "Searches in a known maze, by cells")
         .metric(Metric::mean(PlannerRun::path_cells))
         .metric(Metric::mean(PlannerRun::expanded))
+        .rows(ROWS.map(of_all))
         .note(
             "One run on each of the paper's mazes 1 to 3. A* and best-first guess by the Manhattan distance. Expanded \
              is how many cells' neighbours were looked at.",
         );
-    for row in ROWS {
-        planners = planners.row(Row::new(row).runs(mazes.len() as u32));
-    }
-    let mut learning = Table::of::<LearningRun>(Q_LEARNING, "Q-learning in a known maze")
+    let learning = Table::of::<LearningRun>(Q_LEARNING, "Q-learning in a known maze")
         .metric(
             Metric::percent("learned_in_time_percent", LearningRun::learned_in_time)
                 .titled(format!("learned in {MAX_STEPS} steps")),
         )
         .metric(Metric::median("steps_to_learn", LearningRun::steps))
+        .rows(mazes.iter().map(|(name, _)| Row::new(*name)))
         .note(format!(
             "Learned is a shortest path in cells. Looked at every {LOOK} steps, up to {MOST_STEPS}."
         ));
-    for (name, _) in &mazes {
-        learning = learning.row(Row::new(*name));
-    }
     vec![planners, learning]
 }
 
@@ -96,29 +93,6 @@ fn mazes(paper: &[PaperTable]) -> Vec<(&'static str, &Maze)> {
             Some((name, table.mazes().next()?.1))
         })
         .collect()
-}
-
-/// Plays a run of these tables; none of any other.
-pub(super) fn run(
-    paper: &[PaperTable],
-    table: &str,
-    row: &str,
-    number: u32,
-    seed: u64,
-) -> Result<Option<Fields>, BoxError> {
-    let mazes = mazes(paper);
-    match table {
-        PLANNERS => {
-            let (_, maze) = mazes.get(number as usize).ok_or("there is no such maze")?;
-            planner(row, maze).map(Some)
-        }
-        Q_LEARNING => {
-            let found = mazes.iter().find(|(name, _)| *name == row);
-            let (_, maze) = found.ok_or("there is no such maze")?;
-            learn(maze, seed).map(Some)
-        }
-        _ => Ok(None),
-    }
 }
 
 /// Cells as nodes, by [`tolman_maze::Grid::index`].
@@ -140,7 +114,10 @@ impl Graph for Cells<'_> {
     }
 }
 
-fn planner(row: &str, maze: &Maze) -> Result<Fields, BoxError> {
+/// Searches in one maze.
+pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxError> {
+    let mazes = mazes(paper);
+    let (_, maze) = mazes.get(job.run as usize).ok_or("there is no such maze")?;
     let grid = maze.grid();
     let (start, _) = maze.start().ok_or("the maze has no start")?;
     let source = grid.index(start) as u32;
@@ -156,31 +133,32 @@ fn planner(row: &str, maze: &Maze) -> Result<Fields, BoxError> {
         maze.goals().iter().map(distance).min().unwrap_or(0)
     };
     let cells = Cells(maze);
-    let found = match row {
+    let counted = |Found { cost, expanded, .. }: Found| (cost, Some(expanded));
+    let found = match job.row {
         "breadth-first" => {
-            let path = path_to(&cells, source, is_goal).ok_or("no way")?;
-            let run = PlannerRun {
-                path_cells: path.len() as u32 - 1,
-                expanded: None,
-            };
-            return Ok(run.fields()?);
+            let path = path_to(&cells, source, is_goal);
+            path.map(|path| (path.len() as u32 - 1, None))
         }
-        "Dijkstra" => a_star(&cells, source, is_goal, |_| 0),
-        "A*" => a_star(&cells, source, is_goal, manhattan),
-        _ => best_first(&cells, source, is_goal, manhattan),
+        "Dijkstra" => a_star(&cells, source, is_goal, |_| 0).map(counted),
+        "A*" => a_star(&cells, source, is_goal, manhattan).map(counted),
+        _ => best_first(&cells, source, is_goal, manhattan).map(counted),
     };
-    let Found { cost, expanded, .. } = found.ok_or("no way")?;
+    let (path_cells, expanded) = found.ok_or("no way")?;
     let run = PlannerRun {
-        path_cells: cost,
-        expanded: Some(expanded),
+        path_cells,
+        expanded,
     };
     Ok(run.fields()?)
 }
 
-fn learn(maze: &Maze, seed: u64) -> Result<Fields, BoxError> {
+/// Learns one maze.
+pub(super) fn learn(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxError> {
+    let mut mazes = mazes(paper).into_iter();
+    let found = mazes.find(|(name, _)| *name == job.row);
+    let (_, maze) = found.ok_or("there is no such maze")?;
     let (start, _) = maze.start().ok_or("the maze has no start")?;
     let shortest = maze.steps_to_goal()[maze.grid().index(start)];
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
     let mut learner = QLearner::new(QLearningConfig::usual(), CellTask::new(maze, start));
     let mut steps = 0;
     while steps < MOST_STEPS {

@@ -5,7 +5,7 @@ use tolman_planners::speed_run::SpeedRunConfig;
 
 use super::sets::MazeSet;
 use tolman_arena::competition;
-use tolman_experiment::{BoxError, Fields, Metric, Record, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Metric, Record, Table, record, require};
 use tolman_systems::micromouse::competition::ExploreError;
 
 /// The name of the table.
@@ -41,21 +41,17 @@ impl CompetitionRun {
 }
 
 /// A run is a maze of the set.
-pub(super) fn table<'a>(sets: impl IntoIterator<Item = &'a MazeSet>) -> Table {
-    let mut table = Table::of::<CompetitionRun>(COMPETITION, "Explorations for the speed run")
+pub(super) fn table(sets: &[MazeSet]) -> Table {
+    Table::of::<CompetitionRun>(COMPETITION, "Explorations for the speed run")
         .metric(Metric::percent("certified_percent", CompetitionRun::certified))
         .metric(Metric::mean(CompetitionRun::cells))
         .metric(Metric::mean(CompetitionRun::run_ms))
+        .rows(sets.iter().map(MazeSet::row))
         .note(
             "One run a maze. Cells are all that the mouse drives from the start until it is back there with a speed \
              run that is certified to be the fastest; it has been at a goal then. Sets with mazes of more than 16 cells \
              a side are driven as half-size ones, all others as classic ones.",
-        );
-    for set in sets {
-        let mazes = u32::try_from(set.mazes.len()).unwrap_or(u32::MAX);
-        table = table.row(Row::new(&set.name).runs(mazes));
-    }
-    table
+        )
 }
 
 /// How the mouse drives in the mazes of a set.
@@ -69,8 +65,8 @@ fn drive(set: &MazeSet) -> SpeedRunConfig {
 }
 
 /// Explores one maze of a set.
-pub(super) fn run(set: &MazeSet, number: usize) -> Result<Fields, BoxError> {
-    let (name, maze) = set.mazes.get(number).ok_or("there is no such run")?;
+pub(super) fn run(set: &MazeSet, number: u32) -> Result<Fields, BoxError> {
+    let (name, maze) = set.maze(number)?;
     let run = CompetitionRun {
         maze: name.clone(),
         ..CompetitionRun::default()

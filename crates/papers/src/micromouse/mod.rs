@@ -15,30 +15,39 @@ mod sets;
 use alloc::collections::BTreeMap;
 
 use serde::Serialize;
-use tolman_maze::Maze;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use crate::data;
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Table, Tolerance, record,
-    require,
+    BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
+    Tolerance, record, require,
 };
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
 
+use comparisons::{PLANNERS, Q_LEARNING};
 use competition::COMPETITION;
+use noise::NOISE;
 use paper::PaperTable;
 use sets::{HALF_SIZE, MazeSet};
+
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "micromouse",
+    title: "A micromouse in a virtual maze",
+    source: "X. Wang: Plot and Navigate a Virtual Maze, tables 1 to 4",
+    runs: 5,
+    quick_runs: 5,
+    open,
+};
 
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Micromouse {
     paper: Vec<PaperTable>,
     sets: Vec<MazeSet>,
-    tables: Vec<Table>,
-    skipped: Option<String>,
 }
 
 /// What the runs depend on.
@@ -60,7 +69,7 @@ const WITHOUT_ROLLOUTS: &str = "sets-without-rollouts";
 ///
 /// # Errors
 /// If a maze that the caller names cannot be read, or is too large.
-pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(options: &Options) -> Result<Experiment, BoxError> {
     let folder = data::folder();
     let paper = match &folder {
         Some(folder) => paper::tables(folder)?,
@@ -79,38 +88,42 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
     tables.push(competition::table(&sets));
     tables.push(noise::table());
     let complaints: Vec<String> = sets.iter().filter_map(MazeSet::complaint).collect();
-    Ok(Box::new(Micromouse {
-        paper,
-        sets,
-        tables,
-        skipped: (!complaints.is_empty()).then(|| complaints.join(" ")),
-    }))
+    let skipped = (!complaints.is_empty()).then(|| complaints.join(" "));
+    let config = toml::Table::try_from(Config {
+        search: MoveExplorerConfig::tuned(),
+        rollouts: RolloutConfig::tuned(),
+        q_learning: QLearningConfig::usual(),
+        mazes: all_mazes(&paper, &sets),
+    })?;
+    let micromouse = Micromouse { paper, sets };
+    Ok(Experiment::new(ENTRY, tables, config, micromouse).skipped(skipped))
+}
+
+/// The mazes of all tables by table and name.
+fn all_mazes(paper: &[PaperTable], sets: &[MazeSet]) -> BTreeMap<String, String> {
+    let of_paper = paper
+        .iter()
+        .flat_map(|table| table.mazes().map(|(row, maze)| (table.name, row, maze)));
+    let of_sets = sets.iter().flat_map(|set| {
+        let mazes = set.mazes.iter();
+        mazes.map(|(name, maze)| (set.name.as_str(), name.as_str(), maze))
+    });
+    let all = of_paper.chain(of_sets);
+    all.map(|(table, name, maze)| (format!("{table}, {name}"), maze.to_string()))
+        .collect()
 }
 
 fn sets_table(name: &str, title: &str, sets: &[MazeSet]) -> Table {
-    let mut table = Table::of::<SetRun>(name, title)
+    Table::of::<SetRun>(name, title)
         .metric(Metric::mean(MouseRun::score_minus_floor))
         .metric(Metric::percent("certified_percent", MouseRun::certified))
         .metric(Metric::percent("finished_percent", MouseRun::finished))
         .metric(Metric::mean(MouseRun::score))
+        .rows(sets.iter().filter(|set| set.name != HALF_SIZE).map(MazeSet::row))
         .note(format!(
             "One run a maze. The floor is the score of a mouse that knows the maze. A mouse that has not \
              finished after {MAX_STEPS} steps has no score."
-        ));
-    for set in sets.iter().filter(|set| set.name != HALF_SIZE) {
-        let mazes = u32::try_from(set.mazes.len()).unwrap_or(u32::MAX);
-        table = table.row(Row::new(&set.name).runs(mazes));
-    }
-    table
-}
-
-/// Who plays in a table of sets of mazes.
-fn on_sets(table: &str) -> Option<Searcher> {
-    match table {
-        SETS => Some(Searcher::Certify),
-        WITHOUT_ROLLOUTS => Some(Searcher::CertifyPlain),
-        _ => None,
-    }
+        ))
 }
 
 record! {
@@ -172,20 +185,25 @@ impl MouseRun {
 }
 
 impl Micromouse {
-    fn set(&self, name: &str) -> Option<&MazeSet> {
-        self.sets.iter().find(|set| set.name == name)
+    fn set(&self, name: &str) -> Result<&MazeSet, BoxError> {
+        let set = self.sets.iter().find(|set| set.name == name);
+        set.ok_or_else(|| format!("there is no set {name:?}").into())
     }
 
-    /// What is played: by whom, in which maze, and how the maze is called.
-    fn cast(&self, job: &Job<'_>) -> Option<(Searcher, &Maze, &str)> {
-        if let Some(searcher) = on_sets(job.table) {
-            let set = self.set(job.row)?;
-            let (name, maze) = set.mazes.get(job.run as usize)?;
-            return Some((searcher, maze, name));
-        }
-        let table = self.paper.iter().find(|table| table.name == job.table)?;
-        let (searcher, maze) = table.row(job.row)?;
-        Some((searcher, maze, ""))
+    /// A run in a maze of a set.
+    fn run_on_set(&self, job: &Job<'_>, searcher: Searcher) -> Result<Fields, BoxError> {
+        let (maze, walls) = self.set(job.row)?.maze(job.run)?;
+        let run = MouseRun::of(&try_on(walls, searcher, job.seed)?.1);
+        let maze = maze.clone();
+        Ok(SetRun { run, maze }.fields()?)
+    }
+
+    /// A run in the maze of a table of the paper.
+    fn run_of_paper(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let table = self.paper.iter().find(|table| table.name == job.table);
+        let row = table.and_then(|table| table.row(job.row));
+        let (searcher, maze) = row.ok_or("there is no such run")?;
+        Ok(MouseRun::of(&try_on(maze, searcher, job.seed)?.1).fields()?)
     }
 }
 
@@ -205,71 +223,17 @@ fn check_score(run_1: Option<u32>, run_2: Option<u32>, score: Option<f64>) -> Re
     )
 }
 
-impl Experiment for Micromouse {
-    fn name(&self) -> &str {
-        "micromouse"
-    }
-
-    fn title(&self) -> &str {
-        "A micromouse in a virtual maze"
-    }
-
-    fn source(&self) -> &str {
-        "X. Wang: Plot and Navigate a Virtual Maze, tables 1 to 4"
-    }
-
-    fn default_runs(&self) -> u32 {
-        5
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn skipped(&self) -> Option<&str> {
-        self.skipped.as_deref()
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut mazes = BTreeMap::new();
-        for table in &self.paper {
-            for (row, maze) in table.mazes() {
-                mazes.insert(format!("{}, {row}", table.name), maze.to_string());
-            }
-        }
-        for set in &self.sets {
-            for (name, maze) in &set.mazes {
-                mazes.insert(format!("{}, {name}", set.name), maze.to_string());
-            }
-        }
-        Ok(toml::Table::try_from(Config {
-            search: MoveExplorerConfig::tuned(),
-            rollouts: RolloutConfig::tuned(),
-            q_learning: QLearningConfig::usual(),
-            mazes,
-        })?)
-    }
-
+impl Procedure for Micromouse {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        if job.table == COMPETITION {
-            let set = self.set(job.row).ok_or("there is no such row")?;
-            return competition::run(set, job.run as usize);
+        match job.table {
+            SETS => self.run_on_set(job, Searcher::Certify),
+            WITHOUT_ROLLOUTS => self.run_on_set(job, Searcher::CertifyPlain),
+            COMPETITION => competition::run(self.set(job.row)?, job.run),
+            NOISE => noise::run(job),
+            PLANNERS => comparisons::plan(&self.paper, job),
+            Q_LEARNING => comparisons::learn(&self.paper, job),
+            _ => self.run_of_paper(job),
         }
-        if job.table == noise::NOISE {
-            return noise::run(job);
-        }
-        let compared = comparisons::run(&self.paper, job.table, job.row, job.run, job.seed)?;
-        if let Some(fields) = compared {
-            return Ok(fields);
-        }
-        let (searcher, maze, name) = self.cast(job).ok_or("there is no such run")?;
-        let (_, judgement) = try_on(maze, searcher, job.seed)?;
-        let run = MouseRun::of(&judgement);
-        let maze = name.to_owned();
-        Ok(match on_sets(job.table) {
-            Some(_) => SetRun { run, maze }.fields()?,
-            None => run.fields()?,
-        })
     }
 
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

@@ -57,37 +57,31 @@ impl NoiseRun {
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::of::<NoiseRun>(NOISE, "The mouse among thick walls, with noise")
+    Table::of::<NoiseRun>(NOISE, "The mouse among thick walls, with noise")
         .metric(Metric::percent("arrived_percent", NoiseRun::arrived))
         .metric(Metric::mean(NoiseRun::run_1))
         .metric(Metric::mean(NoiseRun::run_2))
         .metric(Metric::mean(NoiseRun::score))
         .metric(Metric::mean(NoiseRun::error_mm))
+        .rows(mice().map(|(name, ..)| Row::new(name).runs(MAZES)))
         .note(
             "One run a maze of 12 × 12 cells, half-braided, on the continuous simulator. Noise 1: wheels slip by up to \
              10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \
              arrived, the error is where the mouse thinks it is against where it is.",
-        );
-    for (_, name) in LOCALIZATIONS {
-        for level in LEVELS {
-            table = table.row(Row::new(row(name, level)).runs(MAZES));
-        }
-    }
-    table
+        )
 }
 
 fn row(name: &str, level: f64) -> String {
     format!("{name}, noise {level}")
 }
 
-/// The mouse of a row.
-fn config(wanted: &str) -> Option<NoisyConfig> {
-    let rows = LOCALIZATIONS.iter().flat_map(|(localization, name)| {
-        LEVELS.map(|level| (row(name, level), *localization, level))
-    });
-    rows.into_iter()
-        .find(|(name, ..)| name == wanted)
-        .map(|(_, localization, level)| NoisyConfig::ordinary(localization, level))
+/// The mice by row.
+fn mice() -> impl Iterator<Item = (String, NoisyConfig)> {
+    let rows = |(localization, name)| {
+        let mouse = move |level| (row(name, level), NoisyConfig::ordinary(localization, level));
+        LEVELS.map(mouse)
+    };
+    LOCALIZATIONS.into_iter().flat_map(rows)
 }
 
 fn maze(number: u32) -> Result<Maze, BoxError> {
@@ -103,7 +97,9 @@ fn maze(number: u32) -> Result<Maze, BoxError> {
 
 /// One maze.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let config = config(job.row).ok_or("there is no such row")?;
+    let (_, config) = mice()
+        .find(|(name, _)| name == job.row)
+        .ok_or("there is no such row")?;
     let trial = noisy::send(&maze(job.run)?, &config, job.seed)?;
     let runs = match trial.end {
         NoisyEnd::Arrived { run_1, run_2 } => Some((run_1, run_2)),

@@ -28,6 +28,19 @@ struct PaperRow {
     paper: Option<(f64, f64)>,
 }
 
+impl PaperRow {
+    fn row(&self) -> Row {
+        let mut row = Row::new(self.name);
+        if let Some((moves, score)) = self.paper {
+            row = row
+                .paper(MouseRun::move_length, moves)
+                .paper("average_score", score);
+        }
+        row.runs = self.searcher.is_deterministic().then_some(1);
+        row
+    }
+}
+
 /// A row: its name, the search, the file and the paper's values.
 type Line = (&'static str, Searcher, &'static str, Option<(f64, f64)>);
 
@@ -128,26 +141,14 @@ pub(super) fn tables(folder: &Path) -> Result<Vec<PaperTable>, BoxError> {
 impl PaperTable {
     pub(super) fn table(&self) -> Table {
         let average_score = Metric::mean(MouseRun::score).named("average_score");
-        let mut table = Table::of::<MouseRun>(self.name, self.title)
+        Table::of::<MouseRun>(self.name, self.title)
             .metric(Metric::mean(MouseRun::move_length))
             .metric(average_score.titled("average score"))
             .metric(Metric::percent("finished_percent", MouseRun::finished))
             .metric(Metric::percent("certified_percent", MouseRun::certified))
-            .note(self.note);
-        table.paper_runs = Some(5);
-        for line in &self.rows {
-            let mut row = Row::new(line.name);
-            if let Some((moves, score)) = line.paper {
-                row = row
-                    .paper(MouseRun::move_length, moves)
-                    .paper("average_score", score);
-            }
-            if line.searcher.is_deterministic() {
-                row = row.runs(1);
-            }
-            table = table.row(row);
-        }
-        table
+            .rows(self.rows.iter().map(PaperRow::row))
+            .paper_runs(5)
+            .note(self.note)
     }
 
     pub(super) fn row(&self, name: &str) -> Option<(Searcher, &Maze)> {

@@ -9,8 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Braided, Maze};
 
 use crate::maze_file;
-use tolman_experiment::BoxError;
 use tolman_experiment::files::files_in;
+use tolman_experiment::{BoxError, Row};
 use tolman_systems::micromouse::SIDE;
 
 /// Mazes under one name.
@@ -33,6 +33,66 @@ pub(super) struct LeftOut {
 }
 
 impl MazeSet {
+    /// A set from which nothing is left out.
+    fn of(name: String, mazes: Vec<(String, Maze)>) -> Self {
+        Self {
+            name,
+            mazes,
+            left_out: LeftOut::default(),
+        }
+    }
+
+    /// Mazes with a few loops, the same ones every time.
+    fn ours() -> Result<Self, BoxError> {
+        let braided = Braided {
+            width: 16,
+            height: 16,
+            share: 0.5,
+        };
+        let maze = |seed| -> Result<_, BoxError> {
+            let maze = braided.generate(&mut ChaCha8Rng::seed_from_u64(seed))?;
+            Ok((format!("seed {seed}"), maze))
+        };
+        let mazes = (0..OURS).map(maze).collect::<Result<_, _>>()?;
+        Ok(Self::of("braided 16".to_owned(), mazes))
+    }
+
+    /// All mazes of a folder that can be solved and fit a mouse, by name.
+    fn in_folder(name: String, folder: &Path) -> Result<Self, BoxError> {
+        let files = files_in(folder)
+            .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
+        let mut set = Self::of(name, Vec::new());
+        for path in &files {
+            let text = match fs::read_to_string(path) {
+                Ok(text) => text,
+                Err(error) if error.kind() == ErrorKind::InvalidData => {
+                    set.left_out.no_maze += 1;
+                    continue;
+                }
+                Err(error) => return Err(maze_file::in_file(path, error)),
+            };
+            match tolman_maze::read(&text) {
+                Ok(file) if fits(&file.maze) => set.mazes.push((maze_file::stem(path), file.maze)),
+                Ok(_) => set.left_out.no_fit += 1,
+                // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
+                Err(_) if tolman_maze::parse(&text).is_ok() => set.left_out.no_way += 1,
+                Err(_) => set.left_out.no_maze += 1,
+            }
+        }
+        Ok(set)
+    }
+
+    /// Its row, of one run for each maze.
+    pub(super) fn row(&self) -> Row {
+        Row::new(&self.name).runs(self.mazes.len() as u32)
+    }
+
+    /// The maze of a run, with its name.
+    pub(super) fn maze(&self, run: u32) -> Result<&(String, Maze), BoxError> {
+        let maze = self.mazes.get(run as usize);
+        maze.ok_or_else(|| "there is no such run".into())
+    }
+
     /// What was left out, for people; none if nothing was.
     pub(super) fn complaint(&self) -> Option<String> {
         let LeftOut {
@@ -44,13 +104,11 @@ impl MazeSet {
         if out == 0 {
             return None;
         }
+        let unfit = format!("without a start or of more than {SIDE} cells a side");
         let reasons = [
-            (no_way, "without a way to the goal".to_owned()),
-            (
-                no_fit,
-                format!("without a start or of more than {SIDE} cells a side"),
-            ),
-            (no_maze, "that are no mazes".to_owned()),
+            (no_way, "without a way to the goal"),
+            (no_fit, &unfit),
+            (no_maze, "that are no mazes"),
         ];
         let reasons: Vec<String> = reasons
             .into_iter()
@@ -86,85 +144,26 @@ const OURS: u64 = 20;
 pub(super) fn all(folder: Option<&Path>, named: &[PathBuf]) -> Result<Vec<MazeSet>, BoxError> {
     let mut sets = Vec::new();
     for (name, path) in OTHERS {
-        if let Some(path) = folder.map(|folder| folder.join(path))
-            && path.is_dir()
-        {
-            let (mazes, left_out) = in_folder(&path)?;
-            sets.push(MazeSet {
-                name: name.to_owned(),
-                mazes,
-                left_out,
-            });
+        let path = folder.map(|folder| folder.join(path));
+        if let Some(path) = path.filter(|path| path.is_dir()) {
+            sets.push(MazeSet::in_folder(name.to_owned(), &path)?);
         }
     }
-    sets.push(ours()?);
+    sets.push(MazeSet::ours()?);
     for path in named {
-        let (mazes, left_out) = if path.is_dir() {
-            in_folder(path)?
+        let is_taken = |name: &str| sets.iter().any(|set| set.name == name);
+        let name = maze_file::told_apart(&maze_file::stem(path), is_taken);
+        let set = if path.is_dir() {
+            MazeSet::in_folder(name, path)?
         } else {
-            (
-                vec![(maze_file::stem(path), maze(path)?)],
-                LeftOut::default(),
-            )
+            MazeSet::of(name, vec![(maze_file::stem(path), maze(path)?)])
         };
-        if mazes.is_empty() {
+        if set.mazes.is_empty() {
             return Err(format!("{} holds no maze: name another folder", path.display()).into());
         }
-        sets.push(MazeSet {
-            name: maze_file::told_apart(&maze_file::stem(path), |name| {
-                sets.iter().any(|set| set.name == name)
-            }),
-            mazes,
-            left_out,
-        });
+        sets.push(set);
     }
     Ok(sets)
-}
-
-/// Mazes with a few loops, the same ones every time.
-fn ours() -> Result<MazeSet, BoxError> {
-    let braided = Braided {
-        width: 16,
-        height: 16,
-        share: 0.5,
-    };
-    let mazes: Result<Vec<(String, Maze)>, BoxError> = (0..OURS)
-        .map(|seed| {
-            let maze = braided.generate(&mut ChaCha8Rng::seed_from_u64(seed))?;
-            Ok((format!("seed {seed}"), maze))
-        })
-        .collect();
-    Ok(MazeSet {
-        name: "braided 16".to_owned(),
-        mazes: mazes?,
-        left_out: LeftOut::default(),
-    })
-}
-
-/// All mazes of a folder that can be solved and fit a mouse, by name, and how many others there are.
-fn in_folder(folder: &Path) -> Result<(Vec<(String, Maze)>, LeftOut), BoxError> {
-    let files = files_in(folder)
-        .map_err(|error| format!("the folder {} cannot be read: {error}", folder.display()))?;
-    let mut mazes = Vec::new();
-    let mut left_out = LeftOut::default();
-    for path in &files {
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == ErrorKind::InvalidData => {
-                left_out.no_maze += 1;
-                continue;
-            }
-            Err(error) => return Err(maze_file::in_file(path, error)),
-        };
-        match tolman_maze::read(&text) {
-            Ok(file) if fits(&file.maze) => mazes.push((maze_file::stem(path), file.maze)),
-            Ok(_) => left_out.no_fit += 1,
-            // A maze nobody can solve is in many collections, as a test of the mouse; it has no score.
-            Err(_) if tolman_maze::parse(&text).is_ok() => left_out.no_way += 1,
-            Err(_) => left_out.no_maze += 1,
-        }
-    }
-    Ok((mazes, left_out))
 }
 
 fn maze(path: &Path) -> Result<Maze, BoxError> {
@@ -206,13 +205,8 @@ mod tests {
             fs::write(folder.join(name), text).unwrap();
         }
         fs::write(folder.join("e.png"), b"\x89PNG\xff").unwrap();
-        let (mazes, left_out) = in_folder(&folder).unwrap();
+        let set = MazeSet::in_folder("mine".to_owned(), &folder).unwrap();
         fs::remove_dir_all(&folder).unwrap();
-        let set = MazeSet {
-            name: "mine".to_owned(),
-            mazes,
-            left_out,
-        };
         assert_eq!(
             set.complaint().unwrap(),
             "mine: 4 of 5 files left out, 1 without a way to the goal, 1 without a start or of more than 32 cells a side, \

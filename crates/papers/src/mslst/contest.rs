@@ -7,12 +7,11 @@ use std::sync::OnceLock;
 use serde::Serialize;
 use tolman_control::Outcome;
 use tolman_maze::Direction;
-use tolman_sim::robots::LaserPioneerConfig;
 
 use super::MAPS;
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
-use tolman_arena::cast::{Agent, Cast};
+use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::{LearnError, learn};
 use tolman_experiment::{
@@ -56,7 +55,6 @@ pub(super) struct ContestConfig<'a> {
 #[derive(Debug)]
 pub(super) struct Contest {
     pub(super) venue: Venue,
-    cast: Cast,
     pub(super) apprentices: Vec<Apprentice>,
 }
 
@@ -107,7 +105,6 @@ impl Contest {
         };
         Self {
             venue,
-            cast: Cast::default(),
             apprentices: configs.into_iter().map(apprentice).collect(),
         }
     }
@@ -115,7 +112,7 @@ impl Contest {
     pub(super) fn table(&self) -> Table {
         let oracle = Agent::Oracle.name();
         let unlocalized = Agent::UnlocalizedOracle.name();
-        let mut table = self
+        let table = self
             .venue
             .table::<ContestRun>()
             .metric(Metric::percent("success_percent", MazeRun::reached))
@@ -134,18 +131,12 @@ impl Contest {
         let names = |agents: &[Agent]| -> Vec<String> {
             agents.iter().map(|agent| agent.name().to_owned()).collect()
         };
-        let mut rows = names(baselines);
-        rows.extend(self.apprentices.iter().map(|one| one.row.clone()));
-        let competitors = rows.clone();
-        rows.extend(names(yardsticks));
-        for name in &rows {
-            table = table.row(self.venue.row(name));
-        }
-        let own = |row: &str| competitors.iter().any(|name| name == row);
-        let paper = PAPER_P
-            .iter()
-            .filter(|(row, ..)| own(row))
-            .map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
+        let apprentices = self.apprentices.iter().map(|one| one.row.clone());
+        let competitors: Vec<String> = names(baselines).into_iter().chain(apprentices).collect();
+        let rows = [competitors.clone(), names(yardsticks)].concat();
+        let own = PAPER_P.iter();
+        let own = own.filter(|(row, ..)| competitors.iter().any(|name| name == row));
+        let paper = own.map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
         let paper = paper.collect();
         let note = format!(
             "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
@@ -153,6 +144,7 @@ impl Contest {
             table.note
         );
         table
+            .rows(rows.iter().map(|name| self.venue.row(name)))
             .pairwise(Pairwise {
                 field: MazeRun::steps.to_owned(),
                 rows: competitors,
@@ -176,12 +168,8 @@ impl Contest {
     }
 
     /// Plays one run.
-    pub(super) fn run(
-        &self,
-        job: &Job<'_>,
-        robot: &LaserPioneerConfig,
-    ) -> Result<Fields, BoxError> {
-        let (episode, bounces) = self.episode(job, robot)?;
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let (episode, bounces) = self.episode(job)?;
         let run = ContestRun {
             run: MazeRun::of(&episode),
             bounces,
@@ -191,34 +179,26 @@ impl Contest {
     }
 
     /// Where a run takes place, and who drives.
-    fn cast(
-        &self,
-        job: &Job<'_>,
-        robot: &LaserPioneerConfig,
-    ) -> Result<(Trial<'_>, Mind), BoxError> {
-        let trial = self.venue.trial(robot, job.seed);
+    fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind), BoxError> {
+        let trial = self.venue.trial(job.seed);
         let mind = match self.apprentice(job.row) {
             Some(apprentice) => {
-                let learned = apprentice.learned(self, robot, job.run % MAPS)?;
+                let learned = apprentice.learned(&self.venue, job.run % MAPS)?;
                 let map = Arc::new(learned.map.clone());
                 Mind::Brain(Box::new(Navigator::new(map, &apprentice.config)))
             }
             None => {
                 let agent = Agent::named(job.row)
                     .ok_or_else(|| format!("there is no brain {:?}", job.row))?;
-                self.cast.mind(agent, &self.venue.course, robot)?
+                self.venue.mind(agent)?
             }
         };
         Ok((trial, mind))
     }
 
     /// One run and how often the robot bounced in it.
-    pub(super) fn episode(
-        &self,
-        job: &Job<'_>,
-        robot: &LaserPioneerConfig,
-    ) -> Result<(Episode, u32), BoxError> {
-        let (trial, mut mind) = self.cast(job, robot)?;
+    pub(super) fn episode(&self, job: &Job<'_>) -> Result<(Episode, u32), BoxError> {
+        let (trial, mut mind) = self.cast(job)?;
         let mut bounces = Bounces::default();
         let episode = episode::run(&trial, &mut mind, |step| {
             if step.ends.is_some_and(Outcome::moved) {
@@ -229,14 +209,10 @@ impl Contest {
     }
 
     /// One run as it can be watched.
-    pub(super) fn replay(
-        &self,
-        job: &Job<'_>,
-        robot: &LaserPioneerConfig,
-    ) -> Result<Replay, BoxError> {
-        let (trial, mut mind) = self.cast(job, robot)?;
+    pub(super) fn replay(&self, job: &Job<'_>) -> Result<Replay, BoxError> {
+        let (trial, mut mind) = self.cast(job)?;
         let learned = match self.apprentice(job.row) {
-            Some(apprentice) => Some(apprentice.learned(self, robot, job.run % MAPS)?),
+            Some(apprentice) => Some(apprentice.learned(&self.venue, job.run % MAPS)?),
             None => None,
         };
         let nodes = learned
@@ -248,18 +224,13 @@ impl Contest {
 
 impl Apprentice {
     /// The map of this number, learned by whoever asks first.
-    pub(super) fn learned(
-        &self,
-        contest: &Contest,
-        robot: &LaserPioneerConfig,
-        number: u32,
-    ) -> Result<Arc<Learned>, LearnError> {
+    pub(super) fn learned(&self, venue: &Venue, number: u32) -> Result<Arc<Learned>, LearnError> {
         let cell = &self.maps[number as usize];
         if let Some(learned) = cell.get() {
             return Ok(Arc::clone(learned));
         }
         let seed = self.seeds[number as usize];
-        let learned = learn(&contest.venue.course, robot, &self.config, seed)?;
+        let learned = learn(&venue.course, &venue.robot, &self.config, seed)?;
         // Two threads may learn it at once; they learn the same.
         Ok(Arc::clone(cell.get_or_init(|| Arc::new(learned))))
     }

@@ -2,11 +2,10 @@
 
 use tolman_maps::mslst_graph::Zone;
 
+use crate::plan::model_scan;
 use tolman_arena::course::Course;
-use tolman_arena::pioneer;
-use tolman_draw::{Drawing, Graph, GraphEdge, GraphNode, NodeMark, PolarPlot, Series, Tiles};
+use tolman_draw::{Drawing, Graph, GraphEdge, GraphNode, NodeMark, Series, Tiles};
 use tolman_systems::mslst::Learned;
-use tolman_systems::mslst::ROBOT_UNIT;
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
@@ -14,15 +13,11 @@ const WIDTH: f64 = 420.0;
 /// The paper's figure 3: every model scan, north upwards, with the number of nodes that have it.
 #[must_use]
 pub fn states(learned: &Learned) -> Drawing {
-    let ring = pioneer::ring();
     let mut tiles = Tiles::new(6);
     for (state, model) in (0_u32..).zip(learned.map.states.models()) {
         let nodes = learned.map.graph.nodes().iter();
         let count = nodes.filter(|node| node.state == state).count();
-        let metres: Vec<f64> = model.iter().map(|range| range * ROBOT_UNIT).collect();
-        let mut plot = PolarPlot::new(ring.max_range, 96.0);
-        plot.ranges(&ring, &metres, Series(0));
-        let drawing = plot.drawing(format!("Model scan {state}."));
+        let drawing = model_scan(model.iter().copied(), 96.0, format!("Model scan {state}."));
         tiles.tile(format!("{state}: {count} nodes"), drawing);
     }
     let count = learned.map.states.models().len();

@@ -3,7 +3,7 @@
 use tolman_geom::Point;
 use tolman_maps::mslst_graph::Node;
 
-use super::contest::{Apprentice, Contest};
+use super::contest::Contest;
 use super::drawing::{self, SHOWN_ACTIONS};
 use super::{MAPS, Mslst};
 use crate::venue::MazeRun;
@@ -22,13 +22,17 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
     let mut figures = Vec::new();
     for (number, contest) in (1_u32..).zip(&experiment.contests) {
         for (place, apprentice) in (1_u32..).zip(&contest.apprentices) {
-            let learned = apprentice.learned(contest, &experiment.robot, 0)?;
+            let learned = apprentice.learned(&contest.venue, 0)?;
             let at = format!("{number}-{place}");
-            figures.push(states(contest, apprentice, &learned, &at));
-            figures.push(graph(contest, apprentice, &learned, &at));
-            let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+            let of_row = |run: &&Run| run.is_of(&contest.venue.table, &apprentice.row);
             let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
-            figures.push(ways(experiment, contest, apprentice, &shown, &at)?);
+            let here = format!("{} in {}", apprentice.row, contest.venue.course.name);
+            let own = [
+                states(&learned, &at, &here),
+                graph(contest, &learned, &at, &here),
+                ways(contest, &shown, &at, &here)?,
+            ];
+            figures.extend(own.map(|figure| figure.table(&contest.venue.table)));
         }
         figures.extend(between_maps(contest, runs, number)?);
     }
@@ -36,26 +40,21 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
 }
 
 /// The paper's figure 3: every model scan, north upwards, with the nodes that have it.
-fn states(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str) -> Figure {
-    let name = &contest.venue.course.name;
-    Figure::new(
-        format!("states-{at}"),
-        format!("{} in {name}: states of map 0", apprentice.row),
-        drawing::states(learned),
+fn states(learned: &Learned, at: &str, here: &str) -> Figure {
+    let title = format!("{here}: states of map 0");
+    Figure::new(format!("states-{at}"), title, drawing::states(learned)).caption(
+        "Model scans of the equilibrium GNG, north upwards, each with the nodes that bear it.",
     )
-    .caption("Model scans of the equilibrium GNG, north upwards, each with the nodes that bear it.")
-    .table(&contest.venue.table)
 }
 
 /// The paper's figure 4, over the maze: each node where the robot truly was when it was made.
-fn graph(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str) -> Figure {
-    let name = &contest.venue.course.name;
+fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
     let nodes = learned.map.graph.nodes();
     let linear = nodes.iter().filter(|node| ways_from(node) <= 2).count();
     let percent = 100.0 * linear as f64 / nodes.len() as f64;
     Figure::new(
         format!("graph-{at}"),
-        format!("{} in {name}: graph of map 0", apprentice.row),
+        format!("{here}: graph of map 0"),
         drawing::graph_over_maze(&contest.venue.course, learned),
     )
     .caption(format!(
@@ -64,7 +63,6 @@ fn graph(contest: &Contest, apprentice: &Apprentice, learned: &Learned, at: &str
          linear, as the paper found.",
         nodes.len()
     ))
-    .table(&contest.venue.table)
 }
 
 /// How many edges lead to other nodes.
@@ -85,7 +83,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
     let mut drawn = 0;
     for (index, apprentice) in (0_u32..).zip(&contest.apprentices) {
         let mut maps = vec![(0_u64, 0_u64); MAPS as usize];
-        let of_row = |run: &&Run| run.table == contest.venue.table && run.row == apprentice.row;
+        let of_row = |run: &&Run| run.is_of(&contest.venue.table, &apprentice.row);
         for run in runs.iter().filter(of_row) {
             let (arrived, all) = &mut maps[(run.run % MAPS) as usize];
             *arrived += u64::from(run.record::<MazeRun>()?.reached);
@@ -118,29 +116,15 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
 }
 
 /// Where the first runs went.
-fn ways(
-    experiment: &Mslst,
-    contest: &Contest,
-    apprentice: &Apprentice,
-    runs: &[&Run],
-    at: &str,
-) -> Result<Figure, BoxError> {
+fn ways(contest: &Contest, runs: &[&Run], at: &str, here: &str) -> Result<Figure, BoxError> {
     let mut plan = crate::plan_of_course(&contest.venue.course, WIDTH);
     for run in runs {
-        let (episode, _) = contest.episode(&run.job(), &experiment.robot)?;
+        let (episode, _) = contest.episode(&run.job())?;
         let positions: Vec<Point> = episode.path.iter().map(|pose| pose.position).collect();
         plan.faint_trajectory(&positions, Series(0));
     }
     let name = &contest.venue.course.name;
     let drawing = plan.drawing(format!("Plan of {name}: the ways of {} runs.", runs.len()));
-    Ok(Figure::new(
-        format!("ways-{at}"),
-        format!("{} in {name}", apprentice.row),
-        drawing,
-    )
-    .caption(format!(
-        "The ways of {} runs, each by another map.",
-        runs.len()
-    ))
-    .table(&contest.venue.table))
+    let caption = format!("The ways of {} runs, each by another map.", runs.len());
+    Ok(Figure::new(format!("ways-{at}"), here, drawing).caption(caption))
 }

@@ -17,8 +17,9 @@ use tolman_sim::robots::LaserPioneerConfig;
 use crate::venue;
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
-use tolman_experiment::P_TABLE;
-use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Run, Table};
+use tolman_experiment::{
+    BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run,
+};
 use tolman_replay::Replay;
 
 use contest::{Contest, ContestConfig};
@@ -26,18 +27,26 @@ use contest::{Contest, ContestConfig};
 /// How many maps are learned of each world and threshold.
 const MAPS: u32 = 50;
 
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "mslst",
+    title: "MSLST: maze solving by learning state topologies",
+    source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 1 to 3",
+    runs: 25,
+    quick_runs: 10,
+    open,
+};
+
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Mslst {
-    robot: LaserPioneerConfig,
     contests: Vec<Contest>,
-    tables: Vec<Table>,
 }
 
 /// What the runs depend on.
 #[derive(Serialize)]
 struct Config<'a> {
-    robot: &'a LaserPioneerConfig,
+    robot: LaserPioneerConfig,
     worlds: BTreeMap<&'a str, ContestConfig<'a>>,
 }
 
@@ -45,9 +54,9 @@ struct Config<'a> {
 ///
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.
-pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(options: &Options) -> Result<Experiment, BoxError> {
     let venues = if options.mazes.is_empty() {
-        venue::papers()?
+        venue::papers()?.into()
     } else {
         venue::from_files(&options.mazes, &[P_TABLE])?
     };
@@ -60,11 +69,13 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         tables.push(states::table());
     }
     tables.extend(contests.iter().map(Contest::table));
-    Ok(Box::new(Mslst {
+    let worlds = contests.iter();
+    let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
+    let config = toml::Table::try_from(Config {
         robot: pioneer::calibrated(),
-        contests,
-        tables,
-    }))
+        worlds: worlds.collect(),
+    })?;
+    Ok(Experiment::new(ENTRY, tables, config, Mslst { contests }))
 }
 
 impl Mslst {
@@ -74,40 +85,11 @@ impl Mslst {
     }
 }
 
-impl Experiment for Mslst {
-    fn name(&self) -> &str {
-        "mslst"
-    }
-
-    fn title(&self) -> &str {
-        "MSLST: maze solving by learning state topologies"
-    }
-
-    fn source(&self) -> &str {
-        "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 1 to 3"
-    }
-
-    fn default_runs(&self) -> u32 {
-        25
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        let worlds = self.contests.iter();
-        let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
-        Ok(toml::Table::try_from(Config {
-            robot: &self.robot,
-            worlds: worlds.collect(),
-        })?)
-    }
-
+impl Procedure for Mslst {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match self.contest(job.table) {
-            Some(contest) => contest.run(job, &self.robot),
-            None => states::run(job, &self.contests, &self.robot),
+            Some(contest) => contest.run(job),
+            None => states::run(job, &self.contests),
         }
     }
 
@@ -117,8 +99,6 @@ impl Experiment for Mslst {
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
         let contest = self.contest(job.table);
-        contest
-            .map(|contest| contest.replay(job, &self.robot))
-            .transpose()
+        contest.map(|contest| contest.replay(job)).transpose()
     }
 }

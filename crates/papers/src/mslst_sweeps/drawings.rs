@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{Cell, Direction, Grid, Maze, MazeFile};
 
 use crate::venue::{PaperRow, Venue, large_like};
-use tolman_arena::cast::{Agent, Cast};
+use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
 use tolman_arena::episode;
 use tolman_arena::pioneer;
@@ -27,59 +27,41 @@ const TRIES: u32 = 1_000_000;
 const DEAD_ENDS: usize = 3;
 
 /// How a maze is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Corridors {
-    /// Long corridors, as those of our own drawing: the baselines come near all of the paper's figures.
-    Long,
-    /// None longer than MSLST remembers. The baselines come near the paper's success and steps; there are more turns,
-    /// so that their actions take more steps than the paper's.
-    Short,
-}
-
-impl Corridors {
+#[derive(Debug)]
+pub(super) struct Corridors {
     /// The name in a configuration.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Long => "Long",
-            Self::Short => "Short",
-        }
-    }
-
+    pub(super) name: &'static str,
     /// Junctions, bends and dead ends lie on a lattice with so many columns and rows.
-    const fn lattice(self) -> RangeInclusive<u32> {
-        match self {
-            Self::Long => 3..=4,
-            Self::Short => 4..=7,
-        }
-    }
-
+    lattice: RangeInclusive<u32>,
     /// Cells from one line of the lattice to the next. A cell is 1.9 robot units and MSLST remembers eight.
-    const fn gap(self) -> RangeInclusive<u32> {
-        match self {
-            Self::Long => 2..=9,
-            Self::Short => 2..=4,
-        }
-    }
-
+    gap: RangeInclusive<u32>,
     /// The most cells that a robot may go without a bend, a junction or a dead end.
-    const fn longest(self) -> u32 {
-        match self {
-            Self::Long => u32::MAX,
-            Self::Short => 4,
-        }
-    }
-
+    longest: u32,
     /// How far steps per action may be from the paper's, as a share.
-    const fn pace(self) -> f64 {
-        match self {
-            Self::Long => 0.2,
-            Self::Short => 0.6,
-        }
-    }
+    pace: f64,
 }
+
+/// Long corridors, as those of our own drawing: the baselines come near all of the paper's figures.
+pub(super) const LONG: &Corridors = &Corridors {
+    name: "Long",
+    lattice: 3..=4,
+    gap: 2..=9,
+    longest: u32::MAX,
+    pace: 0.2,
+};
+
+/// None longer than MSLST remembers. The baselines come near the paper's success and steps; there are more turns,
+/// so that their actions take more steps than the paper's.
+pub(super) const SHORT: &Corridors = &Corridors {
+    name: "Short",
+    lattice: 4..=7,
+    gap: 2..=4,
+    longest: 4,
+    pace: 0.6,
+};
 
 /// The drawing of a seed: the first one sized as the paper's.
-pub(super) fn of(corridors: Corridors, seed: u64) -> Result<Course, BoxError> {
+pub(super) fn of(corridors: &Corridors, seed: u64) -> Result<Course, BoxError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     for _ in 0..TRIES {
         let Some(maze) = drawn(corridors, rng) else {
@@ -96,10 +78,10 @@ pub(super) fn of(corridors: Corridors, seed: u64) -> Result<Course, BoxError> {
 
 /// "Several dead ends, a four-way intersection, and a loop … a defined destination zone in the bottom right
 /// corner", one of each where the paper has "a".
-fn drawn(corridors: Corridors, rng: &mut impl Rng) -> Option<Maze> {
+fn drawn(corridors: &Corridors, rng: &mut impl Rng) -> Option<Maze> {
     let lattice = Grid::new(
-        rng.random_range(corridors.lattice()) as u16,
-        rng.random_range(corridors.lattice()) as u16,
+        rng.random_range(corridors.lattice.clone()) as u16,
+        rng.random_range(corridors.lattice.clone()) as u16,
     );
     let mut maze = tree(lattice, rng);
     let closed: Vec<(Cell, Direction)> = between(lattice)
@@ -110,7 +92,7 @@ fn drawn(corridors: Corridors, rng: &mut impl Rng) -> Option<Maze> {
     let crossings = lattice.cells().filter(|&cell| maze.degree(cell) == 4);
     let wanted = crossings.count() == 1 && maze.dead_ends().count() >= DEAD_ENDS;
     let stretched = wanted.then(|| stretched(&maze, corridors, rng))?;
-    (longest_corridor(&stretched) <= corridors.longest()).then_some(stretched)
+    (longest_corridor(&stretched) <= corridors.longest).then_some(stretched)
 }
 
 /// A tree that grows by a random opening at a time until it has every cell.
@@ -144,12 +126,12 @@ fn between(grid: Grid) -> impl Iterator<Item = (Cell, Direction)> {
 }
 
 /// The same corridors, with random distances between the lattice's columns and rows.
-fn stretched(lattice: &Maze, corridors: Corridors, rng: &mut impl Rng) -> Maze {
+fn stretched(lattice: &Maze, corridors: &Corridors, rng: &mut impl Rng) -> Maze {
     let mut places = |count: u16| -> Vec<u16> {
         let mut at = 0;
         let mut places = vec![at];
         for _ in 1..count {
-            at += rng.random_range(corridors.gap()) as u16;
+            at += rng.random_range(corridors.gap.clone()) as u16;
             places.push(at);
         }
         places
@@ -222,7 +204,7 @@ fn pick<'a, T>(items: &'a [T], rng: &mut impl Rng) -> Option<&'a T> {
 }
 
 /// Whether the baselines come out as in the paper, by the margins that our own drawing was held to.
-fn sized(venue: &Venue, corridors: Corridors, seed: u64) -> Result<bool, BoxError> {
+fn sized(venue: &Venue, corridors: &Corridors, seed: u64) -> Result<bool, BoxError> {
     for agent in [Agent::Avoid, Agent::WallFollow] {
         let Some(paper) = venue.paper(agent.name()) else {
             return Err(format!("the paper has no row {:?}", agent.name()).into());
@@ -238,15 +220,13 @@ fn near(
     venue: &Venue,
     agent: Agent,
     paper: &PaperRow,
-    corridors: Corridors,
+    corridors: &Corridors,
     seed: u64,
 ) -> Result<bool, BoxError> {
-    let robot = pioneer::calibrated();
-    let cast = Cast::default();
     let (mut reached, mut actions, mut steps) = (0, 0, 0);
     for run in 0..RUNS {
-        let trial = venue.trial(&robot, run_seed(seed, "drawings", run));
-        let mut mind = cast.mind(agent, &venue.course, &robot)?;
+        let trial = venue.trial(run_seed(seed, "drawings", run));
+        let mut mind = venue.mind(agent)?;
         let episode = episode::run(&trial, &mut mind, |_| {})?;
         reached += u32::from(episode.reached);
         actions += episode.actions;
@@ -258,7 +238,7 @@ fn near(
     Ok(
         (100.0 * mean(reached) - paper.success_percent).abs() <= 15.0
             && within(mean(steps), paper.steps.0, 0.35)
-            && within(pace, paper.steps.0 / paper.actions.0, corridors.pace()),
+            && within(pace, paper.steps.0 / paper.actions.0, corridors.pace),
     )
 }
 
@@ -271,7 +251,7 @@ mod tests {
         let rng = &mut ChaCha8Rng::seed_from_u64(1);
         let mut draw =
             |corridors| -> Vec<Maze> { (0..2000).filter_map(|_| drawn(corridors, rng)).collect() };
-        let mazes = [draw(Corridors::Long), draw(Corridors::Short)].concat();
+        let mazes = [draw(LONG), draw(SHORT)].concat();
         assert!(mazes.len() > 20, "{}", mazes.len());
         for maze in mazes {
             let inside: Vec<Cell> = maze.reachable().collect();

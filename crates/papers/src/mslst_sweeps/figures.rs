@@ -4,28 +4,23 @@ use super::SweepRun;
 use super::settings::Sweep;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{Record, Run};
-use tolman_stats::Interval;
+use tolman_stats::{Interval, mean, quantile};
 
 pub(super) fn of(sweeps: &[Sweep], runs: &[Run]) -> Vec<Figure> {
-    let drawn = |sweep: &Sweep| Some((sweep.axis?, curve(sweep, runs)));
-    sweeps
+    let drawn = sweeps
         .iter()
-        .filter_map(|sweep| {
-            let (axis, points) = drawn(sweep)?;
-            let mut chart = Chart::new(
-                Axis::linear(axis),
-                Axis::linear("MSLST arrives, %").between(0.0, 100.0),
-            );
-            chart.line(Line::new("", Series(0), points));
-            let drawing = chart.drawing(format!("How often MSLST arrives, by {axis}."));
-            let figure = Figure::new(format!("curve-{}", sweep.name), sweep.title, drawing);
-            Some(
-                figure
-                    .caption("Mean over maps; the band holds their quartiles.")
-                    .table(sweep.name),
-            )
-        })
-        .collect()
+        .filter_map(|sweep| Some(figure(sweep, sweep.axis?, runs)));
+    drawn.collect()
+}
+
+fn figure(sweep: &Sweep, axis: &str, runs: &[Run]) -> Figure {
+    let success = Axis::linear("MSLST arrives, %").between(0.0, 100.0);
+    let mut chart = Chart::new(Axis::linear(axis), success);
+    chart.line(Line::new("", Series(0), curve(sweep, runs)));
+    let drawing = chart.drawing(format!("How often MSLST arrives, by {axis}."));
+    Figure::new(format!("curve-{}", sweep.name), sweep.title, drawing)
+        .caption("Mean over maps; the band holds their quartiles.")
+        .table(sweep.name)
 }
 
 fn curve(sweep: &Sweep, runs: &[Run]) -> Vec<LinePoint> {
@@ -35,11 +30,9 @@ fn curve(sweep: &Sweep, runs: &[Run]) -> Vec<LinePoint> {
         .filter_map(|setting| {
             let of_row = SweepRun::of_row(runs, sweep.name, &setting.row).ok()?;
             let percents: Vec<f64> = of_row.iter().map(|run| run.success_percent).collect();
-            let quartiles = Interval {
-                low: tolman_stats::quantile(&percents, 0.25).ok()?,
-                high: tolman_stats::quantile(&percents, 0.75).ok()?,
-            };
-            let mean = tolman_stats::mean(&percents).ok()?;
+            let at = |share| quantile(&percents, share).ok();
+            let quartiles = Interval::new(at(0.25)?, at(0.75)?);
+            let mean = mean(&percents).ok()?;
             Some(LinePoint::new(setting.value, mean).spread(quartiles))
         })
         .collect()

@@ -17,7 +17,8 @@ use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::learn;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Experiment, Fields, Job, Metric, Options, Record, Row, Run, Table, record, run_seed,
+    BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
+    record, run_seed,
 };
 use tolman_robot::Body;
 use tolman_systems::mslst::Navigator;
@@ -27,21 +28,37 @@ use settings::{Setting, Sweep};
 /// Starts for each map.
 const STARTS: u32 = 10;
 
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "mslst-sweeps",
+    title: "MSLST under other settings and in other worlds",
+    source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, future work",
+    runs: 10,
+    quick_runs: 2,
+    open,
+};
+
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Sweeps {
     sweeps: Vec<Sweep>,
-    tables: Vec<Table>,
 }
 
 /// Sets the tables up. Maze files have no part in it: `mslst` takes them.
 ///
 /// # Errors
 /// If a world cannot be built.
-pub(super) fn open(_options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(_options: &Options) -> Result<Experiment, BoxError> {
     let sweeps = settings::all()?;
     let tables = sweeps.iter().map(table).collect();
-    Ok(Box::new(Sweeps { sweeps, tables }))
+    let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
+    for sweep in &sweeps {
+        let rows = sweep.settings.iter();
+        let rows = rows.map(|setting| (&*setting.row, setting.config()));
+        config.insert(sweep.name, rows.collect());
+    }
+    let config = toml::Table::try_from(config)?;
+    Ok(Experiment::new(ENTRY, tables, config, Sweeps { sweeps }))
 }
 
 record! {
@@ -63,20 +80,19 @@ record! {
 }
 
 fn table(sweep: &Sweep) -> Table {
-    let mut table = Table::of::<SweepRun>(sweep.name, sweep.title)
+    let rows = sweep.settings.iter();
+    Table::of::<SweepRun>(sweep.name, sweep.title)
         .metric(Metric::mean(SweepRun::states))
         .metric(Metric::mean(SweepRun::nodes))
         .metric(Metric::mean(SweepRun::success_percent))
         .metric(Metric::mean(SweepRun::steps))
         .metric(Metric::mean(SweepRun::wall_follow_steps))
-        .metric(Metric::mean(SweepRun::oracle_steps));
-    for setting in &sweep.settings {
-        table = table.row(Row::new(&setting.row));
-    }
-    table.note(format!(
-        "{} A run is a map with {STARTS} starts; ± is the spread between maps. Runs that time out count with their limit.",
-        sweep.note
-    ))
+        .metric(Metric::mean(SweepRun::oracle_steps))
+        .rows(rows.map(|setting| Row::new(&setting.row)))
+        .note(format!(
+            "{} A run is a map with {STARTS} starts; ± is the spread between maps. Runs that time out count with their limit.",
+            sweep.note
+        ))
 }
 
 impl Sweeps {
@@ -86,41 +102,7 @@ impl Sweeps {
     }
 }
 
-impl Experiment for Sweeps {
-    fn name(&self) -> &str {
-        "mslst-sweeps"
-    }
-
-    fn title(&self) -> &str {
-        "MSLST under other settings and in other worlds"
-    }
-
-    fn source(&self) -> &str {
-        "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, future work"
-    }
-
-    fn default_runs(&self) -> u32 {
-        10
-    }
-
-    fn quick_runs(&self) -> u32 {
-        2
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
-        for sweep in &self.sweeps {
-            let rows = sweep.settings.iter();
-            let rows = rows.map(|setting| (&*setting.row, setting.config()));
-            config.insert(sweep.name, rows.collect());
-        }
-        Ok(toml::Table::try_from(config)?)
-    }
-
+impl Procedure for Sweeps {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let setting = self
             .setting(job.table, job.row)

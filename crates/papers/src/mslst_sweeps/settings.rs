@@ -8,7 +8,7 @@ use tolman_robot::Ring;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::drawings::{self, Corridors};
-use crate::venue;
+use crate::venue::{self, Venue};
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
@@ -43,7 +43,7 @@ pub(super) enum World {
     /// The same for all runs, with a step limit of its own.
     Fixed { course: Box<Course>, steps: u32 },
     /// Another drawing of the Large maze for each run.
-    Redrawn(Corridors),
+    Redrawn(&'static Corridors),
     /// A random maze for each run, without loops.
     Perfect { side: u16 },
     /// A random maze for each run with every other dead end opened.
@@ -87,7 +87,7 @@ impl World {
     fn name(&self) -> String {
         match self {
             Self::Fixed { course, .. } => course.name.clone(),
-            Self::Redrawn(corridors) => format!("Large, redrawn: {}", corridors.name()),
+            Self::Redrawn(corridors) => format!("Large, redrawn: {}", corridors.name),
             Self::Perfect { side } => format!("perfect {side} × {side}"),
             Self::Braided { side } => format!("braided {side} × {side}"),
         }
@@ -110,11 +110,7 @@ impl Setting {
             fixed: Option<venue::World>,
         }
         let fixed = match &self.world {
-            World::Fixed { course, steps } => Some(venue::World {
-                maze: course.maze.to_string(),
-                corridor_width: course.corridor_width,
-                step_limit: *steps,
-            }),
+            World::Fixed { course, steps } => Some(venue::World::of(course, *steps)),
             _ => None,
         };
         Config {
@@ -142,61 +138,61 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
     let steps = [500, 1000, 2000, 4000, 8000];
     let memories = [1, 2, 4, 6, 8, 12, 16, 24];
     let noises = [0.0, 0.5, 1.0, 1.5, 2.0];
+    let by = |name, title, axis, settings| Sweep {
+        name,
+        title,
+        axis: Some(axis),
+        settings,
+        note: "Large maze, threshold 50.",
+    };
+    let threshold = |threshold| at(threshold, MslstConfig { threshold, ..base });
+    let graph = |graph_actions| {
+        let config = MslstConfig {
+            graph_actions,
+            ..base
+        };
+        at(f64::from(graph_actions), config)
+    };
+    let scans = |scan_steps| at(f64::from(scan_steps), MslstConfig { scan_steps, ..base });
+    let memory = |memory| at(f64::from(memory), MslstConfig { memory, ..base });
+    let noise = |times| Setting {
+        robot: noisy(times),
+        ..at(times, base)
+    };
     Ok(vec![
         Sweep {
-            name: "threshold",
-            title: "The error threshold of the quantizer",
-            axis: Some("threshold, squared robot units"),
-            settings: thresholds
-                .map(|threshold| at(threshold, MslstConfig { threshold, ..base }))
-                .into(),
             note: "Large maze.",
+            ..by(
+                "threshold",
+                "The error threshold of the quantizer",
+                "threshold, squared robot units",
+                thresholds.map(threshold).into(),
+            )
         },
-        Sweep {
-            name: "graph",
-            title: "The length of Phase II",
-            axis: Some("actions of Phase II"),
-            settings: actions
-                .map(|graph_actions| {
-                    let config = MslstConfig {
-                        graph_actions,
-                        ..base
-                    };
-                    at(f64::from(graph_actions), config)
-                })
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
-        Sweep {
-            name: "scans",
-            title: "The length of Phase I",
-            axis: Some("time steps of Phase I"),
-            settings: steps
-                .map(|scan_steps| at(f64::from(scan_steps), MslstConfig { scan_steps, ..base }))
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
-        Sweep {
-            name: "memory",
-            title: "How much is remembered",
-            axis: Some("pairs of state and action"),
-            settings: memories
-                .map(|memory| at(f64::from(memory), MslstConfig { memory, ..base }))
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
-        Sweep {
-            name: "noise",
-            title: "The noise of the motors",
-            axis: Some("times the calibrated noise"),
-            settings: noises
-                .map(|times| Setting {
-                    robot: noisy(times),
-                    ..at(times, base)
-                })
-                .into(),
-            note: "Large maze, threshold 50.",
-        },
+        by(
+            "graph",
+            "The length of Phase II",
+            "actions of Phase II",
+            actions.map(graph).into(),
+        ),
+        by(
+            "scans",
+            "The length of Phase I",
+            "time steps of Phase I",
+            steps.map(scans).into(),
+        ),
+        by(
+            "memory",
+            "How much is remembered",
+            "pairs of state and action",
+            memories.map(memory).into(),
+        ),
+        by(
+            "noise",
+            "The noise of the motors",
+            "times the calibrated noise",
+            noises.map(noise).into(),
+        ),
         Sweep {
             name: "drawings",
             title: "Other drawings of the Large maze",
@@ -212,8 +208,8 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
                     let name = |what: &str| format!("{what}, MSLST {threshold}");
                     [
                         ours.named(name("our drawing")),
-                        redrawn(Corridors::Long).named(name("long corridors")),
-                        redrawn(Corridors::Short).named(name("short corridors")),
+                        redrawn(drawings::LONG).named(name("long corridors")),
+                        redrawn(drawings::SHORT).named(name("short corridors")),
                     ]
                 })
                 .collect(),
@@ -234,15 +230,11 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
 
 /// The paper's two worlds with its limits.
 fn fixed() -> Result<[World; 2], BoxError> {
-    let mut venues = venue::papers()?.into_iter();
-    let mut next = || -> Result<World, BoxError> {
-        let venue = venues.next().ok_or("the paper has two mazes")?;
-        Ok(World::Fixed {
-            steps: venue.step_limit,
-            course: Box::new(venue.course),
-        })
+    let fixed = |venue: Venue| World::Fixed {
+        steps: venue.step_limit,
+        course: Box::new(venue.course),
     };
-    Ok([next()?, next()?])
+    Ok(venue::papers()?.map(fixed))
 }
 
 fn noisy(times: f64) -> LaserPioneerConfig {

@@ -9,14 +9,13 @@ use super::any::ROWS;
 use super::shapes::ShapesRun;
 use super::states::Mazes;
 use super::{five, shapes, states};
-use tolman_arena::pioneer;
+use crate::plan::model_scan;
 use tolman_draw::{
     Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, NodeMark, Points,
-    PolarPlot, Series, Tiles,
+    Series, Tiles,
 };
 use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{Interval, quantile};
-use tolman_systems::mslst::ROBOT_UNIT;
 
 /// How many data points a picture shows at most.
 const SHOWN: usize = 700;
@@ -26,8 +25,8 @@ const DOTS: u32 = Series::COLOURS - 1;
 
 pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let first = |table: &str, row: &str| {
-        runs.iter()
-            .find(|run| run.table == table && run.row == row && run.run == 0)
+        let mut runs = runs.iter();
+        runs.find(|run| run.is_of(table, row) && run.run == 0)
     };
     let mut figures = Vec::new();
     for (name, row) in [("states-j", "J 100"), ("states-large", "Large 20")] {
@@ -77,20 +76,11 @@ fn model_scans(mazes: &Mazes, run: &Run, name: &str) -> Result<Figure, BoxError>
     for scan in &scans {
         *won.entry(network.nearest(scan)?.id).or_default() += 1;
     }
-    let ring = pioneer::ring();
     let mut tiles = Tiles::new(8);
     for (state, id) in (0_u32..).zip(network.ids()) {
-        let metres: Vec<f64> = network
-            .prototype(id)?
-            .map(|range| range * ROBOT_UNIT)
-            .collect();
-        let mut plot = PolarPlot::new(ring.max_range, 92.0);
-        plot.ranges(&ring, &metres, Series(0));
+        let scan = model_scan(network.prototype(id)?, 92.0, format!("State {state}."));
         let share = 100.0 * f64::from(won.get(&id).copied().unwrap_or(0)) / scans.len() as f64;
-        tiles.tile(
-            format!("{state}: {share:.1} %"),
-            plot.drawing(format!("State {state}.")),
-        );
+        tiles.tile(format!("{state}: {share:.1} %"), scan);
     }
     let row = &run.row;
     let title = format!("The states of {row}");
@@ -169,10 +159,7 @@ fn errors(runs: &[Run]) -> Result<Figure, BoxError> {
             .filter_map(|(mark, inputs)| {
                 let values: Vec<f64> = of_row.iter().map(|run| run.errors()[mark]).collect();
                 let at = |share| quantile(&values, share).ok();
-                let spread = Interval {
-                    low: at(0.0)?,
-                    high: at(1.0)?,
-                };
+                let spread = Interval::new(at(0.0)?, at(1.0)?);
                 Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
             });
         chart.line(Line::new(row, Series(series), points.collect()));

@@ -29,67 +29,48 @@ struct Stream {
     points: u32,
 }
 
+const fn stream(row: &'static str, order: Order, noise: f64, points: u32) -> Stream {
+    Stream {
+        row,
+        order,
+        noise,
+        points,
+    }
+}
+
 const STREAMS: [Stream; 6] = [
-    Stream {
-        row: "no noise",
-        order: Order::Stationary,
-        noise: 0.0,
-        points: POINTS,
-    },
-    Stream {
-        row: "5 % noise",
-        order: Order::Stationary,
-        noise: 0.05,
-        points: POINTS,
-    },
-    Stream {
-        row: "20 % noise",
-        order: Order::Stationary,
-        noise: 0.2,
-        points: POINTS,
-    },
-    Stream {
-        row: "20 % noise, one region after another",
-        order: Order::OneAfterAnother,
-        noise: 0.2,
-        points: POINTS,
-    },
-    Stream {
-        row: "30,000 points",
-        order: Order::Stationary,
-        noise: NOISE,
-        points: 30_000,
-    },
-    Stream {
-        row: "300,000 points",
-        order: Order::Stationary,
-        noise: NOISE,
-        points: 300_000,
-    },
+    stream("no noise", Order::Stationary, 0.0, POINTS),
+    stream("5 % noise", Order::Stationary, 0.05, POINTS),
+    stream("20 % noise", Order::Stationary, 0.2, POINTS),
+    stream(IN_TURN, Order::OneAfterAnother, 0.2, POINTS),
+    stream("30,000 points", Order::Stationary, NOISE, 30_000),
+    stream("300,000 points", Order::Stationary, NOISE, 300_000),
 ];
+
+const IN_TURN: &str = "20 % noise, one region after another";
 
 /// Points of each region that are held against the clusters.
 const PROBES: u32 = 200;
 
 pub(super) fn tables() -> Vec<Table> {
-    let rows = |table: Table| table.row(Row::new(LITERAL)).row(Row::new(CHOSEN));
-    let mut other = measured(OTHER_STREAMS, "Five clusters in other streams");
-    for stream in &STREAMS {
-        other = other.row(Row::new(stream.row));
-    }
+    let rows = [LITERAL, CHOSEN].map(Row::new);
     vec![
-        rows(measured(NAME, "Five clusters in 10 % noise, points drawn from all"))
+        measured(NAME, "Five clusters in 10 % noise, points drawn from all")
+        .rows(rows.clone())
         .note(format!(
             "{POINTS} points a run. A run is right if each region's own points fall, but for 5 %, into a cluster of \
              their own. SOINN literal: Shen and Hasegawa 2006, λ = age_dead = 100, c = 1, second layer's threshold by \
              algorithm 3.3. SOINN: units judged by their age and age_dead = 20 in the first layer, λ = 500 and a \
              threshold of four mean edges of the first layer in the second."
         )),
-        rows(measured(
+        measured(
             ONE_AFTER_ANOTHER,
             "The same, one region after another, in seven phases",
-        )),
-        other.note("The same SOINN; the row says what differs from the first table."),
+        )
+        .rows(rows),
+        measured(OTHER_STREAMS, "Five clusters in other streams")
+            .rows(STREAMS.map(|stream| Row::new(stream.row)))
+            .note("The same SOINN; the row says what differs from the first table."),
     ]
 }
 

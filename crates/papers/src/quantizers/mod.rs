@@ -18,17 +18,27 @@ use tolman_sim::robots::LaserPioneerConfig;
 use crate::data;
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Experiment, Fields, Job, Options, Run, Table};
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 
 use sonar::Log;
 use states::Mazes;
+
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "quantizers",
+    title: "Quantizers: states out of scans, clusters out of noise",
+    source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, table 1; F. Shen, O. Hasegawa: An \
+             incremental network for on-line unsupervised classification and topology learning, 2006",
+    runs: 20,
+    quick_runs: 10,
+    open,
+};
 
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Quantizers {
     mazes: Mazes,
     log: Option<Log>,
-    tables: Vec<Table>,
 }
 
 /// What the runs depend on.
@@ -62,7 +72,7 @@ fn unbounded(config: GngConfig) -> GngConfig {
 ///
 /// # Errors
 /// If the log of sonars cannot be read, or the caller names mazes, which have no place here.
-pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
+fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
         return Err("table 1 is of the J and the Large maze: leave --maze out".into());
     }
@@ -76,52 +86,26 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Experiment>, BoxError> {
         let missing = data::missing("the logs of a ring of sonars");
         table.note = format!("{} {missing}", table.note);
     }
-    Ok(Box::new(Quantizers {
-        mazes: Mazes::new()?,
-        log,
-        tables,
-    }))
+    let mazes = Mazes::new()?;
+    let courses = mazes.all().into_iter();
+    let courses = courses.map(|course| (&*course.name, course.maze.to_string()));
+    let config = toml::Table::try_from(Config {
+        robot: pioneer::calibrated(),
+        mazes: courses.collect(),
+        parameters: Parameters {
+            mslst: unbounded(GngConfig::mslst(50.0)),
+            gng: unbounded(GngConfig::fritzke()),
+            soinn_literal: SoinnConfig::shen_hasegawa(),
+            soinn: SoinnConfig::noisy(),
+            second_layer_literal: SecondLayerConfig::shen_hasegawa(),
+            second_layer: SecondLayerConfig::noisy(),
+        },
+    })?;
+    let quantizers = Quantizers { mazes, log };
+    Ok(Experiment::new(ENTRY, tables, config, quantizers))
 }
 
-impl Experiment for Quantizers {
-    fn name(&self) -> &str {
-        "quantizers"
-    }
-
-    fn title(&self) -> &str {
-        "Quantizers: states out of scans, clusters out of noise"
-    }
-
-    fn source(&self) -> &str {
-        "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, table 1; F. Shen, O. Hasegawa: An \
-         incremental network for on-line unsupervised classification and topology learning, 2006"
-    }
-
-    fn default_runs(&self) -> u32 {
-        20
-    }
-
-    fn tables(&self) -> &[Table] {
-        &self.tables
-    }
-
-    fn config(&self) -> Result<toml::Table, BoxError> {
-        let mazes = self.mazes.all().into_iter();
-        let mazes = mazes.map(|course| (&*course.name, course.maze.to_string()));
-        Ok(toml::Table::try_from(Config {
-            robot: pioneer::calibrated(),
-            mazes: mazes.collect(),
-            parameters: Parameters {
-                mslst: unbounded(GngConfig::mslst(50.0)),
-                gng: unbounded(GngConfig::fritzke()),
-                soinn_literal: SoinnConfig::shen_hasegawa(),
-                soinn: SoinnConfig::noisy(),
-                second_layer_literal: SecondLayerConfig::shen_hasegawa(),
-                second_layer: SecondLayerConfig::noisy(),
-            },
-        })?)
-    }
-
+impl Procedure for Quantizers {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match (job.table, &self.log) {
             (states::NAME, _) => self.mazes.run(job),

@@ -38,9 +38,7 @@ pub(super) fn table() -> Table {
         .metric(Metric::mean(OrderRun::mean_squared_error))
         .metric(Metric::mean(OrderRun::rms_error))
         .metric(Metric::mean(OrderRun::units))
-        .row(Row::new(SHUFFLED))
-        .row(Row::new(IN_TIME))
-        .row(Row::new(REPLAYED))
+        .rows([SHUFFLED, IN_TIME, REPLAYED].map(Row::new))
         .note(format!(
             "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} units; the error is \
              that of all those scans. Replayed: eight remembered scans are learnt for each that comes."

@@ -60,14 +60,12 @@ impl ShapesRun {
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::of::<ShapesRun>(NAME, "Two rings and two squares")
+    Table::of::<ShapesRun>(NAME, "Two rings and two squares")
         .metric(Metric::mean(ShapesRun::rms_30000))
         .metric(Metric::mean(ShapesRun::units))
-        .metric(Metric::mean(ShapesRun::clusters));
-    for row in ROWS {
-        table = table.row(Row::new(row));
-    }
-    table.note(format!(
+        .metric(Metric::mean(ShapesRun::clusters))
+        .rows(ROWS.map(Row::new))
+        .note(format!(
         "{} points, drawn at random; the error is that of {PROBES} others. GNG and GNG-U have at most {UNITS} units.",
         MARKS[MARKS.len() - 1]
     ))

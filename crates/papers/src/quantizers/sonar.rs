@@ -131,14 +131,12 @@ record! {
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::of::<SonarRun>(NAME, "A ring of 24 sonars on a wall-following robot")
+    Table::of::<SonarRun>(NAME, "A ring of 24 sonars on a wall-following robot")
         .metric(Metric::mean(SonarRun::rms_error))
         .metric(Metric::mean(SonarRun::units))
-        .metric(Metric::mean(SonarRun::right_percent));
-    for row in ROWS {
-        table = table.row(Row::new(row));
-    }
-    table.note(
+        .metric(Metric::mean(SonarRun::right_percent))
+        .rows(ROWS.map(Row::new))
+        .note(
         "A log of four laps (Freire and Barreto 2010). Three are learnt, in random orders; of each scan of the fourth, the unit \
          nearest to it tells the action that was most frequent with that unit before.",
     )

@@ -2,7 +2,7 @@
 
 use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
-use crate::venue;
+use crate::venue::{self, StatesRow, TABLE_1, states_row};
 use tolman_arena::course::Course;
 use tolman_arena::mslst;
 use tolman_arena::pioneer;
@@ -13,36 +13,6 @@ pub(super) const NAME: &str = "1";
 
 /// Phase I: "approximately 4000 time steps".
 pub(super) const STEPS: u32 = 4000;
-
-/// A row of the table.
-struct Setting {
-    row: &'static str,
-    maze: &'static str,
-    threshold: f64,
-    /// The paper's number of states.
-    states: f64,
-}
-
-const SETTINGS: [Setting; 3] = [
-    Setting {
-        row: "J 100",
-        maze: "J",
-        threshold: 100.0,
-        states: 16.0,
-    },
-    Setting {
-        row: "Large 20",
-        maze: "Large",
-        threshold: 20.0,
-        states: 43.0,
-    },
-    Setting {
-        row: "Large 50",
-        maze: "Large",
-        threshold: 50.0,
-        states: 26.0,
-    },
-];
 
 record! {
     /// An equilibrium GNG that learned the scans of phase I.
@@ -55,18 +25,17 @@ record! {
 }
 
 pub(super) fn table() -> Table {
-    let mut table = Table::of::<NetworkRun>(NAME, "States of MSLST's equilibrium GNG")
+    let row = |row: StatesRow| Row::new(row.row).paper("states_median", row.states);
+    Table::of::<NetworkRun>(NAME, "States of MSLST's equilibrium GNG")
         .metric(Metric::median("states_median", NetworkRun::states).titled("states (median)"))
         .metric(Metric::mean(NetworkRun::rms_error))
-        .paper_runs(1);
-    for setting in &SETTINGS {
-        table = table.row(Row::new(setting.row).paper("states_median", setting.states));
-    }
-    table.note(format!(
-        "The scans of {STEPS} time steps of the Avoid brain, one maze and one network a run. The decay d = {} was chosen on \
-         Large 50 alone; J 100 and Large 20 are predictions.",
-        GngConfig::mslst(50.0).decay
-    ))
+        .paper_runs(1)
+        .rows(TABLE_1.map(row))
+        .note(format!(
+            "The scans of {STEPS} time steps of the Avoid brain, one maze and one network a run. The decay d = {} was chosen on \
+             Large 50 alone; J 100 and Large 20 are predictions.",
+            GngConfig::mslst(50.0).decay
+        ))
 }
 
 /// The courses of the table.
@@ -95,12 +64,13 @@ impl Mazes {
 
     /// The network of a run of the table, and the scans it learned.
     pub(super) fn learn(&self, job: &Job<'_>) -> Result<(Gng<f64>, Vec<Vec<f64>>), BoxError> {
-        let setting = SETTINGS.iter().find(|setting| setting.row == job.row);
-        let (maze, threshold) = setting.map_or(("", 0.0), |s| (s.maze, s.threshold));
-        let course = if maze == "J" { &self.j } else { &self.large };
+        let row = states_row(job.row)?;
+        let mut courses = self.all().into_iter();
+        let course = courses.find(|course| course.name == row.maze);
+        let course = course.ok_or_else(|| format!("there is no maze {}", row.maze))?;
         let scans = scans(course, job.seed)?;
         let beams = pioneer::ring().beams as usize;
-        let mut gng = Gng::new(beams, GngConfig::mslst(threshold))?;
+        let mut gng = Gng::new(beams, GngConfig::mslst(row.threshold))?;
         for scan in &scans {
             gng.observe(scan)?;
         }

@@ -27,11 +27,6 @@ pub(crate) fn from_file(path: &Path) -> Result<Venue, BoxError> {
     let name = file.name.clone().unwrap_or_else(|| maze_file::stem(path));
     let course = Course::new(&name, &file, &pioneer::body())
         .map_err(|error| maze_file::in_file(path, error))?;
-    Ok(Venue {
-        table: name.clone(),
-        title: format!("The maze {name}"),
-        step_limit: course.step_limit(),
-        course,
-        paper: &[],
-    })
+    let (title, steps) = (format!("The maze {name}"), course.step_limit());
+    Ok(Venue::new(&name, &title, course, steps))
 }

@@ -10,6 +10,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 
 use crate::Recorder;
 use tolman_arena::Mind;
+use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::episode::{self, EpisodeError, Trial};
 use tolman_arena::pioneer;
@@ -18,7 +19,7 @@ use tolman_replay::Replay;
 
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
-pub(super) use paper::{LARGE_STEPS, PaperRow};
+pub(super) use paper::{LARGE_STEPS, PaperRow, StatesRow, TABLE_1, states_row};
 
 /// One world with its table.
 #[derive(Debug)]
@@ -28,7 +29,9 @@ pub(super) struct Venue {
     /// The title of its table.
     pub(super) title: String,
     pub(super) course: Course,
+    pub(super) robot: LaserPioneerConfig,
     pub(super) step_limit: u32,
+    cast: Cast,
     /// What the paper says of it.
     paper: &'static [PaperRow],
 }
@@ -36,36 +39,32 @@ pub(super) struct Venue {
 /// A world as it stands in a configuration.
 #[derive(Debug, Serialize)]
 pub(super) struct World {
-    pub(super) maze: String,
+    maze: String,
     /// In metres.
-    pub(super) corridor_width: f64,
+    corridor_width: f64,
     /// In time steps.
-    pub(super) step_limit: u32,
+    step_limit: u32,
+}
+
+impl World {
+    pub(super) fn of(course: &Course, step_limit: u32) -> Self {
+        Self {
+            maze: course.maze.to_string(),
+            corridor_width: course.corridor_width,
+            step_limit,
+        }
+    }
 }
 
 /// The paper's own worlds.
-pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
-    Ok(vec![
-        Venue {
-            table: "2 (J)".into(),
-            title: "The J maze".into(),
-            course: j_maze()?,
-            step_limit: paper::J_STEPS,
-            paper: paper::TABLE_2,
-        },
-        large_like(large_maze()?),
-    ])
+pub(super) fn papers() -> Result<[Venue; 2], BoxError> {
+    let j = Venue::new("2 (J)", "The J maze", j_maze()?, paper::J_STEPS);
+    Ok([j.known(paper::TABLE_2), large_like(large_maze()?)])
 }
 
 /// A course that stands for the paper's Large maze, with its limit and its rows.
 pub(super) fn large_like(course: Course) -> Venue {
-    Venue {
-        table: "3 (Large)".into(),
-        title: "The Large maze".into(),
-        course,
-        step_limit: paper::LARGE_STEPS,
-        paper: paper::TABLE_3,
-    }
+    Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
 }
 
 /// The paper's J maze.
@@ -87,6 +86,24 @@ fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
 }
 
 impl Venue {
+    /// A course of which the paper says nothing, for the calibrated robot.
+    fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
+        Self {
+            table: table.to_owned(),
+            title: title.to_owned(),
+            course,
+            robot: pioneer::calibrated(),
+            step_limit,
+            cast: Cast::default(),
+            paper: &[],
+        }
+    }
+
+    /// With what the paper says.
+    fn known(self, paper: &'static [PaperRow]) -> Self {
+        Self { paper, ..self }
+    }
+
     /// The row of a brain, with what the paper says of it.
     pub(super) fn row(&self, name: &str) -> Row {
         let row = Row::new(name);
@@ -106,22 +123,23 @@ impl Venue {
 
     /// What the runs here depend on.
     pub(super) fn world(&self) -> World {
-        World {
-            maze: self.course.maze.to_string(),
-            corridor_width: self.course.corridor_width,
-            step_limit: self.step_limit,
-        }
+        World::of(&self.course, self.step_limit)
     }
 
     /// The run of a seed, from the start that belongs to it.
-    pub(super) fn trial(&self, robot: &LaserPioneerConfig, seed: u64) -> Trial<'_> {
+    pub(super) fn trial(&self, seed: u64) -> Trial<'_> {
         Trial {
             course: &self.course,
-            robot: robot.clone(),
+            robot: self.robot.clone(),
             start: episode::random_start(&self.course, &pioneer::body(), seed),
             step_limit: self.step_limit,
             seed,
         }
+    }
+
+    /// An agent that has not begun.
+    pub(super) fn mind(&self, agent: Agent) -> Result<Mind, EpisodeError> {
+        self.cast.mind(agent, &self.course, &self.robot)
     }
 }
 

@@ -93,7 +93,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     for (name, options) in arguments.chosen() {
         let experiment = open(catalogue(), name, &options).map_err(classify)?;
         let progress = Terminal::new(Arc::clone(&stop));
-        let outcome = execute(&*experiment, &options, &build, &progress).map_err(classify)?;
+        let outcome = execute(&experiment, &options, &build, &progress).map_err(classify)?;
         if arguments.json {
             let summary = outcome.summary.to_json().map_err(classify)?;
             out.write_all(summary.as_bytes())?;
@@ -128,7 +128,7 @@ fn replay(
     })?;
     for (name, options) in arguments.chosen() {
         let experiment = open(catalogue(), name, &options).map_err(classify)?;
-        let file = write_replay(&*experiment, &options, table, row, run).map_err(classify)?;
+        let file = write_replay(&experiment, &options, table, row, run).map_err(classify)?;
         writeln!(out, "The replay: {}", file.display())?;
     }
     Ok(())

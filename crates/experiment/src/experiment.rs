@@ -1,0 +1,167 @@
+//! One paper's tables and how to fill them.
+
+use super::{BoxError, Entry, Error, Fields, Job, Run, Table};
+use tolman_draw::Figure;
+use tolman_replay::Replay;
+
+/// One paper's tables and how to fill them.
+///
+/// ```
+/// use tolman_experiment::{
+///     BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Table, open, record,
+/// };
+///
+/// record! {
+///     /// One game.
+///     struct Game {
+///         /// Tosses until the coin showed heads.
+///         tosses: u32 => neither("tosses").at_least(1),
+///     }
+/// }
+///
+/// /// Tosses a coin until it shows heads.
+/// #[derive(Debug)]
+/// struct Coin;
+///
+/// impl Procedure for Coin {
+///     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+///         Ok(Game { tosses: job.seed.trailing_zeros() + 1 }.fields()?)
+///     }
+/// }
+///
+/// const COIN: Entry = Entry {
+///     name: "coin",
+///     title: "Tosses until heads",
+///     source: "",
+///     runs: 1000,
+///     quick_runs: 10,
+///     open: |_: &Options| {
+///         let table = Table::of::<Game>("1", "A fair coin")
+///             .metric(Metric::mean(Game::tosses))
+///             .row(Row::new("fair"));
+///         Ok(Experiment::new(COIN, vec![table], toml::Table::new(), Coin))
+///     },
+/// };
+///
+/// let coin = open(&[COIN], "coin", &Options::default())?;
+/// let job = Job { table: "1", row: "fair", run: 0, seed: 8 };
+/// assert_eq!(coin.procedure.run(&job)?.record::<Game>()?.tosses, 4);
+/// # Ok::<(), BoxError>(())
+/// ```
+#[derive(Debug)]
+pub struct Experiment {
+    /// What the catalogue says of it.
+    pub entry: Entry,
+    /// The tables, in the order they are shown.
+    pub tables: Vec<Table>,
+    /// Everything, apart from the seed and the number of runs, that the results depend on: mazes
+    /// with their whole contents, gains, noise. Two experiments with equal configurations give
+    /// equal runs; finished runs are reused only then.
+    pub config: toml::Table,
+    /// What is left out because it is not here, and how to have it; `None` if all is here.
+    pub skipped: Option<String>,
+    /// How its runs are played.
+    pub procedure: Box<dyn Procedure>,
+    /// Whether only some tables are filled.
+    in_part: bool,
+}
+
+/// How the runs of an experiment are played and drawn.
+pub trait Procedure: Sync + core::fmt::Debug {
+    /// Plays one run. A pure function of the job and the configuration: the same job gives the same
+    /// fields on every thread, in any order.
+    ///
+    /// # Errors
+    /// If the run cannot be played at all. That a robot does not arrive is a result, not an error.
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError>;
+
+    /// Pictures beside the box plots that every experiment gets. `runs` is complete and sorted by
+    /// table, row and index; a run can be played again from its [`Run::job`].
+    ///
+    /// # Errors
+    /// If a run that is to be drawn cannot be played again.
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        let _ = runs;
+        Ok(Vec::new())
+    }
+
+    /// Plays a run again and records it, so that its dots in the report can be opened. The report
+    /// carries the first runs of each row, as many as fit; [`write_replay`](super::write_replay)
+    /// writes any.
+    ///
+    /// `None`, the default, for runs of which there is nothing to see.
+    ///
+    /// # Errors
+    /// If the run cannot be played again.
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        let _ = job;
+        Ok(None)
+    }
+}
+
+impl Experiment {
+    /// An experiment that leaves nothing out.
+    pub fn new(
+        entry: Entry,
+        tables: Vec<Table>,
+        config: toml::Table,
+        procedure: impl Procedure + 'static,
+    ) -> Self {
+        Self {
+            entry,
+            tables,
+            config,
+            skipped: None,
+            procedure: Box::new(procedure),
+            in_part: false,
+        }
+    }
+
+    /// Says what is left out.
+    #[must_use]
+    pub fn skipped(mut self, skipped: Option<String>) -> Self {
+        self.skipped = skipped;
+        self
+    }
+
+    /// Leaves the rows of all tables but those of these names without runs; of no names, fills all.
+    /// The configuration stays, so runs of other tables stay in the folder of results.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if it has no table of a name.
+    pub(super) fn choose(mut self, names: &[String]) -> Result<Self, Error> {
+        self.in_part = !names.is_empty();
+        for name in names {
+            self.table(name)?;
+        }
+        for table in &mut self.tables {
+            if self.in_part && !names.contains(&table.name) {
+                for row in &mut table.rows {
+                    row.runs = Some(0);
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// The table of this name and its place.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is none.
+    pub(super) fn table(&self, name: &str) -> Result<(usize, &Table), Error> {
+        let names = self.tables.iter().map(|table| table.name.as_str());
+        let place = Error::place_of("table", name, names)?;
+        Ok((place, &self.tables[place]))
+    }
+
+    /// The pictures of the procedure. Of an experiment in part those of its tables; figures of several
+    /// tables are left out then.
+    pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        let mut figures = self.procedure.figures(runs)?;
+        figures.retain(|figure| {
+            let mut filled = self.tables.iter().filter(|table| table.is_filled());
+            !self.in_part || filled.any(|table| figure.table.as_ref() == Some(&table.name))
+        });
+        Ok(figures)
+    }
+}
