@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use thiserror::Error;
 
 use super::bearings::{Bearings, SHARP, between};
-use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
+use super::map::{CpMap, End, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::similarity::Sense;
 use super::traversal::Sighting;
@@ -44,21 +44,13 @@ use tolman_robot::Landmark;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Localizer<'a> {
-    maps: &'a [CpMap],
-    dictionary: &'a Dictionary,
+pub struct Localizer {
+    /// Copies of maps share all their nodes.
+    maps: Vec<CpMap>,
+    dictionary: Dictionary,
     config: LocalizerConfig,
     tracks: Vec<Track>,
     /// How likely the robot is at one place of each map before anything is known.
-    anywhere: Vec<f64>,
-    stage: Stage,
-}
-
-/// What a [`Localizer`] believes, without the maps that it is of.
-#[derive(Clone, Debug)]
-pub struct RestingLocalizer {
-    config: LocalizerConfig,
-    tracks: Vec<Track>,
     anywhere: Vec<f64>,
     stage: Stage,
 }
@@ -215,14 +207,14 @@ impl LocalizerConfig {
     }
 }
 
-impl<'a> Localizer<'a> {
+impl Localizer {
     /// Nothing is known yet: the robot may be in any fragment of any map.
     ///
     /// # Errors
     /// [`LocalizeError`] if the maps are empty or another dictionary's, or a field is outside its range.
     pub fn new(
-        maps: &'a [CpMap],
-        dictionary: &'a Dictionary,
+        maps: &[CpMap],
+        dictionary: &Dictionary,
         config: LocalizerConfig,
     ) -> Result<Self, LocalizeError> {
         config.check()?;
@@ -241,7 +233,7 @@ impl<'a> Localizer<'a> {
                     };
                     tracks.push(Track {
                         map: index,
-                        enter: End { fragment: id, sign },
+                        enter: id.end(sign),
                         ahead,
                         place: place.sighting(),
                         bearings: place.bearings_from(ahead.number),
@@ -255,8 +247,8 @@ impl<'a> Localizer<'a> {
             return Err(LocalizeError::Empty);
         }
         let mut localizer = Self {
-            maps,
-            dictionary,
+            maps: maps.to_vec(),
+            dictionary: dictionary.clone(),
             config,
             anywhere: anywhere(maps.len(), &tracks),
             tracks,
@@ -264,30 +256,6 @@ impl<'a> Localizer<'a> {
         };
         localizer.spread(1.0);
         Ok(localizer)
-    }
-
-    /// Returns what it believes, without maps and dictionary.
-    #[must_use]
-    pub fn rest(self) -> RestingLocalizer {
-        RestingLocalizer {
-            config: self.config,
-            tracks: self.tracks,
-            anywhere: self.anywhere,
-            stage: self.stage,
-        }
-    }
-
-    /// Goes on with what was believed, on the same maps and with their dictionary.
-    #[must_use]
-    pub fn wake(resting: RestingLocalizer, maps: &'a [CpMap], dictionary: &'a Dictionary) -> Self {
-        Self {
-            maps,
-            dictionary,
-            config: resting.config,
-            tracks: resting.tracks,
-            anywhere: resting.anywhere,
-            stage: resting.stage,
-        }
     }
 
     /// One observation on the way. O(all sequences' lengths and the distances of prototypes).
@@ -366,9 +334,7 @@ impl<'a> Localizer<'a> {
             .tracks
             .iter()
             .map(|track| {
-                let End { fragment, sign } = track.enter;
-                let sign = sign.opposite();
-                let other = self.index(track.map, End { fragment, sign });
+                let other = self.index(track.map, track.enter.opposite());
                 let other = other.and_then(|other| self.tracks.get(other));
                 let passed = other.map_or(&track.passed, |other| &other.passed);
                 // What it has passed comes next, the last first.
@@ -436,33 +402,22 @@ impl<'a> Localizer<'a> {
     /// The fragment and the way along it that are most likely, the first of equals.
     #[must_use]
     pub fn location(&self) -> Location {
-        let mut best: Option<Location> = None;
-        for track in &self.tracks {
-            let probability = track.passed.iter().sum();
-            if best.is_none_or(|best| probability > best.probability) {
-                let Track {
-                    map, enter, ahead, ..
-                } = *track;
-                best = Some(Location {
-                    map,
-                    enter,
-                    ahead,
-                    probability,
-                });
+        let likelihood = |track: &Track| track.passed.iter().sum();
+        // There is a track at least.
+        let mut best = &self.tracks[0];
+        let mut probability: f64 = likelihood(best);
+        for track in &self.tracks[1..] {
+            let other = likelihood(track);
+            if other > probability {
+                (best, probability) = (track, other);
             }
         }
-        best.unwrap_or(Location {
-            map: 0,
-            enter: End {
-                fragment: FragmentId(0),
-                sign: Sign::Minus,
-            },
-            ahead: Port {
-                junction: JunctionId(0),
-                number: 0,
-            },
-            probability: 0.0,
-        })
+        Location {
+            map: best.map,
+            enter: best.enter,
+            ahead: best.ahead,
+            probability,
+        }
     }
 
     /// How likely the robot is on each map: "which environment the robot is in".
@@ -493,13 +448,8 @@ impl<'a> Localizer<'a> {
                     continue;
                 }
             };
-            let exit = Port {
-                number,
-                ..track.ahead
-            };
-            let next = map
-                .end_at(exit)
-                .and_then(|enter| self.index(track.map, enter));
+            let enter = map.end_at(track.ahead.junction.port(number));
+            let next = enter.and_then(|enter| self.index(track.map, enter));
             if let Some(entered) = next.and_then(|next| entered.get_mut(next)) {
                 *entered += track.passed.last().copied().unwrap_or(0.0);
             }

@@ -14,9 +14,27 @@ use tolman_robot::Landmark;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FragmentId(pub u32);
 
+impl FragmentId {
+    /// One of its ends.
+    #[must_use]
+    pub const fn end(self, sign: Sign) -> End {
+        let fragment = self;
+        End { fragment, sign }
+    }
+}
+
 /// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as that is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JunctionId(pub u32);
+
+impl JunctionId {
+    /// The port with this number.
+    #[must_use]
+    pub const fn port(self, number: u32) -> Port {
+        let junction = self;
+        Port { junction, number }
+    }
+}
 
 /// "The minus sign (−) denotes the entrance …, whereas a plus sign (+) denotes the exit. For any path-fragment, the signs
 /// are assigned only at the *first* time of traversal."
@@ -55,10 +73,7 @@ impl End {
     /// The fragment's other end.
     #[must_use]
     pub const fn opposite(self) -> Self {
-        Self {
-            fragment: self.fragment,
-            sign: self.sign.opposite(),
-        }
+        self.fragment.end(self.sign.opposite())
     }
 }
 
@@ -273,6 +288,13 @@ impl CpMap {
         turn.ok().filter(|_| from.junction == to.junction)
     }
 
+    /// Whether a landmark stands at a junction.
+    #[must_use]
+    pub fn has(&self, junction: JunctionId, landmark: Landmark) -> bool {
+        let place = self.junction(junction);
+        place.is_some_and(|place| place.landmark == Some(landmark))
+    }
+
     /// The junctions with a landmark, by id.
     pub fn landmarks(&self, landmark: Landmark) -> impl Iterator<Item = JunctionId> {
         let marked = self
@@ -283,12 +305,8 @@ impl CpMap {
 
     /// The ports nobody has been through, by id.
     pub fn open_ports(&self) -> impl Iterator<Item = Port> {
-        self.junctions().flat_map(|(id, place)| {
-            place.open_ports().map(move |number| Port {
-                junction: id,
-                number,
-            })
-        })
+        self.junctions()
+            .flat_map(|(id, place)| place.open_ports().map(move |number| id.port(number)))
     }
 
     /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are similar, either way.
@@ -324,10 +342,9 @@ impl CpMap {
     pub fn has_goal(&self) -> bool {
         let mut fragments = self.fragments();
         fragments.any(|(_, fragment)| {
-            [fragment.minus, fragment.plus].iter().any(|port| {
-                let place = self.junction(port.junction);
-                place.is_some_and(|place| place.landmark == Some(Landmark::Goal))
-            })
+            let ends = [fragment.minus, fragment.plus];
+            ends.iter()
+                .any(|port| self.has(port.junction, Landmark::Goal))
         })
     }
 
@@ -357,20 +374,11 @@ impl CpMap {
     ) -> FragmentId {
         let fragment = FragmentId(self.next_fragment);
         self.next_fragment += 1;
-        self.fill(
-            minus,
-            End {
-                fragment,
-                sign: Sign::Minus,
-            },
-        );
-        self.fill(
-            plus,
-            End {
-                fragment,
-                sign: Sign::Plus,
-            },
-        );
+        for (sign, port) in Sign::BOTH.into_iter().zip([minus, plus]) {
+            if let Some(state) = self.port_state_mut(port) {
+                *state = PortState::Filled(fragment.end(sign));
+            }
+        }
         let traversals = 1;
         self.index.insert(fragment, &patterns);
         let new = Fragment {
@@ -382,12 +390,6 @@ impl CpMap {
         };
         self.fragments.insert(fragment, new);
         fragment
-    }
-
-    pub(super) fn fill(&mut self, port: Port, end: End) {
-        if let Some(state) = self.port_state_mut(port) {
-            *state = PortState::Filled(end);
-        }
     }
 
     pub(super) fn port_state_mut(&mut self, port: Port) -> Option<&mut PortState> {
