@@ -3,7 +3,7 @@ use thiserror::Error;
 use super::beam::{Beam, Understood};
 use super::config::{CpMapperConfig, Mapping};
 use super::hypothesis::Belief;
-use super::map::{CpMap, Junction, Port};
+use super::map::{CpMap, Port};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
 use super::plan::Plan;
@@ -255,8 +255,7 @@ impl CpMapper {
     #[must_use]
     pub fn plan(&self, landmark: Landmark) -> Option<Plan> {
         let map = self.map();
-        let landmark_at = |id| map.junction(id).and_then(|place: &Junction| place.landmark);
-        map.plan(self.at(), |id| landmark_at(id) == Some(landmark))
+        map.plan(self.at(), |id| map.has(id, landmark))
     }
 
     /// The robot has been put at a place of the map, with this port behind it.

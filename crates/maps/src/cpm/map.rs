@@ -1,5 +1,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt;
 
 use super::bearings::Bearings;
 use super::index::FragmentIndex;
@@ -25,6 +26,7 @@ impl FragmentId {
 
 /// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as that is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JunctionId(pub u32);
 
 impl JunctionId {
@@ -60,6 +62,16 @@ impl Sign {
     }
 }
 
+/// As the paper writes it.
+impl fmt::Display for Sign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Minus => "−",
+            Self::Plus => "+",
+        })
+    }
+}
+
 /// One end of a fragment, such as 𝔸⁺.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct End {
@@ -79,11 +91,28 @@ impl End {
 
 /// A port of a junction. As the place of a robot: it came in here, so that this port lies behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(from = "(JunctionId, u32)", into = "(JunctionId, u32)")
+)]
 pub struct Port {
     /// The junction.
     pub junction: JunctionId,
     /// Counter-clockwise, from the port of the junction's first entry, which is 0.
     pub number: u32,
+}
+
+impl From<(JunctionId, u32)> for Port {
+    fn from((junction, number): (JunctionId, u32)) -> Self {
+        junction.port(number)
+    }
+}
+
+impl From<Port> for (JunctionId, u32) {
+    fn from(port: Port) -> Self {
+        (port.junction, port.number)
+    }
 }
 
 /// What is known of a port.
@@ -158,6 +187,7 @@ impl Junction {
 /// A fragment node: "contains three properties", its sequence, its length and its transitions. The transitions follow
 /// from the ports of its two ends: [`CpMap::transition`].
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fragment {
     /// 𝔸, as observed from − to +.
     pub patterns: Vec<PatternId>,
@@ -301,6 +331,12 @@ impl CpMap {
             .junctions()
             .filter(move |(_, junction)| junction.landmark == Some(landmark));
         marked.map(|(id, _)| id)
+    }
+
+    /// Where a robot stands that has just begun the map at the first start on it; none if that is not on it.
+    #[must_use]
+    pub fn start(&self) -> Option<Port> {
+        Some(self.landmarks(Landmark::Start).next()?.port(0))
     }
 
     /// The ports nobody has been through, by id.
