@@ -88,14 +88,13 @@ mod tests {
     use tolman_robot::Robot;
 
     use super::*;
-    use crate::cpm::placed;
     use crate::cpm::trial::tests::maze_1;
 
     #[test]
     fn sweeps_last_as_long_as_the_paper_says() {
         let maze = maze_1();
         let sweep = |robot: &EpuckConfig| {
-            let body = placed(&maze, 0.25, robot.clone(), 1).unwrap();
+            let body = maze.robot(robot.clone(), 1).unwrap();
             let config = walker_config(robot, 0.25).unwrap();
             let mut pilot = Pilot::new(body, config.pilot);
             let samples = pilot.sweep().unwrap().samples().len();

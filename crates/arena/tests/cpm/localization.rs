@@ -31,8 +31,8 @@ fn explored_of(world: World, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
     let mut rover = Rover::new(&world, noise, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
     pursue(&mut explorer, &mut rover, Aim::Explore, rng);
-    let at = (explorer.at(), rover.at());
-    let map = explorer.map().clone();
+    let at = (explorer.mapper.at(), rover.at());
+    let map = explorer.mapper.map().clone();
     Known { world, map, at }
 }
 
@@ -198,8 +198,11 @@ fn turns_that_lead_where_no_map_has_been_are_not_known() {
         sighting: Sighting::plain(3),
         bearings: None,
     };
-    explorer.arrive(Turn::BACK, &walk, dictionary).unwrap();
-    let maps = [explorer.map().clone()];
+    explorer
+        .mapper
+        .arrive(Turn::BACK, &walk, dictionary)
+        .unwrap();
+    let maps = [explorer.mapper.map().clone()];
     let mut localizer = Localizer::new(&maps, dictionary, LocalizerConfig::usual()).unwrap();
     for pattern in walk.patterns {
         localizer.observe(pattern).unwrap();
@@ -385,8 +388,11 @@ fn who_turns_round_knows_by_the_other_end() {
             sighting: Sighting::plain(1),
             bearings: None,
         };
-        explorer.arrive(Turn::BACK, &walk, &dictionary).unwrap();
-        explorer.map().clone()
+        explorer
+            .mapper
+            .arrive(Turn::BACK, &walk, &dictionary)
+            .unwrap();
+        explorer.mapper.map().clone()
     };
     let maps = [corridor([0, 3, 5, 4]), corridor([7, 3, 5, 4])];
     let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();

@@ -1,7 +1,5 @@
 //! How well junctions and dead ends are told by one sweep: section 4.1, with what each step of ours adds to it.
 
-use alloc::sync::Arc;
-
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -10,9 +8,8 @@ use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
 use tolman_robot::Robot as _;
 use tolman_robot::epuck::WheelSpeeds;
-use tolman_sim::robots::Epuck;
 
-use tolman_arena::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
+use tolman_arena::cpm::{Venue, epuck, survey, walker_config};
 use tolman_experiment::{
     Better, BoxError, Fields, Job, Metric, Record, Row, Table, record, require,
 };
@@ -270,10 +267,8 @@ pub(super) fn run(venues: &[Venue], job: &Job<'_>) -> Result<Fields, BoxError> {
         let (setting, width) = settings()
             .find(|(setting, width)| row(setting, *width) == job.row)
             .ok_or("there is no such row")?;
-        let venue = Venue {
-            corridor_width: width.unwrap_or(venue.corridor_width),
-            ..venue.clone()
-        };
+        let width = width.unwrap_or(venue.corridor_width);
+        let venue = Venue::new(&venue.name, venue.maze.clone(), width)?;
         sweep_all(setting, &venue, job.seed, &mut rng, &mut tally)?;
     }
     Ok(tally.run().fields()?)
@@ -287,7 +282,6 @@ fn sweep_all(
     rng: &mut impl Rng,
     tally: &mut Tally,
 ) -> Result<(), BoxError> {
-    let world = Arc::new(venue.world()?);
     let mut pilot = None;
     for cell in venue.maze.reachable() {
         let ways: Vec<_> = venue.maze.neighbours(cell).collect();
@@ -296,14 +290,13 @@ fn sweep_all(
             continue;
         };
         let mut off = || rng.random_range(-OFF..=OFF);
-        let position = world.cell_centre(cell) + Vector::new(off(), off());
+        let position = venue.world.cell_centre(cell) + Vector::new(off(), off());
         let heading = heading_of(*way).turned(rng.random_range(-ASKEW..=ASKEW));
         let pose = Pose::new(position, heading);
         let pilot = match &mut pilot {
             Some(pilot) => pilot,
             None => {
-                let robot = Epuck::new(epuck())?;
-                let body = SimulatedEpuck::new(Arc::clone(&world), robot, pose, seed)?;
+                let body = venue.robot_at(pose, epuck(), seed)?;
                 let config = walker_config(&epuck(), venue.corridor_width)?.pilot;
                 pilot.insert(Pilot::new(body, config))
             }
@@ -323,7 +316,7 @@ fn sweep_all(
 /// The robot walks every fragment both ways; what is told of the place at its end counts, and a place that it does not come to is missed.
 fn walk(venue: &Venue, seed: u64, tally: &mut Tally) -> Result<(), BoxError> {
     let config = walker_config(&epuck(), venue.corridor_width)?;
-    for walk in survey(&venue.maze, &epuck(), &config, seed)? {
+    for walk in survey(venue, &epuck(), &config, seed)? {
         let degree = |cell| venue.maze.degree(cell);
         tally.told(walk.sighting.degree as usize, walk.to.map_or(0, degree));
         if walk.to != Some(walk.way.to) {

@@ -22,7 +22,7 @@ pub struct Walker<B: CpmRobot> {
 }
 
 /// What a walker remembers from one fragment to the next.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Memory {
     /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
@@ -51,23 +51,15 @@ pub struct Observation {
     pub half_turned: [f64; FEATURES],
 }
 
-/// How a walk ended.
+/// A walk to its end.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Walk {
-    /// At the next place.
-    Arrived {
-        /// What was seen on the way.
-        observations: Vec<Observation>,
-        /// Where ways out of the place seemed to lead when it came into sight, as of a place that it was about to enter.
-        glimpse: Option<Bearings>,
-        /// What the place is.
-        sighting: Sighting,
-    },
-    /// Back where it began, after so many observations.
-    TurnedBack {
-        /// What was seen until it turned round.
-        observations: Vec<Observation>,
-    },
+pub struct Walk {
+    /// What was seen on the way, or until the robot turned round.
+    pub observations: Vec<Observation>,
+    /// Where ways out of the place seemed to lead when it came into sight, as of a place that it was about to enter.
+    pub glimpse: Option<Bearings>,
+    /// What the place is that it led to; `None` where the robot turned round, and is back where it began.
+    pub sighting: Option<Sighting>,
 }
 
 /// What a robot knows of a fragment when the place at its end comes into sight.
@@ -185,13 +177,7 @@ impl<B: CpmRobot> Walker<B> {
         Self {
             pilot: Pilot::new(Reckoned::new(body), config.pilot.clone()),
             config,
-            memory: Memory {
-                branches: Vec::new(),
-                trail: Vec::new(),
-                observations: 0,
-                departed_us: 0,
-                departed: Pose::IDENTITY,
-            },
+            memory: Memory::default(),
         }
     }
 
@@ -280,10 +266,8 @@ impl<B: CpmRobot> Walker<B> {
     /// # Errors
     /// [`WalkError`].
     pub fn begin(&mut self) -> Result<Sighting, WalkError<B::Error>> {
-        match self.set_off(|_| BeforePlace::Enter)? {
-            Walk::Arrived { sighting, .. } => Ok(sighting),
-            Walk::TurnedBack { .. } => Err(WalkError::Lost),
-        }
+        let walk = self.set_off(|_| BeforePlace::Enter)?;
+        walk.sighting.ok_or(WalkError::Lost)
     }
 
     /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on; nothing where it stands at a place.
@@ -399,8 +383,10 @@ impl<B: CpmRobot> Walker<B> {
                 self.pilot.turn(PI)?;
                 let back = self.course(None, 0);
                 self.follow(back, None)?;
-                return Ok(Walk::TurnedBack {
+                return Ok(Walk {
                     observations: filled(&course.track),
+                    glimpse: None,
+                    sighting: None,
                 });
             }
         }
@@ -533,10 +519,10 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     fn arrived(&self, track: Track, seen: Seen) -> Walk {
-        Walk::Arrived {
+        Walk {
             observations: self.up_to(track, self.pose().position),
             glimpse: seen.glimpse,
-            sighting: seen.sighting,
+            sighting: Some(seen.sighting),
         }
     }
 

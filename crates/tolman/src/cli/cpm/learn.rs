@@ -8,14 +8,14 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tolman_arena::cpm::{Learned, Progress, Trial, Venue, epuck, learn};
+use tolman_arena::cpm::{Learned, Progress, Trial, epuck};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_systems::Origin;
 use tolman_systems::cpm::{Aim, Done};
 use tolman_systems::cpm::{CommonPatterns, MapFile, Preset};
 
-use super::{classify, venue};
+use super::{classify, learned_patterns, venue};
 use crate::cli::{Failure, file, interrupt};
 
 /// Lets an e-puck learn common patterns in the learning maze, then a map of a maze, and writes both down
@@ -76,9 +76,6 @@ impl Choice {
     }
 }
 
-/// Where the common patterns are learned.
-pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
-
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let venue = venue(&arguments.maze)?;
     let system = match arguments.system {
@@ -87,15 +84,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         Choice::Unlearned => Preset::Unlearned,
     };
     let patterns = match system {
-        Preset::Faithful | Preset::Better => {
-            let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
-            learn(&learning.maze, learning.corridor_width, arguments.seed)?
-        }
+        Preset::Faithful | Preset::Better => learned_patterns(arguments.seed)?,
         Preset::Unlearned => CommonPatterns::none()?,
     };
     let trial = Trial {
-        maze: &venue.maze,
-        corridor_width: venue.corridor_width,
+        venue: &venue,
         patterns: &patterns,
         robot: epuck(),
         mode: system.mode(),
@@ -150,7 +143,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let there_are = trial.true_fragments();
     let file = MapFile {
         origin: Origin {
-            world: venue.name,
+            world: venue.name.clone(),
             robot: "e-puck".to_owned(),
             seed: arguments.seed,
         },
@@ -164,7 +157,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             "the map in {} is wrong, with {fragments} for the {there_are} fragments of {}{room}: the robot took some for others, or overlooked \
              them; {}",
             arguments.out.display(),
-            file.origin.world,
+            venue.name,
             arguments.system.remedy()
         )));
     }
