@@ -40,16 +40,12 @@ pub fn slow_epuck() -> EpuckConfig {
 /// # Errors
 /// If the response curve cannot be turned round.
 pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, RangeCurveError> {
-    Ok(WalkerConfig::paper(measures(robot)?, width))
-}
-
-/// Returns what of a simulated e-puck the system has to know.
-fn measures(robot: &EpuckConfig) -> Result<EpuckMeasures, RangeCurveError> {
-    Ok(EpuckMeasures {
+    let measures = EpuckMeasures {
         curve: curve(&robot.response)?,
         step_us: robot.step_us,
         most_wheel_speed: robot.most_wheel_speed,
-    })
+    };
+    Ok(WalkerConfig::paper(measures, width))
 }
 
 /// Returns a response curve turned round, by the millimetre.

@@ -51,7 +51,7 @@ impl Known {
     }
 
     /// A robot that knows this maze alone, and has observed this.
-    fn localizer_after(&self, walk: &Traversal) -> Localizer<'_> {
+    fn localizer_after(&self, walk: &Traversal) -> Localizer {
         let maps = core::slice::from_ref(&self.map);
         let dictionary = self.world.dictionary();
         let mut localizer = Localizer::new(maps, dictionary, LocalizerConfig::usual()).unwrap();
@@ -140,9 +140,8 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
             let (enter, passed) = middle(&known.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
             let mut localizer = known.localizer_after(&walk);
-            let is_right = |localizer: &Localizer<'_>| {
-                u32::from(known.is_right(localizer.location(), rover.at()))
-            };
+            let is_right =
+                |localizer: &Localizer| u32::from(known.is_right(localizer.location(), rover.at()));
             let mut without = localizer.clone();
             without.arrive(walk.sighting, None);
             blind += is_right(&without);

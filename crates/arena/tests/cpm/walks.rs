@@ -228,7 +228,7 @@ fn figure_10() {
     follow(&mut lucky, &mut lucky_rover, &world, &[X2]);
     let done = lucky.decide(Aim::Find(Landmark::Goal), &mut rng);
     assert_eq!(done, Decision::Done(Done::Reached));
-    assert!(lucky.map().has_goal() && !lucky.map().is_complete());
+    assert!(lucky.mapper.map().has_goal() && !lucky.mapper.map().is_complete());
     // (d) If X3 is: A5, which finds X4 and X5.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[2, X3]),

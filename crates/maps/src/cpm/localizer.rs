@@ -178,32 +178,31 @@ impl LocalizerConfig {
     }
 
     fn check(&self) -> Result<(), LocalizeError> {
-        let within = |field, value: f64, low: f64, high: f64, range| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(LocalizeError::OutOfRange {
+        let fields = [
+            (
+                "mistake",
+                self.mistake,
+                1e-9..=1.0 - 1e-9,
+                "above 0, less than 1",
+            ),
+            ("slip", self.slip, 0.0..=0.4, "0 to 0.4"),
+            (
+                "elsewhere",
+                self.elsewhere,
+                1e-12..=0.1,
+                "above 0, at most 0.1",
+            ),
+        ];
+        for (field, value, allowed, range) in fields {
+            if !allowed.contains(&value) {
+                return Err(LocalizeError::OutOfRange {
                     field,
                     value,
                     range,
-                })
+                });
             }
-        };
-        within(
-            "mistake",
-            self.mistake,
-            1e-9,
-            1.0 - 1e-9,
-            "above 0, less than 1",
-        )?;
-        within("slip", self.slip, 0.0, 0.4, "0 to 0.4")?;
-        within(
-            "elsewhere",
-            self.elsewhere,
-            1e-12,
-            0.1,
-            "above 0, at most 0.1",
-        )
+        }
+        Ok(())
     }
 }
 
@@ -220,9 +219,7 @@ impl Localizer {
         config.check()?;
         let mut tracks = Vec::new();
         for (index, map) in maps.iter().enumerate() {
-            if let Some(version) = map.version() {
-                dictionary.check_version(version)?;
-            }
+            map.check(dictionary)?;
             for (id, fragment) in map.fragments() {
                 for sign in Sign::BOTH {
                     let walked = Sense::entered_at(sign);

@@ -5,7 +5,7 @@ use core::fmt;
 use super::bearings::Bearings;
 use super::index::FragmentIndex;
 use super::nodes::Nodes;
-use super::pattern::{Dictionary, PatternId, Version};
+use super::pattern::{Dictionary, DictionaryError, PatternId, Version};
 use super::similarity::Matching;
 use super::traversal::{Motion, Sighting};
 use super::turn::Turn;
@@ -265,6 +265,15 @@ impl CpMap {
     #[must_use]
     pub const fn version(&self) -> Option<Version> {
         self.version
+    }
+
+    /// Refuses a dictionary that its sequences are not written in.
+    ///
+    /// # Errors
+    /// [`DictionaryError::OtherDictionary`].
+    pub(super) fn check(&self, dictionary: &Dictionary) -> Result<(), DictionaryError> {
+        self.version
+            .map_or(Ok(()), |version| dictionary.check_version(version))
     }
 
     /// What is known of a port; none if it is not there.

@@ -172,9 +172,7 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError::Dictionary`] if the map was written with another dictionary.
     pub fn of(map: &CpMap, dictionary: &Dictionary) -> Result<Self, MapFileError> {
-        if let Some(version) = map.version() {
-            dictionary.check_version(version)?;
-        }
+        map.check(dictionary)?;
         let fragments = map.fragments().map(|(id, fragment)| SavedFragment {
             id: id.0,
             fragment: fragment.clone(),

@@ -4,7 +4,7 @@ use tolman_systems::cpm::Done;
 
 use super::trials::{Setting, Trials, better, in_both_modes};
 use tolman_arena::cpm::{Trial, Venue};
-use tolman_experiment::{BoxError, Fields, Metric, Record, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Metric, Record, Table, record, require};
 
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
@@ -68,7 +68,7 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Trials {
     if papers {
         settings.push(Setting::aliased("Aliased better", better()));
     }
-    let mut table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
+    let table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
         .metric(Metric::percent("finished_percent", ExploredRun::finished))
         .metric(Metric::percent("map_right_percent", ExploredRun::map_right))
         .metric(Metric::mean(ExploredRun::fragments))
@@ -84,10 +84,8 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Trials {
              from the times that it took for the fragments before the first it had walked before, and the longest that it took for any.",
         );
     let runs = if quick { QUICK_RUNS } else { RUNS };
-    for setting in &settings {
-        table = table.row(Row::new(&setting.row).runs(runs));
-    }
-    Trials::new(table, settings, measure)
+    let row = |setting: &Setting| setting.row().runs(runs);
+    Trials::new(table, settings, row, measure)
 }
 
 /// Explores one maze.

@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn a_robot_put_down_finds_out_where_it_is() {
         let (venues, learning) = (venue::papers().unwrap(), venue::learning().unwrap());
-        let patterns = learn(&learning.maze, learning.corridor_width, 1).unwrap();
+        let patterns = learn(&learning, 1).unwrap();
         let known = Known::default();
         let mut right = 0;
         for (run, venue) in (0..).zip(&venues) {

@@ -38,7 +38,7 @@ pub(super) struct Trials {
 /// What a row tries.
 #[derive(Debug)]
 pub(super) struct Setting {
-    pub(super) row: String,
+    row: String,
     place: Place,
     mode: Mode,
 }
@@ -51,6 +51,10 @@ impl Setting {
             place: Place::Aliased,
             mode,
         }
+    }
+
+    pub(super) fn row(&self) -> Row {
+        Row::new(&self.row)
     }
 }
 
@@ -100,7 +104,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
          Its robot needs no more than two episodes either."
     ));
     let row = |setting: &Setting| {
-        let row = Row::new(&setting.row);
+        let row = setting.row();
         // The paper has no better system than its own.
         if papers && setting.mode == faithful() {
             row.paper("solved_percent", 100.0)
@@ -109,11 +113,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
             row
         }
     };
-    Trials {
-        table: with_rows(table, &settings, row),
-        settings,
-        measure,
-    }
+    Trials::new(table, settings, row, measure)
 }
 
 /// Each maze with the paper's system and with ours.
@@ -146,11 +146,7 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
             "Offline the robot takes ports at random and looks at its map when the goal is found (section 4); online before each decision \
              (section 6). Rows of one maze meet the same chance.",
         );
-    Trials {
-        table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
-        settings,
-        measure,
-    }
+    Trials::new(table, settings, Setting::row, measure)
 }
 
 /// "The CPs must be learned incrementally" (section 8).
@@ -169,18 +165,14 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
             "The better robot, which has been in no learning maze: what it observes that is like no pattern it has becomes one, and what was \
              written before stays readable. Aliased: one random maze a run.",
         );
-    Trials {
-        table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
-        settings,
-        measure: |trial| {
-            let record = trial.play()?;
-            let run = UnlearnedRun {
-                trial: TrialRun::of(trial.venue, &record, record.is_solved()),
-                patterns: record.patterns,
-            };
-            Ok(run.fields()?)
-        },
-    }
+    Trials::new(table, settings, Setting::row, |trial| {
+        let record = trial.play()?;
+        let run = UnlearnedRun {
+            trial: TrialRun::of(trial.venue, &record, record.is_solved()),
+            patterns: record.patterns,
+        };
+        Ok(run.fields()?)
+    })
 }
 
 /// What the paper excludes. `quick`: for a first look.
@@ -209,31 +201,19 @@ pub(super) fn aliased(quick: bool) -> Trials {
              same fragments as they truly lie.",
         ));
     let mazes = if quick { ALIASED_QUICK } else { ALIASED_MAZES };
-    Trials {
-        table: with_rows(table, &settings, |setting| {
-            Row::new(&setting.row).runs(mazes)
-        }),
-        settings,
-        measure: |trial| {
-            let record = trial.play()?;
-            let is_solved = record.is_solved() && record.is_map_right;
-            let likeness = Likeness::of(&trial.venue.maze);
-            let run = AliasedRun {
-                trial: TrialRun::of(trial.venue, &record, is_solved),
-                shortest_known: record.is_solved(),
-                alike_pairs: likeness.alike_pairs,
-                symmetrical: likeness.symmetrical,
-            };
-            Ok(run.fields()?)
-        },
-    }
-}
-
-fn with_rows(mut table: Table, settings: &[Setting], row: impl Fn(&Setting) -> Row) -> Table {
-    for setting in settings {
-        table = table.row(row(setting));
-    }
-    table
+    let row = |setting: &Setting| setting.row().runs(mazes);
+    Trials::new(table, settings, row, |trial| {
+        let record = trial.play()?;
+        let is_solved = record.is_solved() && record.is_map_right;
+        let likeness = Likeness::of(&trial.venue.maze);
+        let run = AliasedRun {
+            trial: TrialRun::of(trial.venue, &record, is_solved),
+            shortest_known: record.is_solved(),
+            alike_pairs: likeness.alike_pairs,
+            symmetrical: likeness.symmetrical,
+        };
+        Ok(run.fields()?)
+    })
 }
 
 /// Trials that are solved.
@@ -326,13 +306,16 @@ record! {
 pub(super) type Modes<'a> = BTreeMap<&'a str, Mode>;
 
 impl Trials {
-    pub(super) const fn new(
+    /// A table with a row for each setting.
+    pub(super) fn new(
         table: Table,
         settings: Vec<Setting>,
+        row: impl Fn(&Setting) -> Row,
         measure: fn(&Trial<'_>) -> Result<Fields, BoxError>,
     ) -> Self {
+        let rows = settings.iter().map(row);
         Self {
-            table,
+            table: rows.fold(table, Table::row),
             settings,
             measure,
         }

@@ -95,7 +95,6 @@ pub use layer3::{Experience, Layer3, Step, Walked};
 pub use map_file::{MapFile, MapFileError};
 pub use mode::Mode;
 pub use preset::Preset;
-pub use reckoned::Reckoned;
 pub use ring_as_epuck::{RingAsEpuck, RingMeasures};
 pub use robot::CpmRobot;
 pub use search::Search;

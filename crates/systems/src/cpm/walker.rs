@@ -6,7 +6,7 @@ use tolman_control::epuck::{
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
-use tolman_robot::{Landmark, SensesLandmarks};
+use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
 use super::reckoned::Reckoned;
 use super::robot::CpmRobot;
@@ -174,18 +174,24 @@ const NEAR: f64 = 0.015;
 impl<B: CpmRobot> Walker<B> {
     /// A walker that stands where its body stands.
     pub fn new(body: B, config: WalkerConfig) -> Self {
-        Self {
-            pilot: Pilot::new(Reckoned::new(body), config.pilot.clone()),
-            config,
+        let resting = RestingWalker {
             memory: Memory::default(),
-        }
+            forward: Forward::new(config.pilot.forward),
+            pose: Pose::IDENTITY,
+            driven: 0.0,
+        };
+        Self::wake(body, config, resting)
     }
 
     /// Goes on with the robot, which has not been moved since the walker was given its [rest](Self::rest).
     pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
-        let body = Reckoned::resume(body, resting.pose, resting.driven);
+        let reckoned = Reckoned {
+            body,
+            pose: resting.pose,
+            driven: resting.driven,
+        };
         Self {
-            pilot: Pilot::resume(body, config.pilot.clone(), resting.forward),
+            pilot: Pilot::resume(reckoned, config.pilot.clone(), resting.forward),
             config,
             memory: resting.memory,
         }
@@ -203,22 +209,22 @@ impl<B: CpmRobot> Walker<B> {
 
     /// The body.
     pub const fn body(&self) -> &B {
-        self.pilot.robot().body()
+        &self.pilot.robot().body
     }
 
     /// The body, to be lifted.
     pub const fn body_mut(&mut self) -> &mut B {
-        self.pilot.robot_mut().body_mut()
+        &mut self.pilot.robot_mut().body
     }
 
     /// Where it believes to be, in the frame in which it began.
     pub const fn pose(&self) -> Pose {
-        self.pilot.robot().pose()
+        self.pilot.robot().pose
     }
 
     /// Microseconds since the robot was switched on.
     pub fn time_us(&self) -> u64 {
-        self.pilot.robot().body().sensing().time_us
+        self.pilot.robot().sensing().time_us
     }
 
     /// How many observations it has made.
@@ -244,7 +250,7 @@ impl<B: CpmRobot> Walker<B> {
 
     /// How far it drove so far, m.
     pub const fn driven(&self) -> f64 {
-        self.pilot.robot().driven()
+        self.pilot.robot().driven
     }
 
     /// Sweeps where it stands.
@@ -508,11 +514,9 @@ impl<B: CpmRobot> Walker<B> {
     /// Drives on from where a landmark is first seen to near its middle.
     fn drive_to_landmark(&mut self) -> Result<(), WalkError<B::Error>> {
         let width = self.config.corridor_width;
-        let begun = self.pilot.robot().driven();
+        let begun = self.driven();
         let step_s = self.config.pilot.step_us as f64 * 1e-6;
-        while self.pilot.robot().driven() - begun < TO_LANDMARK * width
-            && !self.pilot.is_enclosed(0.75 * width)
-        {
+        while self.driven() - begun < TO_LANDMARK * width && !self.pilot.is_enclosed(0.75 * width) {
             self.pilot.follow(step_s)?;
         }
         Ok(())

@@ -182,7 +182,7 @@ impl<'a> Rover<'a> {
                     see(self, explorer, &leg, arrival);
                 }
                 Outcome::TurnedBack(seen) => {
-                    explorer.mapper.turned_back(leg.turn, seen.len() as u32)?
+                    explorer.mapper.turned_back(leg.turn, seen.len() as u32)?;
                 }
             }
         }
