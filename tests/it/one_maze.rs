@@ -1,20 +1,18 @@
 //! One robot, one maze, one scale: each system learns the maze and goes to its goal, through the one loop
 //! that runs systems.
 
-use alloc::sync::Arc;
 use core::fmt::Debug;
 
-use tolman_arena::cpm::{is_whole_map_right, ring_measures};
+use tolman_arena::cpm::{Landmarks, Venue, is_whole_map_right, ring_measures};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyorConfig, mapper};
 use tolman_arena::micromouse::brief;
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, ring};
 use tolman_arena::run::{End, Watched, run};
-use tolman_control::{Stack, heading_of};
-use tolman_geom::Pose;
+use tolman_control::Stack;
 use tolman_maze::Maze;
 use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Robot, SensesLandmarks, System, Task};
+use tolman_sim::Solo;
 use tolman_sim::robots::LaserPioneer;
-use tolman_sim::{CorridorSize, Solo, World};
 use tolman_systems::Actor;
 use tolman_systems::cpm::{Cpm, CpmConfig, RingAsEpuck};
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
@@ -22,19 +20,7 @@ use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::{Mslst, MslstConfig};
 
 /// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
-const MAZE: &str = "\
-start = 0 0 north
-
-o---o---o---o---o
-|           |   |
-o   o---o   o   o
-|   |           |
-o   o   o---o---o
-|   |       | G |
-o   o---o   o   o
-| S             |
-o---o---o---o---o
-";
+const MAZE: &str = include_str!("../../mazes/forks.maze");
 
 const SEED: u64 = 1;
 const STEP_LIMIT: u32 = 100_000;
@@ -53,23 +39,12 @@ fn maze() -> Maze {
 }
 
 fn pioneer() -> Pioneer {
-    let maze = maze();
-    let size = CorridorSize {
-        corridor_width: CORRIDOR_WIDTH,
-        wall_thickness: 0.0,
-    };
-    let world = World::from_maze(&maze, &size).unwrap();
-    let (start, heading) = maze.start().unwrap();
-    let pose = Pose::new(world.cell_centre(start), heading_of(heading));
-    let zones = [(Landmark::Start, "start"), (Landmark::Goal, "destination")]
-        .map(|(landmark, name)| (landmark, world.zone(name).unwrap().clone()));
+    let venue = Venue::new("", maze(), CORRIDOR_WIDTH).unwrap();
+    let landmarks = Landmarks::of(&venue.world);
     let model = LaserPioneer::new(calibrated()).unwrap();
-    let solo = Solo::new(Arc::new(world), model, pose, SEED).unwrap();
-    let tells: Tells = Box::new(move |solo| {
-        let here = solo.truth().pose.position;
-        let mut at = zones.iter().filter(|(_, zone)| zone.contains(here));
-        at.next().map(|(landmark, _)| *landmark)
-    });
+    let start = venue.start().unwrap();
+    let solo = Solo::new(venue.world, model, start, SEED).unwrap();
+    let tells: Tells = Box::new(move |solo| landmarks.at(solo.truth().pose.position));
     Landmarked::new(solo, tells)
 }
 
@@ -113,7 +88,10 @@ fn cpm_does() {
     let measures = ring_measures(&calibrated(), CORRIDOR_WIDTH);
     let mut cpm = Cpm::unlearned(measures.walker_config(), CpmConfig::robust(), SEED).unwrap();
     let (explored, reached) = explore_and_reach(RingAsEpuck::new(pioneer(), measures), &mut cpm);
-    assert!(is_whole_map_right(cpm.explorer().unwrap().map(), &maze()));
+    assert!(is_whole_map_right(
+        cpm.explorer().unwrap().mapper.map(),
+        &maze()
+    ));
     assert!(8 * reached < explored, "{reached} of {explored}");
 }
 

@@ -63,7 +63,7 @@ fn miscounted(world: &World, walks: u32) -> Explorer {
                 walk.bearings = None;
             }
             let dictionary = world.dictionary();
-            explorer.arrive(leg.turn, &walk, dictionary).unwrap();
+            explorer.mapper.arrive(leg.turn, &walk, dictionary).unwrap();
         }
     }
     explorer
@@ -122,6 +122,7 @@ fn cpm(criterion: &mut Criterion) {
     exploring.finish();
 
     let map = explored(&large, CpmConfig::online(), Reckoning::None)
+        .mapper
         .map()
         .clone();
     let maps = [map];

@@ -138,12 +138,12 @@ fn explore(
             rover.sighting(),
         )?;
         rover.pursue(&mut explorer, Aim::Explore, &mut rng, |_, _, _, _| {})?;
-        let finished = explorer.traversals() < most_traversals;
-        match world.check(explorer.map(), explorer.at(), rover.at()) {
+        let finished = explorer.mapper.traversals() < most_traversals;
+        match world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at()) {
             MapCheck::Right => {
                 tally.right += 1;
                 let best = world.shortest_covering_walk().unwrap_or(1);
-                tally.ratio += f64::from(explorer.traversals()) / f64::from(best);
+                tally.ratio += f64::from(explorer.mapper.traversals()) / f64::from(best);
             }
             _ if finished => tally.wrong += 1,
             _ => {}

@@ -63,7 +63,7 @@ pub use bearings::{Bearings, BearingsError};
 pub use config::{Candidates, CpMapperConfig, Mapping};
 pub use cp_mapper::{Arrival, CpMapper, CpmError};
 pub use environments::{Environments, RecallError, Recollection};
-pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location, RestingLocalizer};
+pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
 #[cfg(feature = "serde")]
 pub use map_file::{MapFile, MapFileError};
@@ -73,4 +73,3 @@ pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};
 pub use theorem::theorem_1;
 pub use traversal::{Motion, Sighting, Traversal};
 pub use turn::{NoSuchTurn, Turn};
-pub use unify::Conflict;

@@ -16,8 +16,8 @@ use tolman_robot::{
     Goal, Landmark, MapView, Mapper, Position, Robot, SensesLandmarks, Standing, System, Task,
 };
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Experience, Lesson, ObserveError, Reasoner,
-    Walk, Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Experience, Layer3, Lesson, ObserveError,
+    Walker, WalkerConfig, soinn, wander,
 };
 
 /// From wall to wall, m.
@@ -27,19 +27,7 @@ const WIDTH: f64 = 0.25;
 const STEP_US: u64 = 13_000;
 
 /// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
-const MAZE: &str = "\
-start = 0 0 north
-
-o---o---o---o---o
-|           |   |
-o   o---o   o   o
-|   |           |
-o   o   o---o---o
-|   |       | G |
-o   o---o   o   o
-| S             |
-o---o---o---o---o
-";
+const MAZE: &str = include_str!("../../../mazes/forks.maze");
 
 /// An e-puck in a maze of thin walls, without noise.
 #[derive(Clone)]
@@ -294,32 +282,19 @@ fn it_walks_as_with_a_body_of_its_own_and_whoever_watches_learns_the_same() {
     let mut cpm = Cpm::new(config(), patterns.clone(), CpmConfig::online(), 7);
     pursue(&mut cpm, &mut lent, Task::Explore);
 
-    let walker = Walker::new(ScriptedEpuck::in_maze(MAZE), config());
-    let mut reasoner = Reasoner::begin(walker, &patterns, CpmConfig::online()).unwrap();
-    let mut watcher = Cpm::new(config(), patterns.clone(), CpmConfig::online(), 8);
-    let began = reasoner.explorer().map().junctions().next().unwrap().1;
+    let mut walker = Walker::new(ScriptedEpuck::in_maze(MAZE), config());
+    let config_3 = CpmConfig::online();
+    let mut layer = Layer3::begin(&mut walker, patterns.clone(), None, config_3).unwrap();
+    let mut watcher = Cpm::new(config(), patterns.clone(), config_3, 8);
+    let began = layer.map().junctions().next().unwrap().1;
     let began = Experience::Began(began.sighting());
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     let mut seen = vec![began];
-    let explored = reasoner.pursue(Aim::Explore, &mut rng, |_, step| {
-        let Walk::Arrived {
-            observations,
-            sighting,
-            ..
-        } = &step.walk
-        else {
-            return;
-        };
-        seen.push(Experience::Arrived {
-            turn: step.leg.turn,
-            observations: observations.clone(),
-            motion: None,
-            sighting: *sighting,
-            bearings: None,
-        });
+    let explored = layer.pursue(&mut walker, Aim::Explore, &mut rng, |_, _, step| {
+        seen.push(Experience::Walked(step.walked.clone()));
     });
     explored.unwrap();
-    assert_eq!(reasoner.walker().body().path, lent.path);
+    assert_eq!(walker.body().path, lent.path);
 
     assert_eq!(watcher.observe(&seen[1]), Err(ObserveError::NotBegun));
     for experience in &seen {

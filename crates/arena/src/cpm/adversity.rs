@@ -12,12 +12,11 @@ use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_sim::{Area, StepError, Wall, World, Zone};
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmRobot, Done, Episode, Reasoner, ReasonerError, Walker, WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, Walker, WalkerConfig,
 };
 
 use super::robots::{epuck, walker_config};
 use super::simulated::SimulatedEpuck;
-use super::trial::placed;
 use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
@@ -75,7 +74,7 @@ impl SensesLandmarks for OneSensor {
 }
 
 /// The first episode, and whether the robot truly stands at the goal at its end.
-fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), ReasonerError<B::Error>> {
+fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), CpmFailure<B::Error>> {
     // Enough for worlds of this size.
     let config = CpmConfig {
         most_traversals: 20,
@@ -85,17 +84,19 @@ fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), ReasonerE
         longest_fragment: 150,
         ..walker_config(&epuck(), width).unwrap()
     };
-    let mut agent = Reasoner::begin(Walker::new(body, walker), &PATTERNS, config)?;
+    let mut walker = Walker::new(body, walker);
+    let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, config)?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let episode = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
-    let is_there = agent.walker().body().landmark() == Some(Landmark::Goal);
+    let aim = Aim::Find(Landmark::Goal);
+    let episode = layer.pursue(&mut walker, aim, &mut rng, |_, _, _| {})?;
+    let is_there = walker.body().landmark() == Some(Landmark::Goal);
     Ok((episode, is_there))
 }
 
 #[test]
 fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
     let maze = maze_1();
-    let body = || placed(&maze, WIDTH, epuck(), 1).unwrap();
+    let body = || maze.robot(epuck(), 1).unwrap();
     let (mut blind_reached, mut stuck_told) = (0, 0);
     for sensor in 0..PROXIMITY_SENSORS {
         // A sensor that is not there sees nothing, one that is stuck a wall that touches it.

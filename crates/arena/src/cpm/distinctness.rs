@@ -1,10 +1,11 @@
 use tolman_maps::cpm::{PatternId, Sense};
-use tolman_maze::{Cell, Maze};
+use tolman_maze::Cell;
 use tolman_systems::cpm::{CommonPatterns, CpmConfig};
 
 use super::robots::{epuck, walker_config};
 use super::survey::survey;
 use super::trial::TrialError;
+use super::venue::Venue;
 
 /// Whether the fragments of a maze can be told apart by what the robot observes along them: the constraints of section 4.3, "every path-fragment
 /// in the environment is *distinctive*" and *asymmetrical*, measured by f_S.
@@ -46,15 +47,14 @@ struct Walked {
 /// # Errors
 /// [`TrialError`] if the robot cannot walk a fragment, comes to another place than its end, or sees nothing on the way.
 pub fn distinctness(
-    maze: &Maze,
-    corridor_width: f64,
+    venue: &Venue,
     patterns: &CommonPatterns,
     seeds: impl IntoIterator<Item = u64>,
 ) -> Result<Distinctness, TrialError> {
-    let config = walker_config(&epuck(), corridor_width)?;
+    let config = walker_config(&epuck(), venue.corridor_width)?;
     let mut walks = Vec::new();
     for seed in seeds {
-        let walked = survey(maze, &epuck(), &config, seed)?;
+        let walked = survey(venue, &epuck(), &config, seed)?;
         for walk in walked {
             let ends = (walk.from, walk.way.to);
             if walk.to != Some(walk.way.to) || walk.observations.is_empty() {
@@ -115,8 +115,8 @@ o---o---o---o---o---o
 | S               G |
 o---o---o---o---o---o
 ";
-        let maze = tolman_maze::read(text).unwrap().maze;
-        let found = distinctness(&maze, 0.25, &PATTERNS, 0..2).unwrap();
+        let venue = Venue::of_file("", tolman_maze::read(text).unwrap()).unwrap();
+        let found = distinctness(&venue, &PATTERNS, 0..2).unwrap();
         let most = found.most_alike.unwrap();
         assert!(most.score > 0.9, "{most:?}");
         let least = found.least_alike.unwrap();
@@ -126,8 +126,8 @@ o---o---o---o---o---o
     #[test]
     fn a_fragment_without_anything_to_see_is_refused() {
         let text = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
-        let maze = tolman_maze::read(text).unwrap().maze;
-        let refused = distinctness(&maze, 0.25, &PATTERNS, 0..1).unwrap_err();
+        let venue = Venue::of_file("", tolman_maze::read(text).unwrap()).unwrap();
+        let refused = distinctness(&venue, &PATTERNS, 0..1).unwrap_err();
         assert!(matches!(refused, TrialError::Unwalked { .. }), "{refused}");
     }
 }

@@ -6,13 +6,13 @@ use tolman_geom::Pose;
 use tolman_maps::cpm::{Arrival, CpMap, Location};
 use tolman_robot::Landmark;
 use tolman_systems::cpm::{
-    Aim, Approach, Begun, CommonPatterns, CpmConfig, Done, Episode, Reasoner, Step, Whereabouts,
-    find_out,
+    Aim, Approach, Begun, CommonPatterns, CpmConfig, Done, Episode, Layer3, Search, Step, Walker,
+    Whereabouts,
 };
 
 use super::fragments::TrueFragments;
 use super::simulated::SimulatedEpuck;
-use super::trial::{Trial, TrialError, world_of};
+use super::trial::{Trial, TrialError};
 
 /// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.
 #[derive(Clone, Debug)]
@@ -45,10 +45,10 @@ pub struct Progress {
 }
 
 impl Progress {
-    fn see(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, step: &Step) {
-        self.walks = agent.explorer().traversals();
-        self.fragments = agent.explorer().map().fragments().len() as u32;
-        self.seconds = agent.walker().time_us() as f64 * 1e-6;
+    fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+        self.walks = layer.explorer().mapper.traversals();
+        self.fragments = layer.map().fragments().len() as u32;
+        self.seconds = walker.time_us() as f64 * 1e-6;
         if step.leg.known.is_none() {
             self.untried += 1;
             let is_new = matches!(
@@ -102,7 +102,7 @@ impl Trial<'_> {
     /// How many fragments the maze has.
     #[must_use]
     pub fn true_fragments(&self) -> u32 {
-        TrueFragments::of(self.maze).count()
+        TrueFragments::of(&self.venue.maze).count()
     }
 
     /// Walks from the start until the aim is reached, and optimizes the map. `watch` is told after every fragment how far it has come, and may
@@ -119,13 +119,14 @@ impl Trial<'_> {
             most_traversals: self.patience(),
             ..self.mode.config()
         };
-        let mut agent = self.begin(self.set_up()?, config)?;
+        let mut walker = self.walker_at(self.venue.start()?)?;
+        let mut layer = self.begin(&mut walker, config)?;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let (begun, mut progress) = (Begun::now(agent.walker()), Progress::default());
+        let (begun, mut progress) = (Begun::now(&walker), Progress::default());
         let done = loop {
-            match agent.advance(aim, &mut rng)? {
+            match layer.advance(&mut walker, aim, &mut rng)? {
                 ControlFlow::Break(done) => break done,
-                ControlFlow::Continue(step) => progress.see(&agent, &step),
+                ControlFlow::Continue(step) => progress.see(&layer, &walker, &step),
             }
             if watch(&progress).is_break() {
                 return Err(TrialError::BrokenOff {
@@ -133,9 +134,9 @@ impl Trial<'_> {
                 });
             }
         };
-        let episode = begun.ended(done, agent.walker());
-        agent.optimize()?;
-        let errand = Errand::of(&agent, episode);
+        let episode = begun.ended(done, &walker);
+        layer.optimize()?;
+        let errand = Errand::of(&layer, &walker, episode);
         Ok(Learned { errand, progress })
     }
 
@@ -144,11 +145,12 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`], also if the map has no way to a goal, or does not begin where the robot stands.
     pub fn drive(&self, map: CpMap) -> Result<Errand, TrialError> {
-        let mut agent = Reasoner::resume(self.set_up()?, self.patterns, self.mode.config(), map)?;
-        let plan = agent.explorer().plan(Landmark::Goal);
-        let plan = plan.ok_or(TrialError::NoPlan)?;
-        let episode = agent.drive_plan(&plan)?;
-        Ok(Errand::of(&agent, episode))
+        let mut walker = self.walker_at(self.venue.start()?)?;
+        let (patterns, config) = (self.patterns.clone(), self.mode.config());
+        let layer = Layer3::resume(&mut walker, patterns, config, map)?;
+        let plan = layer.explorer().mapper.plan(Landmark::Goal);
+        let episode = layer.drive_plan(&mut walker, &plan.ok_or(TrialError::NoPlan)?)?;
+        Ok(Errand::of(&layer, &walker, episode))
     }
 
     /// Put down anywhere in the maze, also amid a fragment, finds out which of some maps is that of the maze and where on it the robot is, and
@@ -157,59 +159,48 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`], also if the maps have no way to a goal, or are other patterns', or the robot cannot stand there.
     pub fn drive_from(&self, maps: &[CpMap], start: Pose) -> Result<DriveFrom, TrialError> {
-        let world = world_of(self.maze, self.corridor_width)?;
-        let mut walker = self.set_up_at(world, start)?;
+        let mut walker = self.walker_at(start)?;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let begun = Begun::now(&walker);
         let mut found = Vec::new();
         loop {
-            let (patterns, approach) = (self.patterns, Approach::ToAndFro);
-            let whereabouts = find_out(
-                &mut walker,
-                maps,
-                patterns,
-                approach,
-                MOST_PLACES,
-                &mut rng,
-                |_| {},
-            )?;
+            let search = Search::new(maps, self.patterns, Approach::ToAndFro, MOST_PLACES)?;
+            let whereabouts = search.find_out(&mut walker, &mut rng, |_| {})?;
             let believed = whereabouts.here().ok_or(TrialError::NoPlan)?;
             found.push(whereabouts);
             let map = maps.get(believed.map).ok_or(TrialError::NoPlan)?.clone();
             let has_these_ways =
                 map.degree(believed.ahead.junction) as usize == walker.branches().len();
-            let config = self.mode.config();
-            let mut agent = Reasoner::resume_at(walker, patterns, config, map, believed.ahead)?;
-            let plan = agent.explorer().plan(Landmark::Goal);
+            let (patterns, config) = (self.patterns.clone(), self.mode.config());
+            let layer = Layer3::resume_at(patterns, config, map, believed.ahead)?;
+            let plan = layer.explorer().mapper.plan(Landmark::Goal);
             let plan = plan.ok_or(TrialError::NoPlan)?;
             let done = if has_these_ways {
-                agent.drive_plan(&plan)?.done
+                layer.drive_plan(&mut walker, &plan)?.done
             } else {
                 Done::NotThere
             };
             if done == Done::Reached || found.len() == SEARCHES {
-                let episode = begun.ended(done, agent.walker());
-                let errand = Errand::of(&agent, episode);
+                let episode = begun.ended(done, &walker);
+                let errand = Errand::of(&layer, &walker, episode);
                 return Ok(DriveFrom {
                     found,
                     believed,
                     errand,
                 });
             }
-            walker = agent.into_walker();
         }
     }
 }
 
 impl Errand {
-    fn of(agent: &Reasoner<'_, SimulatedEpuck>, episode: Episode) -> Self {
-        let body = agent.walker().body();
+    fn of(layer: &Layer3, walker: &Walker<SimulatedEpuck>, episode: Episode) -> Self {
         Self {
             episode,
-            map: agent.explorer().map().clone(),
-            patterns: agent.patterns().clone(),
-            path: body.path().to_vec(),
-            bumps: body.bumps(),
+            map: layer.map().clone(),
+            patterns: layer.patterns().clone(),
+            path: walker.body().path().to_vec(),
+            bumps: walker.body().bumps(),
         }
     }
 }
@@ -236,8 +227,7 @@ mod tests {
             ..CpmConfig::online()
         };
         let trial = Trial {
-            maze: &maze,
-            corridor_width: 0.25,
+            venue: &maze,
             patterns: &PATTERNS,
             robot: epuck(),
             mode: Mode::Paper(blind),

@@ -1,16 +1,14 @@
-use alloc::collections::BTreeSet;
-
-use super::world::{WorldBuilder, WorldError};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_geom::Point;
-use tolman_maps::cpm::{Dictionary, theorem_1};
-use tolman_maze::{Cell, Maze};
-use tolman_systems::cpm::{Aim, Done};
+use tolman_maps::cpm::theorem_1;
+use tolman_maze::Maze;
+use tolman_systems::cpm::{Aim, Done, Layer3, Step, Walker};
 
-use super::fragments::{TrueFragments, along};
+use super::fragments::TrueFragments;
 use super::score::Score;
+use super::simulated::SimulatedEpuck;
 use super::trial::{Trial, TrialError};
+use super::world::shortest_covering_walk;
 
 /// A maze explored to its end: "the task is to obtain the complete map" (section 6).
 #[derive(Clone, Debug, Default)]
@@ -41,33 +39,32 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`] if it cannot be begun.
     pub fn explore(&self) -> Result<Exploration, TrialError> {
-        let walker = self.set_up()?;
-        let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
+        let maze = &self.venue.maze;
+        let mut walker = self.walker_at(self.venue.start()?)?;
         let mut found = Exploration {
-            fragments: TrueFragments::of(self.maze).count(),
-            best: shortest_covering_walk(self.maze)?,
+            fragments: TrueFragments::of(maze).count(),
+            best: best_walk(maze),
             ..Exploration::default()
         };
-        let mut agent = match self.begin(walker, self.mode.config()) {
-            Ok(agent) => agent,
+        let mut layer = match self.begin(&mut walker, self.mode.config()) {
+            Ok(layer) => layer,
             Err(error) => {
                 found.trouble = Some(error.to_string());
                 return Ok(found);
             }
         };
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut score = Score::of(self.maze);
-        score.begin(&agent, start);
-        let begun_us = agent.walker().time_us();
-        let mut ends_us = vec![begun_us];
+        let mut score = Score::of(maze);
+        score.begin(&layer, &walker);
+        let mut ends_us = vec![walker.time_us()];
         // How many fragments were known after each walk.
         let mut known = Vec::new();
-        let episode = agent.pursue(Aim::Explore, &mut rng, |agent, step| {
-            score.see(agent, step);
-            ends_us.push(agent.walker().time_us());
+        let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step| {
+            score.see(layer, walker, step);
+            ends_us.push(walker.time_us());
             known.push(score.lengths.len() as u32);
-        });
-        match episode {
+        };
+        match layer.pursue(&mut walker, Aim::Explore, &mut rng, see) {
             Ok(episode) => found.done = Some(episode.done),
             Err(error) => found.trouble = Some(error.to_string()),
         }
@@ -81,36 +78,21 @@ impl Trial<'_> {
         found.bound = theorem_1(&times[..first.count()], longest, found.fragments);
         let last = known.iter().position(|known| *known == found.fragments);
         found.seconds = last.map(|last| times[..=last].iter().sum());
-        found.traversals = agent.explorer().traversals();
+        found.traversals = layer.explorer().mapper.traversals();
         let walked_all = known.last() == Some(&found.fragments);
-        found.is_map_right = walked_all && score.is_map_right(agent.explorer().map(), self.maze);
-        found.bumps = agent.walker().body().bumps();
+        found.is_map_right = walked_all && score.is_map_right(layer.map(), maze);
+        found.bumps = walker.body().bumps();
         Ok(found)
     }
 }
 
 /// Fragments of the shortest walk that begins at the start and has been through all of a maze.
-fn shortest_covering_walk(maze: &Maze) -> Result<Option<u32>, WorldError> {
-    let fragments = TrueFragments::of(maze);
-    let places: BTreeSet<Cell> = fragments.ways().map(|(from, ..)| from).collect();
-    let places: Vec<Cell> = places.into_iter().collect();
-    let number = |cell: Cell| places.binary_search(&cell).ok().map(|place| place as u32);
-    let middle = |cell: &Cell| Point::new(f64::from(cell.x), f64::from(cell.y));
-    let mut drawing = WorldBuilder::new(Dictionary::new(1));
-    for place in &places {
-        drawing.place(middle(place), None);
-    }
-    for (from, out, way) in fragments.ways().filter(|(_, _, way)| way.is_forward) {
-        let ends = number(from).zip(number(way.to));
-        if let (Some((minus, plus)), Some((cells, _))) = (ends, along(maze, from, out)) {
-            let between: Vec<Point> = cells[1..cells.len() - 1].iter().map(middle).collect();
-            drawing.corridor(minus, plus, &between, &[])?;
-        }
-    }
-    let Some(start) = maze.start().and_then(|(start, _)| number(start)) else {
-        return Ok(None);
-    };
-    Ok(drawing.finish(start)?.shortest_covering_walk())
+fn best_walk(maze: &Maze) -> Option<u32> {
+    let (start, _) = maze.start()?;
+    let ways = TrueFragments::of(maze).graph(maze, |_| Some(1));
+    let best = shortest_covering_walk(&ways, maze.grid().index(start) as u32);
+    // No walk leads out of a start that is walled in.
+    best.filter(|fragments| *fragments > 0)
 }
 
 #[cfg(test)]
@@ -122,7 +104,7 @@ mod tests {
     fn the_shortest_covering_walk_goes_back_out_of_dead_ends() {
         let best = |text: &str| {
             let maze = tolman_maze::read(text).unwrap().maze;
-            shortest_covering_walk(&maze).unwrap()
+            best_walk(&maze)
         };
         // From the start to the fork, into the dead end and back, to the goal.
         let fork = "\

@@ -3,6 +3,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::{Heading, Vector};
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_planners::{Arcs, costs_from};
 use tolman_robot::Landmark;
 
 /// The fragments that a maze really has, for scoring; no robot knows them.
@@ -186,6 +187,26 @@ impl TrueFragments {
             }
         }
         Some(driven)
+    }
+
+    /// The graph of the maze's cells in which an arc stands for each way, from place to place, that has a length.
+    pub(super) fn graph(&self, maze: &Maze, length: impl Fn(Way) -> Option<u32>) -> Arcs {
+        let node = |cell: Cell| maze.grid().index(cell) as u32;
+        let arc =
+            |(from, _, way): (Cell, Direction, Way)| Some((node(from), node(way.to), length(way)?));
+        let arcs: Vec<_> = self.ways().filter_map(arc).collect();
+        Arcs::new(maze.grid().cell_count(), &arcs)
+    }
+
+    /// The length of the shortest way from start to goal over the ways that have a length; none if none leads there.
+    pub fn shortest(&self, maze: &Maze, length: impl Fn(Way) -> Option<u32>) -> Option<u32> {
+        let (start, _) = maze.start()?;
+        let start = maze.grid().index(start) as u32;
+        let costs = costs_from(&self.graph(maze, length), [start]);
+        let goals = maze.goals().iter();
+        goals
+            .filter_map(|goal| costs[maze.grid().index(*goal)])
+            .min()
     }
 
     /// How many there are.

@@ -10,20 +10,20 @@ use super::fragments::{DIRECTIONS, along};
 /// by port, as far as they agree.
 ///
 /// ```
-/// use tolman_arena::cpm::{Layout, learn, Trial, epuck};
+/// use tolman_arena::cpm::{Layout, learn, Trial, Venue, epuck};
 /// use tolman_systems::cpm::Mode;
 /// use tolman_systems::cpm::CpmConfig;
 /// use tolman_robot::Landmark;
 ///
 /// # let text = include_str!("../../mazes/cpm-1.maze");
-/// let maze = tolman_maze::read(text)?.maze;
-/// let patterns = learn(&maze, 0.25, 1)?;
+/// let venue = Venue::of_file("", tolman_maze::read(text)?)?;
+/// let patterns = learn(&venue, 1)?;
 /// let mode = Mode::Paper(CpmConfig::online());
-/// let trial = Trial { maze: &maze, corridor_width: 0.25, patterns: &patterns, robot: epuck(), mode, seed: 3 };
+/// let trial = Trial { venue: &venue, patterns: &patterns, robot: epuck(), mode, seed: 3 };
 /// let map = trial.play()?.map;
-/// let layout = Layout::of(&map, &maze);
+/// let layout = Layout::of(&map, &venue.maze);
 /// let goal = map.landmarks(Landmark::Goal).next().ok_or("the goal is not on the map")?;
-/// assert_eq!(layout.place(goal), Some(maze.goals()[0]));
+/// assert_eq!(layout.place(goal), Some(venue.maze.goals()[0]));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -94,10 +94,7 @@ impl Layout {
             for ((number, port), way) in (0..).zip(&junction.ports).zip(ways) {
                 match port {
                     PortState::Open { .. } => {
-                        let port = Port {
-                            junction: id,
-                            number,
-                        };
+                        let port = id.port(number);
                         let next = maze.beside(cell, way);
                         layout
                             .open

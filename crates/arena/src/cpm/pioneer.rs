@@ -15,8 +15,8 @@ use tolman_systems::cpm::{
 
 use super::map_right::is_whole_map_right;
 use super::robots::ring_measures;
-use super::simulated::{landmark_at, landmarks};
-use super::trial::{start_of, world_of};
+use super::simulated::Landmarks;
+use super::venue::Venue;
 use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
 use crate::run::{End, Ended, Watched, run};
 
@@ -27,33 +27,26 @@ type Tells = Box<dyn Fn(&Solo<LaserPioneer>) -> Option<Landmark>>;
 const STEP_LIMIT: u32 = 100_000;
 
 /// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
-const MAZE: &str = "\
-start = 0 0 north
+const FORKS: &str = include_str!("../../mazes/forks.maze");
 
-o---o---o---o---o
-|           |   |
-o   o---o   o   o
-|   |           |
-o   o   o---o---o
-|   |       | G |
-o   o---o   o   o
-| S             |
-o---o---o---o---o
-";
+/// A maze with corridors for a Pioneer.
+fn venue(text: &str) -> Venue {
+    Venue::new("", tolman_maze::read(text).unwrap().maze, CORRIDOR_WIDTH).unwrap()
+}
 
 /// A Pioneer that looks like an e-puck.
 type Epuck = RingAsEpuck<Landmarked<Solo<LaserPioneer>, Tells>>;
 
 /// The robot at the start of a maze, which looks like an e-puck, and how it is driven.
-fn placed(maze: &Maze, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
-    let world = world_of(maze, CORRIDOR_WIDTH).unwrap();
-    let (start, zones) = (start_of(maze, &world).unwrap(), landmarks(&world));
+fn placed(venue: &Venue, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
+    let landmarks = Landmarks::of(&venue.world);
     let measures = ring_measures(&robot, CORRIDOR_WIDTH);
     let config = measures.walker_config();
     let model = LaserPioneer::new(robot).unwrap();
-    let solo = Solo::new(Arc::new(world), model, start, seed).unwrap();
-    let landmark: Tells = Box::new(move |solo| landmark_at(&zones, solo.truth().pose.position));
-    let epuck = RingAsEpuck::new(Landmarked::new(solo, landmark), measures);
+    let start = venue.start().unwrap();
+    let solo = Solo::new(Arc::clone(&venue.world), model, start, seed).unwrap();
+    let tells: Tells = Box::new(move |solo| landmarks.at(solo.truth().pose.position));
+    let epuck = RingAsEpuck::new(Landmarked::new(solo, tells), measures);
     (epuck, config)
 }
 
@@ -76,7 +69,7 @@ fn pursue(cpm: &mut Cpm, epuck: &mut Epuck, task: Task) -> Ended {
 fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
     let start = truth(&epuck).pose;
     let explored = pursue(&mut cpm, &mut epuck, Task::Explore);
-    let map = cpm.explorer().unwrap().map();
+    let map = cpm.explorer().unwrap().mapper.map();
     assert_eq!(explored.end, End::Done);
     assert!(is_whole_map_right(map, maze), "{map:?}");
     let goal = map.landmarks(Landmark::Goal).next().unwrap();
@@ -101,26 +94,25 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
 /// The calibrated motors miss turns by 12 % and distances by 25 %.
 #[test]
 fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
-    let maze = tolman_maze::read(MAZE).unwrap().maze;
+    let forks = venue(FORKS);
     for seed in 0..2 {
-        let (epuck, config) = placed(&maze, calibrated(), seed);
+        let (epuck, config) = placed(&forks, calibrated(), seed);
         let cpm = Cpm::unlearned(config, CpmConfig::robust(), seed).unwrap();
-        play(cpm, epuck, &maze);
+        play(cpm, epuck, &forks.maze);
     }
 }
 
 /// As the paper has it: patterns of a learning maze, no dead reckoning.
 #[test]
 fn a_pioneer_learns_as_the_paper_s_robot_does() {
-    let learning = include_str!("../../mazes/cpm-learning.maze");
-    let learning = tolman_maze::read(learning).unwrap().maze;
+    let learning = venue(include_str!("../../mazes/cpm-learning.maze"));
     let (epuck, config) = placed(&learning, calibrated(), 1);
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let mut walker = Walker::new(epuck, config);
     let seen = wander(&mut walker, Lesson::Observations(300), &mut rng).unwrap();
     let patterns = CommonPatterns::learn(&seen, soinn()).unwrap();
-    let maze = tolman_maze::read(MAZE).unwrap().maze;
-    let (epuck, config) = placed(&maze, calibrated(), 1);
+    let forks = venue(FORKS);
+    let (epuck, config) = placed(&forks, calibrated(), 1);
     let cpm = Cpm::new(config, patterns, CpmConfig::online(), 1);
-    play(cpm, epuck, &maze);
+    play(cpm, epuck, &forks.maze);
 }

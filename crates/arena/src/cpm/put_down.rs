@@ -1,23 +1,18 @@
-use alloc::collections::BTreeMap;
-use alloc::sync::Arc;
-
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
-use tolman_maze::Maze;
-use tolman_sim::World;
 use tolman_sim::robots::EpuckConfig;
+use tolman_systems::cpm::{Approach, CommonPatterns, Search, Walker, Whereabouts};
 
 use super::fragments::{TrueFragments, Way};
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
-use super::trial::{TrialError, walker_at, world_of};
-use tolman_systems::cpm::{Approach, CommonPatterns, Whereabouts, find_out};
+use super::trial::{Record, TrialError};
+use super::venue::Venue;
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
 ///
-/// [`Record`](super::Record)s of a [`Trial`](super::Trial) each have a `map` and its `truth`, of which [`KnownMaze`]s are made.
 /// [`play`](Self::play) puts the robot into `here` by its seed, at the middle of a cell between the places at the ends of a fragment that the map has, looking along it.
 #[derive(Clone, Debug)]
 pub struct PutDown<'a> {
@@ -25,8 +20,6 @@ pub struct PutDown<'a> {
     pub known: &'a [KnownMaze<'a>],
     /// Which of them it is put into.
     pub here: usize,
-    /// From wall to wall, m.
-    pub corridor_width: f64,
     /// What the robot learned before.
     pub patterns: &'a CommonPatterns,
     /// The robot.
@@ -43,11 +36,9 @@ pub struct PutDown<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct KnownMaze<'a> {
     /// The maze.
-    pub maze: &'a Maze,
-    /// The robot's map of it.
-    pub map: &'a CpMap,
-    /// The true fragment of each fragment of the map, walked from − to +.
-    pub truth: &'a BTreeMap<FragmentId, Way>,
+    pub venue: &'a Venue,
+    /// The trial in which the robot learned its map of it.
+    pub learned: &'a Record,
 }
 
 /// What came of it.
@@ -80,8 +71,8 @@ pub struct PutDownRecord {
 impl KnownMaze<'_> {
     /// Where a robot may be put that has this map.
     fn spots(&self) -> Vec<Spot> {
-        Spot::all(self.maze, |way| {
-            let mut known = self.truth.values();
+        Spot::all(&self.venue.maze, |way| {
+            let mut known = self.learned.truth.values();
             known.any(|truth| truth.fragment == way.fragment)
         })
     }
@@ -97,35 +88,29 @@ impl PutDown<'_> {
         let Some(known) = self.known.get(self.here) else {
             return Ok(None);
         };
-        let world: Arc<World> = Arc::new(world_of(known.maze, self.corridor_width)?);
-        let fragments = TrueFragments::of(known.maze);
+        let venue = known.venue;
+        let fragments = TrueFragments::of(&venue.maze);
         let mazes: Vec<Vec<Spot>> = self.known.iter().map(KnownMaze::spots).collect();
         let spots = mazes.get(self.here).map(Vec::as_slice).unwrap_or_default();
         if spots.is_empty() {
             return Ok(None);
         }
         let spot = &spots[rng.random_range(0..spots.len() as u32) as usize];
-        let start = spot.pose(&world);
-        let config = walker_config(&self.robot, self.corridor_width)?;
-        let mut walker = walker_at(Arc::clone(&world), start, &self.robot, config, self.seed)?;
-        let maps: Vec<CpMap> = self.known.iter().map(|known| known.map.clone()).collect();
+        let body = venue.robot_at(spot.pose(venue), self.robot.clone(), self.seed)?;
+        let config = walker_config(&self.robot, venue.corridor_width)?;
+        let mut walker = Walker::new(body, config);
+        let maps = self.known.iter().map(|known| known.learned.map.clone());
+        let maps: Vec<CpMap> = maps.collect();
+        let search = Search::new(&maps, self.patterns, self.approach, self.most_places)?;
         // The ways that it came by to each place; to the first, from amid one, it is not told.
         let mut onward = Vec::new();
-        let whereabouts = find_out(
-            &mut walker,
-            &maps,
-            self.patterns,
-            self.approach,
-            self.most_places,
-            &mut rng,
-            |walker| {
-                let from = walker.departed_at(walker.body().path());
-                onward.push(from.and_then(|from| {
-                    let cell = world.cell_at(from.position)?;
-                    fragments.way(cell, from.heading)
-                }));
-            },
-        )?;
+        let whereabouts = search.find_out(&mut walker, &mut rng, |walker| {
+            let from = walker.departed_at(walker.body().path());
+            onward.push(from.and_then(|from| {
+                let cell = venue.world.cell_at(from.position)?;
+                fragments.way(cell, from.heading)
+            }));
+        })?;
         let begun = Way {
             is_forward: spot.way.is_forward != whereabouts.has_turned_round,
             ..spot.way
@@ -138,7 +123,7 @@ impl PutDown<'_> {
             let (Some(location), Some(way)) = (location, way_to(place)) else {
                 return false;
             };
-            let truth = known.truth.get(&location.enter.fragment);
+            let truth = known.learned.truth.get(&location.enter.fragment);
             location.map == self.here
                 && truth.is_some_and(|truth| {
                     let is_along = truth.is_forward == way.is_forward;
@@ -178,7 +163,8 @@ impl PutDown<'_> {
         let dictionary = self.patterns.dictionary();
         let mut memory = Environments::new(dictionary)?;
         for (environment, known) in (0_u32..).zip(self.known) {
-            let fragments = known.map.fragments();
+            let map = &known.learned.map;
+            let fragments = map.fragments();
             let seen = fragments.filter(|(_, fragment)| !fragment.patterns.is_empty());
             let ids: Vec<FragmentId> = seen.map(|(id, _)| id).collect();
             // One fragment alone is associated with nothing.
@@ -186,8 +172,8 @@ impl PutDown<'_> {
                 return Ok(None);
             }
             for sign in Sign::BOTH {
-                let path: Vec<End> = ids.iter().map(|&fragment| End { fragment, sign }).collect();
-                memory.learn(environment, known.map, &path, dictionary)?;
+                let path: Vec<End> = ids.iter().map(|id| id.end(sign)).collect();
+                memory.learn(environment, map, &path, dictionary)?;
             }
         }
         let sequence = self.patterns.patterns(walked);

@@ -40,16 +40,12 @@ pub fn slow_epuck() -> EpuckConfig {
 /// # Errors
 /// If the response curve cannot be turned round.
 pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, RangeCurveError> {
-    Ok(WalkerConfig::paper(measures(robot)?, width))
-}
-
-/// Returns what of a simulated e-puck the system has to know.
-fn measures(robot: &EpuckConfig) -> Result<EpuckMeasures, RangeCurveError> {
-    Ok(EpuckMeasures {
+    let measures = EpuckMeasures {
         curve: curve(&robot.response)?,
         step_us: robot.step_us,
         most_wheel_speed: robot.most_wheel_speed,
-    })
+    };
+    Ok(WalkerConfig::paper(measures, width))
 }
 
 /// Returns a response curve turned round, by the millimetre.
@@ -82,14 +78,13 @@ mod tests {
     use tolman_robot::Robot;
 
     use super::*;
-    use crate::cpm::placed;
     use crate::cpm::trial::tests::maze_1;
 
     #[test]
     fn sweeps_last_as_long_as_the_paper_says() {
         let maze = maze_1();
         let sweep = |robot: &EpuckConfig| {
-            let body = placed(&maze, 0.25, robot.clone(), 1).unwrap();
+            let body = maze.robot(robot.clone(), 1).unwrap();
             let config = walker_config(robot, 0.25).unwrap();
             let mut pilot = Pilot::new(body, config.pilot);
             let samples = pilot.sweep().unwrap().samples().len();

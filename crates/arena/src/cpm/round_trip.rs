@@ -3,10 +3,10 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::CpMap;
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Reasoner, Step, Walk, Walker};
+use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Layer3, Step, Walker};
 
 use super::simulated::SimulatedEpuck;
-use super::trial::{Trial, TrialError};
+use super::trial::TrialError;
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
 /// path-fragment" as long as it may be shorter than the known way.
@@ -39,32 +39,21 @@ pub struct RoundTrip {
     pub again_from: usize,
 }
 
-impl Trial<'_> {
-    /// Plays the way to the goal, back and there again, by a robot that nobody lifts.
-    ///
-    /// # Errors
-    /// [`TrialError`].
-    pub fn round_trip(&self) -> Result<RoundTrip, TrialError> {
-        let config = self.mode.config();
-        RoundTrip::watch(self.set_up()?, self.patterns, config, self.seed, |_, _| {})
-    }
-}
-
 impl RoundTrip {
     /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told of every fragment of the first two.
     ///
     /// # Errors
     /// [`TrialError`].
     pub fn watch(
-        walker: Walker<SimulatedEpuck>,
+        walker: &mut Walker<SimulatedEpuck>,
         patterns: &CommonPatterns,
         config: CpmConfig,
         seed: u64,
-        mut see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<Self, TrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut agent = Reasoner::begin(walker, patterns, config)?;
-        let there = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, &mut see)?;
+        let mut layer = Layer3::begin(walker, patterns.clone(), None, config)?;
+        let there = layer.pursue(walker, Aim::Find(Landmark::Goal), &mut rng, &mut see)?;
         let mut trip = Self {
             there,
             back: None,
@@ -75,26 +64,28 @@ impl RoundTrip {
             length_after: 0,
             map: CpMap::default(),
             path: Vec::new(),
-            back_from: agent.walker().body().path().len(),
+            back_from: walker.body().path().len(),
             again_from: 0,
         };
-        if agent.explorer().map().has_goal() {
-            agent.optimize()?;
-            let home = agent.explorer().plan(Landmark::Start);
+        if layer.map().has_goal() {
+            layer.optimize()?;
+            let home = layer.explorer().mapper.plan(Landmark::Start);
             trip.length_before = home.map_or(0, |plan| plan.length);
-            trip.back = Some(agent.pursue(Aim::WayBack, &mut rng, |agent, step| {
-                see(agent, step);
+            let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step| {
+                see(layer, walker, step);
                 trip.tried += u32::from(step.leg.known.is_none());
-                trip.given_up += u32::from(matches!(step.walk, Walk::TurnedBack { .. }));
-            })?);
-            trip.again_from = agent.walker().body().path().len();
-            if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
+                trip.given_up += u32::from(step.walked.sighting.is_none());
+            };
+            let back = layer.pursue(walker, Aim::WayBack, &mut rng, see)?;
+            trip.back = Some(back);
+            trip.again_from = walker.body().path().len();
+            if let Some(plan) = layer.explorer().mapper.plan(Landmark::Goal) {
                 trip.length_after = plan.length;
-                trip.again = Some(agent.drive_plan(&plan)?);
+                trip.again = Some(layer.drive_plan(walker, &plan)?);
             }
         }
-        trip.map = agent.explorer().map().clone();
-        trip.path = agent.walker().body().path().to_vec();
+        trip.map = layer.map().clone();
+        trip.path = walker.body().path().to_vec();
         Ok(trip)
     }
 }

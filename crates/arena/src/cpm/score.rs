@@ -1,11 +1,10 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Port, Sign, Turn};
-use tolman_maze::{Cell, Direction, Maze};
-use tolman_planners::{Arcs, costs_from};
+use tolman_maps::cpm::{Arrival, CpMap, CpMapper, FragmentId, JunctionId, Port, Sign, Turn};
+use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
-use tolman_systems::cpm::{Explorer, Reasoner, Step, Walk};
+use tolman_systems::cpm::{Layer3, Step, Walker};
 
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
@@ -81,23 +80,24 @@ impl<'a> Score<'a> {
         }
     }
 
-    pub(super) fn begin(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, start: Pose) {
-        let cell = agent.walker().body().world().cell_at(start.position);
-        self.begin_at(agent.explorer().at(), cell);
+    pub(super) fn begin(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>) {
+        let start = walker.body().path().first();
+        let cell = start.and_then(|start| walker.body().world().cell_at(start.position));
+        self.begin_at(layer.explorer().mapper.at(), cell);
     }
 
     /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
-    pub(super) fn see(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, step: &Step) {
-        let (Some(arrival), Walk::Arrived { observations, .. }) = (step.arrival, &step.walk) else {
+    pub(super) fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+        let Some(arrival) = step.arrival else {
             return;
         };
-        let body = agent.walker().body();
+        let body = walker.body();
         let here = body.world().cell_at(body.truth().pose.position);
-        let way = agent.walker().departed_at(body.path()).and_then(|from| {
+        let way = walker.departed_at(body.path()).and_then(|from| {
             let cell = body.world().cell_at(from.position)?;
             self.fragments.way(cell, from.heading)
         });
-        let length = (observations.len() as u32).max(1);
+        let length = (step.walked.observations.len() as u32).max(1);
         if let Some(here) = here {
             let way = way.filter(|way| way.to == here);
             let before = way.and_then(|way| self.lengths.get(&way.fragment));
@@ -105,42 +105,42 @@ impl<'a> Score<'a> {
         }
         let turn = step.leg.turn;
         let walked = Walked { turn, way, here };
-        self.take_in(agent.explorer(), arrival, walked, length);
+        self.take_in(&layer.explorer().mapper, arrival, walked, length);
     }
 
-    fn take_in(&mut self, explorer: &Explorer, arrival: Arrival, walked: Walked, length: u32) {
+    fn take_in(&mut self, mapper: &CpMapper, arrival: Arrival, walked: Walked, length: u32) {
         let Walked { way, here, .. } = walked;
         let number = self.walked.len();
         self.walked.push(walked);
         if let Some(way) = way {
-            self.judge(explorer, arrival, number, way, here);
+            self.judge(mapper, arrival, number, way, here);
             self.lengths.entry(way.fragment).or_insert(length);
         }
         if arrival == Arrival::Contradiction {
-            self.begin_at(explorer.at(), here);
+            self.begin_at(mapper.at(), here);
         }
     }
 
     fn judge(
         &mut self,
-        explorer: &Explorer,
+        mapper: &CpMapper,
         arrival: Arrival,
         number: usize,
         way: Way,
         here: Option<Cell>,
     ) {
         let is_old = self.lengths.contains_key(&way.fragment);
-        let told = explorer.map().end_at(explorer.at());
+        let told = mapper.map().end_at(mapper.at());
         let known = told.and_then(|end| self.truth.get(&end.fragment).copied());
         let is_same = known.is_some_and(|known| known.fragment == way.fragment);
         // The place that the map says it is at, where that is a place of the map.
-        let junction = explorer.at().junction;
+        let junction = mapper.at().junction;
         let stands = self.places.get(&junction).copied();
         if let Some(here) = here {
             self.places.entry(junction).or_insert(here);
         }
         match arrival {
-            Arrival::Revised => self.retrace(explorer.map()),
+            Arrival::Revised => self.retrace(mapper.map()),
             Arrival::Duplicate if is_same => self.right += 1,
             Arrival::Loop if stands == here => self.right += 1,
             Arrival::Duplicate | Arrival::Loop => {
@@ -181,7 +181,7 @@ impl<'a> Score<'a> {
         let mut is_astray = false;
         for (number, walked) in self.walked.iter().enumerate().skip(base.walks) {
             let exit = walked.turn.exit(at.number, map.degree(at.junction));
-            let exit = exit.map(|number| Port { number, ..at });
+            let exit = exit.map(|number| at.junction.port(number));
             // On a map that broke off somewhere the walks cannot be retraced further.
             let Some((end, beyond)) = exit
                 .ok()
@@ -235,16 +235,8 @@ impl<'a> Score<'a> {
 
     /// The length of the shortest way from start to goal over the fragments that were walked, by observations.
     pub(super) fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
-        let (start, _) = maze.start()?;
-        let node = |cell: Cell| maze.grid().index(cell) as u32;
-        let walked = |(from, _, way): (Cell, Direction, Way)| {
-            let length = self.lengths.get(&way.fragment)?;
-            Some((node(from), node(way.to), *length))
-        };
-        let arcs: Vec<_> = self.fragments.ways().filter_map(walked).collect();
-        let costs = costs_from(&Arcs::new(maze.grid().cell_count(), &arcs), [node(start)]);
-        let goals = maze.goals().iter();
-        goals.filter_map(|goal| costs[node(*goal) as usize]).min()
+        let length = |way: Way| self.lengths.get(&way.fragment).copied();
+        self.fragments.shortest(maze, length)
     }
 
     /// The length of a drive, in observations of the fragments it was along; none if one of them was not walked before.
@@ -261,8 +253,7 @@ impl<'a> Score<'a> {
 #[cfg(test)]
 mod tests {
     use tolman_geom::Heading;
-    use tolman_maps::cpm::{Dictionary, PatternId, Sighting, Traversal};
-    use tolman_systems::cpm::CpmConfig;
+    use tolman_maps::cpm::{CpMapperConfig, Dictionary, PatternId, Sighting, Traversal};
 
     use super::*;
 
@@ -274,10 +265,10 @@ mod tests {
         let mut dictionary = Dictionary::new(1);
         let wall = dictionary.learn(&[1.0], &[1.0], 0.1).unwrap();
         let door = dictionary.learn(&[0.0], &[0.0], 0.1).unwrap();
-        let mut explorer = Explorer::new(CpmConfig::robust(), Sighting::plain(1)).unwrap();
+        let mut mapper = CpMapper::new(CpMapperConfig::robust(), Sighting::plain(1)).unwrap();
         let mut score = Score::of(&maze);
         let start = maze.start().unwrap().0;
-        score.begin_at(explorer.at(), Some(start));
+        score.begin_at(mapper.at(), Some(start));
         let fork = Cell::new(1, 0);
         let mut walk = |turn: Turn, patterns: &[PatternId], degree, from, heading| {
             let patterns = patterns.to_vec();
@@ -288,7 +279,7 @@ mod tests {
                 sighting,
                 bearings: None,
             };
-            explorer.arrive(turn, &walk, &dictionary).unwrap();
+            mapper.arrive(turn, &walk, &dictionary).unwrap();
             let way = score.fragments.way(from, Heading::from_degrees(heading));
             let here = way.map(|way| way.to);
             score.walked.push(Walked { turn, way, here });
@@ -297,7 +288,7 @@ mod tests {
         walk(Turn(2), &[door, door, door], 1, fork, 0.0);
         walk(Turn::BACK, &[door, door, door], 3, Cell::new(2, 0), 180.0);
         walk(Turn(1), &[wall, wall, wall], 1, fork, 180.0);
-        let map = explorer.map().clone();
+        let map = mapper.map().clone();
         score.retrace(&map);
         assert_eq!(map.fragments().len(), 2);
         assert_eq!(score.truth.len(), 2);
@@ -338,10 +329,10 @@ mod tests {
                 sighting: Sighting::plain(degree),
                 bearings: None,
             };
-            let arrival = explorer.arrive(turn, &walk, &dictionary).unwrap();
+            let arrival = mapper.arrive(turn, &walk, &dictionary).unwrap();
             let way = score.fragments.way(from, Heading::from_degrees(heading));
             let here = way.map(|way| way.to);
-            score.take_in(&explorer, arrival, Walked { turn, way, here }, 3);
+            score.take_in(&mapper, arrival, Walked { turn, way, here }, 3);
             arrival
         };
         assert_eq!(take_in(Turn::BACK, 3, start, 0.0), Arrival::Known);
@@ -350,9 +341,9 @@ mod tests {
         take_in(Turn::BACK, 3, Cell::new(1, 1), 270.0);
         let before = score.truth.clone();
         assert_eq!(before.len(), 3);
-        score.retrace(explorer.map());
+        score.retrace(mapper.map());
         assert!(score.wrong.is_empty(), "{:?}", score.wrong);
         assert_eq!(score.truth, before);
-        assert_eq!(score.places.get(&explorer.at().junction), Some(&fork));
+        assert_eq!(score.places.get(&mapper.at().junction), Some(&fork));
     }
 }

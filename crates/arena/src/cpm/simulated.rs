@@ -10,7 +10,7 @@ use tolman_sim::{PlaceError, Solo, StepError, Truth, World, Zone};
 #[derive(Debug)]
 pub struct SimulatedEpuck {
     solo: Solo<Epuck>,
-    landmarks: Vec<(Landmark, Zone)>,
+    landmarks: Landmarks,
     path: Vec<Pose>,
 }
 
@@ -26,7 +26,7 @@ impl SimulatedEpuck {
         seed: u64,
     ) -> Result<Self, PlaceError> {
         let world = world.into();
-        let landmarks = landmarks(&world);
+        let landmarks = Landmarks::of(&world);
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
             landmarks,
@@ -85,21 +85,29 @@ impl Robot for SimulatedEpuck {
 
 impl SensesLandmarks for SimulatedEpuck {
     fn landmark(&self) -> Option<Landmark> {
-        landmark_at(&self.landmarks, self.solo.truth().pose.position)
+        self.landmarks.at(self.solo.truth().pose.position)
     }
 }
 
-/// Returns the landmarks of a world: its zones `start` and `destination`.
-pub(super) fn landmarks(world: &World) -> Vec<(Landmark, Zone)> {
-    let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
-    names
-        .into_iter()
-        .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())))
-        .collect()
-}
+/// The landmarks of a world: its zones `start` and `destination`.
+#[derive(Clone, Debug)]
+pub struct Landmarks(Vec<(Landmark, Zone)>);
 
-/// Returns the landmark that stands at a position.
-pub(super) fn landmark_at(landmarks: &[(Landmark, Zone)], here: Point) -> Option<Landmark> {
-    let mut at = landmarks.iter().filter(|(_, zone)| zone.contains(here));
-    at.next().map(|(landmark, _)| *landmark)
+impl Landmarks {
+    /// Returns those of a world.
+    #[must_use]
+    pub fn of(world: &World) -> Self {
+        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
+        let zones = names
+            .into_iter()
+            .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())));
+        Self(zones.collect())
+    }
+
+    /// Returns the one that stands at a position.
+    #[must_use]
+    pub fn at(&self, here: Point) -> Option<Landmark> {
+        let mut at = self.0.iter().filter(|(_, zone)| zone.contains(here));
+        at.next().map(|(landmark, _)| *landmark)
+    }
 }

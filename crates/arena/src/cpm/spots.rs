@@ -1,14 +1,13 @@
 use alloc::collections::BTreeMap;
 
-use tolman_control::heading_of;
 use tolman_geom::Pose;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
-use tolman_sim::World;
 
 use super::fragments::{
     Quarters, TrueFragments, Way, along, bends, headings, landmark_at, quarters,
 };
+use super::venue::Venue;
 use tolman_systems::cpm::Approach;
 
 /// Where a robot may be put down: in the middle of a cell between the places at the ends of a fragment, looking along it.
@@ -109,8 +108,8 @@ impl Spot {
         spots
     }
 
-    pub(super) fn pose(&self, world: &World) -> Pose {
-        Pose::new(world.cell_centre(self.cell), heading_of(self.heading))
+    pub(super) fn pose(&self, venue: &Venue) -> Pose {
+        venue.in_cell(self.cell, self.heading)
     }
 
     fn view(&self, approach: Approach, looks: Looks) -> View<'_> {

@@ -1,15 +1,11 @@
-use alloc::sync::Arc;
-
-use tolman_control::heading_of;
-use tolman_geom::Pose;
 use tolman_maps::cpm::Sighting;
-use tolman_maze::{Cell, Maze};
-use tolman_sim::World;
+use tolman_maze::Cell;
 use tolman_sim::robots::EpuckConfig;
-use tolman_systems::cpm::{Observation, Walk, WalkError, WalkerConfig};
+use tolman_systems::cpm::{Observation, WalkError, Walker, WalkerConfig};
 
 use super::fragments::{TrueFragments, Way};
-use super::trial::{TrialError, walker_at, world_of};
+use super::trial::TrialError;
+use super::venue::Venue;
 
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
@@ -32,34 +28,27 @@ pub struct Surveyed {
 /// # Errors
 /// [`TrialError`] if the robot cannot stand at a place, or a walk comes to no end.
 pub fn survey(
-    maze: &Maze,
+    venue: &Venue,
     robot: &EpuckConfig,
     config: &WalkerConfig,
     seed: u64,
 ) -> Result<Vec<Surveyed>, TrialError> {
-    let world: Arc<World> = Arc::new(world_of(maze, config.corridor_width)?);
-    let fragments = TrueFragments::of(maze);
+    let fragments = TrueFragments::of(&venue.maze);
     let mut walks = Vec::new();
     for (cell, out, way) in fragments.ways() {
         // Whoever came by this fragment looks into the place.
-        let start = Pose::new(world.cell_centre(cell), heading_of(out.opposite()));
-        let mut walker = walker_at(Arc::clone(&world), start, robot, config.clone(), seed)?;
+        let start = venue.in_cell(cell, out.opposite());
+        let body = venue.robot_at(start, robot.clone(), seed)?;
+        let mut walker = Walker::new(body, config.clone());
         walker.begin()?;
-        let Walk::Arrived {
-            observations,
-            sighting,
-            ..
-        } = walker.walk(0, 0, None)?
-        else {
-            return Err(WalkError::Lost.into());
-        };
+        let walk = walker.walk(0, 0, None)?;
         let end = walker.body().truth().pose.position;
         walks.push(Surveyed {
             from: cell,
             way,
-            to: world.cell_at(end),
-            observations,
-            sighting,
+            to: venue.world.cell_at(end),
+            observations: walk.observations,
+            sighting: walk.sighting.ok_or(WalkError::Lost)?,
         });
     }
     Ok(walks)
@@ -70,8 +59,6 @@ mod tests {
     use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
     use tolman_robot::{Landmark, Robot, SensesLandmarks};
     use tolman_sim::StepError;
-    use tolman_sim::robots::Epuck;
-    use tolman_systems::cpm::Walker;
 
     use super::*;
     use crate::cpm::trial::tests::maze_1;
@@ -106,21 +93,19 @@ mod tests {
 
     #[test]
     fn what_it_sensed_before_it_was_put_down_is_no_part_of_what_it_sees() {
-        let maze = maze_1();
-        let world = Arc::new(world_of(&maze, 0.25).unwrap());
+        let venue = maze_1();
         let config = walker_config(&epuck(), 0.25).unwrap();
-        for (from, out, _) in TrueFragments::of(&maze).ways() {
-            let start = Pose::new(world.cell_centre(from), heading_of(out.opposite()));
-            let robot = Epuck::new(epuck()).unwrap();
+        for (from, out, _) in TrueFragments::of(&venue.maze).ways() {
+            let start = venue.in_cell(from, out.opposite());
             let carried = Carried {
-                body: SimulatedEpuck::new(Arc::clone(&world), robot, start, 1).unwrap(),
+                body: venue.robot_at(start, epuck(), 1).unwrap(),
                 sensed: Some(EpuckSensing {
                     proximity: Some([3800.0; PROXIMITY_SENSORS]),
                     ..EpuckSensing::default()
                 }),
             };
             let seen = Walker::new(carried, config.clone()).begin().unwrap();
-            assert_eq!(seen.degree, maze.degree(from) as u32, "at {from:?}");
+            assert_eq!(seen.degree, venue.maze.degree(from) as u32, "at {from:?}");
         }
     }
 
@@ -132,11 +117,11 @@ mod tests {
             include_str!("../../mazes/cpm-2.maze"),
             include_str!("../../mazes/cpm-3.maze"),
         ] {
-            let maze = tolman_maze::read(text).unwrap().maze;
+            let venue = Venue::new("", tolman_maze::read(text).unwrap().maze, 0.25).unwrap();
             let config = walker_config(&epuck(), 0.25).unwrap();
-            for walk in survey(&maze, &epuck(), &config, 4).unwrap() {
+            for walk in survey(&venue, &epuck(), &config, 4).unwrap() {
                 assert_eq!(walk.to, Some(walk.way.to), "from {:?}", walk.from);
-                let degree = maze.degree(walk.way.to) as u32;
+                let degree = venue.maze.degree(walk.way.to) as u32;
                 assert_eq!(walk.sighting.degree, degree, "at {:?}", walk.to);
             }
         }
@@ -157,19 +142,18 @@ mod tests {
             o   o   o---o---o   o\n\
             | S |               |\n\
             o---o---o---o---o---o\n";
-        let maze = tolman_maze::read(text).unwrap().maze;
+        let venue = Venue::new("", tolman_maze::read(text).unwrap().maze, 0.25).unwrap();
         let config = walker_config(&epuck(), 0.25).unwrap();
-        let world = Arc::new(world_of(&maze, 0.25).unwrap());
-        let fragments = TrueFragments::of(&maze);
+        let fragments = TrueFragments::of(&venue.maze);
         for (from, out, way) in fragments.ways() {
-            let start = Pose::new(world.cell_centre(from), heading_of(out.opposite()));
-            let (here, robot) = (Arc::clone(&world), epuck());
-            let mut walker = walker_at(here, start, &robot, config.clone(), 2).unwrap();
+            let start = venue.in_cell(from, out.opposite());
+            let body = venue.robot_at(start, epuck(), 2).unwrap();
+            let mut walker = Walker::new(body, config.clone());
             walker.begin().unwrap();
             for to in [way.to, from] {
                 walker.walk(0, 0, None).unwrap();
                 let end = walker.body().truth().pose.position;
-                assert_eq!(world.cell_at(end), Some(to), "{from:?} by {way:?}");
+                assert_eq!(venue.world.cell_at(end), Some(to), "{from:?} by {way:?}");
             }
         }
     }

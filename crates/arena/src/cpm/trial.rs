@@ -1,36 +1,33 @@
 use alloc::collections::BTreeMap;
-use alloc::sync::Arc;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
-use tolman_control::heading_of;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{CpMap, FragmentId, RecallError};
-use tolman_maze::{Cell, Maze};
+use tolman_maps::cpm::{CpMap, CpmError, FragmentId, LocalizeError, RecallError};
+use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_sim::noise::{Fault, Slip};
-use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
-use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
+use tolman_sim::robots::{EpuckConfig, EpuckError};
+use tolman_sim::{PlaceError, StepError, WorldError};
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, CpmConfig, Done, Episode, LearnError, Lesson, Mode, Reasoner,
-    ReasonerError, Step, WalkError, Walker, WalkerConfig, WhereaboutsError, soinn, wander,
+    Aim, CommonPatterns, CpmConfig, CpmFailure, Done, Episode, Layer3, LearnError, Lesson, Mode,
+    Step, WalkError, Walker, WalkerConfig, soinn, wander,
 };
 
 use super::fragments::Way;
 use super::robots::{epuck, walker_config};
 use super::score::{Closures, Score};
 use super::simulated::SimulatedEpuck;
+use super::venue::Venue;
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.
 #[derive(Clone, Debug)]
 pub struct Trial<'a> {
     /// The maze, with a start and a goal.
-    pub maze: &'a Maze,
-    /// From wall to wall, m.
-    pub corridor_width: f64,
+    pub venue: &'a Venue,
     /// What the robot learned before, if its mode has that.
     pub patterns: &'a CommonPatterns,
     /// The robot.
@@ -104,9 +101,9 @@ impl Record {
 ///
 /// # Errors
 /// [`TrialError`].
-pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatterns, TrialError> {
-    let config = walker_config(&epuck(), corridor_width)?;
-    learn_by(maze, epuck(), config, Lesson::Observations(1000), seed)
+pub fn learn(venue: &Venue, seed: u64) -> Result<CommonPatterns, TrialError> {
+    let config = walker_config(&epuck(), venue.corridor_width)?;
+    learn_by(venue, epuck(), config, Lesson::Observations(1000), seed)
 }
 
 /// Learns the common patterns in a maze as any other robot that observes like this.
@@ -114,54 +111,16 @@ pub fn learn(maze: &Maze, corridor_width: f64, seed: u64) -> Result<CommonPatter
 /// # Errors
 /// [`TrialError`].
 pub fn learn_by(
-    maze: &Maze,
+    venue: &Venue,
     robot: EpuckConfig,
     config: WalkerConfig,
     lesson: Lesson,
     seed: u64,
 ) -> Result<CommonPatterns, TrialError> {
-    let body = placed(maze, config.corridor_width, robot, seed)?;
+    let mut walker = Walker::new(venue.robot(robot, seed)?, config);
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut walker = Walker::new(body, config);
     let observations = wander(&mut walker, lesson, &mut rng)?;
     Ok(CommonPatterns::learn(&observations, soinn())?)
-}
-
-/// The robot at the start of a maze.
-///
-/// # Errors
-/// If the maze has no start, makes no world, or the robot cannot stand there.
-pub fn placed(
-    maze: &Maze,
-    corridor_width: f64,
-    robot: EpuckConfig,
-    seed: u64,
-) -> Result<SimulatedEpuck, TrialError> {
-    let world = world_of(maze, corridor_width)?;
-    let start = start_of(maze, &world)?;
-    Ok(SimulatedEpuck::new(world, Epuck::new(robot)?, start, seed)?)
-}
-
-/// The robot anywhere in a world, driven like this.
-pub(super) fn walker_at(
-    world: impl Into<Arc<World>>,
-    start: Pose,
-    robot: &EpuckConfig,
-    config: WalkerConfig,
-    seed: u64,
-) -> Result<Walker<SimulatedEpuck>, TrialError> {
-    let body = SimulatedEpuck::new(world, Epuck::new(robot.clone())?, start, seed)?;
-    Ok(Walker::new(body, config))
-}
-
-/// A maze of thin walls.
-pub(super) fn world_of(maze: &Maze, corridor_width: f64) -> Result<World, TrialError> {
-    Ok(World::from_maze(maze, &CorridorSize::thin(corridor_width))?)
-}
-
-pub(super) fn start_of(maze: &Maze, world: &World) -> Result<Pose, TrialError> {
-    let (cell, direction) = maze.start().ok_or(TrialError::NoStart)?;
-    Ok(Pose::new(world.cell_centre(cell), heading_of(direction)))
 }
 
 impl Trial<'_> {
@@ -174,34 +133,26 @@ impl Trial<'_> {
         }
     }
 
-    /// The robot at the start.
-    pub(super) fn set_up(&self) -> Result<Walker<SimulatedEpuck>, TrialError> {
-        let world = world_of(self.maze, self.corridor_width)?;
-        let start = start_of(self.maze, &world)?;
-        self.set_up_at(world, start)
-    }
-
     /// The robot anywhere in its world.
-    pub(super) fn set_up_at(
-        &self,
-        world: World,
-        start: Pose,
-    ) -> Result<Walker<SimulatedEpuck>, TrialError> {
-        let mut config = walker_config(&self.robot, self.corridor_width)?;
+    pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, TrialError> {
+        let mut config = walker_config(&self.robot, self.venue.corridor_width)?;
         config.heading = self.mode.heading();
-        walker_at(world, start, &self.robot, config, self.seed)
+        let body = self.venue.robot_at(start, self.robot.clone(), self.seed)?;
+        Ok(Walker::new(body, config))
     }
 
     /// The robot looks where it is and begins its map there, as its mode has it but for the configuration.
     pub(super) fn begin(
         &self,
-        walker: Walker<SimulatedEpuck>,
+        walker: &mut Walker<SimulatedEpuck>,
         config: CpmConfig,
-    ) -> Result<Reasoner<'_, SimulatedEpuck>, ReasonerError<StepError>> {
-        match self.mode.novelty() {
-            Some(novelty) => Reasoner::begin_unlearned(walker, novelty, config),
-            None => Reasoner::begin(walker, self.patterns, config),
-        }
+    ) -> Result<Layer3, CpmFailure<StepError>> {
+        let novelty = self.mode.novelty();
+        let patterns = match novelty {
+            Some(_) => CommonPatterns::none().map_err(CpmError::from)?,
+            None => self.patterns.clone(),
+        };
+        Layer3::begin(walker, patterns, novelty, config)
     }
 
     /// Plays both episodes. What goes wrong on the way is a result.
@@ -209,7 +160,7 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`] if it cannot be begun.
     pub fn play(&self) -> Result<Record, TrialError> {
-        self.watch(|_, _| {})
+        self.watch(|_, _, _| {})
     }
 
     /// [Plays](Self::play) both episodes. `see` is told of every fragment of the first.
@@ -218,64 +169,63 @@ impl Trial<'_> {
     /// [`TrialError`] if it cannot be begun.
     pub fn watch(
         &self,
-        see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
+        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<Record, TrialError> {
-        let walker = self.set_up()?;
-        let start = *walker.body().path().first().ok_or(TrialError::NoStart)?;
+        let start = self.venue.start()?;
+        let mut walker = self.walker_at(start)?;
         let mut record = Record::default();
-        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut agent = match self.begin(walker, self.mode.config()) {
-            Ok(agent) => agent,
-            Err(error) => {
-                record.trouble = Some(error.to_string());
-                return Ok(record);
+        match self.begin(&mut walker, self.mode.config()) {
+            Ok(mut layer) => {
+                let played = self.episodes(&mut layer, &mut walker, start, &mut record, see);
+                record.trouble = played.err().map(|error| error.to_string());
+                record.patterns = layer.patterns().dictionary().len() as u32;
+                record.bumps = walker.body().bumps();
+                record.path = walker.body().path().to_vec();
             }
-        };
-        if let Err(error) = self.episodes(&mut agent, start, &mut rng, &mut record, see) {
-            record.trouble = Some(error.to_string());
+            Err(error) => record.trouble = Some(error.to_string()),
         }
-        record.patterns = agent.patterns().dictionary().len() as u32;
-        let body = agent.walker().body();
-        record.bumps = body.bumps();
-        record.path = body.path().to_vec();
         Ok(record)
     }
 
     fn episodes(
         &self,
-        agent: &mut Reasoner<'_, SimulatedEpuck>,
+        layer: &mut Layer3,
+        walker: &mut Walker<SimulatedEpuck>,
         start: Pose,
-        rng: &mut ChaCha8Rng,
         record: &mut Record,
-        mut see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<(), TrialError> {
-        let mut score = Score::of(self.maze);
-        score.begin(agent, start);
-        let first = agent.pursue(Aim::Find(Landmark::Goal), rng, |agent, step| {
-            score.see(agent, step);
-            see(agent, step);
+        let maze = &self.venue.maze;
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut score = Score::of(maze);
+        score.begin(layer, walker);
+        let aim = Aim::Find(Landmark::Goal);
+        let first = layer.pursue(walker, aim, &mut rng, |layer, walker, step| {
+            score.see(layer, walker, step);
+            see(layer, walker, step);
         });
-        record.closures = score.closures_at_the_end(agent.explorer().map());
-        record.contradictions = agent.explorer().contradictions();
-        record.traversals = agent.explorer().traversals();
-        record.fragments = agent.explorer().map().fragments().count() as u32;
+        let mapper = &layer.explorer().mapper;
+        record.closures = score.closures_at_the_end(layer.map());
+        record.contradictions = mapper.contradictions();
+        record.traversals = mapper.traversals();
+        record.fragments = layer.map().fragments().len() as u32;
         record.true_fragments = score.lengths.len() as u32;
-        record.map = agent.explorer().map().clone();
+        record.map = layer.map().clone();
         record.truth = score.truth.clone();
         record.first = Some(first?);
-        agent.optimize()?;
-        record.is_map_right = score.is_map_right(agent.explorer().map(), self.maze);
-        record.second_from = agent.walker().body().path().len();
-        agent.walker_mut().body_mut().place(start)?;
-        agent.placed_at_start()?;
-        if let Some(plan) = agent.explorer().plan(Landmark::Goal) {
-            record.second = Some(agent.drive_plan(&plan)?);
-            let body = agent.walker().body();
-            let path = body.path().get(record.second_from..).unwrap_or_default();
-            if let Some(driven) = score.length_of(body.world(), path) {
+        layer.optimize()?;
+        record.is_map_right = score.is_map_right(layer.map(), maze);
+        record.second_from = walker.body().path().len();
+        walker.body_mut().place(start)?;
+        layer.placed_at_start(walker)?;
+        if let Some(plan) = layer.explorer().mapper.plan(Landmark::Goal) {
+            record.second = Some(layer.drive_plan(walker, &plan)?);
+            let path = walker.body().path();
+            let path = path.get(record.second_from..).unwrap_or_default();
+            if let Some(driven) = score.length_of(&self.venue.world, path) {
                 let is_as_short = |shortest: Option<u32>| is_as_short(driven, shortest);
                 record.is_shortest_known = is_as_short(score.known.shortest());
-                record.is_shortest_as_it_lies = is_as_short(score.shortest_as_it_lies(self.maze));
+                record.is_shortest_as_it_lies = is_as_short(score.shortest_as_it_lies(maze));
             }
         }
         Ok(())
@@ -321,9 +271,6 @@ pub enum TrialError {
     /// The robot cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
-    /// The maze makes no graph of places.
-    #[error(transparent)]
-    Graph(#[from] super::world::WorldError),
     /// A fragment was not walked from end to end.
     #[error(
         "nothing was seen on the way from {} to {}, or the robot came elsewhere: make it longer than a cell",
@@ -342,45 +289,40 @@ pub enum TrialError {
     /// Its sensors cannot be read.
     #[error(transparent)]
     Curve(#[from] RangeCurveError),
-    /// It could not wander.
+    /// It could not walk.
     #[error(transparent)]
-    Wander(#[from] WalkError<StepError>),
+    Walk(#[from] WalkError<StepError>),
     /// It learned nothing.
     #[error(transparent)]
     Learn(#[from] LearnError),
-    /// It could not find out where it is.
-    #[error(transparent)]
-    Whereabouts(#[from] WhereaboutsError<StepError>),
     /// The memory of several mazes.
     #[error(transparent)]
     Recall(#[from] RecallError),
     /// An episode broke off.
     #[error(transparent)]
-    Agent(#[from] ReasonerError<StepError>),
+    Cpm(#[from] CpmFailure<StepError>),
+    /// The maps cannot be searched.
+    #[error(transparent)]
+    Localize(#[from] LocalizeError),
+    /// The map refuses what is done with it.
+    #[error(transparent)]
+    Map(#[from] CpmError),
 }
 
 impl TrialError {
     /// Whether maze or map did not serve; else what the robot did came to nothing.
     #[must_use]
     pub const fn is_bad_input(&self) -> bool {
-        match self {
+        matches!(
+            self,
             Self::NoStart
-            | Self::Width { .. }
-            | Self::World(_)
-            | Self::Epuck(_)
-            | Self::NoPlan
-            | Self::Place(_)
-            | Self::Agent(ReasonerError::NoStart | ReasonerError::NotTheStart { .. }) => true,
-            Self::BrokenOff { .. }
-            | Self::Unwalked { .. }
-            | Self::Curve(_)
-            | Self::Graph(_)
-            | Self::Wander(_)
-            | Self::Learn(_)
-            | Self::Whereabouts(_)
-            | Self::Recall(_)
-            | Self::Agent(_) => false,
-        }
+                | Self::Width { .. }
+                | Self::World(_)
+                | Self::Epuck(_)
+                | Self::NoPlan
+                | Self::Place(_)
+                | Self::Cpm(CpmFailure::NoStart | CpmFailure::NotTheStart { .. })
+        )
     }
 }
 
@@ -389,34 +331,31 @@ pub(super) mod tests {
     use std::sync::LazyLock;
 
     use tolman_maps::cpm::{Matching, Similarity};
-    use tolman_maze::{Direction, Grid};
+    use tolman_maze::{Direction, Grid, Maze};
     use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
-    use crate::cpm::{KnownMaze, PutDown};
+    use crate::cpm::{KnownMaze, PutDown, RoundTrip};
     use tolman_systems::cpm::Approach;
 
     const WIDTH: f64 = 0.25;
 
-    fn read(text: &str) -> Maze {
-        tolman_maze::read(text).unwrap().maze
+    fn read(text: &str) -> Venue {
+        Venue::new("", tolman_maze::read(text).unwrap().maze, WIDTH).unwrap()
     }
 
     /// Maze 1 of the paper, for all tests of CPM.
-    pub(crate) fn maze_1() -> Maze {
+    pub(crate) fn maze_1() -> Venue {
         read(include_str!("../../mazes/cpm-1.maze"))
     }
 
     /// What a robot learns in the learning maze, for all tests of CPM.
-    pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
-        let maze = read(include_str!("../../mazes/cpm-learning.maze"));
-        learn(&maze, WIDTH, 1).unwrap()
-    });
+    pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> =
+        LazyLock::new(|| learn(&read(include_str!("../../mazes/cpm-learning.maze")), 1).unwrap());
 
-    fn trial(maze: &Maze, robot: EpuckConfig) -> Trial<'_> {
+    fn trial(venue: &Venue, robot: EpuckConfig) -> Trial<'_> {
         Trial {
-            maze,
-            corridor_width: WIDTH,
+            venue,
             patterns: &PATTERNS,
             robot,
             mode: Mode::Paper(CpmConfig::online()),
@@ -424,8 +363,8 @@ pub(super) mod tests {
         }
     }
 
-    fn play(maze: &Maze, robot: EpuckConfig) -> Record {
-        trial(maze, robot).play().unwrap()
+    fn play(venue: &Venue, robot: EpuckConfig) -> Record {
+        trial(venue, robot).play().unwrap()
     }
 
     #[test]
@@ -447,8 +386,8 @@ pub(super) mod tests {
             ..trial(&maze, epuck())
         };
         let mut versions = Vec::new();
-        let record = unlearned.watch(|agent, _| {
-            versions.push(agent.patterns().dictionary().version());
+        let record = unlearned.watch(|layer, _, _| {
+            versions.push(layer.patterns().dictionary().version());
         });
         let record = record.unwrap();
         assert!(
@@ -463,12 +402,12 @@ pub(super) mod tests {
 
     #[test]
     fn a_goal_that_is_walled_off_is_not_there() {
-        let mut maze = maze_1();
+        let mut maze = maze_1().maze;
         let goal = maze.goals()[0];
         for direction in Direction::ALL {
             maze.set_wall(goal, direction, true);
         }
-        let record = play(&maze, epuck());
+        let record = play(&Venue::new("", maze, WIDTH).unwrap(), epuck());
         assert!(!record.is_solved() && record.trouble.is_none());
         assert_eq!(record.first.unwrap().done, Done::NotThere);
         assert!(record.second.is_none());
@@ -482,7 +421,7 @@ pub(super) mod tests {
         }
         maze.set_start(Some((Cell::new(0, 0), Direction::East)));
         maze.set_goals(vec![Cell::new(3, 0)]);
-        let record = play(&maze, epuck());
+        let record = play(&Venue::new("", maze, WIDTH).unwrap(), epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
     }
 
@@ -537,7 +476,6 @@ pub(super) mod tests {
     #[test]
     fn wheels_that_slip_by_half_end_where_the_record_says() {
         let maze = maze_1();
-        let world = world_of(&maze, WIDTH).unwrap();
         for seed in 0..3 {
             let slipping = Trial {
                 seed,
@@ -547,8 +485,8 @@ pub(super) mod tests {
             let end = record
                 .path
                 .last()
-                .and_then(|pose| world.cell_at(pose.position));
-            let is_there = end.is_some_and(|cell| maze.goals().contains(&cell));
+                .and_then(|pose| maze.world.cell_at(pose.position));
+            let is_there = end.is_some_and(|cell| maze.maze.goals().contains(&cell));
             let second = record.second.map(|episode| episode.done);
             assert_eq!(second == Some(Done::Reached), second.is_some() && is_there);
             assert!(record.first.is_some() || record.trouble.is_some());
@@ -560,9 +498,8 @@ pub(super) mod tests {
         let maze = maze_1();
         let record = play(&maze, epuck());
         let known = [KnownMaze {
-            maze: &maze,
-            map: &record.map,
-            truth: &record.truth,
+            venue: &maze,
+            learned: &record,
         }];
         let straight_on = (0..4).map(|seed| (Approach::StraightOn, seed));
         let to_and_fro = (0..8).map(|seed| (Approach::ToAndFro, seed));
@@ -571,7 +508,6 @@ pub(super) mod tests {
             let put_down = PutDown {
                 known: &known,
                 here: 0,
-                corridor_width: WIDTH,
                 patterns: &PATTERNS,
                 robot: epuck(),
                 approach,
@@ -603,11 +539,19 @@ pub(super) mod tests {
     fn on_the_way_back_a_shorter_way_is_found() {
         let maze = read(include_str!("../../mazes/cpm-real.maze"));
         // With this seed the first way is the longer one of two.
-        let trip = Trial {
+        let trial = Trial {
             seed: 900,
             ..trial(&maze, epuck())
         };
-        let trip = trip.round_trip().unwrap();
+        let mut walker = trial.walker_at(maze.start().unwrap()).unwrap();
+        let trip = RoundTrip::watch(
+            &mut walker,
+            &PATTERNS,
+            CpmConfig::online(),
+            900,
+            |_, _, _| {},
+        );
+        let trip = trip.unwrap();
         assert_eq!(trip.back.unwrap().done, Done::Reached);
         assert!(trip.tried > 0 && trip.length_after < trip.length_before);
         let again = trip.again.unwrap();

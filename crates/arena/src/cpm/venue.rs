@@ -1,14 +1,18 @@
 //! Where the e-puck runs.
 
+use alloc::sync::Arc;
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_control::heading_of;
 use tolman_geom::Pose;
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
-use tolman_sim::World;
+use tolman_sim::robots::{Epuck, EpuckConfig};
+use tolman_sim::{CorridorSize, World};
 
 use super::robots::epuck;
-use super::trial::{TrialError, start_of, world_of};
+use super::simulated::SimulatedEpuck;
+use super::trial::TrialError;
 
 /// A maze with a start, and how wide its corridors are for an e-puck.
 #[derive(Clone, Debug)]
@@ -19,6 +23,8 @@ pub struct Venue {
     pub maze: Maze,
     /// From wall to wall, m.
     pub corridor_width: f64,
+    /// Its thin walls.
+    pub world: Arc<World>,
 }
 
 impl Venue {
@@ -29,11 +35,25 @@ impl Venue {
     /// overlooks others.
     pub const WIDTHS: (f64, f64) = (0.20, 0.30);
 
+    /// A maze of thin walls.
+    ///
+    /// # Errors
+    /// [`TrialError::World`] where the corridors have no width.
+    pub fn new(name: &str, maze: Maze, corridor_width: f64) -> Result<Self, TrialError> {
+        let world = World::from_maze(&maze, &CorridorSize::thin(corridor_width))?;
+        Ok(Self {
+            name: name.to_owned(),
+            maze,
+            corridor_width,
+            world: Arc::new(world),
+        })
+    }
+
     /// That of a maze file; `name` is for one that has none.
     ///
     /// # Errors
     /// [`TrialError::NoStart`], [`TrialError::Width`].
-    pub fn new(name: &str, file: MazeFile) -> Result<Self, TrialError> {
+    pub fn of_file(name: &str, file: MazeFile) -> Result<Self, TrialError> {
         if file.maze.start().is_none() {
             return Err(TrialError::NoStart);
         }
@@ -47,11 +67,29 @@ impl Venue {
                 reach: epuck().response.reach(),
             });
         }
-        Ok(Self {
-            name: file.name.unwrap_or_else(|| name.to_owned()),
-            maze: file.maze,
-            corridor_width: width,
-        })
+        Self::new(file.name.as_deref().unwrap_or(name), file.maze, width)
+    }
+
+    /// The robot at the start.
+    ///
+    /// # Errors
+    /// If the maze has no start, or the robot cannot stand there.
+    pub fn robot(&self, robot: EpuckConfig, seed: u64) -> Result<SimulatedEpuck, TrialError> {
+        self.robot_at(self.start()?, robot, seed)
+    }
+
+    /// The robot anywhere.
+    ///
+    /// # Errors
+    /// If the robot cannot be built or cannot stand there.
+    pub fn robot_at(
+        &self,
+        start: Pose,
+        robot: EpuckConfig,
+        seed: u64,
+    ) -> Result<SimulatedEpuck, TrialError> {
+        let (world, robot) = (Arc::clone(&self.world), Epuck::new(robot)?);
+        Ok(SimulatedEpuck::new(world, robot, start, seed)?)
     }
 
     /// The first of four cells without a wall between them, if there are any: in rooms the robot, which follows corridors, may go round for ever
@@ -66,13 +104,20 @@ impl Venue {
     ///
     /// # Errors
     /// [`TrialError::NoStart`].
-    pub fn start(&self, world: &World) -> Result<Pose, TrialError> {
-        start_of(&self.maze, world)
+    pub fn start(&self) -> Result<Pose, TrialError> {
+        let (cell, direction) = self.maze.start().ok_or(TrialError::NoStart)?;
+        Ok(self.in_cell(cell, direction))
+    }
+
+    /// In the middle of a cell, looking in a direction.
+    #[must_use]
+    pub fn in_cell(&self, cell: Cell, direction: Direction) -> Pose {
+        Pose::new(self.world.cell_centre(cell), heading_of(direction))
     }
 
     /// In the middle of any cell from which the goal can be reached, looking along a way out of it; none if there are none.
     #[must_use]
-    pub fn anywhere(&self, world: &World, seed: u64) -> Option<Pose> {
+    pub fn anywhere(&self, seed: u64) -> Option<Pose> {
         let out_of = |cell| {
             let neighbours = self.maze.neighbours(cell);
             neighbours.map(move |(direction, _)| (cell, direction))
@@ -83,15 +128,7 @@ impl Venue {
         }
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let (cell, direction) = ways[rng.random_range(0..ways.len() as u32) as usize];
-        Some(Pose::new(world.cell_centre(cell), heading_of(direction)))
-    }
-
-    /// Its thin walls.
-    ///
-    /// # Errors
-    /// [`TrialError::World`] where the corridors have no width.
-    pub fn world(&self) -> Result<World, TrialError> {
-        world_of(&self.maze, self.corridor_width)
+        Some(self.in_cell(cell, direction))
     }
 
     /// The length of the shortest way from start to goal, m; none if there is none.

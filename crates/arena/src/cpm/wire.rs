@@ -14,13 +14,11 @@ use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
 use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmRobot, Done, Episode, Reasoner, ReasonerError, WalkError, Walker,
-    WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, WalkError, Walker, WalkerConfig,
 };
 
 use super::robots::{epuck, walker_config};
 use super::simulated::SimulatedEpuck;
-use super::trial::placed;
 use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
@@ -148,7 +146,7 @@ impl Write for Line {
 }
 
 fn simulated(seed: u64) -> SimulatedEpuck {
-    placed(&maze_1(), WIDTH, epuck(), seed).unwrap()
+    maze_1().robot(epuck(), seed).unwrap()
 }
 
 fn line(seed: u64) -> Line {
@@ -193,16 +191,18 @@ fn play<B: CpmRobot>(
     config: WalkerConfig,
     seed: u64,
     lift: impl FnOnce(&mut B),
-) -> Result<([Episode; 2], CpMap), ReasonerError<B::Error>> {
-    let mut agent = Reasoner::begin(Walker::new(body, config), &PATTERNS, CpmConfig::online())?;
+) -> Result<([Episode; 2], CpMap), CpmFailure<B::Error>> {
+    let mut walker = Walker::new(body, config);
+    let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, CpmConfig::online())?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let first = agent.pursue(Aim::Find(Landmark::Goal), &mut rng, |_, _| {})?;
-    agent.optimize()?;
-    lift(agent.walker_mut().body_mut());
-    agent.placed_at_start()?;
-    let plan = agent.explorer().plan(Landmark::Goal).unwrap();
-    let second = agent.drive_plan(&plan)?;
-    Ok(([first, second], agent.explorer().map().clone()))
+    let aim = Aim::Find(Landmark::Goal);
+    let first = layer.pursue(&mut walker, aim, &mut rng, |_, _, _| {})?;
+    layer.optimize()?;
+    lift(walker.body_mut());
+    layer.placed_at_start(&mut walker)?;
+    let plan = layer.explorer().mapper.plan(Landmark::Goal).unwrap();
+    let second = layer.drive_plan(&mut walker, &plan)?;
+    Ok(([first, second], layer.map().clone()))
 }
 
 #[test]

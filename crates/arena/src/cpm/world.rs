@@ -17,6 +17,7 @@ use tolman_geom::{Heading, Point};
 
 pub use check::MapCheck;
 pub use generate::{Likeness, MazeConfig, MazeError};
+pub(super) use postman::shortest_covering_walk;
 pub use rover::{Noise, Outcome, Reckoning, Rover};
 
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId, Sighting, Sign};

@@ -19,8 +19,8 @@ use tolman_systems::diktiometry::{
 
 use super::office::{PlaceKind, TruePlace};
 use super::score::{MapScore, Visit, score};
-use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, epuck, placed, walker_config};
-use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
+use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, Venue, epuck, walker_config};
+use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
 use tolman_systems::stream;
 
 /// How an e-puck surveys a maze.
@@ -190,7 +190,7 @@ impl EpuckRover {
         config: &EpuckSurveyConfig,
         seed: u64,
     ) -> Result<Self, EpuckSurveyError> {
-        let body = placed(maze, corridor_width, epuck(), seed)?;
+        let body = Venue::new("", maze.clone(), corridor_width)?.robot(epuck(), seed)?;
         let ahead = body.truth().pose.heading;
         let mut walker_config = walker_config(&epuck(), corridor_width)?;
         walker_config.heading = HeadingBy::Walls;
@@ -265,10 +265,8 @@ impl Rover for EpuckRover {
             return self.arrival(RoutineOutcome::Blocked, PointBox::ORIGIN);
         };
         let (from, driven) = (self.walker.pose(), self.walker.driven());
-        match self.walker.walk(branch, 0, None)? {
-            Walk::Arrived { .. } => {}
-            Walk::TurnedBack { .. } => return Err(WalkError::Lost.into()),
-        }
+        let walk = self.walker.walk(branch, 0, None)?;
+        walk.sighting.ok_or(WalkError::Lost)?;
         let way = self.walker.driven() - driven;
         let margin = self.config.margin + self.config.margin_per_root_metre * libm::sqrt(way);
         // From the axes of the start to those of the compass, which lie at right angles.

@@ -57,8 +57,8 @@ fn a_corridor_without_junctions() {
             Reckoning::Bounded,
             Aim::Find(Landmark::Goal),
         );
-        assert_eq!((done, explorer.traversals()), (Done::NotThere, 1));
-        assert!(explorer.plan(Landmark::Goal).is_none());
+        assert_eq!((done, explorer.mapper.traversals()), (Done::NotThere, 1));
+        assert!(explorer.mapper.plan(Landmark::Goal).is_none());
     }
 }
 
@@ -84,7 +84,7 @@ fn a_ring_with_nothing_but_the_start() {
             Aim::Find(Landmark::Goal),
         );
         assert_eq!(done, Done::NotThere);
-        assert!(explorer.traversals() <= 3);
+        assert!(explorer.mapper.traversals() <= 3);
     }
 }
 
@@ -117,10 +117,10 @@ fn a_junction_of_ten_branches() {
         } = explored(config(), &world, Reckoning::Bounded, Aim::Explore);
         assert_eq!(done, Done::Reached);
         assert_eq!(
-            world.check(explorer.map(), explorer.at(), rover.at()),
+            world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at()),
             MapCheck::Right
         );
-        assert_eq!(explorer.map().fragments().len(), 10);
+        assert_eq!(explorer.mapper.map().fragments().len(), 10);
     }
 }
 
@@ -150,7 +150,7 @@ fn a_goal_walled_off() {
         let Explored { explorer, done, .. } =
             explored(config(), &world, Reckoning::None, Aim::Find(Landmark::Goal));
         assert_eq!(done, Done::NotThere);
-        assert!(explorer.map().is_explored() && !explorer.map().is_complete());
+        assert!(explorer.mapper.map().is_explored() && !explorer.mapper.map().is_complete());
     }
 }
 
@@ -170,28 +170,36 @@ fn walks_that_cannot_have_been() {
             sighting: Sighting::plain(degree),
             bearings: None,
         };
-        let refused = explorer.arrive(Turn(3), &walk(&[1, 2], 3), &dictionary);
+        let refused = explorer
+            .mapper
+            .arrive(Turn(3), &walk(&[1, 2], 3), &dictionary);
         assert!(matches!(refused, Err(CpmError::Turn(_))));
-        let refused = explorer.arrive(Turn(1), &walk(&[1, 40], 3), &dictionary);
+        let refused = explorer
+            .mapper
+            .arrive(Turn(1), &walk(&[1, 40], 3), &dictionary);
         let unknown = DictionaryError::UnknownPattern {
             pattern: PatternId(40),
             patterns: 40,
         };
         assert_eq!(refused, Err(CpmError::Dictionary(unknown)));
         assert_eq!(
-            explorer.arrive(Turn(1), &walk(&[1, 2], 0), &dictionary),
+            explorer
+                .mapper
+                .arrive(Turn(1), &walk(&[1, 2], 0), &dictionary),
             Err(CpmError::NoPorts)
         );
-        assert!(explorer.turned_back(Turn(3), 1).is_err());
-        assert_eq!(explorer.map().fragments().len(), 0);
+        assert!(explorer.mapper.turned_back(Turn(3), 1).is_err());
+        assert_eq!(explorer.mapper.map().fragments().len(), 0);
         explorer
+            .mapper
             .arrive(Turn(1), &walk(&[1, 2], 3), &dictionary)
             .unwrap();
         // A fragment too short to observe anything is a fragment.
         explorer
+            .mapper
             .arrive(Turn(1), &walk(&[], 3), &dictionary)
             .unwrap();
-        assert_eq!(explorer.map().fragments().len(), 2);
+        assert_eq!(explorer.mapper.map().fragments().len(), 2);
     }
 }
 
@@ -206,13 +214,13 @@ fn more_bearings_than_ports() {
         sighting: Sighting::plain(3),
         bearings: Some(Bearings::of_directions(&[0.0, 1.0]).unwrap()),
     };
-    let refused = explorer.arrive(Turn::BACK, &walk, &dictionary);
+    let refused = explorer.mapper.arrive(Turn::BACK, &walk, &dictionary);
     let expected = CpmError::Bearings {
         bearings: 2,
         degree: 3,
     };
     assert_eq!(refused, Err(expected));
-    assert_eq!(explorer.map().fragments().len(), 0);
+    assert_eq!(explorer.mapper.map().fragments().len(), 0);
 }
 
 #[test]
@@ -227,29 +235,33 @@ fn dictionaries_of_another_robot_or_version() {
     let one = dictionary.learn(&[1.0, 0.0], &[0.0, 1.0], 0.1).unwrap();
     let early = dictionary.clone();
     let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(3)).unwrap();
-    explorer.arrive(Turn(1), &walk(one.0), &dictionary).unwrap();
+    explorer
+        .mapper
+        .arrive(Turn(1), &walk(one.0), &dictionary)
+        .unwrap();
     // It learns on, and what it has written stays readable.
     let more = dictionary.learn(&[5.0, 5.0], &[5.0, 5.0], 0.1).unwrap();
     explorer
+        .mapper
         .arrive(Turn(1), &walk(more.0), &dictionary)
         .unwrap();
     assert_eq!(dictionary.check_version(early.version()), Ok(()));
     // The early one does not know enough, another robot's says other things.
-    assert!(explorer.arrive(Turn(1), &walk(0), &early).is_err());
+    assert!(explorer.mapper.arrive(Turn(1), &walk(0), &early).is_err());
     let mut foreign = Dictionary::new(2);
     for feature in 0..3 {
         foreign
             .learn(&[f64::from(feature), 7.0], &[f64::from(feature), 7.0], 0.1)
             .unwrap();
     }
-    let refused = explorer.arrive(Turn(1), &walk(0), &foreign);
+    let refused = explorer.mapper.arrive(Turn(1), &walk(0), &foreign);
     assert!(matches!(
         refused,
         Err(CpmError::Dictionary(
             DictionaryError::OtherDictionary { .. }
         ))
     ));
-    assert!(explorer.optimize(&foreign).is_err());
+    assert!(explorer.mapper.optimize(&foreign).is_err());
     assert!(
         dictionary
             .learn(&[f64::NAN, 0.0], &[0.0, 0.0], 0.1)
@@ -331,7 +343,7 @@ fn memories_of_nothing() {
     );
     let explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
     assert_eq!(
-        environments.learn(0, explorer.map(), &[], &dictionary),
+        environments.learn(0, explorer.mapper.map(), &[], &dictionary),
         Err(RecallError::TooShort)
     );
     assert!(environments.recall(&[], &dictionary).is_err());

@@ -46,7 +46,7 @@ fn mazes() -> impl Strategy<Value = (MazeConfig, u64)> {
 }
 
 fn is_goal(explorer: &Explorer) -> impl Fn(JunctionId) -> bool {
-    let goals: Vec<JunctionId> = explorer.map().landmarks(Landmark::Goal).collect();
+    let goals: Vec<JunctionId> = explorer.mapper.map().landmarks(Landmark::Goal).collect();
     move |id| goals.contains(&id)
 }
 
@@ -75,21 +75,21 @@ proptest! {
             let mut until_all = 0;
             let done = rover.pursue(&mut explorer, Aim::Explore, &mut rng, |rover, explorer, _, _| {
                 if walked.insert(world.end_at(rover.at()).unwrap().corridor) {
-                    until_all = explorer.traversals();
+                    until_all = explorer.mapper.traversals();
                 }
             });
             prop_assert_eq!(done.unwrap(), Done::Reached);
-            prop_assert_eq!(world.check(explorer.map(), explorer.at(), rover.at()), MapCheck::Right);
-            prop_assert_eq!(explorer.map().fragments().len(), world.corridors().len());
-            prop_assert!(explorer.map().is_optimized(&CpmConfig::online().matching, world.dictionary()));
-            prop_assert!(explorer.map().is_complete());
-            prop_assert_eq!(explorer.contradictions(), 0);
-            let first = explorer.before_duplicate().unwrap_or(explorer.traversals());
+            prop_assert_eq!(world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at()), MapCheck::Right);
+            prop_assert_eq!(explorer.mapper.map().fragments().len(), world.corridors().len());
+            prop_assert!(explorer.mapper.map().is_optimized(&CpmConfig::online().matching, world.dictionary()));
+            prop_assert!(explorer.mapper.map().is_complete());
+            prop_assert_eq!(explorer.mapper.contradictions(), 0);
+            let first = explorer.mapper.before_duplicate().unwrap_or(explorer.mapper.traversals());
             let fragments = world.corridors().len() as u32;
             let bound = theorem_1(&vec![1.0; first as usize], 1.0, fragments);
             prop_assert!(f64::from(until_all) <= bound, "{until_all} of {bound}");
             if let Some(best) = world.shortest_covering_walk() {
-                prop_assert!(explorer.traversals() >= best);
+                prop_assert!(explorer.mapper.traversals() >= best);
             }
         }
     }
@@ -102,14 +102,14 @@ proptest! {
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let done = pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
         prop_assert_eq!(done, Done::Reached);
-        explorer.optimize(world.dictionary()).unwrap();
-        prop_assert!(explorer.map().is_optimized(&config.matching, world.dictionary()));
-        prop_assert!(explorer.map().has_goal());
+        explorer.mapper.optimize(world.dictionary()).unwrap();
+        prop_assert!(explorer.mapper.map().is_optimized(&config.matching, world.dictionary()));
+        prop_assert!(explorer.mapper.map().has_goal());
         // Junctions that no fragment has shown to be the same may still be there twice.
-        let check = world.check(explorer.map(), explorer.at(), rover.at());
+        let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());
         prop_assert_ne!(check, MapCheck::Wrong);
         // The way from the start that the second episode drives.
-        prop_assert!(explorer.plan(Landmark::Start).is_some());
+        prop_assert!(explorer.mapper.plan(Landmark::Start).is_some());
     }
 
     #[test]
@@ -117,18 +117,18 @@ proptest! {
         let (world, mut rng) = drawn(maze);
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
-        let start = explorer.at();
+        let start = explorer.mapper.at();
         pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
         // How far the goal is from the start, for a robot that is put there again.
-        let mut known = vec![explorer.map().plan(start, is_goal(&explorer)).unwrap().length];
+        let mut known = vec![explorer.mapper.map().plan(start, is_goal(&explorer)).unwrap().length];
         for aim in [Aim::WayBack, Aim::Shortest, Aim::Explore] {
             prop_assert_eq!(pursue(&mut explorer, &mut rover, aim, &mut rng), Done::Reached);
             if aim == Aim::WayBack {
                 prop_assert_eq!(rover.sighting().landmark, Some(Landmark::Start));
             }
-            explorer.place(start).unwrap();
+            explorer.mapper.place(start).unwrap();
             rover.place(world.start());
-            known.push(explorer.map().plan(start, is_goal(&explorer)).unwrap().length);
+            known.push(explorer.mapper.map().plan(start, is_goal(&explorer)).unwrap().length);
         }
         prop_assert!(known.is_sorted_by(|earlier, later| earlier >= later), "{:?}", known);
         // What was certified to be shortest is.
@@ -149,7 +149,7 @@ proptest! {
             for aim in [Aim::Find(Landmark::Goal), Aim::WayBack, Aim::Shortest, Aim::Explore] {
                 pursue(&mut explorer, &mut rover, aim, &mut rng);
             }
-            prop_assert!(explorer.traversals() <= 60);
+            prop_assert!(explorer.mapper.traversals() <= 60);
         }
     }
 }
@@ -181,9 +181,9 @@ fn the_truth_is_found_again() {
         rover
             .pursue(&mut explorer, Aim::Explore, &mut rng, see)
             .unwrap();
-        let check = world.check(explorer.map(), explorer.at(), rover.at());
+        let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());
         assert_eq!(check, MapCheck::Right, "seed {seed}");
-        assert_eq!(explorer.contradictions(), 0, "seed {seed}");
+        assert_eq!(explorer.mapper.contradictions(), 0, "seed {seed}");
     }
     assert!(revised > 0);
 }
@@ -209,8 +209,8 @@ fn a_large_maze_needs_few_comparisons() {
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
-        let check = world.check(explorer.map(), explorer.at(), rover.at());
-        (check, explorer.traversals())
+        let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());
+        (check, explorer.mapper.traversals())
     };
     let all = explore(Candidates::All);
     assert_eq!(all.0, MapCheck::Right);
@@ -243,11 +243,14 @@ fn patterns_are_learned_while_mapping() {
                 let (ahead, behind) = (sensed(*pattern), sensed(truth.half_turned(*pattern)));
                 *pattern = dictionary.learn(&ahead, &behind, 0.1).unwrap();
             }
-            explorer.arrive(leg.turn, &walk, &dictionary).unwrap();
+            explorer
+                .mapper
+                .arrive(leg.turn, &walk, &dictionary)
+                .unwrap();
             versions.push(dictionary.version());
         }
         assert_eq!(
-            world.check(explorer.map(), explorer.at(), rover.at()),
+            world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at()),
             MapCheck::Right
         );
         assert!(

@@ -16,7 +16,7 @@ fn explored() -> (CpMap, Dictionary) {
     let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
     pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
-    (explorer.map().clone(), world.dictionary().clone())
+    (explorer.mapper.map().clone(), world.dictionary().clone())
 }
 
 #[test]

@@ -31,8 +31,8 @@ fn explored_of(world: World, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
     let mut rover = Rover::new(&world, noise, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
     pursue(&mut explorer, &mut rover, Aim::Explore, rng);
-    let at = (explorer.at(), rover.at());
-    let map = explorer.map().clone();
+    let at = (explorer.mapper.at(), rover.at());
+    let map = explorer.mapper.map().clone();
     Known { world, map, at }
 }
 
@@ -51,7 +51,7 @@ impl Known {
     }
 
     /// A robot that knows this maze alone, and has observed this.
-    fn localizer_after(&self, walk: &Traversal) -> Localizer<'_> {
+    fn localizer_after(&self, walk: &Traversal) -> Localizer {
         let maps = core::slice::from_ref(&self.map);
         let dictionary = self.world.dictionary();
         let mut localizer = Localizer::new(maps, dictionary, LocalizerConfig::usual()).unwrap();
@@ -140,9 +140,8 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
             let (enter, passed) = middle(&known.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
             let mut localizer = known.localizer_after(&walk);
-            let is_right = |localizer: &Localizer<'_>| {
-                u32::from(known.is_right(localizer.location(), rover.at()))
-            };
+            let is_right =
+                |localizer: &Localizer| u32::from(known.is_right(localizer.location(), rover.at()));
             let mut without = localizer.clone();
             without.arrive(walk.sighting, None);
             blind += is_right(&without);
@@ -198,8 +197,11 @@ fn turns_that_lead_where_no_map_has_been_are_not_known() {
         sighting: Sighting::plain(3),
         bearings: None,
     };
-    explorer.arrive(Turn::BACK, &walk, dictionary).unwrap();
-    let maps = [explorer.map().clone()];
+    explorer
+        .mapper
+        .arrive(Turn::BACK, &walk, dictionary)
+        .unwrap();
+    let maps = [explorer.mapper.map().clone()];
     let mut localizer = Localizer::new(&maps, dictionary, LocalizerConfig::usual()).unwrap();
     for pattern in walk.patterns {
         localizer.observe(pattern).unwrap();
@@ -385,8 +387,11 @@ fn who_turns_round_knows_by_the_other_end() {
             sighting: Sighting::plain(1),
             bearings: None,
         };
-        explorer.arrive(Turn::BACK, &walk, &dictionary).unwrap();
-        explorer.map().clone()
+        explorer
+            .mapper
+            .arrive(Turn::BACK, &walk, &dictionary)
+            .unwrap();
+        explorer.mapper.map().clone()
     };
     let maps = [corridor([0, 3, 5, 4]), corridor([7, 3, 5, 4])];
     let mut localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();

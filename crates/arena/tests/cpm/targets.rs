@@ -36,11 +36,11 @@ impl Tally {
         };
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let done = pursue(&mut explorer, &mut rover, Aim::Explore, rng);
-        let check = world.check(explorer.map(), explorer.at(), rover.at());
+        let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());
         self.runs += 1;
         self.right += u32::from((done, check) == (Done::Reached, MapCheck::Right));
         if let Some(best) = world.shortest_covering_walk() {
-            self.ratio += f64::from(explorer.traversals()) / f64::from(best);
+            self.ratio += f64::from(explorer.mapper.traversals()) / f64::from(best);
             self.measured += 1;
         }
     }

@@ -67,18 +67,28 @@ fn figure_1() {
     };
     let mut explorer = Explorer::new(config, start).unwrap();
     explorer
+        .mapper
         .arrive(Turn::BACK, &walk(&a, 3), &dictionary)
         .unwrap();
-    explorer.arrive(Turn(1), &walk(&b, 3), &dictionary).unwrap();
-    explorer.arrive(Turn(2), &walk(&c, 3), &dictionary).unwrap();
-    explorer.arrive(Turn(2), &walk(&d, 3), &dictionary).unwrap();
+    explorer
+        .mapper
+        .arrive(Turn(1), &walk(&b, 3), &dictionary)
+        .unwrap();
+    explorer
+        .mapper
+        .arrive(Turn(2), &walk(&c, 3), &dictionary)
+        .unwrap();
+    explorer
+        .mapper
+        .arrive(Turn(2), &walk(&d, 3), &dictionary)
+        .unwrap();
     // Back in A, from its far end.
     let mut back = walk(&dictionary.inverse(&a).unwrap(), 1);
     back.sighting = start;
-    explorer.arrive(Turn(1), &back, &dictionary).unwrap();
-    assert_eq!(explorer.map().fragments().len(), 5);
-    assert_eq!(explorer.optimize(&dictionary), Ok(1));
-    let map = explorer.map();
+    explorer.mapper.arrive(Turn(1), &back, &dictionary).unwrap();
+    assert_eq!(explorer.mapper.map().fragments().len(), 5);
+    assert_eq!(explorer.mapper.optimize(&dictionary), Ok(1));
+    let map = explorer.mapper.map();
     assert_eq!(map.fragments().len(), 4);
     let [a, b, c, d] = [0, 1, 2, 3];
     let turn = |from, to| map.transition(from, to).map(|turn| turn.0);
@@ -106,7 +116,7 @@ fn figure_1() {
     assert_eq!(enters, [end(d, Minus), end(a, Plus)]);
     let observations: Vec<u32> = plan.legs.iter().map(|leg| leg.observations).collect();
     assert_eq!((observations, plan.length), (vec![3, 5], 8));
-    assert!(!explorer.map().is_complete());
+    assert!(!explorer.mapper.map().is_complete());
 }
 
 /// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to R, A3 from R to S, A4 from S back to Q;
@@ -162,7 +172,10 @@ fn follow(
         let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
             unreachable!("it was not told to give up");
         };
-        explorer.arrive(turn, &walk, world.dictionary()).unwrap()
+        explorer
+            .mapper
+            .arrive(turn, &walk, world.dictionary())
+            .unwrap()
     });
     arrivals.last().unwrap()
 }
@@ -187,15 +200,17 @@ fn figure_10() {
         follow(&mut explorer, &mut rover, &world, &[1]),
         Arrival::Duplicate
     );
-    assert_eq!(explorer.before_duplicate(), Some(4));
+    assert_eq!(explorer.mapper.before_duplicate(), Some(4));
     // (b) "Connects path-fragment A4 to junc(A1⁺) = junc(A2⁻) and localizes itself at the path-fragment A2 where it is going to make a
     // decision at junc(A2⁺)."
-    let [a1, a2, a3, a4] = [0, 1, 2, 3].map(|id| explorer.map().fragment(FragmentId(id)).unwrap());
+    let [a1, a2, a3, a4] =
+        [0, 1, 2, 3].map(|id| explorer.mapper.map().fragment(FragmentId(id)).unwrap());
     assert_eq!(a4.plus.junction, a1.plus.junction);
     assert_eq!(a2.minus.junction, a1.plus.junction);
-    assert_eq!(explorer.at(), a2.plus);
+    assert_eq!(explorer.mapper.at(), a2.plus);
     // What is unexplored: X1 at junc(A1⁻), which is two ports here; X2 at junc(A2⁺); X3 at junc(A3⁺).
     let open: Vec<_> = explorer
+        .mapper
         .map()
         .open_ports()
         .map(|port| port.junction)
@@ -213,32 +228,33 @@ fn figure_10() {
     follow(&mut lucky, &mut lucky_rover, &world, &[X2]);
     let done = lucky.decide(Aim::Find(Landmark::Goal), &mut rng);
     assert_eq!(done, Decision::Done(Done::Reached));
-    assert!(lucky.map().has_goal() && !lucky.map().is_complete());
+    assert!(lucky.mapper.map().has_goal() && !lucky.mapper.map().is_complete());
     // (d) If X3 is: A5, which finds X4 and X5.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[2, X3]),
         Arrival::New
     );
-    assert_eq!(explorer.map().open_ports().count(), 5);
+    assert_eq!(explorer.mapper.map().open_ports().count(), 5);
     // (f) X4 leads to junc(A1⁻), as A1 tells, and X5 has both its ends on the map then.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[X4, 0]),
         Arrival::Duplicate
     );
-    assert_eq!(explorer.map().open_ports().count(), 3);
+    assert_eq!(explorer.mapper.map().open_ports().count(), 3);
     // (e) The complete optimized map.
     assert_eq!(
         pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng),
         Done::Reached
     );
-    assert!(explorer.map().is_complete());
+    assert!(explorer.mapper.map().is_complete());
     assert!(
         explorer
+            .mapper
             .map()
             .is_optimized(&CpmConfig::online().matching, world.dictionary())
     );
     assert_eq!(
-        world.check(explorer.map(), explorer.at(), rover.at()),
+        world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at()),
         MapCheck::Right
     );
 }
@@ -250,31 +266,33 @@ fn figure_8() {
     let world = figure_10_world();
     let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
     let mut explorer = Explorer::new(CpmConfig::offline(), rover.sighting()).unwrap();
-    let start = explorer.at();
+    let start = explorer.mapper.at();
     let unlucky = [6, X3, 2, 1, 3, 2, 1, 3, 2, 1, 3, 2, X2];
     follow(&mut explorer, &mut rover, &world, &unlucky);
-    assert_eq!(explorer.map().fragments().len(), unlucky.len());
+    assert_eq!(explorer.mapper.map().fragments().len(), unlucky.len());
     assert!(
         !explorer
+            .mapper
             .map()
             .is_optimized(&CpmConfig::offline().matching, world.dictionary())
     );
-    explorer.optimize(world.dictionary()).unwrap();
-    assert_eq!(explorer.map().fragments().len(), 6);
+    explorer.mapper.optimize(world.dictionary()).unwrap();
+    assert_eq!(explorer.mapper.map().fragments().len(), 6);
     assert!(
         explorer
+            .mapper
             .map()
             .is_optimized(&CpmConfig::offline().matching, world.dictionary())
     );
     // "It is noteworthy that some trials exist for which CPM is not complete."
-    assert!(!explorer.map().is_complete());
-    let way = explorer.map().plan(start, |id| {
-        explorer.map().junction(id).unwrap().landmark == Some(Landmark::Goal)
+    assert!(!explorer.mapper.map().is_complete());
+    let way = explorer.mapper.map().plan(start, |id| {
+        explorer.mapper.map().junction(id).unwrap().landmark == Some(Landmark::Goal)
     });
     let way = way.unwrap();
     assert_eq!(way.legs.len(), 4);
     // The plan drives to the goal.
-    explorer.place(start).unwrap();
+    explorer.mapper.place(start).unwrap();
     rover.place(world.start());
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     for leg in &way.legs {
@@ -297,7 +315,7 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
             let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
-            explorer.traversals()
+            explorer.mapper.traversals()
         });
         f64::from(walked.sum::<u32>()) / 200.0
     };
@@ -322,6 +340,7 @@ fn what_is_missing_to_mu_others_make_up_for() {
         let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
         let mut arrive = |turn: Turn, patterns: &[PatternId], degree: u32| {
             explorer
+                .mapper
                 .arrive(turn, &walk(patterns, degree), &dictionary)
                 .unwrap()
         };
@@ -335,7 +354,7 @@ fn what_is_missing_to_mu_others_make_up_for() {
         assert_eq!(arrive(Turn(2), &back(again), 3), Arrival::Known);
         // The fork of B's other end has A as well.
         arrive(Turn(2), &back(&a), 1);
-        (second, explorer.map().fragments().len())
+        (second, explorer.mapper.map().fragments().len())
     };
     assert_eq!(fragments(&differing_by(2)), (Arrival::Duplicate, 2));
     assert_eq!(fragments(&differing_by(3)), (Arrival::New, 2));

@@ -1,9 +1,10 @@
 use thiserror::Error;
 
 use super::beam::{Beam, Understood};
+use super::bearings::Bearings;
 use super::config::{CpMapperConfig, Mapping};
 use super::hypothesis::Belief;
-use super::map::{CpMap, Junction, Port};
+use super::map::{CpMap, Port};
 use super::mapper::{Mapper, Walked, trusts};
 use super::pattern::{Dictionary, DictionaryError};
 use super::plan::Plan;
@@ -116,14 +117,8 @@ impl CpMapper {
     /// # Errors
     /// [`CpmError`] if the place has no ports.
     pub fn new(config: CpMapperConfig, start: Sighting) -> Result<Self, CpmError> {
-        check(start)?;
-        Ok(Self {
-            config,
-            knowledge: Knowledge::new(config.mapping, Mapper::new(start)),
-            traversals: 0,
-            before_duplicate: None,
-            contradictions: 0,
-        })
+        check(start, None)?;
+        Ok(Self::of(config, Mapper::new(start)))
     }
 
     /// Goes on with a map that was learned before, at one of its ports.
@@ -132,13 +127,17 @@ impl CpMapper {
     /// [`CpmError::Turn`] if the map has no such port.
     pub fn resume(config: CpMapperConfig, map: CpMap, at: Port) -> Result<Self, CpmError> {
         Turn::BACK.exit(at.number, map.degree(at.junction))?;
-        Ok(Self {
+        Ok(Self::of(config, Mapper { map, at }))
+    }
+
+    fn of(config: CpMapperConfig, mapper: Mapper) -> Self {
+        Self {
             config,
-            knowledge: Knowledge::new(config.mapping, Mapper { map, at }),
+            knowledge: Knowledge::new(config.mapping, mapper),
             traversals: 0,
             before_duplicate: None,
             contradictions: 0,
-        })
+        }
     }
 
     /// The map as it is now. Offline it holds duplicates until it is [optimized](Self::optimize).
@@ -181,12 +180,9 @@ impl CpMapper {
         walk: &Traversal,
         dictionary: &Dictionary,
     ) -> Result<Arrival, CpmError> {
-        check(walk.sighting)?;
-        check_bearings(walk)?;
+        check(walk.sighting, walk.bearings.as_ref())?;
         dictionary.check(&walk.patterns)?;
-        if let Some(version) = self.map().version() {
-            dictionary.check_version(version)?;
-        }
+        self.map().check(dictionary)?;
         let (arrival, came_again) = match &mut self.knowledge {
             Knowledge::Map(mapper) => {
                 let is_online = self.config.mapping.looks_at_map(self.traversals);
@@ -235,9 +231,7 @@ impl CpMapper {
     /// # Errors
     /// [`CpmError::Dictionary`] if the map is another dictionary's.
     pub fn optimize(&mut self, dictionary: &Dictionary) -> Result<usize, CpmError> {
-        if let Some(version) = self.map().version() {
-            dictionary.check_version(version)?;
-        }
+        self.map().check(dictionary)?;
         Ok(match &mut self.knowledge {
             Knowledge::Map(mapper) => mapper.optimize(&self.config.comparison(dictionary)),
             Knowledge::Beam(_) => 0,
@@ -255,8 +249,7 @@ impl CpMapper {
     #[must_use]
     pub fn plan(&self, landmark: Landmark) -> Option<Plan> {
         let map = self.map();
-        let landmark_at = |id| map.junction(id).and_then(|place: &Junction| place.landmark);
-        map.plan(self.at(), |id| landmark_at(id) == Some(landmark))
+        map.plan(self.at(), |id| map.has(id, landmark))
     }
 
     /// The robot has been put at a place of the map, with this port behind it.
@@ -312,24 +305,12 @@ impl From<Belief> for Arrival {
     }
 }
 
-fn check(sighting: Sighting) -> Result<(), CpmError> {
-    match sighting.degree {
-        0 => Err(CpmError::NoPorts),
-        degree if degree > MOST_PORTS => Err(CpmError::TooManyPorts {
-            degree,
-            most: MOST_PORTS,
-        }),
-        _ => Ok(()),
-    }
-}
-
-fn check_bearings(walk: &Traversal) -> Result<(), CpmError> {
-    let degree = walk.sighting.degree;
-    match &walk.bearings {
-        Some(bearings) if bearings.count() != degree => Err(CpmError::Bearings {
-            bearings: bearings.count(),
-            degree,
-        }),
+fn check(sighting: Sighting, bearings: Option<&Bearings>) -> Result<(), CpmError> {
+    let (degree, most) = (sighting.degree, MOST_PORTS);
+    match bearings.map(Bearings::count) {
+        _ if degree == 0 => Err(CpmError::NoPorts),
+        _ if degree > most => Err(CpmError::TooManyPorts { degree, most }),
+        Some(bearings) if bearings != degree => Err(CpmError::Bearings { bearings, degree }),
         _ => Ok(()),
     }
 }

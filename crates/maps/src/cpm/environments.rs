@@ -15,7 +15,7 @@ use super::similarity::Sense;
 /// a code of each fragment: the prototypes at [`SAMPLES`](Self::SAMPLES) places along it.
 ///
 /// ```
-/// use tolman_maps::cpm::{CpMapperConfig, Dictionary, Environments, CpMapper, PatternId, Sighting, Traversal, Turn};
+/// use tolman_maps::cpm::{CpMapperConfig, Dictionary, Environments, CpMapper, PatternId, Sighting, Sign, Traversal, Turn};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// for pattern in 0..12 {
@@ -30,10 +30,7 @@ use super::similarity::Sense;
 ///     mapper.arrive(Turn(turn), &walk, &dictionary)?;
 /// }
 /// let map = mapper.map();
-/// let path: Vec<_> = map.fragments().map(|(fragment, _)| tolman_maps::cpm::End {
-///     fragment,
-///     sign: tolman_maps::cpm::Sign::Minus,
-/// }).collect();
+/// let path: Vec<_> = map.fragments().map(|(id, _)| id.end(Sign::Minus)).collect();
 /// environments.learn(7, map, &path, &dictionary)?;
 /// // From the first fragment, seen a little differently, to the others.
 /// let recalled = environments.recall(&[0, 1, 1, 2].map(PatternId), &dictionary)?;

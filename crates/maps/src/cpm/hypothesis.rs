@@ -154,10 +154,7 @@ impl Hypothesis {
             let open: Vec<u32> = place.open_ports().filter(is_other).collect();
             let choices = libm::log(open.len().max(1) as f64);
             for number in open {
-                let entry = Port {
-                    junction: id,
-                    number,
-                };
+                let entry = id.port(number);
                 let Some(bearing) = map.bearing_cost(entry, motion.reversed().departure) else {
                     continue;
                 };
@@ -208,7 +205,7 @@ impl Hypothesis {
                     gain.set(gain.get() + evidence);
                     evidence > -MOST_EVIDENCE / 2.0
                 };
-                if let Ok((map, merges)) = map.unified(id, new, sense, &agree) {
+                if let Some((map, merges)) = map.unified(id, new, sense, &agree) {
                     let at = merges.port(self.mapper.at);
                     let next = Self {
                         mapper: Mapper { map, at },

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use thiserror::Error;
 
 use super::bearings::{Bearings, SHARP, between};
-use super::map::{CpMap, End, FragmentId, JunctionId, Port, Sign};
+use super::map::{CpMap, End, Port, Sign};
 use super::pattern::{Dictionary, DictionaryError, PatternId};
 use super::similarity::Sense;
 use super::traversal::Sighting;
@@ -44,21 +44,13 @@ use tolman_robot::Landmark;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Localizer<'a> {
-    maps: &'a [CpMap],
-    dictionary: &'a Dictionary,
+pub struct Localizer {
+    /// Copies of maps share all their nodes.
+    maps: Vec<CpMap>,
+    dictionary: Dictionary,
     config: LocalizerConfig,
     tracks: Vec<Track>,
     /// How likely the robot is at one place of each map before anything is known.
-    anywhere: Vec<f64>,
-    stage: Stage,
-}
-
-/// What a [`Localizer`] believes, without the maps that it is of.
-#[derive(Clone, Debug)]
-pub struct RestingLocalizer {
-    config: LocalizerConfig,
-    tracks: Vec<Track>,
     anywhere: Vec<f64>,
     stage: Stage,
 }
@@ -186,51 +178,48 @@ impl LocalizerConfig {
     }
 
     fn check(&self) -> Result<(), LocalizeError> {
-        let within = |field, value: f64, low: f64, high: f64, range| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(LocalizeError::OutOfRange {
+        let fields = [
+            (
+                "mistake",
+                self.mistake,
+                1e-9..=1.0 - 1e-9,
+                "above 0, less than 1",
+            ),
+            ("slip", self.slip, 0.0..=0.4, "0 to 0.4"),
+            (
+                "elsewhere",
+                self.elsewhere,
+                1e-12..=0.1,
+                "above 0, at most 0.1",
+            ),
+        ];
+        for (field, value, allowed, range) in fields {
+            if !allowed.contains(&value) {
+                return Err(LocalizeError::OutOfRange {
                     field,
                     value,
                     range,
-                })
+                });
             }
-        };
-        within(
-            "mistake",
-            self.mistake,
-            1e-9,
-            1.0 - 1e-9,
-            "above 0, less than 1",
-        )?;
-        within("slip", self.slip, 0.0, 0.4, "0 to 0.4")?;
-        within(
-            "elsewhere",
-            self.elsewhere,
-            1e-12,
-            0.1,
-            "above 0, at most 0.1",
-        )
+        }
+        Ok(())
     }
 }
 
-impl<'a> Localizer<'a> {
+impl Localizer {
     /// Nothing is known yet: the robot may be in any fragment of any map.
     ///
     /// # Errors
     /// [`LocalizeError`] if the maps are empty or another dictionary's, or a field is outside its range.
     pub fn new(
-        maps: &'a [CpMap],
-        dictionary: &'a Dictionary,
+        maps: &[CpMap],
+        dictionary: &Dictionary,
         config: LocalizerConfig,
     ) -> Result<Self, LocalizeError> {
         config.check()?;
         let mut tracks = Vec::new();
         for (index, map) in maps.iter().enumerate() {
-            if let Some(version) = map.version() {
-                dictionary.check_version(version)?;
-            }
+            map.check(dictionary)?;
             for (id, fragment) in map.fragments() {
                 for sign in Sign::BOTH {
                     let walked = Sense::entered_at(sign);
@@ -241,7 +230,7 @@ impl<'a> Localizer<'a> {
                     };
                     tracks.push(Track {
                         map: index,
-                        enter: End { fragment: id, sign },
+                        enter: id.end(sign),
                         ahead,
                         place: place.sighting(),
                         bearings: place.bearings_from(ahead.number),
@@ -255,8 +244,8 @@ impl<'a> Localizer<'a> {
             return Err(LocalizeError::Empty);
         }
         let mut localizer = Self {
-            maps,
-            dictionary,
+            maps: maps.to_vec(),
+            dictionary: dictionary.clone(),
             config,
             anywhere: anywhere(maps.len(), &tracks),
             tracks,
@@ -264,30 +253,6 @@ impl<'a> Localizer<'a> {
         };
         localizer.spread(1.0);
         Ok(localizer)
-    }
-
-    /// Returns what it believes, without maps and dictionary.
-    #[must_use]
-    pub fn rest(self) -> RestingLocalizer {
-        RestingLocalizer {
-            config: self.config,
-            tracks: self.tracks,
-            anywhere: self.anywhere,
-            stage: self.stage,
-        }
-    }
-
-    /// Goes on with what was believed, on the same maps and with their dictionary.
-    #[must_use]
-    pub fn wake(resting: RestingLocalizer, maps: &'a [CpMap], dictionary: &'a Dictionary) -> Self {
-        Self {
-            maps,
-            dictionary,
-            config: resting.config,
-            tracks: resting.tracks,
-            anywhere: resting.anywhere,
-            stage: resting.stage,
-        }
     }
 
     /// One observation on the way. O(all sequences' lengths and the distances of prototypes).
@@ -366,9 +331,7 @@ impl<'a> Localizer<'a> {
             .tracks
             .iter()
             .map(|track| {
-                let End { fragment, sign } = track.enter;
-                let sign = sign.opposite();
-                let other = self.index(track.map, End { fragment, sign });
+                let other = self.index(track.map, track.enter.opposite());
                 let other = other.and_then(|other| self.tracks.get(other));
                 let passed = other.map_or(&track.passed, |other| &other.passed);
                 // What it has passed comes next, the last first.
@@ -436,33 +399,22 @@ impl<'a> Localizer<'a> {
     /// The fragment and the way along it that are most likely, the first of equals.
     #[must_use]
     pub fn location(&self) -> Location {
-        let mut best: Option<Location> = None;
-        for track in &self.tracks {
-            let probability = track.passed.iter().sum();
-            if best.is_none_or(|best| probability > best.probability) {
-                let Track {
-                    map, enter, ahead, ..
-                } = *track;
-                best = Some(Location {
-                    map,
-                    enter,
-                    ahead,
-                    probability,
-                });
+        let likelihood = |track: &Track| track.passed.iter().sum();
+        // There is a track at least.
+        let mut best = &self.tracks[0];
+        let mut probability: f64 = likelihood(best);
+        for track in &self.tracks[1..] {
+            let other = likelihood(track);
+            if other > probability {
+                (best, probability) = (track, other);
             }
         }
-        best.unwrap_or(Location {
-            map: 0,
-            enter: End {
-                fragment: FragmentId(0),
-                sign: Sign::Minus,
-            },
-            ahead: Port {
-                junction: JunctionId(0),
-                number: 0,
-            },
-            probability: 0.0,
-        })
+        Location {
+            map: best.map,
+            enter: best.enter,
+            ahead: best.ahead,
+            probability,
+        }
     }
 
     /// How likely the robot is on each map: "which environment the robot is in".
@@ -493,13 +445,8 @@ impl<'a> Localizer<'a> {
                     continue;
                 }
             };
-            let exit = Port {
-                number,
-                ..track.ahead
-            };
-            let next = map
-                .end_at(exit)
-                .and_then(|enter| self.index(track.map, enter));
+            let enter = map.end_at(track.ahead.junction.port(number));
+            let next = enter.and_then(|enter| self.index(track.map, enter));
             if let Some(entered) = next.and_then(|next| entered.get_mut(next)) {
                 *entered += track.passed.last().copied().unwrap_or(0.0);
             }

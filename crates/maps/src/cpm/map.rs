@@ -1,10 +1,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt;
 
 use super::bearings::Bearings;
 use super::index::FragmentIndex;
 use super::nodes::Nodes;
-use super::pattern::{Dictionary, PatternId, Version};
+use super::pattern::{Dictionary, DictionaryError, PatternId, Version};
 use super::similarity::Matching;
 use super::traversal::{Motion, Sighting};
 use super::turn::Turn;
@@ -14,9 +15,28 @@ use tolman_robot::Landmark;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FragmentId(pub u32);
 
+impl FragmentId {
+    /// One of its ends.
+    #[must_use]
+    pub const fn end(self, sign: Sign) -> End {
+        let fragment = self;
+        End { fragment, sign }
+    }
+}
+
 /// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as that is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JunctionId(pub u32);
+
+impl JunctionId {
+    /// The port with this number.
+    #[must_use]
+    pub const fn port(self, number: u32) -> Port {
+        let junction = self;
+        Port { junction, number }
+    }
+}
 
 /// "The minus sign (−) denotes the entrance …, whereas a plus sign (+) denotes the exit. For any path-fragment, the signs
 /// are assigned only at the *first* time of traversal."
@@ -42,6 +62,16 @@ impl Sign {
     }
 }
 
+/// As the paper writes it.
+impl fmt::Display for Sign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Minus => "−",
+            Self::Plus => "+",
+        })
+    }
+}
+
 /// One end of a fragment, such as 𝔸⁺.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct End {
@@ -55,20 +85,34 @@ impl End {
     /// The fragment's other end.
     #[must_use]
     pub const fn opposite(self) -> Self {
-        Self {
-            fragment: self.fragment,
-            sign: self.sign.opposite(),
-        }
+        self.fragment.end(self.sign.opposite())
     }
 }
 
 /// A port of a junction. As the place of a robot: it came in here, so that this port lies behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(from = "(JunctionId, u32)", into = "(JunctionId, u32)")
+)]
 pub struct Port {
     /// The junction.
     pub junction: JunctionId,
     /// Counter-clockwise, from the port of the junction's first entry, which is 0.
     pub number: u32,
+}
+
+impl From<(JunctionId, u32)> for Port {
+    fn from((junction, number): (JunctionId, u32)) -> Self {
+        junction.port(number)
+    }
+}
+
+impl From<Port> for (JunctionId, u32) {
+    fn from(port: Port) -> Self {
+        (port.junction, port.number)
+    }
 }
 
 /// What is known of a port.
@@ -143,6 +187,7 @@ impl Junction {
 /// A fragment node: "contains three properties", its sequence, its length and its transitions. The transitions follow
 /// from the ports of its two ends: [`CpMap::transition`].
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fragment {
     /// 𝔸, as observed from − to +.
     pub patterns: Vec<PatternId>,
@@ -222,6 +267,15 @@ impl CpMap {
         self.version
     }
 
+    /// Refuses a dictionary that its sequences are not written in.
+    ///
+    /// # Errors
+    /// [`DictionaryError::OtherDictionary`].
+    pub(super) fn check(&self, dictionary: &Dictionary) -> Result<(), DictionaryError> {
+        self.version
+            .map_or(Ok(()), |version| dictionary.check_version(version))
+    }
+
     /// What is known of a port; none if it is not there.
     #[must_use]
     pub fn port(&self, port: Port) -> Option<PortState> {
@@ -273,6 +327,13 @@ impl CpMap {
         turn.ok().filter(|_| from.junction == to.junction)
     }
 
+    /// Whether a landmark stands at a junction.
+    #[must_use]
+    pub fn has(&self, junction: JunctionId, landmark: Landmark) -> bool {
+        let place = self.junction(junction);
+        place.is_some_and(|place| place.landmark == Some(landmark))
+    }
+
     /// The junctions with a landmark, by id.
     pub fn landmarks(&self, landmark: Landmark) -> impl Iterator<Item = JunctionId> {
         let marked = self
@@ -281,14 +342,16 @@ impl CpMap {
         marked.map(|(id, _)| id)
     }
 
+    /// Where a robot stands that has just begun the map at the first start on it; none if that is not on it.
+    #[must_use]
+    pub fn start(&self) -> Option<Port> {
+        Some(self.landmarks(Landmark::Start).next()?.port(0))
+    }
+
     /// The ports nobody has been through, by id.
     pub fn open_ports(&self) -> impl Iterator<Item = Port> {
-        self.junctions().flat_map(|(id, place)| {
-            place.open_ports().map(move |number| Port {
-                junction: id,
-                number,
-            })
-        })
+        self.junctions()
+            .flat_map(|(id, place)| place.open_ports().map(move |number| id.port(number)))
     }
 
     /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are similar, either way.
@@ -324,10 +387,9 @@ impl CpMap {
     pub fn has_goal(&self) -> bool {
         let mut fragments = self.fragments();
         fragments.any(|(_, fragment)| {
-            [fragment.minus, fragment.plus].iter().any(|port| {
-                let place = self.junction(port.junction);
-                place.is_some_and(|place| place.landmark == Some(Landmark::Goal))
-            })
+            let ends = [fragment.minus, fragment.plus];
+            ends.iter()
+                .any(|port| self.has(port.junction, Landmark::Goal))
         })
     }
 
@@ -357,20 +419,11 @@ impl CpMap {
     ) -> FragmentId {
         let fragment = FragmentId(self.next_fragment);
         self.next_fragment += 1;
-        self.fill(
-            minus,
-            End {
-                fragment,
-                sign: Sign::Minus,
-            },
-        );
-        self.fill(
-            plus,
-            End {
-                fragment,
-                sign: Sign::Plus,
-            },
-        );
+        for (sign, port) in Sign::BOTH.into_iter().zip([minus, plus]) {
+            if let Some(state) = self.port_state_mut(port) {
+                *state = PortState::Filled(fragment.end(sign));
+            }
+        }
         let traversals = 1;
         self.index.insert(fragment, &patterns);
         let new = Fragment {
@@ -382,12 +435,6 @@ impl CpMap {
         };
         self.fragments.insert(fragment, new);
         fragment
-    }
-
-    pub(super) fn fill(&mut self, port: Port, end: End) {
-        if let Some(state) = self.port_state_mut(port) {
-            *state = PortState::Filled(end);
-        }
     }
 
     pub(super) fn port_state_mut(&mut self, port: Port) -> Option<&mut PortState> {

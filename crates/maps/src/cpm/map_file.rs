@@ -6,10 +6,8 @@ use thiserror::Error;
 
 use super::bearings::{Bearings, BearingsError};
 use super::cp_mapper::MOST_PORTS;
-use super::index::FragmentIndex;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
-use super::pattern::{Dictionary, DictionaryError, PatternId};
-use super::traversal::Motion;
+use super::pattern::{Dictionary, DictionaryError, Pattern, PatternId};
 use tolman_robot::Landmark;
 
 /// A map as it lies in a file, with the dictionary its sequences need. Any format of serde's will do.
@@ -49,13 +47,7 @@ struct SavedDictionary {
     dimension: usize,
     /// Hexadecimal, since readers of JSON may know no integers of 64 bits.
     fingerprint: String,
-    patterns: Vec<SavedPattern>,
-}
-
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-struct SavedPattern {
-    prototype: Vec<f64>,
-    half_turned: u32,
+    patterns: Vec<Pattern>,
 }
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -71,12 +63,8 @@ struct SavedMap {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct SavedFragment {
     id: u32,
-    patterns: Vec<u32>,
-    motion: Option<Motion>,
-    traversals: u32,
-    /// Junction and number of the port.
-    minus: (u32, u32),
-    plus: (u32, u32),
+    #[serde(flatten)]
+    fragment: Fragment,
 }
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -163,7 +151,7 @@ pub enum MapFileError {
         id: u32,
     },
     /// A fragment and a port do not say the same of each other.
-    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other", sign_word(.end.sign), .end.fragment.0)]
+    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other", .end.sign, .end.fragment.0)]
     Unjoined {
         /// The end.
         end: End,
@@ -172,13 +160,6 @@ pub enum MapFileError {
         /// The port.
         port: u32,
     },
-}
-
-const fn sign_word(sign: Sign) -> &'static str {
-    match sign {
-        Sign::Minus => "−",
-        Sign::Plus => "+",
-    }
 }
 
 fn hexadecimal(fingerprint: u64) -> String {
@@ -191,22 +172,16 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError::Dictionary`] if the map was written with another dictionary.
     pub fn of(map: &CpMap, dictionary: &Dictionary) -> Result<Self, MapFileError> {
-        if let Some(version) = map.version() {
-            dictionary.check_version(version)?;
-        }
-        let patterns = (0..dictionary.len() as u32).map(PatternId).map(|id| {
-            let prototype = dictionary.prototype(id).unwrap_or_default().to_vec();
-            let half_turned = dictionary.half_turned(id).0;
-            SavedPattern {
-                prototype,
-                half_turned,
-            }
+        map.check(dictionary)?;
+        let fragments = map.fragments().map(|(id, fragment)| SavedFragment {
+            id: id.0,
+            fragment: fragment.clone(),
         });
         let saved = SavedMap {
             patterns: map.version().map(|version| version.patterns),
             next_fragment: map.next_fragment,
             next_junction: map.next_junction,
-            fragments: map.fragments().map(saved_fragment).collect(),
+            fragments: fragments.collect(),
             junctions: map.junctions().map(saved_junction).collect(),
         };
         Ok(Self {
@@ -218,7 +193,7 @@ impl MapFile {
             dictionary: SavedDictionary {
                 dimension: dictionary.dimension(),
                 fingerprint: hexadecimal(dictionary.version().fingerprint),
-                patterns: patterns.collect(),
+                patterns: dictionary.patterns.clone(),
             },
             map: saved,
         })
@@ -232,7 +207,7 @@ impl MapFile {
         self.check()?;
         let patterns = self.dictionary.patterns.iter();
         let prototypes: Vec<(Vec<f64>, PatternId)> = patterns
-            .map(|pattern| (pattern.prototype.clone(), PatternId(pattern.half_turned)))
+            .map(|pattern| (pattern.prototype.clone(), pattern.half_turned))
             .collect();
         let dictionary = Dictionary::from_prototypes(self.dictionary.dimension, &prototypes)?;
         let found = hexadecimal(dictionary.version().fingerprint);
@@ -293,19 +268,16 @@ impl MapFile {
                 return Err(MapFileError::BadId { what, id });
             }
         }
-        let mut index = FragmentIndex::default();
-        for saved in &self.map.fragments {
-            let id = saved.id;
-            let fragment = fragment(saved);
+        for SavedFragment { id, fragment } in &self.map.fragments {
+            let id = *id;
             own.check(&fragment.patterns)?;
-            index.insert(FragmentId(id), &fragment.patterns);
-            let is_new = map.fragments.insert(FragmentId(id), fragment);
+            map.index.insert(FragmentId(id), &fragment.patterns);
+            let is_new = map.fragments.insert(FragmentId(id), fragment.clone());
             if !is_new || id >= self.map.next_fragment {
                 let what = "fragment";
                 return Err(MapFileError::BadId { what, id });
             }
         }
-        map.index = index;
         check_joints(&map)?;
         Ok(map)
     }
@@ -340,7 +312,7 @@ fn check_joints(map: &CpMap) -> Result<(), MapFileError> {
     };
     for (fragment, node) in map.fragments() {
         for sign in Sign::BOTH {
-            let (end, port) = (End { fragment, sign }, node.port(sign));
+            let (end, port) = (fragment.end(sign), node.port(sign));
             if map.end_at(port) != Some(end) {
                 return Err(unjoined(end, port));
             }
@@ -348,7 +320,7 @@ fn check_joints(map: &CpMap) -> Result<(), MapFileError> {
     }
     for (junction, node) in map.junctions() {
         for (number, state) in (0..).zip(&node.ports) {
-            let port = Port { junction, number };
+            let port = junction.port(number);
             if let PortState::Filled(end) = *state
                 && map.fragment(end.fragment).map(|node| node.port(end.sign)) != Some(port)
             {
@@ -357,32 +329,6 @@ fn check_joints(map: &CpMap) -> Result<(), MapFileError> {
         }
     }
     Ok(())
-}
-
-fn saved_fragment((id, fragment): (FragmentId, &Fragment)) -> SavedFragment {
-    let port = |port: Port| (port.junction.0, port.number);
-    SavedFragment {
-        id: id.0,
-        patterns: fragment.patterns.iter().map(|pattern| pattern.0).collect(),
-        motion: fragment.motion,
-        traversals: fragment.traversals,
-        minus: port(fragment.minus),
-        plus: port(fragment.plus),
-    }
-}
-
-fn fragment(saved: &SavedFragment) -> Fragment {
-    let port = |(junction, number)| Port {
-        junction: JunctionId(junction),
-        number,
-    };
-    Fragment {
-        patterns: saved.patterns.iter().copied().map(PatternId).collect(),
-        motion: saved.motion,
-        traversals: saved.traversals,
-        minus: port(saved.minus),
-        plus: port(saved.plus),
-    }
 }
 
 fn saved_junction((id, junction): (JunctionId, &Junction)) -> SavedJunction {
@@ -405,12 +351,7 @@ fn saved_junction((id, junction): (JunctionId, &Junction)) -> SavedJunction {
 }
 
 fn junction(saved: &SavedJunction) -> Result<Junction, MapFileError> {
-    let filled = |fragment, sign| {
-        PortState::Filled(End {
-            fragment: FragmentId(fragment),
-            sign,
-        })
-    };
+    let filled = |fragment, sign| PortState::Filled(FragmentId(fragment).end(sign));
     let port = |port: &SavedPort| match *port {
         SavedPort::Open(at_least) => PortState::Open { at_least },
         SavedPort::Minus(fragment) => filled(fragment, Sign::Minus),

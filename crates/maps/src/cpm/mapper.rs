@@ -32,10 +32,7 @@ impl Mapper {
     pub(super) fn new(start: Sighting) -> Self {
         let mut map = CpMap::default();
         let junction = map.add_junction(start, None);
-        let at = Port {
-            junction,
-            number: 0,
-        };
+        let at = junction.port(0);
         Self { map, at }
     }
 
@@ -77,19 +74,12 @@ impl Mapper {
         let adrift = self
             .map
             .add_junction(sighting.unwrap_or(Sighting { degree, landmark }), bearings);
-        let exit = Port {
-            junction: adrift,
-            number: turn.0,
-        };
-        self.append(exit, walk)
+        self.append(adrift.port(turn.0), walk)
     }
 
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
-        self.at = Port {
-            junction,
-            number: 0,
-        };
+        self.at = junction.port(0);
         self.map
             .add_fragment(walk.patterns.clone(), walk.motion, exit, self.at)
     }
@@ -129,8 +119,7 @@ impl Mapper {
     pub(super) fn exit(&self, turn: Turn) -> Result<Port, NoSuchTurn> {
         let Port { junction, number } = self.at;
         let degree = self.map.degree(junction);
-        let number = turn.exit(number, degree)?;
-        Ok(Port { junction, number })
+        Ok(junction.port(turn.exit(number, degree)?))
     }
 
     /// The fragment that another one is a duplicate of: the most similar one with which it can be unified, which it then is.
@@ -157,7 +146,7 @@ impl Mapper {
             score > matching.threshold_at_port()
         };
         similar.into_iter().find_map(|(_, other, sense)| {
-            let (map, merges) = self.map.unified(new, other, sense, &agree).ok()?;
+            let (map, merges) = self.map.unified(new, other, sense, &agree)?;
             self.map = map;
             self.at = merges.port(self.at);
             Some(merges)

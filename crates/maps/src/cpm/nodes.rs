@@ -44,6 +44,11 @@ impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
         Some(node)
     }
 
+    /// The id of the node with so many before it.
+    pub(super) fn id(&self, rank: usize) -> Option<I> {
+        self.0.get(rank).map(|(id, _)| *id)
+    }
+
     pub(super) fn get(&self, id: I) -> Option<&T> {
         self.at(self.rank(id)?)
     }

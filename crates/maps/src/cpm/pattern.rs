@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A common pattern (CP): its number in a [`Dictionary`], from 0. It never changes its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatternId(pub u32);
 
 /// C, the set of common patterns: the prototypes of what the robot observes.
@@ -30,16 +31,17 @@ pub struct PatternId(pub u32);
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dictionary {
     dimension: usize,
-    patterns: Vec<Pattern>,
+    pub(super) patterns: Vec<Pattern>,
     /// The fingerprint of each version, beginning with that of none.
     fingerprints: Vec<u64>,
     greatest_distance: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Pattern {
-    prototype: Vec<f64>,
-    half_turned: PatternId,
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Pattern {
+    pub(super) prototype: Vec<f64>,
+    pub(super) half_turned: PatternId,
 }
 
 /// Which patterns a sequence or a map was written with.

@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_planners::{Graph, a_star};
 
-use super::map::{CpMap, End, Fragment, JunctionId, Port};
+use super::map::{CpMap, End, Fragment, JunctionId, Port, PortState};
 use super::turn::Turn;
 
 /// A way through the map, as section 4.3 words it: "follow the path until reaching the junction, perform Δ, follow the
@@ -35,19 +35,13 @@ impl CpMap {
     /// none is known. Ties go to the older junctions and fragments. O(fragments · log fragments).
     #[must_use]
     pub fn plan(&self, from: Port, wanted: impl Fn(JunctionId) -> bool) -> Option<Plan> {
-        let view = View::of(self);
-        let source = view.index(from.junction)?;
-        let is_goal = |node: u32| {
-            view.junctions
-                .get(node as usize)
-                .is_some_and(|id| wanted(*id))
-        };
-        let found = a_star(&view, source, is_goal, |_| 0)?;
+        let source = self.junctions.rank(from.junction)? as u32;
+        let id = |node: u32| self.junctions.id(node as usize);
+        let found = a_star(self, source, |node| id(node).is_some_and(&wanted), |_| 0)?;
         let mut legs = Vec::new();
         let mut at = from;
         for node in found.path.iter().skip(1) {
-            let target = view.junctions.get(*node as usize)?;
-            let enter = self.shortest_to(at.junction, *target)?;
+            let enter = self.shortest_to(at.junction, id(*node)?)?;
             let fragment = self.fragment(enter.fragment)?;
             let (leave, arrive) = (
                 fragment.port(enter.sign),
@@ -70,10 +64,7 @@ impl CpMap {
     fn shortest_to(&self, from: JunctionId, to: JunctionId) -> Option<End> {
         let ports = 0..self.junction(from)?.degree();
         let ends = ports.filter_map(|number| {
-            let port = Port {
-                junction: from,
-                number,
-            };
+            let port = from.port(number);
             (self.beyond(port)?.junction == to).then(|| self.end_at(port))?
         });
         ends.min_by_key(|end| {
@@ -83,44 +74,19 @@ impl CpMap {
     }
 }
 
-/// The map as planners see it: junctions by their rank.
-struct View<'a> {
-    map: &'a CpMap,
-    junctions: Vec<JunctionId>,
-}
-
-impl<'a> View<'a> {
-    fn of(map: &'a CpMap) -> Self {
-        let junctions = map.junctions().map(|(id, _)| id).collect();
-        Self { map, junctions }
-    }
-
-    fn index(&self, junction: JunctionId) -> Option<u32> {
-        let index = self.junctions.binary_search(&junction).ok()?;
-        Some(index as u32)
-    }
-}
-
-impl Graph for View<'_> {
+/// The map as planners see it: junctions by their rank, fragments by their length.
+impl Graph for CpMap {
     fn node_count(&self) -> usize {
         self.junctions.len()
     }
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        let Some(&junction) = self.junctions.get(node as usize) else {
-            return;
-        };
-        let degree = self.map.degree(junction);
-        for number in 0..degree {
-            let port = Port { junction, number };
-            let fragment = self
-                .map
-                .end_at(port)
-                .and_then(|end| self.map.fragment(end.fragment));
-            if let (Some(head), Some(fragment)) = (self.map.beyond(port), fragment)
-                && let Some(head) = self.index(head.junction)
+        for port in self.ports_at(node as usize) {
+            if let PortState::Filled(end) = port
+                && let Some(fragment) = self.fragment(end.fragment)
+                && let Some((head, _)) = self.led_to(*port)
             {
-                visit(head, fragment.length());
+                visit(head as u32, fragment.length());
             }
         }
     }

@@ -28,10 +28,15 @@ pub enum Sense {
 
 impl Sense {
     /// How a fragment is walked that is entered at an end.
-    pub(super) const fn entered_at(sign: Sign) -> Self {
-        match sign {
-            Sign::Minus => Self::Same,
-            Sign::Plus => Self::Inverted,
+    pub(super) fn entered_at(sign: Sign) -> Self {
+        Self::between(Sign::Minus, sign)
+    }
+
+    /// Which way round two fragments are one whose ends of these signs are.
+    pub(super) fn between(one: Sign, other: Sign) -> Self {
+        match one == other {
+            true => Self::Same,
+            false => Self::Inverted,
         }
     }
 
@@ -146,11 +151,8 @@ impl Matching {
             sense,
             score: self.score_as(dictionary, a, b, sense),
         });
-        let better = if inverted.score > same.score {
-            inverted
-        } else {
-            same
-        };
+        let is_inverted = inverted.score > same.score;
+        let better = if is_inverted { inverted } else { same };
         (better.score > self.threshold()).then_some(better)
     }
 }

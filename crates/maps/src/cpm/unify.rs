@@ -2,31 +2,8 @@ use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use thiserror::Error;
-
 use super::map::{CpMap, End, Fragment, FragmentId, JunctionId, Port, PortState, Sign};
 use super::similarity::Sense;
-
-/// Why two fragments cannot be one, though they are similar: something that follows from it is not so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum Conflict {
-    /// A fragment is not there.
-    #[error("fragment {} is not in the map", .0.0)]
-    NoSuchFragment(FragmentId),
-    /// Two junctions would be one that have another number of ports, other bearings or another landmark.
-    #[error("junctions {} and {} would be one, and differ in their ports or landmarks", .0.0, .1.0)]
-    Unlike(JunctionId, JunctionId),
-    /// A junction would be itself, turned.
-    #[error("two ports of junction {} would be one", .0.0)]
-    Turned(JunctionId),
-    /// A fragment would be itself, inverted.
-    #[error("the two ends of fragment {} would be one", .0.0)]
-    Inverted(FragmentId),
-    /// Two fragments lead out of one port that are not similar.
-    #[error("fragments {} and {} would be one, and are not similar", .0.0, .1.0)]
-    Dissimilar(FragmentId, FragmentId),
-}
 
 /// Ways of one place are not seen so far apart from each other, rad: less than a quarter of a circle, by which those of a side way seen from its three
 /// ends differ.
@@ -45,11 +22,7 @@ impl Merges {
     pub(super) fn end(&self, end: End) -> End {
         let mut end = end;
         while let Some((fragment, sense)) = self.fragments.get(&end.fragment) {
-            let sign = sense.of(end.sign);
-            end = End {
-                fragment: *fragment,
-                sign,
-            };
+            end = fragment.end(sense.of(end.sign));
         }
         end
     }
@@ -64,11 +37,7 @@ impl Merges {
     pub(super) fn port(&self, port: Port) -> Port {
         let mut port = port;
         while let Some((junction, offset, degree)) = self.junctions.get(&port.junction) {
-            let number = (port.number + offset) % degree;
-            port = Port {
-                junction: *junction,
-                number,
-            };
+            port = junction.port((port.number + offset) % degree);
         }
         port
     }
@@ -86,15 +55,16 @@ impl CpMap {
     ///
     /// `agree` is asked of all pairs but the first. O(fragments + junctions) and the questions.
     ///
-    /// # Errors
-    /// [`Conflict`] if something that follows is not so.
+    /// `None` if something that follows is not so: two junctions would be one that have another number of ports, other bearings or another
+    /// landmark; one would be itself, turned; a fragment would be itself, inverted; or two fragments would lead out of one port that are
+    /// not similar.
     pub(super) fn unified(
         &self,
         one: FragmentId,
         other: FragmentId,
         sense: Sense,
         agree: Agree<'_>,
-    ) -> Result<(Self, Merges), Conflict> {
+    ) -> Option<(Self, Merges)> {
         let unification = Unification {
             map: self.clone(),
             merges: Merges::default(),
@@ -118,50 +88,31 @@ impl Unification {
         other: FragmentId,
         sense: Sense,
         agree: Agree<'_>,
-    ) -> Result<(CpMap, Merges), Conflict> {
+    ) -> Option<(CpMap, Merges)> {
         self.merge(one, other, sense)?;
         while let Some((a, b)) = self.queue.pop() {
             let (a, b) = (self.merges.end(a), self.merges.end(b));
-            let sense = if a.sign == b.sign {
-                Sense::Same
-            } else {
-                Sense::Inverted
-            };
-            if a.fragment == b.fragment {
-                if sense == Sense::Inverted {
-                    return Err(Conflict::Inverted(a.fragment));
-                }
-                continue;
-            }
-            let (one, other) = (self.fragment(a.fragment)?, self.fragment(b.fragment)?);
-            if !agree(one, other, sense) {
-                return Err(Conflict::Dissimilar(a.fragment, b.fragment));
+            let sense = Sense::between(a.sign, b.sign);
+            let one = self.map.fragment(a.fragment)?;
+            if a.fragment != b.fragment && !agree(one, self.map.fragment(b.fragment)?, sense) {
+                return None;
             }
             self.merge(a.fragment, b.fragment, sense)?;
         }
         self.settle();
-        Ok((self.map, self.merges))
+        Some((self.map, self.merges))
     }
 
-    fn fragment(&self, id: FragmentId) -> Result<&Fragment, Conflict> {
-        self.map.fragment(id).ok_or(Conflict::NoSuchFragment(id))
-    }
-
-    fn merge(&mut self, one: FragmentId, other: FragmentId, sense: Sense) -> Result<(), Conflict> {
+    fn merge(&mut self, one: FragmentId, other: FragmentId, sense: Sense) -> Option<()> {
         let (kept, gone) = (one.min(other), one.max(other));
         if kept == gone {
-            return match sense {
-                Sense::Same => Ok(()),
-                Sense::Inverted => Err(Conflict::Inverted(kept)),
-            };
+            return (sense == Sense::Same).then_some(());
         }
-        let (survivor, absorbed) = (self.fragment(kept)?.clone(), self.fragment(gone)?.clone());
+        let survivor = self.map.fragment(kept)?.clone();
+        let absorbed = self.map.fragment(gone)?.clone();
         let motion = absorbed.motion.map(|motion| sense.of_motion(motion));
         let motion = match (survivor.motion, motion) {
-            (Some(a), Some(b)) => match a.intersection(b) {
-                Some(both) => Some(both),
-                None => return Err(Conflict::Dissimilar(kept, gone)),
-            },
+            (Some(a), Some(b)) => Some(a.intersection(b)?),
             (a, b) => a.or(b),
         };
         // Most that cannot be is found here, before anything is changed.
@@ -175,11 +126,11 @@ impl Unification {
             fragment.motion = motion;
             fragment.traversals = fragment.traversals.saturating_add(absorbed.traversals);
         }
-        Ok(())
+        Some(())
     }
 
     /// Two ports are one, and so their junctions.
-    fn meet(&mut self, a: Port, b: Port) -> Result<(), Conflict> {
+    fn meet(&mut self, a: Port, b: Port) -> Option<()> {
         let (a, b) = (self.merges.port(a), self.merges.port(b));
         let (kept, gone) = if a.junction <= b.junction {
             (a, b)
@@ -187,28 +138,23 @@ impl Unification {
             (b, a)
         };
         if kept.junction == gone.junction {
-            return if kept.number == gone.number {
-                Ok(())
-            } else {
-                Err(Conflict::Turned(kept.junction))
-            };
+            return (kept.number == gone.number).then_some(());
         }
-        let unlike = Conflict::Unlike(kept.junction, gone.junction);
         let junctions = &mut self.map.junctions;
-        let survivor = junctions.get(kept.junction).ok_or(unlike)?;
-        let absorbed = junctions.get(gone.junction).ok_or(unlike)?;
+        let survivor = junctions.get(kept.junction)?;
+        let absorbed = junctions.get(gone.junction)?;
         if survivor.sighting() != absorbed.sighting() {
-            return Err(unlike);
+            return None;
         }
         let degree = survivor.degree();
         let offset = (kept.number + degree - gone.number) % degree;
         if survivor.apart(offset, absorbed.bearings.as_ref()) > MOST_APART {
-            return Err(unlike);
+            return None;
         }
         let merged = (kept.junction, offset, degree);
         self.merges.junctions.insert(gone.junction, merged);
-        let absorbed = junctions.remove(gone.junction).ok_or(unlike)?;
-        let survivor = junctions.get_mut(kept.junction).ok_or(unlike)?;
+        let absorbed = junctions.remove(gone.junction)?;
+        let survivor = junctions.get_mut(kept.junction)?;
         survivor.notice(offset, absorbed.bearings.as_ref());
         for (number, new) in (0..).zip(absorbed.ports) {
             let number: u32 = (number + offset) % degree;
@@ -226,7 +172,7 @@ impl Unification {
                 }
             };
         }
-        Ok(())
+        Some(())
     }
 
     /// Brings all ends and ports to the names that have stayed.

@@ -1,7 +1,5 @@
 //! How well junctions and dead ends are told by one sweep: section 4.1, with what each step of ours adds to it.
 
-use alloc::sync::Arc;
-
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -10,9 +8,8 @@ use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
 use tolman_robot::Robot as _;
 use tolman_robot::epuck::WheelSpeeds;
-use tolman_sim::robots::Epuck;
 
-use tolman_arena::cpm::{SimulatedEpuck, Venue, epuck, survey, walker_config};
+use tolman_arena::cpm::{Venue, epuck, survey, walker_config};
 use tolman_experiment::{
     Better, BoxError, Fields, Job, Metric, Record, Row, Table, record, require,
 };
@@ -90,58 +87,62 @@ impl DetectorRun {
     fn relations(&self) -> Result<(), String> {
         let counted = self.counted <= self.looks;
         require(counted, "more looks counted rightly than were taken")?;
-        let junctions = Told {
-            right: self.junctions_right,
-            told: self.junctions_told,
-            there: self.junctions_there,
-        };
-        let dead_ends = Told {
-            right: self.dead_ends_right,
-            told: self.dead_ends_told,
-            there: self.dead_ends_there,
-        };
-        for (kind, precision, recall) in [
-            (junctions, self.junction_precision, self.junction_recall),
-            (dead_ends, self.dead_end_precision, self.dead_end_recall),
-        ] {
-            let Told { right, told, there } = kind;
-            let possible = right <= told.min(there) && told <= self.looks;
+        let mut again = self.clone();
+        for (_, [right, told, there]) in again.kinds() {
+            let possible = *right <= *told.min(there) && *told <= self.looks;
             require(possible, "more places of a kind than there are")?;
-            let shares = [precision, recall] == [kind.precision(), kind.recall()];
-            require(shares, "precision or recall is not that of its counts")?;
         }
-        Ok(())
+        let shares = again.finished() == *self;
+        require(shares, "precision or recall is not that of its counts")
+    }
+
+    /// The kinds of places, and how many were told rightly, were told, and are there.
+    const fn kinds(&mut self) -> [(Place, [&mut u32; 3]); 2] {
+        let junctions = [
+            &mut self.junctions_right,
+            &mut self.junctions_told,
+            &mut self.junctions_there,
+        ];
+        let dead_ends = [
+            &mut self.dead_ends_right,
+            &mut self.dead_ends_told,
+            &mut self.dead_ends_there,
+        ];
+        [(Place::Junction, junctions), (Place::DeadEnd, dead_ends)]
+    }
+
+    /// A place of so many openings looked as one of that many.
+    fn told(&mut self, openings: usize, truth: usize) {
+        self.looks += 1;
+        self.counted += u32::from(openings == truth);
+        self.place(Some(place_of(openings)), place_of(truth));
+    }
+
+    /// Nothing was told of a place.
+    fn missed(&mut self, truth: usize) {
+        self.place(None, place_of(truth));
+    }
+
+    fn place(&mut self, seen: Option<Place>, truth: Place) {
+        for (kind, [right, told, there]) in self.kinds() {
+            let (is_told, is_there) = (seen == Some(kind), truth == kind);
+            *right += u32::from(is_told && is_there);
+            *told += u32::from(is_told);
+            *there += u32::from(is_there);
+        }
+    }
+
+    /// With the shares that follow from the counts.
+    fn finished(mut self) -> Self {
+        self.junction_precision = share(self.junctions_right, self.junctions_told);
+        self.junction_recall = share(self.junctions_right, self.junctions_there);
+        self.dead_end_precision = share(self.dead_ends_right, self.dead_ends_told);
+        self.dead_end_recall = share(self.dead_ends_right, self.dead_ends_there);
+        self
     }
 }
 
-/// What was told of one kind of place.
-#[derive(Clone, Copy, Default)]
-struct Told {
-    /// Told and true.
-    right: u32,
-    told: u32,
-    there: u32,
-}
-
-impl Told {
-    /// The share of what is told that is true; `None` where nothing is told.
-    fn precision(self) -> Option<f64> {
-        share(self.right, self.told)
-    }
-
-    /// The share of what is there that is told; `None` where nothing is there.
-    fn recall(self) -> Option<f64> {
-        share(self.right, self.there)
-    }
-
-    /// A place of this kind, or another, was taken for one of it, or another.
-    fn tell(&mut self, is_told: bool, is_there: bool) {
-        self.right += u32::from(is_told && is_there);
-        self.told += u32::from(is_told);
-        self.there += u32::from(is_there);
-    }
-}
-
+/// Part of a whole; `None` of nothing.
 fn share(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| f64::from(part) / f64::from(whole))
 }
@@ -207,60 +208,9 @@ pub(super) fn config() -> impl Serialize {
     }
 }
 
-/// What was told of places, and what they were.
-#[derive(Default)]
-struct Tally {
-    looks: u32,
-    /// Looks that counted the openings rightly.
-    counted: u32,
-    junctions: Told,
-    dead_ends: Told,
-}
-
-impl Tally {
-    /// A place of so many openings looked as one of that many.
-    fn told(&mut self, openings: usize, truth: usize) {
-        self.looks += 1;
-        self.counted += u32::from(openings == truth);
-        self.place(Some(place_of(openings)), place_of(truth));
-    }
-
-    /// Nothing was told of a place.
-    fn missed(&mut self, truth: usize) {
-        self.place(None, place_of(truth));
-    }
-
-    fn place(&mut self, told: Option<Place>, truth: Place) {
-        for (kind, tally) in [
-            (Place::Junction, &mut self.junctions),
-            (Place::DeadEnd, &mut self.dead_ends),
-        ] {
-            tally.tell(told == Some(kind), truth == kind);
-        }
-    }
-
-    fn run(&self) -> DetectorRun {
-        let (junctions, dead_ends) = (self.junctions, self.dead_ends);
-        DetectorRun {
-            looks: self.looks,
-            counted: self.counted,
-            junctions_right: junctions.right,
-            junctions_told: junctions.told,
-            junctions_there: junctions.there,
-            junction_precision: junctions.precision(),
-            junction_recall: junctions.recall(),
-            dead_ends_right: dead_ends.right,
-            dead_ends_told: dead_ends.told,
-            dead_ends_there: dead_ends.there,
-            dead_end_precision: dead_ends.precision(),
-            dead_end_recall: dead_ends.recall(),
-        }
-    }
-}
-
 /// Looks at places of all mazes.
 pub(super) fn run(venues: &[Venue], job: &Job<'_>) -> Result<Fields, BoxError> {
-    let mut tally = Tally::default();
+    let mut tally = DetectorRun::default();
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
     for venue in venues {
         if job.row == ON_THE_WAY {
@@ -270,13 +220,11 @@ pub(super) fn run(venues: &[Venue], job: &Job<'_>) -> Result<Fields, BoxError> {
         let (setting, width) = settings()
             .find(|(setting, width)| row(setting, *width) == job.row)
             .ok_or("there is no such row")?;
-        let venue = Venue {
-            corridor_width: width.unwrap_or(venue.corridor_width),
-            ..venue.clone()
-        };
+        let width = width.unwrap_or(venue.corridor_width);
+        let venue = Venue::new(&venue.name, venue.maze.clone(), width)?;
         sweep_all(setting, &venue, job.seed, &mut rng, &mut tally)?;
     }
-    Ok(tally.run().fields()?)
+    Ok(tally.finished().fields()?)
 }
 
 /// One sweep in every cell that the robot can come to.
@@ -285,9 +233,8 @@ fn sweep_all(
     venue: &Venue,
     seed: u64,
     rng: &mut impl Rng,
-    tally: &mut Tally,
+    tally: &mut DetectorRun,
 ) -> Result<(), BoxError> {
-    let world = Arc::new(venue.world()?);
     let mut pilot = None;
     for cell in venue.maze.reachable() {
         let ways: Vec<_> = venue.maze.neighbours(cell).collect();
@@ -296,14 +243,13 @@ fn sweep_all(
             continue;
         };
         let mut off = || rng.random_range(-OFF..=OFF);
-        let position = world.cell_centre(cell) + Vector::new(off(), off());
+        let position = venue.world.cell_centre(cell) + Vector::new(off(), off());
         let heading = heading_of(*way).turned(rng.random_range(-ASKEW..=ASKEW));
         let pose = Pose::new(position, heading);
         let pilot = match &mut pilot {
             Some(pilot) => pilot,
             None => {
-                let robot = Epuck::new(epuck())?;
-                let body = SimulatedEpuck::new(Arc::clone(&world), robot, pose, seed)?;
+                let body = venue.robot_at(pose, epuck(), seed)?;
                 let config = walker_config(&epuck(), venue.corridor_width)?.pilot;
                 pilot.insert(Pilot::new(body, config))
             }
@@ -321,9 +267,9 @@ fn sweep_all(
 }
 
 /// The robot walks every fragment both ways; what is told of the place at its end counts, and a place that it does not come to is missed.
-fn walk(venue: &Venue, seed: u64, tally: &mut Tally) -> Result<(), BoxError> {
+fn walk(venue: &Venue, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxError> {
     let config = walker_config(&epuck(), venue.corridor_width)?;
-    for walk in survey(&venue.maze, &epuck(), &config, seed)? {
+    for walk in survey(venue, &epuck(), &config, seed)? {
         let degree = |cell| venue.maze.degree(cell);
         tally.told(walk.sighting.degree as usize, walk.to.map_or(0, degree));
         if walk.to != Some(walk.way.to) {

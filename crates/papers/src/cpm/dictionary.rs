@@ -52,6 +52,6 @@ pub(super) fn table(learning: &Venue) -> Table {
 
 /// One walk through the learning maze.
 pub(super) fn run(learning: &Venue, job: &Job<'_>) -> Result<Fields, BoxError> {
-    let patterns = learn(&learning.maze, learning.corridor_width, job.seed)?;
+    let patterns = learn(learning, job.seed)?;
     Ok(DictionaryRun::of(&patterns).fields()?)
 }

@@ -4,11 +4,11 @@ use core::fmt::Write;
 
 use tolman_geom::{Point, Pose, Vector};
 use tolman_maps::cpm::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, PortState, Sign};
-use tolman_maze::{Cell, Maze};
+use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_sim::World;
 
-use tolman_arena::cpm::{Fit, Layout};
+use tolman_arena::cpm::{Fit, Layout, Venue};
 use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series, Zone};
 
 /// Width of a plan, user units.
@@ -36,13 +36,6 @@ pub fn junction_name(map: &CpMap, id: JunctionId) -> String {
     }
 }
 
-const fn sign_text(sign: Sign) -> &'static str {
-    match sign {
-        Sign::Minus => "−",
-        Sign::Plus => "+",
-    }
-}
-
 /// The colour of a fragment: that of its number.
 const fn series(id: FragmentId) -> Series {
     Series(1 + id.0 % (Series::COLOURS - 1))
@@ -51,8 +44,8 @@ const fn series(id: FragmentId) -> Series {
 /// A map over the maze it was learned in: each fragment along the corridor it stands for, in a colour of its own, with its name and its signs;
 /// junctions as squares. Dashed stubs are ports nobody has been through.
 #[must_use]
-pub fn over_maze(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
-    let plan = plan_with(map, maze, world);
+pub fn over_maze(map: &CpMap, venue: &Venue) -> Drawing {
+    let plan = plan_with(map, venue);
     plan.drawing(format!(
         "A common-pattern map of {} fragments over its maze.",
         map.fragments().len()
@@ -61,16 +54,17 @@ pub fn over_maze(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
 
 /// A drive over the map that it was made by, over the maze.
 #[must_use]
-pub fn drive(map: &CpMap, maze: &Maze, world: &World, path: &[Pose]) -> Drawing {
-    let mut plan = plan_with(map, maze, world);
+pub fn drive(map: &CpMap, venue: &Venue, path: &[Pose]) -> Drawing {
+    let mut plan = plan_with(map, venue);
     let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
     plan.trajectory(&positions, JUNCTION);
     plan.drawing("A drive by a common-pattern map.")
 }
 
-fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
-    let layout = Layout::of(map, maze);
-    let mut plan = plan_of(maze, world);
+fn plan_with(map: &CpMap, venue: &Venue) -> Plan {
+    let world = &venue.world;
+    let layout = Layout::of(map, &venue.maze);
+    let mut plan = plan_of(venue);
     let mut graph = Graph::new().radius(RADIUS);
     let mut signs = Vec::new();
     let bounds = world.bounds();
@@ -92,8 +86,8 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
             .note(fragment_note(map, id, fragment));
         add(&mut graph, node);
         if let ([at, towards, ..], [.., before, last]) = (&centres[..], &centres[..]) {
-            signs.push((beside(*at, *towards, unit), sign_text(Sign::Minus)));
-            signs.push((beside(*last, *before, unit), sign_text(Sign::Plus)));
+            signs.push((beside(*at, *towards, unit), Sign::Minus));
+            signs.push((beside(*last, *before, unit), Sign::Plus));
         }
     }
     graph.signs = signs.iter().map(|(at, _)| *at).collect();
@@ -107,18 +101,19 @@ fn plan_with(map: &CpMap, maze: &Maze, world: &World) -> Plan {
     }
     plan.graph(&graph);
     for (at, sign) in signs {
-        plan.label(at, sign);
+        plan.label(at, &sign.to_string());
     }
     plan
 }
 
 /// The plan of a maze; what the robot cannot come to is solid.
 #[must_use]
-pub fn plan_of(maze: &Maze, world: &World) -> Plan {
+pub fn plan_of(venue: &Venue) -> Plan {
+    let world = &venue.world;
     let mut plan = Plan::of_world(world, WIDTH);
     // Cell (0, 0) begins at the origin.
     let half = world.cell_centre(Cell::new(0, 0)).x;
-    for cell in maze.sealed() {
+    for cell in venue.maze.sealed() {
         let centre = world.cell_centre(cell);
         let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
         let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
@@ -148,8 +143,9 @@ fn add(graph: &mut Graph, node: GraphNode) {
 /// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares, each edge with the sign of the
 /// fragment's end and the port of the junction. Nodes lie as they do in the maze.
 #[must_use]
-pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
-    let layout = Layout::of(map, maze);
+pub fn graph(map: &CpMap, venue: &Venue) -> Drawing {
+    let world = &venue.world;
+    let layout = Layout::of(map, &venue.maze);
     let mut graph = Graph::new().radius(RADIUS + 1.0);
     stubs(&mut graph, &layout, world);
     let mut junctions = Vec::new();
@@ -171,7 +167,7 @@ pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
                 .label(format!("{} · {}", fragment_name(id), fragment.length()))
                 .note(fragment_note(map, id, fragment)),
         );
-        for sign in [Sign::Minus, Sign::Plus] {
+        for sign in Sign::BOTH {
             let port = fragment.port(sign);
             let place = junctions.iter().find(|(other, _)| *other == port.junction);
             if let Some((_, place)) = place {
@@ -183,7 +179,7 @@ pub fn graph(map: &CpMap, maze: &Maze, world: &World) -> Drawing {
                     GraphEdge::between(node, *place)
                         .series(series(id))
                         .line(line)
-                        .label(format!("{}{}", sign_text(sign), port.number)),
+                        .label(format!("{sign}{}", port.number)),
                 );
             }
         }
@@ -239,8 +235,8 @@ fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
         fragment.patterns.len(),
         sequence.join("-")
     );
-    for sign in [Sign::Minus, Sign::Plus] {
-        let from = End { fragment: id, sign };
+    for sign in Sign::BOTH {
+        let from = id.end(sign);
         let place = map.junction(fragment.port(sign).junction);
         let ends = place.into_iter().flat_map(|place| &place.ports);
         for port in ends {

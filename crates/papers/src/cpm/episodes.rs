@@ -98,19 +98,19 @@ pub(super) fn run(
     job: &Job<'_>,
 ) -> Result<Fields, BoxError> {
     let graph = JunctionTask::of(&venue.maze)?;
+    let shortest = TrueFragments::of(&venue.maze).shortest(&venue.maze, |way| Some(way.cells));
     let run = EpisodesRun {
-        shortest_cells: graph.shortest().ok_or("no way leads to the goal")?,
+        shortest_cells: shortest.ok_or("no way leads to the goal")?,
         ..EpisodesRun::default()
     };
     let record = trials::trial(venue, patterns, trials::faithful(), job.seed).play()?;
     if !record.is_solved() {
         return Ok(run.fields()?);
     }
-    let world = venue.world()?;
     let second = record.path.get(record.second_from..).unwrap_or_default();
     let cells = second
         .iter()
-        .filter_map(|pose| world.cell_at(pose.position));
+        .filter_map(|pose| venue.world.cell_at(pose.position));
     let wanted = length_of(cells);
     let q_learning = q_learning(&graph, wanted, job.seed);
     let random_walk = random_walk(&graph, wanted, job.seed);
@@ -175,20 +175,6 @@ impl JunctionTask {
             start,
             goals,
         })
-    }
-
-    /// Cells of the shortest way from start to goal.
-    fn shortest(&self) -> Option<u32> {
-        let arcs: Vec<_> = (0..)
-            .zip(&self.ways)
-            .flat_map(|(from, ways)| {
-                ways.iter()
-                    .map(move |(to, way)| (from, *to as u32, way.cells))
-            })
-            .collect();
-        let graph = tolman_planners::Arcs::new(self.places.len(), &arcs);
-        let costs = tolman_planners::costs_from(&graph, [self.start as u32]);
-        self.goals.iter().filter_map(|goal| costs[*goal]).min()
     }
 }
 

@@ -2,10 +2,9 @@
 
 use tolman_systems::cpm::Done;
 
-use super::trials::{Modes, Place, Setting, better, cast, in_both_modes, modes, trial};
-use tolman_arena::cpm::Venue;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
-use tolman_systems::cpm::CommonPatterns;
+use super::trials::{Setting, Trials, better, in_both_modes};
+use tolman_arena::cpm::{Trial, Venue};
+use tolman_experiment::{BoxError, Fields, Metric, Record, Table, record, require};
 
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
@@ -63,24 +62,13 @@ impl ExploredRun {
     }
 }
 
-/// The table, and what is tried in each of its rows.
-#[derive(Debug)]
-pub(super) struct Explored {
-    pub(super) table: Table,
-    settings: Vec<Setting>,
-}
-
 /// `papers`: the mazes are the paper's, and others are drawn beside them; `quick`: for a first look.
-pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Explored {
+pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Trials {
     let mut settings = in_both_modes(venues);
     if papers {
-        settings.push(Setting {
-            row: "Aliased better".into(),
-            place: Place::Aliased,
-            mode: better(),
-        });
+        settings.push(Setting::aliased("Aliased better", better()));
     }
-    let mut table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
+    let table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
         .metric(Metric::percent("finished_percent", ExploredRun::finished))
         .metric(Metric::percent("map_right_percent", ExploredRun::map_right))
         .metric(Metric::mean(ExploredRun::fragments))
@@ -96,38 +84,28 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Explored 
              from the times that it took for the fragments before the first it had walked before, and the longest that it took for any.",
         );
     let runs = if quick { QUICK_RUNS } else { RUNS };
-    for setting in &settings {
-        table = table.row(Row::new(&setting.row).runs(runs));
-    }
-    Explored { table, settings }
+    let row = |setting: &Setting| setting.row().runs(runs);
+    Trials::new(table, settings, row, measure)
 }
 
-impl Explored {
-    /// Every row with the way it maps, for the configuration.
-    pub(super) fn modes(&self) -> Modes<'_> {
-        modes(&self.settings)
-    }
-
-    /// Explores one maze.
-    pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let (venue, mode) = cast(&self.settings, job)?;
-        let found = trial(&venue, patterns, mode, job.seed).explore()?;
-        let is_within = found.seconds.is_some_and(|seconds| seconds <= found.bound);
-        let is_finished = found.done == Some(Done::Reached);
-        let to_best = |best: u32| f64::from(found.traversals) / f64::from(best);
-        let run = ExploredRun {
-            finished: is_finished,
-            map_right: is_finished && found.is_map_right,
-            traversals: found.traversals,
-            fragments: found.fragments,
-            best: found.best,
-            traversals_to_best: found.best.filter(|_| is_finished).map(to_best),
-            seconds: found.seconds,
-            bound: found.bound,
-            within_bound: is_within,
-            bumps: found.bumps,
-            trouble: found.trouble,
-        };
-        Ok(run.fields()?)
-    }
+/// Explores one maze.
+fn measure(trial: &Trial<'_>) -> Result<Fields, BoxError> {
+    let found = trial.explore()?;
+    let is_within = found.seconds.is_some_and(|seconds| seconds <= found.bound);
+    let is_finished = found.done == Some(Done::Reached);
+    let to_best = |best: u32| f64::from(found.traversals) / f64::from(best);
+    let run = ExploredRun {
+        finished: is_finished,
+        map_right: is_finished && found.is_map_right,
+        traversals: found.traversals,
+        fragments: found.fragments,
+        best: found.best,
+        traversals_to_best: found.best.filter(|_| is_finished).map(to_best),
+        seconds: found.seconds,
+        bound: found.bound,
+        within_bound: is_within,
+        bumps: found.bumps,
+        trouble: found.trouble,
+    };
+    Ok(run.fields()?)
 }

@@ -1,7 +1,6 @@
 //! Figure 9's times, and figure 8: the map, by itself and over its maze, and the ways of both episodes.
 
 use tolman_geom::Point;
-use tolman_robot::Landmark;
 
 use super::Cpm;
 use super::drawing;
@@ -16,10 +15,8 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
         for (suffix, kind) in [("", "paper"), (BETTER, "better")] {
             let row = format!("{}{suffix}", venue.name);
             let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
-            let runs = runs
-                .iter()
-                .filter(of_row)
-                .map(|run| Ok((run, run.record()?)));
+            let runs = runs.iter().filter(of_row);
+            let runs = runs.map(|run| Ok((run, run.record()?)));
             let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, RecordError>>()?;
             let Some(longest) = longest(&runs) else {
                 continue;
@@ -28,13 +25,9 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
             let Some((venue, record)) = experiment.play(&longest.job())? else {
                 continue;
             };
-            figures.push(ways(
-                &venue,
-                &record,
-                &row,
-                &format!("ways-{number}-{kind}"),
-            )?);
-            figures.extend(maps(&venue, &record, &row, &format!("{number}-{kind}"))?);
+            let name = format!("{number}-{kind}");
+            figures.push(ways(&venue, &record, &row, &format!("ways-{name}")));
+            figures.extend(maps(&venue, &record, &row, &name));
         }
     }
     Ok(figures)
@@ -77,34 +70,18 @@ fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
 }
 
 /// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took longest.
-fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<Figure, BoxError> {
-    let world = venue.world()?;
-    let mut plan = drawing::plan_of(&venue.maze, &world);
+fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Figure {
+    let mut plan = drawing::plan_of(venue);
     let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
     let (first, second) = positions.split_at(record.second_from.min(positions.len()));
     plan.faint_trajectory(first, Series(0));
     plan.trajectory(second, Series(1));
-    for (landmark, cells) in [
-        (
-            Landmark::Start,
-            venue
-                .maze
-                .start()
-                .map(|(cell, _)| vec![cell])
-                .unwrap_or_default(),
-        ),
-        (Landmark::Goal, venue.maze.goals().to_vec()),
-    ] {
-        for cell in cells {
-            let word = if landmark == Landmark::Start {
-                "start"
-            } else {
-                "goal"
-            };
-            plan.label(world.cell_centre(cell), word);
-        }
+    let start = venue.maze.start().map(|(cell, _)| (cell, "start"));
+    let goals = venue.maze.goals().iter().map(|cell| (*cell, "goal"));
+    for (cell, word) in start.into_iter().chain(goals) {
+        plan.label(venue.world.cell_centre(cell), word);
     }
-    Ok(Figure::new(
+    Figure::new(
         name,
         format!("{row}: the ways of one trial"),
         plan.drawing(format!("Plan of {row} with the ways of both episodes.")),
@@ -114,15 +91,14 @@ fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<Figure,
          colour is the second episode. As the paper's figure 8, (b) and (c).",
         record.traversals, record.true_fragments, record.fragments
     ))
-    .table(FIGURE_9))
+    .table(FIGURE_9)
 }
 
 /// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by itself.
-fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<[Figure; 2], BoxError> {
-    let world = venue.world()?;
-    let over = drawing::over_maze(&record.map, &venue.maze, &world);
-    let graph = drawing::graph(&record.map, &venue.maze, &world);
-    Ok([
+fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> [Figure; 2] {
+    let over = drawing::over_maze(&record.map, venue);
+    let graph = drawing::graph(&record.map, venue);
+    [
         Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
             .caption(
                 "The map at the end of that trial's first episode, laid over the maze port by port: each fragment A with its ends − and +, \
@@ -136,5 +112,5 @@ fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> Result<[Figure
                  how many ports lie between them, counter-clockwise. Point at a node for its patterns and transitions.",
             )
             .table(FIGURE_9),
-    ])
+    ]
 }

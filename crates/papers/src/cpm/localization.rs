@@ -194,14 +194,13 @@ impl Known {
         let known: Vec<KnownMaze<'_>> = venues
             .iter()
             .zip(records)
-            .map(|(venue, record)| known(venue, record))
+            .map(|(venue, learned)| KnownMaze { venue, learned })
             .collect();
         let here = venues.iter().position(|venue| venue.name == maze);
         let here = here.ok_or("there is no such row")?;
         let put_down = PutDown {
             known: &known,
             here,
-            corridor_width: venues[here].corridor_width,
             patterns,
             robot: epuck(),
             approach,
@@ -226,9 +225,11 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
             continue;
         }
         let put_down = PutDown {
-            known: &[known(&venue, &learned)],
+            known: &[KnownMaze {
+                venue: &venue,
+                learned: &learned,
+            }],
             here: 0,
-            corridor_width: venue.corridor_width,
             patterns,
             robot: epuck(),
             approach,
@@ -242,14 +243,6 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
     Err("no maze was solved that has a fragment to stand amid".into())
 }
 
-fn known<'a>(venue: &'a Venue, record: &'a Record) -> KnownMaze<'a> {
-    KnownMaze {
-        maze: &venue.maze,
-        map: &record.map,
-        truth: &record.truth,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::venue;
@@ -259,7 +252,7 @@ mod tests {
     #[test]
     fn a_robot_put_down_finds_out_where_it_is() {
         let (venues, learning) = (venue::papers().unwrap(), venue::learning().unwrap());
-        let patterns = learn(&learning.maze, learning.corridor_width, 1).unwrap();
+        let patterns = learn(&learning, 1).unwrap();
         let known = Known::default();
         let mut right = 0;
         for (run, venue) in (0..).zip(&venues) {

@@ -31,7 +31,7 @@ use tolman_systems::cpm::{CommonPatterns, Mode};
 use detector::DETECTOR;
 use dictionary::{DICTIONARY, DictionaryRun};
 use episodes::EPISODES;
-use explored::{EXPLORED, Explored};
+use explored::EXPLORED;
 use localization::{Known, LOCALIZATION};
 use places::PLACES;
 use real::{FIGURE_11, Real};
@@ -57,7 +57,6 @@ struct Cpm {
     /// What the robot learned in the learning maze.
     patterns: CommonPatterns,
     trials: Vec<Trials>,
-    explored: Explored,
     /// What the robot learned of the venues.
     known: Known,
     master_seed: u64,
@@ -88,15 +87,14 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         venue::from_files(&options.mazes)?
     };
     let (learning, real) = (venue::learning()?, Real::new(options.seed)?);
-    let patterns = learn(&learning.maze, learning.corridor_width, options.seed)?;
+    let patterns = learn(&learning, options.seed)?;
     let mut trials = vec![
         trials::figure_9(&venues, papers),
         trials::offline(&venues),
         trials::unlearned(&venues),
+        explored::explored(&venues, papers, options.quick),
     ];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
-    let explored = explored::explored(&venues, papers, options.quick);
-    tables.push(explored.table.clone());
     tables.push(episodes::table(&venues));
     tables.push(places::table(&venues));
     if papers {
@@ -114,7 +112,6 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         learning,
         patterns,
         trials,
-        explored,
         known: Known::default(),
         master_seed: options.seed,
     };
@@ -152,17 +149,14 @@ impl Cpm {
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
-        let mut modes: BTreeMap<&str, Modes<'_>> = BTreeMap::new();
-        for trials in &self.trials {
-            modes.insert(&trials.table.name, trials.modes());
-        }
-        modes.insert(EXPLORED, self.explored.modes());
+        let modes = self.trials.iter();
+        let modes = modes.map(|trials| (&*trials.table.name, trials.modes()));
         let mazes = self.venues.iter().chain([&self.learning, &self.real.venue]);
         let mazes = mazes.map(|venue| (&*venue.name, venue.maze.to_string()));
         Ok(toml::Table::try_from(Config {
             robot: epuck(),
             real: real::config(),
-            modes,
+            modes: modes.collect(),
             q_learning: QLearningConfig::usual(),
             places: places::config(),
             detector: detector::config(),
@@ -180,7 +174,6 @@ impl Procedure for Cpm {
                 let known = &self.known;
                 known.run(&self.venues, &self.patterns, self.master_seed, job)
             }
-            EXPLORED => self.explored.run(&self.patterns, job),
             EPISODES => episodes::run(self.venue(job.row)?, &self.patterns, job),
             PLACES => places::run(self.venue(job.row)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
@@ -200,14 +193,14 @@ impl Procedure for Cpm {
         if job.table == FIGURE_11 {
             return replay::of_round_trip(&self.real, job).map(Some);
         }
-        // Those are as those of figure 9.
-        if job.table == EPISODES {
+        // Those are as those of figure 9, and those are no trials.
+        if [EPISODES, EXPLORED].contains(&job.table) {
             return Ok(None);
         }
         let Some((venue, mode)) = self.cast(job)? else {
             return Ok(None);
         };
         let trial = trials::trial(&venue, &self.patterns, mode, job.seed);
-        replay::of(&venue, &trial, job).map(Some)
+        replay::of(&trial, job).map(Some)
     }
 }

@@ -6,12 +6,10 @@ use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
 use super::venue;
-use tolman_arena::cpm::{
-    RoundTrip, SimulatedEpuck, Venue, learn_by, placed, slow_epuck, walker_config,
-};
+use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, Venue, learn_by, slow_epuck, walker_config};
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
 use tolman_systems::cpm::{
-    CommonPatterns, CpmConfig, Done, Episode, Lesson, Reasoner, Step, Walker, WalkerConfig,
+    CommonPatterns, CpmConfig, Done, Episode, Layer3, Lesson, Step, Walker, WalkerConfig,
 };
 
 /// The name of the table.
@@ -70,8 +68,8 @@ impl Real {
         if let Some(patterns) = self.patterns.get() {
             return Ok(patterns);
         }
-        let (maze, config) = (&self.learning.maze, walker(&self.learning)?);
-        let patterns = learn_by(maze, slow_epuck(), config, LESSON, self.seed)?;
+        let config = walker(&self.learning)?;
+        let patterns = learn_by(&self.learning, slow_epuck(), config, LESSON, self.seed)?;
         Ok(self.patterns.get_or_init(|| patterns))
     }
 
@@ -79,22 +77,23 @@ impl Real {
     pub(super) fn play(
         &self,
         job: &Job<'_>,
-        see: impl FnMut(&Reasoner<'_, SimulatedEpuck>, &Step),
+        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<RoundTrip, BoxError> {
-        let Venue {
-            maze,
-            corridor_width,
-            ..
-        } = &self.venue;
-        let body = placed(maze, *corridor_width, slow_epuck(), job.seed)?;
-        let walker = Walker::new(body, walker(&self.venue)?);
+        let body = self.venue.robot(slow_epuck(), job.seed)?;
+        let mut walker = Walker::new(body, walker(&self.venue)?);
         let (patterns, config) = (self.patterns()?, CpmConfig::online());
-        Ok(RoundTrip::watch(walker, patterns, config, job.seed, see)?)
+        Ok(RoundTrip::watch(
+            &mut walker,
+            patterns,
+            config,
+            job.seed,
+            see,
+        )?)
     }
 
     /// Measures a run.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        measured(&self.play(job, |_, _| {})?)
+        measured(&self.play(job, |_, _, _| {})?)
     }
 
     pub(super) fn table(&self) -> Table {

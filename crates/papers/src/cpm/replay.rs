@@ -4,10 +4,8 @@ use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, Pose};
 use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Sign};
-use tolman_maze::Maze;
 use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
-use tolman_sim::World;
 
 use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
@@ -17,13 +15,12 @@ use tolman_replay::{
     Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,
     Track,
 };
-use tolman_systems::cpm::{Reasoner, Step};
+use tolman_systems::cpm::{Layer3, Step, Walker};
 
 /// Plays a trial again and watches it.
-pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
-    let world = venue.world()?;
-    let mut watch = Watch::new(&venue.maze, &world);
-    let record = trial.watch(|agent, step| watch.see(agent, step))?;
+pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
+    let mut watch = Watch::new(trial.venue);
+    let record = trial.watch(|layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&record.path);
     let begun = record.second_from as u32;
     let mut second = Marks::new(Mark::Arrival, "second episode");
@@ -39,17 +36,15 @@ pub(super) fn of(venue: &Venue, trial: &Trial<'_>, job: &Job<'_>) -> Result<Repl
         "not solved"
     };
     Ok(watch
-        .replay(venue, trial.robot.step_us, job, track)
+        .replay(trial.robot.step_us, job, track)
         .fact("outcome", outcome)
         .fact("fragments walked", record.traversals.to_string()))
 }
 
 /// Plays a round trip again and watches it: to the goal, back, and to the goal again.
 pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxError> {
-    let venue = &real.venue;
-    let world = venue.world()?;
-    let mut watch = Watch::new(&venue.maze, &world);
-    let trip = real.play(job, |agent, step| watch.see(agent, step))?;
+    let mut watch = Watch::new(&real.venue);
+    let trip = real.play(job, |layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&trip.path);
     for (episode, begun, name) in [
         (trip.back, trip.back_from, "way back"),
@@ -62,7 +57,7 @@ pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxErr
         }
     }
     Ok(watch
-        .replay(venue, slow_epuck().step_us, job, track)
+        .replay(slow_epuck().step_us, job, track)
         .fact("tried on the way", trip.tried.to_string())
         .fact("given up", trip.given_up.to_string()))
 }
@@ -77,8 +72,7 @@ fn track(path: &[Pose]) -> Track {
 
 /// What is noted at the end of each fragment.
 struct Watch<'a> {
-    maze: &'a Maze,
-    world: &'a World,
+    venue: &'a Venue,
     nodes: Vec<Node>,
     /// The nodes that stand for parts of the map as it is.
     live: BTreeMap<Part, usize>,
@@ -96,10 +90,9 @@ enum Part {
 }
 
 impl<'a> Watch<'a> {
-    fn new(maze: &'a Maze, world: &'a World) -> Self {
+    fn new(venue: &'a Venue) -> Self {
         Self {
-            maze,
-            world,
+            venue,
             nodes: Vec::new(),
             live: BTreeMap::new(),
             edges: Vec::new(),
@@ -114,32 +107,36 @@ impl<'a> Watch<'a> {
     }
 
     /// The replay of a track, with what was seen on it.
-    fn replay(self, venue: &Venue, step_us: u64, job: &Job<'_>, mut track: Track) -> Replay {
-        let scenery = Scenery::of_world(self.world);
-        track.maps = vec![self.growth()];
+    fn replay(self, step_us: u64, job: &Job<'_>, mut track: Track) -> Replay {
+        let scenery = Scenery::of_world(&self.venue.world);
+        track.maps = vec![MapGrowth {
+            name: "common-pattern map".to_owned(),
+            nodes: self.nodes,
+            edges: self.edges,
+        }];
         track.notes = vec![self.arrivals];
         track.series = vec![self.fragments];
         let step_s = step_us as f64 * 1e-6;
         let title = format!("{}, run {}", job.row, job.run);
         Replay::new(title, step_s, scenery, vec![track])
-            .fact("maze", &venue.name)
+            .fact("maze", &self.venue.name)
             .fact("seed", job.seed.to_string())
     }
 
-    fn see(&mut self, agent: &Reasoner<'_, SimulatedEpuck>, step: &Step) {
-        let now = agent.walker().body().path().len().saturating_sub(1) as u32;
+    fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+        let now = walker.body().path().len().saturating_sub(1) as u32;
         let word = match step.arrival {
             Some(arrival) => word_for(arrival),
             None => "turned back",
         };
         self.arrivals.say(now, word);
-        let map = agent.explorer().map();
+        let map = layer.map();
         self.fragments.samples.push(Sample {
             step: now,
             value: map.fragments().len() as f64,
         });
         self.update(map, now);
-        let here = Part::Junction(agent.explorer().at().junction);
+        let here = Part::Junction(layer.explorer().mapper.at().junction);
         if let Some(index) = self.live.get(&here) {
             self.nodes[*index].visits.push(now);
         }
@@ -147,13 +144,13 @@ impl<'a> Watch<'a> {
 
     /// What has changed on the map.
     fn update(&mut self, map: &CpMap, now: u32) {
-        let layout = Layout::of(map, self.maze);
+        let layout = Layout::of(map, &self.venue.maze);
         let mut parts = Vec::new();
         for (id, junction) in map.junctions() {
             let cell = layout.place(id);
             parts.extend(cell.map(|cell| {
                 let facts = vec![Fact::new("branches", junction.degree().to_string())];
-                let at = self.world.cell_centre(cell);
+                let at = self.venue.world.cell_centre(cell);
                 (Part::Junction(id), at, junction_name(map, id), facts)
             }));
         }
@@ -164,7 +161,7 @@ impl<'a> Watch<'a> {
                     Fact::new("observations", fragment.patterns.len().to_string()),
                     Fact::new("walked", fragment.traversals.to_string()),
                 ];
-                let at = middle_of(&course.cells, self.world);
+                let at = middle_of(&course.cells, &self.venue.world);
                 (Part::Fragment(id), at, fragment_name(id), facts)
             }));
         }
@@ -198,7 +195,7 @@ impl<'a> Watch<'a> {
     fn join(&mut self, map: &CpMap, now: u32) {
         let mut wanted = BTreeMap::new();
         for (id, fragment) in map.fragments() {
-            for sign in [Sign::Minus, Sign::Plus] {
+            for sign in Sign::BOTH {
                 let ends = [
                     Part::Fragment(id),
                     Part::Junction(fragment.port(sign).junction),
@@ -220,21 +217,10 @@ impl<'a> Watch<'a> {
         for ((fragment, sign), (a, b)) in wanted {
             if !self.joints.contains_key(&(fragment, sign)) {
                 let mut edge = Edge::new(a, b, now);
-                edge.label = match sign {
-                    Sign::Minus => "−".to_owned(),
-                    Sign::Plus => "+".to_owned(),
-                };
+                edge.label = sign.to_string();
                 self.joints.insert((fragment, sign), self.edges.len());
                 self.edges.push(edge);
             }
-        }
-    }
-
-    fn growth(&self) -> MapGrowth {
-        MapGrowth {
-            name: "common-pattern map".to_owned(),
-            nodes: self.nodes.clone(),
-            edges: self.edges.clone(),
         }
     }
 }

@@ -5,7 +5,7 @@ use alloc::collections::BTreeMap;
 use super::venue;
 use tolman_arena::cpm::{Likeness, Record, Trial, Venue, epuck};
 use tolman_experiment::Record as _;
-use tolman_experiment::{BoxError, Fields, Job, Metric, RecordError, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require};
 use tolman_systems::cpm::{CommonPatterns, CpmConfig, Mode};
 
 /// The table of figure 9.
@@ -26,45 +26,41 @@ pub(super) const BETTER: &str = " better";
 /// An episode is long that leads over so many times the shortest path.
 const LONG: f64 = 10.0;
 
-/// A table of trials, and what is tried in each of its rows.
+/// A table, and what is tried in each of its rows.
 #[derive(Debug)]
 pub(super) struct Trials {
     pub(super) table: Table,
     settings: Vec<Setting>,
-    solution: Solution,
-    /// The record of this table for what every trial measures.
-    own: fn(TrialRun, &Venue, &Record) -> Result<Fields, RecordError>,
-}
-
-/// What makes a trial solved.
-#[derive(Clone, Copy, Debug)]
-enum Solution {
-    /// The goal was found, and found again by a way as short as any that could be known.
-    Way,
-    /// That, and the map is right.
-    WayAndMap,
-}
-
-impl Solution {
-    fn is_of(self, record: &Record) -> bool {
-        match self {
-            Self::Way => record.is_solved(),
-            Self::WayAndMap => record.is_solved() && record.is_map_right,
-        }
-    }
+    /// Plays a trial and measures it.
+    measure: fn(&Trial<'_>) -> Result<Fields, BoxError>,
 }
 
 /// What a row tries.
 #[derive(Debug)]
 pub(super) struct Setting {
-    pub(super) row: String,
-    pub(super) place: Place,
-    pub(super) mode: Mode,
+    row: String,
+    place: Place,
+    mode: Mode,
+}
+
+impl Setting {
+    /// Another maze with fragments that look alike in each run.
+    pub(super) fn aliased(row: &str, mode: Mode) -> Self {
+        Self {
+            row: row.into(),
+            place: Place::Aliased,
+            mode,
+        }
+    }
+
+    pub(super) fn row(&self) -> Row {
+        Row::new(&self.row)
+    }
 }
 
 /// Where a row's robot runs.
 #[derive(Debug)]
-pub(super) enum Place {
+enum Place {
     /// In one maze.
     Maze(Venue),
     /// In another maze each run.
@@ -108,7 +104,7 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
          Its robot needs no more than two episodes either."
     ));
     let row = |setting: &Setting| {
-        let row = Row::new(&setting.row);
+        let row = setting.row();
         // The paper has no better system than its own.
         if papers && setting.mode == faithful() {
             row.paper("solved_percent", 100.0)
@@ -117,45 +113,29 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
             row
         }
     };
-    Trials {
-        table: with_rows(table, &settings, row),
-        settings,
-        solution: Solution::Way,
-        own: |trial, _, _| trial.fields(),
-    }
+    Trials::new(table, settings, row, measure)
 }
 
 /// Each maze with the paper's system and with ours.
 pub(super) fn in_both_modes(venues: &[Venue]) -> Vec<Setting> {
-    let modes = [("", faithful()), (BETTER, better())];
-    let each = |venue| modes.map(|(suffix, mode)| setting_in(venue, suffix, mode));
-    venues.iter().flat_map(each).collect()
+    in_modes(venues, [("", faithful()), (BETTER, better())])
 }
 
-fn setting_in(venue: &Venue, suffix: &str, mode: Mode) -> Setting {
-    Setting {
+/// Each maze in some modes, with what follows its name in their rows.
+fn in_modes<const N: usize>(venues: &[Venue], modes: [(&str, Mode); N]) -> Vec<Setting> {
+    let setting = |venue: &Venue, suffix: &str, mode| Setting {
         row: format!("{}{suffix}", venue.name),
         place: Place::Maze(venue.clone()),
         mode,
-    }
+    };
+    let each = |venue| modes.map(|(suffix, mode)| setting(venue, suffix, mode));
+    venues.iter().flat_map(each).collect()
 }
 
 /// The paper's two systems side by side.
 pub(super) fn offline(venues: &[Venue]) -> Trials {
-    let mut settings = Vec::new();
-    for venue in venues {
-        let modes = [
-            ("offline", Mode::Paper(CpmConfig::offline())),
-            ("online", faithful()),
-        ];
-        for (word, mode) in modes {
-            settings.push(Setting {
-                row: format!("{} {word}", venue.name),
-                place: Place::Maze(venue.clone()),
-                mode,
-            });
-        }
-    }
+    let offline = Mode::Paper(CpmConfig::offline());
+    let settings = in_modes(venues, [(" offline", offline), (" online", faithful())]);
     let table = Table::of::<TrialRun>("offline", "Offline against online CPM")
         .metric(solved())
         .metric(Metric::mean(TrialRun::traversals))
@@ -166,27 +146,14 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
             "Offline the robot takes ports at random and looks at its map when the goal is found (section 4); online before each decision \
              (section 6). Rows of one maze meet the same chance.",
         );
-    Trials {
-        table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
-        settings,
-        solution: Solution::Way,
-        own: |trial, _, _| trial.fields(),
-    }
+    Trials::new(table, settings, Setting::row, measure)
 }
 
 /// "The CPs must be learned incrementally" (section 8).
 pub(super) fn unlearned(venues: &[Venue]) -> Trials {
-    let places = venues
-        .iter()
-        .map(|venue| (venue.name.as_str(), Place::Maze(venue.clone())));
-    let rows = places.chain([("Aliased", Place::Aliased)]);
-    let settings: Vec<Setting> = rows
-        .map(|(row, place)| Setting {
-            row: row.into(),
-            place,
-            mode: Mode::Unlearned(CpmConfig::robust()),
-        })
-        .collect();
+    let mode = Mode::Unlearned(CpmConfig::robust());
+    let mut settings = in_modes(venues, [("", mode)]);
+    settings.push(Setting::aliased("Aliased", mode));
     let table = Table::of::<UnlearnedRun>("unlearned", "Patterns learned on the way")
         .metric(solved())
         .metric(map_right())
@@ -198,15 +165,14 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
             "The better robot, which has been in no learning maze: what it observes that is like no pattern it has becomes one, and what was \
              written before stays readable. Aliased: one random maze a run.",
         );
-    Trials {
-        table: with_rows(table, &settings, |setting| Row::new(&setting.row)),
-        settings,
-        solution: Solution::Way,
-        own: |trial, _, record| {
-            let patterns = record.patterns;
-            UnlearnedRun { trial, patterns }.fields()
-        },
-    }
+    Trials::new(table, settings, Setting::row, |trial| {
+        let record = trial.play()?;
+        let run = UnlearnedRun {
+            trial: TrialRun::of(trial.venue, &record, record.is_solved()),
+            patterns: record.patterns,
+        };
+        Ok(run.fields()?)
+    })
 }
 
 /// What the paper excludes. `quick`: for a first look.
@@ -216,12 +182,7 @@ pub(super) fn aliased(quick: bool) -> Trials {
         ..CpmConfig::online()
     };
     let rows = [("Better", better()), ("Faithful", Mode::Paper(patient))];
-    let settings = rows.map(|(row, mode)| Setting {
-        row: row.into(),
-        place: Place::Aliased,
-        mode,
-    });
-    let settings = Vec::from(settings);
+    let settings = Vec::from(rows.map(|(row, mode)| Setting::aliased(row, mode)));
     let table = Table::of::<AliasedRun>("aliased", "Mazes with fragments that look alike")
         .metric(solved())
         .metric(map_right())
@@ -240,30 +201,19 @@ pub(super) fn aliased(quick: bool) -> Trials {
              same fragments as they truly lie.",
         ));
     let mazes = if quick { ALIASED_QUICK } else { ALIASED_MAZES };
-    Trials {
-        table: with_rows(table, &settings, |setting| {
-            Row::new(&setting.row).runs(mazes)
-        }),
-        settings,
-        solution: Solution::WayAndMap,
-        own: |trial, venue, record| {
-            let likeness = Likeness::of(&venue.maze);
-            let run = AliasedRun {
-                trial,
-                shortest_known: record.is_solved(),
-                alike_pairs: likeness.alike_pairs,
-                symmetrical: likeness.symmetrical,
-            };
-            run.fields()
-        },
-    }
-}
-
-fn with_rows(mut table: Table, settings: &[Setting], row: impl Fn(&Setting) -> Row) -> Table {
-    for setting in settings {
-        table = table.row(row(setting));
-    }
-    table
+    let row = |setting: &Setting| setting.row().runs(mazes);
+    Trials::new(table, settings, row, |trial| {
+        let record = trial.play()?;
+        let is_solved = record.is_solved() && record.is_map_right;
+        let likeness = Likeness::of(&trial.venue.maze);
+        let run = AliasedRun {
+            trial: TrialRun::of(trial.venue, &record, is_solved),
+            shortest_known: record.is_solved(),
+            alike_pairs: likeness.alike_pairs,
+            symmetrical: likeness.symmetrical,
+        };
+        Ok(run.fields()?)
+    })
 }
 
 /// Trials that are solved.
@@ -352,47 +302,56 @@ record! {
     }
 }
 
+/// Every row with the way it maps.
+pub(super) type Modes<'a> = BTreeMap<&'a str, Mode>;
+
 impl Trials {
+    /// A table with a row for each setting.
+    pub(super) fn new(
+        table: Table,
+        settings: Vec<Setting>,
+        row: impl Fn(&Setting) -> Row,
+        measure: fn(&Trial<'_>) -> Result<Fields, BoxError>,
+    ) -> Self {
+        let rows = settings.iter().map(row);
+        Self {
+            table: rows.fold(table, Table::row),
+            settings,
+            measure,
+        }
+    }
+
     /// Every row with the way it maps, for the configuration.
     pub(super) fn modes(&self) -> Modes<'_> {
-        modes(&self.settings)
+        let settings = self.settings.iter();
+        settings
+            .map(|setting| (&*setting.row, setting.mode))
+            .collect()
     }
 
     /// The maze and the way of mapping of a run.
     pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Venue, Mode), BoxError> {
-        cast(&self.settings, job)
+        let mut settings = self.settings.iter();
+        let setting = settings.find(|setting| setting.row == job.row);
+        let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+        let venue = match &setting.place {
+            Place::Maze(venue) => venue.clone(),
+            Place::Aliased => venue::aliased(job.seed)?,
+        };
+        Ok((venue, setting.mode))
     }
 
     /// Plays a run.
     pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
         let (venue, mode) = self.cast(job)?;
-        let record = trial(&venue, patterns, mode, job.seed).play()?;
-        let run = TrialRun::of(&venue, &record, self.solution);
-        Ok((self.own)(run, &venue, &record)?)
+        (self.measure)(&trial(&venue, patterns, mode, job.seed))
     }
 }
 
-/// Every row with the way it maps.
-pub(super) type Modes<'a> = BTreeMap<&'a str, Mode>;
-
-/// Every row with the way it maps, for the configuration.
-pub(super) fn modes(settings: &[Setting]) -> Modes<'_> {
-    let settings = settings.iter();
-    settings
-        .map(|setting| (&*setting.row, setting.mode))
-        .collect()
-}
-
-/// The maze and the way of mapping of a run in one of these rows.
-pub(super) fn cast(settings: &[Setting], job: &Job<'_>) -> Result<(Venue, Mode), BoxError> {
-    let mut settings = settings.iter();
-    let setting = settings.find(|setting| setting.row == job.row);
-    let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-    let venue = match &setting.place {
-        Place::Maze(venue) => venue.clone(),
-        Place::Aliased => venue::aliased(job.seed)?,
-    };
-    Ok((venue, setting.mode))
+/// Plays a trial and measures both episodes.
+fn measure(trial: &Trial<'_>) -> Result<Fields, BoxError> {
+    let record = trial.play()?;
+    Ok(TrialRun::of(trial.venue, &record, record.is_solved()).fields()?)
 }
 
 /// A trial of the paper's robot.
@@ -403,8 +362,7 @@ pub(super) fn trial<'a>(
     seed: u64,
 ) -> Trial<'a> {
     Trial {
-        maze: &venue.maze,
-        corridor_width: venue.corridor_width,
+        venue,
         patterns,
         robot: epuck(),
         mode,
@@ -413,9 +371,8 @@ pub(super) fn trial<'a>(
 }
 
 impl TrialRun {
-    fn of(venue: &Venue, record: &Record, solution: Solution) -> Self {
+    fn of(venue: &Venue, record: &Record, solved: bool) -> Self {
         let closures = record.closures;
-        let solved = solution.is_of(record);
         let shortest = venue.shortest_metres();
         let long = solved && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
         let reduction = record.reduction_percent().filter(|_| solved);

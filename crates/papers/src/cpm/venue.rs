@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maze::{Cell, Direction, Perfect};
+use tolman_maze::{Cell, Direction, Maze, Perfect};
 
 use super::trials::BETTER;
 use crate::maze_file;
@@ -22,27 +22,29 @@ pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
         include_str!("../../mazes/cpm-3.maze"),
     ]
     .into_iter()
-    .map(|text| Ok(Venue::new("", tolman_maze::read(text)?)?))
+    .map(read)
     .collect()
 }
 
 /// That of figure 11, drawn anew.
 pub(super) fn real() -> Result<Venue, BoxError> {
-    let text = include_str!("../../mazes/cpm-real.maze");
-    Ok(Venue::new("", tolman_maze::read(text)?)?)
+    read(include_str!("../../mazes/cpm-real.maze"))
 }
 
 /// Where the common patterns are learned.
 pub(super) fn learning() -> Result<Venue, BoxError> {
-    let text = include_str!("../../mazes/cpm-learning.maze");
-    Ok(Venue::new("", tolman_maze::read(text)?)?)
+    read(include_str!("../../mazes/cpm-learning.maze"))
+}
+
+fn read(text: &str) -> Result<Venue, BoxError> {
+    Ok(Venue::of_file("", tolman_maze::read(text)?)?)
 }
 
 /// The mazes that the caller names; the later of two of one name gets a number, and so does one whose name is that of another's row.
 pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
     let mut venues: Vec<Venue> = Vec::new();
     for path in files {
-        let mut venue = Venue::new(&maze_file::stem(path), maze_file::read(path)?)
+        let mut venue = Venue::of_file(&maze_file::stem(path), maze_file::read(path)?)
             .map_err(|error| maze_file::in_file(path, error))?;
         let rows = |name: &str| [name.to_owned(), format!("{name}{BETTER}")];
         venue.name = maze_file::told_apart(&venue.name, |name| {
@@ -59,14 +61,14 @@ pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
 pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {
-        let venue = braided(&mut rng)?;
-        if Likeness::of(&venue.maze).alike_pairs > 0 {
-            return Ok(venue);
+        let maze = braided(&mut rng)?;
+        if Likeness::of(&maze).alike_pairs > 0 {
+            return Ok(Venue::new("Aliased", maze, Venue::CORRIDOR_WIDTH)?);
         }
     }
 }
 
-fn braided(rng: &mut impl Rng) -> Result<Venue, BoxError> {
+fn braided(rng: &mut impl Rng) -> Result<Maze, BoxError> {
     let side = ALIASED_SIDE;
     let mut maze = Perfect {
         width: side,
@@ -106,11 +108,7 @@ fn braided(rng: &mut impl Rng) -> Result<Venue, BoxError> {
     let goal = farthest.unwrap_or(Cell::new(ALIASED_SIDE - 1, ALIASED_SIDE - 1));
     maze.set_start(Some((start, ahead)));
     maze.set_goals(vec![goal]);
-    Ok(Venue {
-        name: "Aliased".into(),
-        maze,
-        corridor_width: Venue::CORRIDOR_WIDTH,
-    })
+    Ok(maze)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
 use tolman_quantizers::{ConfigError, Denoising, InputError, Quantizer, Soinn, SoinnConfig};
 
 use super::robot::CpmRobot;
-use super::walker::{Observation, Walk, WalkError, Walker};
+use super::walker::{Observation, WalkError, Walker};
 
 /// C: the common patterns. In the paper "a representative vector of each cluster is a common-pattern CP" (section 4.1); ours
 /// stand for units of SOINN, since with clusters fewer loops are recognized.
@@ -67,13 +67,9 @@ pub fn wander<B: CpmRobot>(
         } else {
             rng.random_range(1..degree)
         };
-        if let Walk::Arrived {
-            observations,
-            sighting,
-            ..
-        } = walker.walk(branch as usize, 0, None)?
-        {
-            seen.extend(observations);
+        let walk = walker.walk(branch as usize, 0, None)?;
+        if let Some(sighting) = walk.sighting {
+            seen.extend(walk.observations);
             degree = sighting.degree;
         }
     }

@@ -1,7 +1,6 @@
 use rand::{Rng, RngExt};
 use tolman_maps::cpm::{
-    Arrival, CpMap, CpMapper, CpmError, Dictionary, JunctionId, Plan, Port, PortState, Sighting,
-    Traversal, Turn,
+    CpMap, CpMapper, CpmError, Junction, JunctionId, Port, PortState, Sighting, Turn,
 };
 use tolman_robot::Landmark;
 
@@ -10,15 +9,16 @@ use super::decision::{Aim, Decision, Done, Leg};
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
-/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn, walk to the next one, and tell it
-/// what the walk was like: [`arrive`](Self::arrive), or [`turned_back`](Self::turned_back) where the decision said to give up.
+/// Ask it to [`decide`](Self::decide) at each junction, dead end or landmark. Perform the turn, walk to the next one, and tell its
+/// mapper what the walk was like: [`arrive`](CpMapper::arrive), or [`turned_back`](CpMapper::turned_back) where the decision said to give up.
 ///
 /// Random numbers and the dictionary belong to the caller. Whatever the robot meets, an exploration ends after at most
 /// [`CpmConfig::most_traversals`] fragments.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     config: CpmConfig,
-    mapper: CpMapper,
+    /// The map, and where the robot is on it.
+    pub mapper: CpMapper,
 }
 
 impl Explorer {
@@ -43,95 +43,13 @@ impl Explorer {
         Ok(Self { config, mapper })
     }
 
-    /// Forgets its map and begins another at this place.
-    ///
-    /// # Errors
-    /// [`CpmError`] if the place has no ports; the explorer is as before then.
-    pub fn begin_anew(&mut self, start: Sighting) -> Result<(), CpmError> {
-        self.mapper = CpMapper::new(self.config.mapper(), start)?;
-        Ok(())
-    }
-
-    /// Returns the map as it is now. Offline it holds duplicates until it is [optimized](Self::optimize).
-    #[must_use]
-    pub fn map(&self) -> &CpMap {
-        self.mapper.map()
-    }
-
-    /// Returns where the robot is on the map: the port behind it.
-    #[must_use]
-    pub fn at(&self) -> Port {
-        self.mapper.at()
-    }
-
-    /// Returns the number of fragments walked to their end.
-    #[must_use]
-    pub const fn traversals(&self) -> u32 {
-        self.mapper.traversals()
-    }
-
-    /// Returns n_p of Theorem 1: the number of fragments passed before one came again; `None` if none did.
-    #[must_use]
-    pub const fn before_duplicate(&self) -> Option<u32> {
-        self.mapper.before_duplicate()
-    }
-
-    /// Returns how often the map was not what the robot found.
-    #[must_use]
-    pub const fn contradictions(&self) -> u32 {
-        self.mapper.contradictions()
-    }
-
-    /// Takes in a walk: as [`CpMapper::arrive`].
-    ///
-    /// # Errors
-    /// [`CpmError`]; the explorer is as before then.
-    pub fn arrive(
-        &mut self,
-        turn: Turn,
-        walk: &Traversal,
-        dictionary: &Dictionary,
-    ) -> Result<Arrival, CpmError> {
-        self.mapper.arrive(turn, walk, dictionary)
-    }
-
-    /// Takes in that the robot turned round in an unknown fragment: as [`CpMapper::turned_back`].
-    ///
-    /// # Errors
-    /// [`CpmError::Turn`] if the junction has no such turn.
-    pub fn turned_back(&mut self, turn: Turn, observations: u32) -> Result<(), CpmError> {
-        self.mapper.turned_back(turn, observations)
-    }
-
-    /// Merges all that is similar: as [`CpMapper::optimize`].
-    ///
-    /// # Errors
-    /// [`CpmError::Dictionary`] if the map is another dictionary's.
-    pub fn optimize(&mut self, dictionary: &Dictionary) -> Result<usize, CpmError> {
-        self.mapper.optimize(dictionary)
-    }
-
-    /// Returns the shortest known way from here to a landmark; `None` if none is known.
-    #[must_use]
-    pub fn plan(&self, landmark: Landmark) -> Option<Plan> {
-        self.mapper.plan(landmark)
-    }
-
-    /// Puts the robot at a place of the map, with this port behind it.
-    ///
-    /// # Errors
-    /// [`CpmError::Turn`] if the map has no such port.
-    pub fn place(&mut self, at: Port) -> Result<(), CpmError> {
-        self.mapper.place(at)
-    }
-
     /// What to do here. Asking changes nothing but the generator. O(fragments · log fragments); [`Aim::WayBack`] and
     /// [`Aim::Shortest`] junctions times that.
     pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> Decision {
         if let Some(done) = self.is_done(aim) {
             return Decision::Done(done);
         }
-        if self.traversals() >= self.config.most_traversals {
+        if self.mapper.traversals() >= self.config.most_traversals {
             return Decision::Done(Done::OutOfPatience);
         }
         let leg = match aim {
@@ -148,27 +66,32 @@ impl Explorer {
     }
 
     fn is_done(&self, aim: Aim) -> Option<Done> {
-        let here = self.at().junction;
+        let here = self.mapper.at().junction;
         let reached = match aim {
-            Aim::Find(landmark) => self.has(here, landmark),
-            Aim::WayBack => self.has(here, Landmark::Start),
+            Aim::Find(landmark) => self.map().has(here, landmark),
+            Aim::WayBack => self.map().has(here, Landmark::Start),
             Aim::Explore | Aim::Shortest => false,
         };
         reached.then_some(Done::Reached)
     }
 
-    fn has(&self, junction: JunctionId, landmark: Landmark) -> bool {
-        let place = self.map().junction(junction);
-        place.is_some_and(|place| place.landmark == Some(landmark))
+    fn map(&self) -> &CpMap {
+        self.mapper.map()
+    }
+
+    /// The number of the port behind the robot, and the junction it stands at.
+    fn here(&self) -> Option<(u32, &Junction)> {
+        let Port { junction, number } = self.mapper.at();
+        Some((number, self.map().junction(junction)?))
     }
 
     /// The first leg of the shortest known way to a landmark.
     fn towards(&self, landmark: Landmark) -> Option<Leg> {
-        self.first_leg(|id| self.has(id, landmark))
+        self.first_leg(|id| self.map().has(id, landmark))
     }
 
     fn first_leg(&self, wanted: impl Fn(JunctionId) -> bool) -> Option<Leg> {
-        let plan = self.map().plan(self.at(), wanted)?;
+        let plan = self.map().plan(self.mapper.at(), wanted)?;
         let first = plan.legs.first()?;
         Some(Leg {
             turn: first.turn,
@@ -181,7 +104,7 @@ impl Explorer {
         if !self.mapper.looks_at_map() {
             return self.wander(rng);
         }
-        let here = self.map().junction(self.at().junction)?;
+        let (_, here) = self.here()?;
         let open: Vec<u32> = here.open_ports().collect();
         // "1) If the current junction has some remaining unknown ports, it randomly chooses one and moves on."
         if let Some(number) = choose(&open, rng) {
@@ -201,23 +124,19 @@ impl Explorer {
 
     /// A port at random, but not the one behind; out of a dead end there is no other.
     fn wander(&self, rng: &mut impl Rng) -> Option<Leg> {
-        let degree = self.map().junction(self.at().junction)?.degree();
-        let turn = if degree == 1 {
-            Turn::BACK
-        } else {
-            Turn(rng.random_range(1..degree))
+        let (behind, here) = self.here()?;
+        let turn = match here.degree() {
+            1 => Turn::BACK,
+            degree => Turn(rng.random_range(1..degree)),
         };
-        let number = turn.exit(self.at().number, degree).ok()?;
-        self.leg_to(number, None)
+        self.leg_to(turn.exit(behind, here.degree()).ok()?, None)
     }
 
     fn leg_to(&self, number: u32, give_up_after: Option<u32>) -> Option<Leg> {
-        let at = self.at();
-        let degree = self.map().junction(at.junction)?.degree();
-        let port = Port { number, ..at };
+        let (behind, here) = self.here()?;
         Some(Leg {
-            turn: Turn::between(at.number, number, degree).ok()?,
-            known: self.map().end_at(port),
+            turn: Turn::between(behind, number, here.degree()).ok()?,
+            known: self.map().end_at(self.mapper.at().junction.port(number)),
             give_up_after,
         })
     }
@@ -225,9 +144,7 @@ impl Explorer {
     /// "Before the robot follows the map …, the robot tries to enter another different path-fragment … As long as the new
     /// path length is less than the old path length, the robot continues moving along the new path."
     fn way_back(&self, rng: &mut impl Rng) -> Option<Leg> {
-        let home = self
-            .map()
-            .plan(self.at(), |id| self.has(id, Landmark::Start));
+        let home = self.mapper.plan(Landmark::Start);
         // "It does not try the new path-fragment because the junction connects to A_s."
         let is_last = home.as_ref().is_some_and(|plan| plan.legs.len() == 1);
         if !is_last && let Some(leg) = self.shortcut(Landmark::Goal, rng) {
@@ -242,9 +159,8 @@ impl Explorer {
 
     /// An unknown port here that may lead to a shorter way between start and goal.
     fn shortcut(&self, from: Landmark, rng: &mut impl Rng) -> Option<Leg> {
-        let here = self.at().junction;
-        let room = self.room(here, from)?;
-        let ports = (0..).zip(&self.map().junction(here)?.ports);
+        let room = self.room(self.mapper.at().junction, from)?;
+        let ports = (0..).zip(&self.here()?.1.ports);
         let helpful: Vec<u32> = ports
             .filter(|(_, port)| matches!(port, PortState::Open { at_least } if *at_least < room))
             .map(|(number, _)| number)
@@ -255,18 +171,15 @@ impl Explorer {
     /// How many observations an unknown fragment at a junction has to stay below to shorten the way between start and goal, of
     /// which the part on this side of it begins at one of them; none if none can. Where no way is known, all may.
     fn room(&self, junction: JunctionId, from: Landmark) -> Option<u32> {
-        let is_goal = |id| self.has(id, Landmark::Goal);
+        let is_goal = |id| self.map().has(id, Landmark::Goal);
         // A start in a corridor may be on the map twice; the first is where the robot will be put again.
-        let start = self.map().landmarks(Landmark::Start).next()?;
-        let length = |from, wanted: &dyn Fn(JunctionId) -> bool| {
-            let port = Port {
-                junction: from,
-                number: 0,
-            };
-            self.map().plan(port, wanted).map(|plan| plan.length)
+        let start = self.map().start()?;
+        let length = |from: Port, wanted: &dyn Fn(JunctionId) -> bool| {
+            let plan = self.map().plan(from, wanted);
+            plan.map(|plan| plan.length)
         };
         let near = match from {
-            Landmark::Goal => length(junction, &is_goal)?,
+            Landmark::Goal => length(junction.port(0), &is_goal)?,
             _ => length(start, &|id| id == junction)?,
         };
         let known = length(start, &is_goal).unwrap_or(u32::MAX);

@@ -1,26 +1,29 @@
-use alloc::borrow::Cow;
 use core::ops::ControlFlow;
 
 use rand::Rng;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Arrival, Bearings, CpmError, Junction, Motion, PatternId, PlanLeg, Sighting, Traversal, Turn,
+    Arrival, Bearings, CpMap, CpmError, Junction, Motion, PatternId, Plan, PlanLeg, Port, Sighting,
+    Traversal, Turn,
 };
+use tolman_robot::Landmark;
 
 use super::common_patterns::CommonPatterns;
+use super::config::CpmConfig;
 use super::decision::{Aim, Decision, Done, Leg};
+use super::episode::{Begun, Episode};
 use super::explorer::Explorer;
-use super::reasoner::ReasonerError;
+use super::failure::CpmFailure;
 use super::robot::CpmRobot;
-use super::walker::{Observation, Walk, WalkError, Walker};
+use super::walker::{Observation, WalkError, Walker};
 use super::walker_config::HeadingBy;
 
 /// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
 ///
 /// It has no body: it takes the robot over from its lower layers, a [`Walker`], for one fragment at a time.
 #[derive(Clone, Debug)]
-pub struct Layer3<'a> {
-    patterns: Cow<'a, CommonPatterns>,
+pub struct Layer3 {
+    patterns: CommonPatterns,
     /// How far from all patterns an observation is that becomes one itself; `None` if all were learned before.
     novelty: Option<f64>,
     explorer: Explorer,
@@ -32,55 +35,47 @@ const POSITION_MARGIN: f64 = 0.08;
 /// How far a heading may be off, rad: that of a branch is the middle of a gap between walls.
 const HEADING_MARGIN: f64 = 0.6;
 
-/// What happened at the end of a fragment.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Step {
-    /// What layer 3 had decided.
-    pub leg: Leg,
-    /// What the arrival taught; none where the robot turned back.
-    pub arrival: Option<Arrival>,
-    /// The place it came to.
-    pub sighting: Option<Sighting>,
-    /// The observations.
-    pub walk: Walk,
-}
-
 /// What CPM learns from: where a map begins, or a fragment that was walked.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Experience {
     /// The place at which the robot began, with its first way out behind it.
     Began(Sighting),
-    /// A fragment walked to its end.
-    Arrived {
-        /// The turn made at the place it leads from.
-        turn: Turn,
-        /// What was seen on the way.
-        observations: Vec<Observation>,
-        /// What dead reckoning says of the way; `None` if it is not trusted, as in the paper.
-        motion: Option<Motion>,
-        /// What stands at its end.
-        sighting: Sighting,
-        /// Where the ways out of its end lead; `None` where they are numbered alone, as in the paper.
-        bearings: Option<Bearings>,
-    },
-    /// A fragment in which the robot turned round.
-    TurnedBack {
-        /// The turn made at the place it leads from.
-        turn: Turn,
-        /// Number of observations until it turned round.
-        observations: u32,
-    },
+    /// A fragment.
+    Walked(Walked),
 }
 
-impl<'a> Layer3<'a> {
+/// A fragment that was walked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Walked {
+    /// The turn made at the place it leads from.
+    pub turn: Turn,
+    /// What was seen on the way, or until the robot turned round.
+    pub observations: Vec<Observation>,
+    /// What stands at its end; `None` if the robot turned round in it.
+    pub sighting: Option<Sighting>,
+    /// What dead reckoning says of the way; `None` if it is not trusted, as in the paper.
+    pub motion: Option<Motion>,
+    /// Where the ways out of its end lead; `None` where they are numbered alone, as in the paper.
+    pub bearings: Option<Bearings>,
+}
+
+/// What happened at the end of a fragment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What layer 3 had decided.
+    pub leg: Leg,
+    /// What the robot met.
+    pub walked: Walked,
+    /// What the arrival taught; none where the robot turned back.
+    pub arrival: Option<Arrival>,
+}
+
+impl Layer3 {
     /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`. `novelty` is how far
-    /// from all patterns an observation is that becomes one itself; `None` learns no further ones.
+    /// from all patterns an observation is that becomes one itself (section 8, "the CPs must be learned incrementally");
+    /// `None` learns no further ones.
     #[must_use]
-    pub const fn new(
-        patterns: Cow<'a, CommonPatterns>,
-        novelty: Option<f64>,
-        explorer: Explorer,
-    ) -> Self {
+    pub const fn new(patterns: CommonPatterns, novelty: Option<f64>, explorer: Explorer) -> Self {
         Self {
             patterns,
             novelty,
@@ -88,19 +83,85 @@ impl<'a> Layer3<'a> {
         }
     }
 
+    /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are as of [`new`](Self::new).
+    ///
+    /// # Errors
+    /// [`CpmFailure`].
+    pub fn begin<B: CpmRobot>(
+        walker: &mut Walker<B>,
+        patterns: CommonPatterns,
+        novelty: Option<f64>,
+        config: CpmConfig,
+    ) -> Result<Self, CpmFailure<B::Error>> {
+        let explorer = Explorer::new(config, walker.begin()?)?;
+        Ok(Self::new(patterns, novelty, explorer))
+    }
+
+    /// Lets a robot look where it is that has a map, written in these patterns, which begins there.
+    ///
+    /// # Errors
+    /// [`CpmFailure`], also if it stands somewhere else.
+    pub fn resume<B: CpmRobot>(
+        walker: &mut Walker<B>,
+        patterns: CommonPatterns,
+        config: CpmConfig,
+        map: CpMap,
+    ) -> Result<Self, CpmFailure<B::Error>> {
+        let at = map.start().ok_or(CpmFailure::NoStart)?;
+        let expected = map.junction(at.junction).map(Junction::sighting);
+        let found = walker.begin()?;
+        if expected != Some(found) {
+            return Err(CpmFailure::NotTheStart { found });
+        }
+        Ok(Self::resume_at(patterns, config, map, at)?)
+    }
+
+    /// Returns layer 3 of a robot that has a map, written in these patterns, and stands at a port of it.
+    ///
+    /// # Errors
+    /// [`CpmError`] if the map has no such port.
+    pub fn resume_at(
+        patterns: CommonPatterns,
+        config: CpmConfig,
+        map: CpMap,
+        at: Port,
+    ) -> Result<Self, CpmError> {
+        let explorer = Explorer::resume(config, map, at)?;
+        Ok(Self::new(patterns, None, explorer))
+    }
+
+    /// Takes in that the robot was put back to where its map begins.
+    ///
+    /// # Errors
+    /// [`CpmFailure`].
+    pub fn placed_at_start<B: CpmRobot>(
+        &mut self,
+        walker: &mut Walker<B>,
+    ) -> Result<(), CpmFailure<B::Error>> {
+        let start = self.map().start().ok_or(CpmFailure::NoStart)?;
+        walker.begin()?;
+        Ok(self.explorer.mapper.place(start)?)
+    }
+
     /// Returns the common patterns, those learned on the way among them.
     #[must_use]
-    pub fn patterns(&self) -> &CommonPatterns {
+    pub const fn patterns(&self) -> &CommonPatterns {
         &self.patterns
     }
 
-    /// Returns the map and what decides by it.
+    /// Returns the map as it is now.
+    #[must_use]
+    pub fn map(&self) -> &CpMap {
+        self.explorer.mapper.map()
+    }
+
+    /// Returns what decides by the map.
     #[must_use]
     pub const fn explorer(&self) -> &Explorer {
         &self.explorer
     }
 
-    /// Returns the map and what decides by it, to be put elsewhere.
+    /// Returns what decides by the map, to be put elsewhere.
     pub const fn explorer_mut(&mut self) -> &mut Explorer {
         &mut self.explorer
     }
@@ -109,46 +170,34 @@ impl<'a> Layer3<'a> {
     ///
     /// # Errors
     /// [`CpmError`]; the map is as before then.
-    pub fn take_in(&mut self, experience: &Experience) -> Result<Option<Arrival>, CpmError> {
-        match experience {
-            Experience::Began(sighting) => {
-                self.explorer.begin_anew(*sighting)?;
-                Ok(None)
-            }
-            Experience::Arrived {
-                turn,
-                observations,
-                motion,
-                sighting,
-                bearings,
-            } => {
-                let traversal = Traversal {
-                    patterns: self.perceive(observations)?,
-                    motion: *motion,
-                    sighting: *sighting,
-                    bearings: bearings.clone(),
-                };
-                let dictionary = self.patterns.dictionary();
-                let arrival = self.explorer.arrive(*turn, &traversal, dictionary)?;
-                Ok(Some(arrival))
-            }
-            Experience::TurnedBack { turn, observations } => {
-                self.explorer.turned_back(*turn, *observations)?;
-                Ok(None)
-            }
-        }
+    pub fn take_in(&mut self, walked: &Walked) -> Result<Option<Arrival>, CpmError> {
+        let Some(sighting) = walked.sighting else {
+            let observations = walked.observations.len() as u32;
+            self.explorer
+                .mapper
+                .turned_back(walked.turn, observations)?;
+            return Ok(None);
+        };
+        let traversal = Traversal {
+            patterns: self.perceive(&walked.observations)?,
+            motion: walked.motion,
+            sighting,
+            bearings: walked.bearings.clone(),
+        };
+        let (mapper, dictionary) = (&mut self.explorer.mapper, self.patterns.dictionary());
+        Ok(Some(mapper.arrive(walked.turn, &traversal, dictionary)?))
     }
 
     /// Walks one fragment towards the aim, or says why there is none to walk.
     ///
     /// # Errors
-    /// [`ReasonerError`].
+    /// [`CpmFailure`].
     pub fn advance<B: CpmRobot>(
         &mut self,
         walker: &mut Walker<B>,
         aim: Aim,
         rng: &mut impl Rng,
-    ) -> Result<ControlFlow<Done, Step>, ReasonerError<B::Error>> {
+    ) -> Result<ControlFlow<Done, Step>, CpmFailure<B::Error>> {
         // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
         let leg = match self.explorer.decide(aim, rng) {
             Decision::Done(done) => return Ok(ControlFlow::Break(done)),
@@ -157,36 +206,87 @@ impl<'a> Layer3<'a> {
         // "… then it lets the lower layers regain the control of the robot."
         let from = walker.pose();
         let walk = walker.walk(leg.turn.0 as usize, 0, leg.give_up_after)?;
-        let (experience, sighting) = experienced(walker, leg.turn, &walk, from)?;
-        let arrival = self.take_in(&experience)?;
+        let walked = Walked {
+            turn: leg.turn,
+            observations: walk.observations,
+            sighting: walk.sighting,
+            motion: motion(walker, from)?,
+            bearings: bearings(walker),
+        };
+        let arrival = self.take_in(&walked)?;
         Ok(ControlFlow::Continue(Step {
             leg,
+            walked,
             arrival,
-            sighting,
-            walk,
         }))
+    }
+
+    /// Walks until the aim is reached: the first episode, or the way back. `see` is told of every fragment.
+    ///
+    /// # Errors
+    /// [`CpmFailure`].
+    pub fn pursue<B: CpmRobot>(
+        &mut self,
+        walker: &mut Walker<B>,
+        aim: Aim,
+        rng: &mut impl Rng,
+        mut see: impl FnMut(&Self, &Walker<B>, &Step),
+    ) -> Result<Episode, CpmFailure<B::Error>> {
+        let begun = Begun::now(walker);
+        loop {
+            match self.advance(walker, aim, rng)? {
+                ControlFlow::Continue(step) => see(self, walker, &step),
+                ControlFlow::Break(done) => return Ok(begun.ended(done, walker)),
+            }
+        }
     }
 
     /// Drives one fragment of a plan, skipping observations, and returns what stands at its end.
     ///
     /// # Errors
-    /// [`ReasonerError`].
+    /// [`CpmFailure`].
     pub fn drive<B: CpmRobot>(
         walker: &mut Walker<B>,
         leg: &PlanLeg,
-    ) -> Result<Sighting, ReasonerError<B::Error>> {
+    ) -> Result<Sighting, CpmFailure<B::Error>> {
         // "The length of the fragments is used to estimate how many observation the robot can skip."
         let skip = walker.strides(leg.observations);
-        match walker.walk(leg.turn.0 as usize, skip, None)? {
-            Walk::Arrived { sighting, .. } => Ok(sighting),
-            Walk::TurnedBack { .. } => Err(ReasonerError::Walk(WalkError::Lost)),
+        let walk = walker.walk(leg.turn.0 as usize, skip, None)?;
+        Ok(walk.sighting.ok_or(WalkError::Lost)?)
+    }
+
+    /// Drives the shortest known way to the goal, skipping observations: the second episode.
+    ///
+    /// # Errors
+    /// [`CpmFailure`].
+    pub fn drive_plan<B: CpmRobot>(
+        &self,
+        walker: &mut Walker<B>,
+        plan: &Plan,
+    ) -> Result<Episode, CpmFailure<B::Error>> {
+        let begun = Begun::now(walker);
+        // It may stand at the goal already.
+        let here = self.map().junction(self.explorer.mapper.at().junction);
+        let mut sighting = here.map(Junction::sighting);
+        for leg in &plan.legs {
+            sighting = Some(Self::drive(walker, leg)?);
+            if self.expected(leg) != sighting {
+                break;
+            }
         }
+        let arrived = sighting.is_some_and(|at| at.landmark == Some(Landmark::Goal));
+        let done = if arrived {
+            Done::Reached
+        } else {
+            Done::NotThere
+        };
+        Ok(begun.ended(done, walker))
     }
 
     /// Returns what the map expects at the end of a fragment of a plan.
     #[must_use]
     pub fn expected(&self, leg: &PlanLeg) -> Option<Sighting> {
-        let place = self.explorer.map().junction(leg.arrive.junction);
+        let place = self.map().junction(leg.arrive.junction);
         place.map(Junction::sighting)
     }
 
@@ -195,45 +295,16 @@ impl<'a> Layer3<'a> {
     /// # Errors
     /// [`CpmError`].
     pub fn optimize(&mut self) -> Result<usize, CpmError> {
-        self.explorer.optimize(self.patterns.dictionary())
+        self.explorer.mapper.optimize(self.patterns.dictionary())
     }
 
     /// Returns the patterns of what was seen on a way, some of them perhaps new.
     fn perceive(&mut self, observations: &[Observation]) -> Result<Vec<PatternId>, CpmError> {
         match self.novelty {
             None => Ok(self.patterns.patterns(observations)),
-            Some(novelty) => Ok(self.patterns.to_mut().learn_on(observations, novelty)?),
+            Some(novelty) => Ok(self.patterns.learn_on(observations, novelty)?),
         }
     }
-}
-
-/// Returns what a walk gave that began at the pose `from`, and what stands at its end.
-fn experienced<B: CpmRobot>(
-    walker: &Walker<B>,
-    turn: Turn,
-    walk: &Walk,
-    from: Pose,
-) -> Result<(Experience, Option<Sighting>), IntervalError> {
-    Ok(match walk {
-        Walk::Arrived {
-            observations,
-            sighting,
-            ..
-        } => {
-            let experience = Experience::Arrived {
-                turn,
-                observations: observations.clone(),
-                motion: motion(walker, from)?,
-                sighting: *sighting,
-                bearings: bearings(walker),
-            };
-            (experience, Some(*sighting))
-        }
-        Walk::TurnedBack { observations } => {
-            let observations = observations.len() as u32;
-            (Experience::TurnedBack { turn, observations }, None)
-        }
-    })
 }
 
 /// Returns where the ways lead from where the robot is; `None` for the paper's, which numbers them and no more.

@@ -4,8 +4,7 @@
 //! In the order of the paper: a [`CpmRobot`] senses landmarks; a [`Walker`] is its layers 0 and 1 and
 //! its observations (sections 3.2 and 4.1). [`CommonPatterns`] are the dictionary it learns in the
 //! learning maze (section 4.1). [`Layer3`] maps, reasons and plans on `tolman_maps::cpm` (sections 4.2,
-//! 4.3 and 6), as its [`Explorer`] decides. [`Reasoner`] plays the paper's episodes. A [`MapFile`] keeps
-//! a map. [`find_out`] tells a robot that was put down somewhere where it is (section 8).
+//! 4.3 and 6), as its [`Explorer`] decides, and plays the paper's episodes. A [`MapFile`] keeps a map. A [`Search`] tells a robot that was put down somewhere where it is (section 8).
 //! [`Cpm`] is all this as a system that is lent a robot for a fragment at a time.
 //!
 //! A robot with a laser ring looks like an e-puck behind [`RingAsEpuck`].
@@ -72,11 +71,11 @@ mod config;
 mod decision;
 mod episode;
 mod explorer;
+mod failure;
 mod layer3;
 mod map_file;
 mod mode;
 mod preset;
-mod reasoner;
 mod reckoned;
 mod ring_as_epuck;
 mod robot;
@@ -91,16 +90,15 @@ pub use config::{CpmConfig, Onward};
 pub use decision::{Aim, Decision, Done, Leg};
 pub use episode::{Begun, Episode};
 pub use explorer::Explorer;
-pub use layer3::{Experience, Layer3, Step};
+pub use failure::CpmFailure;
+pub use layer3::{Experience, Layer3, Step, Walked};
 pub use map_file::{MapFile, MapFileError};
 pub use mode::Mode;
 pub use preset::Preset;
-pub use reasoner::{Reasoner, ReasonerError};
-pub use reckoned::Reckoned;
 pub use ring_as_epuck::{RingAsEpuck, RingMeasures};
 pub use robot::CpmRobot;
-pub use search::{RestingSearch, Search, find_out};
-pub use system::{Cpm, CpmFailure, ObserveError};
+pub use search::Search;
+pub use system::{Cpm, ObserveError};
 pub use walker::{BeforePlace, Observation, Prospect, RestingWalker, Walk, WalkError, Walker};
 pub use walker_config::{EpuckMeasures, HeadingBy, WalkerConfig};
-pub use whereabouts::{Approach, Whereabouts, WhereaboutsError};
+pub use whereabouts::{Approach, Whereabouts};

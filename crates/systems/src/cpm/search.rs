@@ -1,12 +1,13 @@
 use core::ops::ControlFlow;
 
 use rand::{Rng, RngExt};
-use tolman_maps::cpm::{CpMap, LocalizeError, Localizer, LocalizerConfig, RestingLocalizer, Turn};
+use tolman_maps::cpm::{CpMap, LocalizeError, Localizer, LocalizerConfig, Turn};
 
 use super::common_patterns::CommonPatterns;
+use super::failure::CpmFailure;
 use super::robot::CpmRobot;
 use super::walker::{BeforePlace, Prospect, Walk, WalkError, Walker};
-use super::whereabouts::{Approach, SURE, Whereabouts, WhereaboutsError};
+use super::whereabouts::{Approach, SURE, Whereabouts};
 
 /// Walks of this robot along one fragment differ by less than one stride in twenty.
 const CONFIG: LocalizerConfig = LocalizerConfig {
@@ -20,21 +21,9 @@ const CONFIG: LocalizerConfig = LocalizerConfig {
 /// It comes to the place ahead by its approach and then, at random, along further fragments that its maps have. It ends when it
 /// is sure, or has come to so many places after the first. The paper's robot begins to observe at that first place; ours does at once.
 #[derive(Clone, Debug)]
-pub struct Search<'a> {
-    patterns: &'a CommonPatterns,
-    localizer: Localizer<'a>,
-    progress: Progress,
-}
-
-/// A [`Search`] between two fragments, without the maps that it is on.
-#[derive(Clone, Debug)]
-pub struct RestingSearch {
-    localizer: RestingLocalizer,
-    progress: Progress,
-}
-
-#[derive(Clone, Debug)]
-struct Progress {
+pub struct Search {
+    patterns: CommonPatterns,
+    localizer: Localizer,
     approach: Approach,
     /// Places that it may come to after the first.
     last: usize,
@@ -43,99 +32,95 @@ struct Progress {
     degree: u32,
 }
 
-impl<'a> Search<'a> {
+impl Search {
     /// Returns a search on `maps` that ends after `most_places` places, at least one.
     ///
     /// # Errors
     /// [`LocalizeError`] if the maps are empty or have other patterns.
     pub fn new(
-        maps: &'a [CpMap],
-        patterns: &'a CommonPatterns,
+        maps: &[CpMap],
+        patterns: &CommonPatterns,
         approach: Approach,
         most_places: u32,
     ) -> Result<Self, LocalizeError> {
         Ok(Self {
-            patterns,
+            patterns: patterns.clone(),
             localizer: Localizer::new(maps, patterns.dictionary(), CONFIG)?,
-            progress: Progress {
-                approach,
-                last: most_places.saturating_sub(1) as usize,
-                found: Whereabouts::default(),
-                degree: 0,
-            },
+            approach,
+            last: most_places.saturating_sub(1) as usize,
+            found: Whereabouts::default(),
+            degree: 0,
         })
-    }
-
-    /// Returns all that it knows, without maps and patterns.
-    #[must_use]
-    pub fn rest(self) -> RestingSearch {
-        RestingSearch {
-            localizer: self.localizer.rest(),
-            progress: self.progress,
-        }
-    }
-
-    /// Goes on with a search, on the same maps and patterns.
-    #[must_use]
-    pub fn wake(resting: RestingSearch, maps: &'a [CpMap], patterns: &'a CommonPatterns) -> Self {
-        Self {
-            localizer: Localizer::wake(resting.localizer, maps, patterns.dictionary()),
-            patterns,
-            progress: resting.progress,
-        }
     }
 
     /// Returns what it has found out.
     #[must_use]
     pub const fn found(&self) -> &Whereabouts {
-        &self.progress.found
+        &self.found
     }
 
     /// Comes to the next place. Breaks where it is sure or has come to as many as it may.
     ///
     /// # Errors
-    /// [`WhereaboutsError`].
+    /// [`CpmFailure`].
     pub fn advance<B: CpmRobot>(
         &mut self,
         walker: &mut Walker<B>,
         rng: &mut impl Rng,
-    ) -> Result<ControlFlow<()>, WhereaboutsError<B::Error>> {
-        let place = self.progress.found.at_places.len();
+    ) -> Result<ControlFlow<()>, CpmFailure<B::Error>> {
+        let place = self.found.at_places.len();
         let walk = if place == 0 {
             self.set_off(walker)?
         } else {
-            let turn = onward(&self.localizer, self.progress.degree, rng);
+            let turn = onward(&self.localizer, self.degree, rng);
             self.localizer.turn(turn)?;
             walker.walk(turn.0 as usize, 0, None)?
         };
         self.arrive(walker, walk)?;
-        if place == self.progress.last || is_sure(&self.localizer) {
+        if place == self.last || is_sure(&self.localizer) {
             return Ok(ControlFlow::Break(()));
         }
         Ok(ControlFlow::Continue(()))
+    }
+
+    /// Lets a robot that was put down anywhere search until it knows where it is, or gives up. `see` is told of every
+    /// place it comes to.
+    ///
+    /// Where it is then, [`Whereabouts::here`] says: `Location::ahead` is the port behind it.
+    ///
+    /// # Errors
+    /// [`CpmFailure`].
+    pub fn find_out<B: CpmRobot>(
+        mut self,
+        walker: &mut Walker<B>,
+        rng: &mut impl Rng,
+        mut see: impl FnMut(&Walker<B>),
+    ) -> Result<Whereabouts, CpmFailure<B::Error>> {
+        loop {
+            let flow = self.advance(walker, rng)?;
+            see(walker);
+            if flow.is_break() {
+                return Ok(self.found);
+            }
+        }
     }
 
     fn set_off<B: CpmRobot>(
         &mut self,
         walker: &mut Walker<B>,
     ) -> Result<Walk, WalkError<B::Error>> {
-        let Self {
-            patterns,
-            localizer,
-            progress,
-        } = self;
         walker.set_off(|prospect| {
-            if progress.approach == Approach::StraightOn {
+            if self.approach == Approach::StraightOn {
                 return BeforePlace::Enter;
             }
-            let mut ahead = localizer.clone();
+            let mut ahead = self.localizer.clone();
             // What cannot be taken in here cannot be at the place either, and is told of there.
-            if take_in(&mut ahead, prospect, patterns).is_err() || is_sure(&ahead) {
+            if take_in(&mut ahead, prospect, &self.patterns).is_err() || is_sure(&ahead) {
                 return BeforePlace::Enter;
             }
             ahead.turn_round();
-            *localizer = ahead;
-            progress.found.has_turned_round = true;
+            self.localizer = ahead;
+            self.found.has_turned_round = true;
             BeforePlace::TurnRound
         })
     }
@@ -144,24 +129,17 @@ impl<'a> Search<'a> {
         &mut self,
         walker: &Walker<B>,
         walk: Walk,
-    ) -> Result<(), WhereaboutsError<B::Error>> {
-        let Walk::Arrived {
-            observations,
-            glimpse,
-            sighting,
-        } = walk
-        else {
-            return Err(WalkError::Lost.into());
-        };
+    ) -> Result<(), CpmFailure<B::Error>> {
+        let sighting = walk.sighting.ok_or(WalkError::Lost)?;
         let prospect = Prospect {
-            observations,
-            glimpse,
+            observations: walk.observations,
+            glimpse: walk.glimpse,
             landmark: sighting.landmark,
         };
-        let found = &mut self.progress.found;
+        let found = &mut self.found;
         let is_whole = !found.at_places.is_empty() || found.has_turned_round;
         let has_seen = is_whole || prospect.glimpse.is_some() || !prospect.observations.is_empty();
-        take_in(&mut self.localizer, &prospect, self.patterns)?;
+        take_in(&mut self.localizer, &prospect, &self.patterns)?;
         let belief = has_seen.then(|| self.localizer.location());
         found.under_way.push(belief);
         if is_whole {
@@ -169,48 +147,14 @@ impl<'a> Search<'a> {
         }
         self.localizer.arrive(sighting, walker.bearings().as_ref());
         found.at_places.push(self.localizer.location());
-        self.progress.degree = sighting.degree;
+        self.degree = sighting.degree;
         Ok(())
-    }
-}
-
-impl RestingSearch {
-    /// Returns what it has found out.
-    #[must_use]
-    pub const fn found(&self) -> &Whereabouts {
-        &self.progress.found
-    }
-}
-
-/// Lets a robot that was put down anywhere [search](Search) until it knows where it is, or gives up. `see` is told of
-/// every place it comes to.
-///
-/// Where it is then, [`Whereabouts::here`] says: `Location::ahead` is the port behind it.
-///
-/// # Errors
-/// [`WhereaboutsError`].
-pub fn find_out<B: CpmRobot>(
-    walker: &mut Walker<B>,
-    maps: &[CpMap],
-    patterns: &CommonPatterns,
-    approach: Approach,
-    most_places: u32,
-    rng: &mut impl Rng,
-    mut see: impl FnMut(&Walker<B>),
-) -> Result<Whereabouts, WhereaboutsError<B::Error>> {
-    let mut search = Search::new(maps, patterns, approach, most_places)?;
-    loop {
-        let flow = search.advance(walker, rng)?;
-        see(walker);
-        if flow.is_break() {
-            return Ok(search.progress.found);
-        }
     }
 }
 
 /// What is known when a place comes into sight.
 fn take_in(
-    localizer: &mut Localizer<'_>,
+    localizer: &mut Localizer,
     prospect: &Prospect,
     patterns: &CommonPatterns,
 ) -> Result<(), LocalizeError> {
@@ -221,12 +165,12 @@ fn take_in(
     Ok(())
 }
 
-fn is_sure(localizer: &Localizer<'_>) -> bool {
+fn is_sure(localizer: &Localizer) -> bool {
     localizer.location().probability > SURE
 }
 
 /// A turn at random among those that its maps most likely know: by others it would learn nothing.
-fn onward(localizer: &Localizer<'_>, degree: u32, rng: &mut impl Rng) -> Turn {
+fn onward(localizer: &Localizer, degree: u32, rng: &mut impl Rng) -> Turn {
     let turns = || (1..degree).map(Turn);
     let best = turns()
         .map(|turn| localizer.knows(turn))

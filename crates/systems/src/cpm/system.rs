@@ -1,10 +1,9 @@
-use alloc::borrow::Cow;
 use core::ops::ControlFlow;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_maps::cpm::{CpMap, CpmError, JunctionId, LocalizeError, Location, Plan, Port, Sign};
+use tolman_maps::cpm::{CpMap, CpmError, Junction, JunctionId, Location, Plan, Port, Sign};
 use tolman_robot::{
     Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, Standing, System, Task,
 };
@@ -13,14 +12,14 @@ use super::common_patterns::CommonPatterns;
 use super::config::CpmConfig;
 use super::decision::{Aim, Done};
 use super::explorer::Explorer;
+use super::failure::CpmFailure;
 use super::layer3::{Experience, Layer3};
 use super::mode::Mode;
-use super::reasoner::ReasonerError;
 use super::robot::CpmRobot;
-use super::search::{RestingSearch, Search};
+use super::search::Search;
 use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
-use super::whereabouts::{Approach, WhereaboutsError};
+use super::whereabouts::Approach;
 
 /// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes where it is sent.
 ///
@@ -37,7 +36,7 @@ pub struct Cpm {
     /// What it learned before its first map.
     patterns: CommonPatterns,
     novelty: Option<f64>,
-    layer: Option<Layer3<'static>>,
+    layer: Option<Layer3>,
     standing: Stance,
     rng: ChaCha8Rng,
 }
@@ -48,7 +47,7 @@ enum Stance {
     /// Nobody knows where: it has just been switched on, or was carried.
     Anywhere,
     /// It is finding out where.
-    Searching(Box<(RestingWalker, RestingSearch)>),
+    Searching(Box<(RestingWalker, Search)>),
     /// At the place where its map has it.
     AtPlace(RestingWalker),
 }
@@ -107,12 +106,7 @@ impl Cpm {
         seed: u64,
     ) -> Result<Self, CpmError> {
         let somewhere = map.junctions().next().map_or(JunctionId(0), |(id, _)| id);
-        let at = Port {
-            junction: somewhere,
-            number: 0,
-        };
-        let explorer = Explorer::resume(config, map, at)?;
-        let layer = Layer3::new(Cow::Owned(patterns.clone()), None, explorer);
+        let layer = Layer3::resume_at(patterns.clone(), config, map, somewhere.port(0))?;
         Ok(Self {
             layer: Some(layer),
             ..Self::new(walker, patterns, config, seed)
@@ -139,15 +133,11 @@ impl Cpm {
     /// Looks where the robot is and begins the map there.
     fn begin<R: CpmRobot>(&mut self, robot: &mut R) -> Result<Standing, CpmFailure<R::Error>> {
         let mut walker = Walker::new(robot, self.walker.clone());
-        let start = walker.begin().map_err(ReasonerError::Walk)?;
-        self.begin_map(Explorer::new(self.config, start)?);
+        let patterns = self.patterns.clone();
+        let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
+        self.layer = Some(layer);
         self.standing = Stance::AtPlace(walker.rest());
         Ok(Standing::UnderWay)
-    }
-
-    fn begin_map(&mut self, explorer: Explorer) {
-        let patterns = Cow::Owned(self.patterns.clone());
-        self.layer = Some(Layer3::new(patterns, self.novelty, explorer));
     }
 
     /// Comes to the next place on the way to knowing where it is.
@@ -155,21 +145,19 @@ impl Cpm {
         let Some(layer) = &mut self.layer else {
             return Ok(Standing::gave_up("it has no map to find itself on"));
         };
-        let maps = [layer.explorer().map().clone()];
-        let patterns = layer.patterns();
         let standing = core::mem::replace(&mut self.standing, Stance::Anywhere);
         let (mut walker, mut search) = match standing {
-            Stance::Searching(resting) => {
-                let (walker, search) = *resting;
+            Stance::Searching(searching) => {
+                let (resting, search) = *searching;
+                (Walker::wake(robot, self.walker.clone(), resting), search)
+            }
+            Stance::Anywhere | Stance::AtPlace(_) => {
+                let (maps, patterns) = ([layer.map().clone()], layer.patterns());
                 (
-                    Walker::wake(robot, self.walker.clone(), walker),
-                    Search::wake(search, &maps, patterns),
+                    Walker::new(robot, self.walker.clone()),
+                    Search::new(&maps, patterns, Approach::ToAndFro, MOST_PLACES)?,
                 )
             }
-            Stance::Anywhere | Stance::AtPlace(_) => (
-                Walker::new(robot, self.walker.clone()),
-                Search::new(&maps, patterns, Approach::ToAndFro, MOST_PLACES)?,
-            ),
         };
         let flow = search.advance(&mut walker, &mut self.rng)?;
         let ways = walker.branches().len();
@@ -177,8 +165,8 @@ impl Cpm {
         match (flow, here) {
             (ControlFlow::Break(()), Some(here)) => {
                 let is_sure = search.found().is_sure();
-                let is_like = maps[0].degree(here.ahead.junction) as usize == ways;
-                layer.explorer_mut().place(here.ahead)?;
+                let is_like = layer.map().degree(here.ahead.junction) as usize == ways;
+                layer.explorer_mut().mapper.place(here.ahead)?;
                 self.standing = Stance::AtPlace(walker);
                 Ok(if is_sure && is_like {
                     Standing::Done
@@ -190,7 +178,7 @@ impl Cpm {
                 })
             }
             _ => {
-                self.standing = Stance::Searching(Box::new((walker, search.rest())));
+                self.standing = Stance::Searching(Box::new((walker, search)));
                 Ok(Standing::UnderWay)
             }
         }
@@ -220,7 +208,7 @@ impl Cpm {
             }
             Done::OutOfPatience => Standing::gave_up(format!(
                 "it has walked {} fragments, as many as it may",
-                layer.explorer().traversals()
+                layer.explorer().mapper.traversals()
             )),
         })
     }
@@ -239,7 +227,7 @@ impl Cpm {
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
         let sighting = Layer3::drive(&mut walker, leg)?;
         if layer.expected(leg) == Some(sighting) {
-            layer.explorer_mut().place(leg.arrive)?;
+            layer.explorer_mut().mapper.place(leg.arrive)?;
             self.standing = Stance::AtPlace(walker.rest());
         }
         Ok(Standing::UnderWay)
@@ -247,13 +235,10 @@ impl Cpm {
 
     /// Returns the shortest known way to a goal; `None` if none is known.
     fn plan(&self, goal: Goal) -> Option<Plan> {
-        let explorer = self.explorer()?;
+        let mapper = &self.explorer()?.mapper;
         match goal {
-            Goal::Landmark(landmark) => explorer.plan(landmark),
-            Goal::Place(place) => {
-                let map = explorer.map();
-                map.plan(explorer.at(), |id| id == JunctionId(place))
-            }
+            Goal::Landmark(landmark) => mapper.plan(landmark),
+            Goal::Place(place) => mapper.map().plan(mapper.at(), |id| id == JunctionId(place)),
         }
     }
 
@@ -285,19 +270,20 @@ impl Mapper for Cpm {
         match (seen, &mut self.layer) {
             (Experience::Began(start), _) => {
                 let explorer = Explorer::new(self.config, *start)?;
-                self.begin_map(explorer);
+                let patterns = self.patterns.clone();
+                self.layer = Some(Layer3::new(patterns, self.novelty, explorer));
             }
-            (_, Some(layer)) => {
-                layer.take_in(seen)?;
+            (Experience::Walked(walked), Some(layer)) => {
+                layer.take_in(walked)?;
             }
-            (_, None) => return Err(ObserveError::NotBegun),
+            (Experience::Walked(_), None) => return Err(ObserveError::NotBegun),
         }
         Ok(())
     }
 
     fn map(&self) -> MapView {
-        self.explorer()
-            .map_or_else(MapView::default, |explorer| view(explorer.map()))
+        let layer = self.layer.as_ref();
+        layer.map_or_else(MapView::default, |layer| view(layer.map()))
     }
 
     fn belief(&self) -> Vec<Guess> {
@@ -306,7 +292,7 @@ impl Mapper for Cpm {
                 let here: Option<Location> = resting.1.found().here();
                 here.map(|here| (here.ahead, here.probability))
             }
-            (Stance::AtPlace(_), Some(explorer)) => Some((explorer.at(), 1.0)),
+            (Stance::AtPlace(_), Some(explorer)) => Some((explorer.mapper.at(), 1.0)),
             (Stance::Anywhere, _) | (_, None) => None,
         };
         let guess = |(at, weight): (Port, f64)| Guess {
@@ -319,7 +305,7 @@ impl Mapper for Cpm {
 
 /// Returns a map as places and links; a fragment leads both ways.
 fn view(map: &CpMap) -> MapView {
-    let place = |(id, junction): (JunctionId, &tolman_maps::cpm::Junction)| MapPlace {
+    let place = |(id, junction): (JunctionId, &Junction)| MapPlace {
         id: id.0,
         position: None,
         landmark: junction.landmark,
@@ -378,22 +364,4 @@ pub enum ObserveError {
     /// The map refuses it.
     #[error(transparent)]
     Map(#[from] CpmError),
-}
-
-/// Why CPM cannot go on with its robot.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum CpmFailure<E> {
-    /// A fragment was not walked, or not taken in.
-    #[error(transparent)]
-    Reasoner(#[from] ReasonerError<E>),
-    /// It could not find out where it is.
-    #[error(transparent)]
-    Whereabouts(#[from] WhereaboutsError<E>),
-    /// The map refuses what it met.
-    #[error(transparent)]
-    Map(#[from] CpmError),
-    /// The map cannot be searched.
-    #[error(transparent)]
-    Localize(#[from] LocalizeError),
 }

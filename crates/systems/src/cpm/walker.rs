@@ -6,7 +6,7 @@ use tolman_control::epuck::{
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
-use tolman_robot::{Landmark, SensesLandmarks};
+use tolman_robot::{Landmark, Robot, SensesLandmarks};
 
 use super::reckoned::Reckoned;
 use super::robot::CpmRobot;
@@ -22,7 +22,7 @@ pub struct Walker<B: CpmRobot> {
 }
 
 /// What a walker remembers from one fragment to the next.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Memory {
     /// The branches of the place it stands at, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
@@ -51,23 +51,15 @@ pub struct Observation {
     pub half_turned: [f64; FEATURES],
 }
 
-/// How a walk ended.
+/// A walk to its end.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Walk {
-    /// At the next place.
-    Arrived {
-        /// What was seen on the way.
-        observations: Vec<Observation>,
-        /// Where ways out of the place seemed to lead when it came into sight, as of a place that it was about to enter.
-        glimpse: Option<Bearings>,
-        /// What the place is.
-        sighting: Sighting,
-    },
-    /// Back where it began, after so many observations.
-    TurnedBack {
-        /// What was seen until it turned round.
-        observations: Vec<Observation>,
-    },
+pub struct Walk {
+    /// What was seen on the way, or until the robot turned round.
+    pub observations: Vec<Observation>,
+    /// Where ways out of the place seemed to lead when it came into sight, as of a place that it was about to enter.
+    pub glimpse: Option<Bearings>,
+    /// What the place is that it led to; `None` where the robot turned round, and is back where it began.
+    pub sighting: Option<Sighting>,
 }
 
 /// What a robot knows of a fragment when the place at its end comes into sight.
@@ -182,24 +174,24 @@ const NEAR: f64 = 0.015;
 impl<B: CpmRobot> Walker<B> {
     /// A walker that stands where its body stands.
     pub fn new(body: B, config: WalkerConfig) -> Self {
-        Self {
-            pilot: Pilot::new(Reckoned::new(body), config.pilot.clone()),
-            config,
-            memory: Memory {
-                branches: Vec::new(),
-                trail: Vec::new(),
-                observations: 0,
-                departed_us: 0,
-                departed: Pose::IDENTITY,
-            },
-        }
+        let resting = RestingWalker {
+            memory: Memory::default(),
+            forward: Forward::new(config.pilot.forward),
+            pose: Pose::IDENTITY,
+            driven: 0.0,
+        };
+        Self::wake(body, config, resting)
     }
 
     /// Goes on with the robot, which has not been moved since the walker was given its [rest](Self::rest).
     pub fn wake(body: B, config: WalkerConfig, resting: RestingWalker) -> Self {
-        let body = Reckoned::resume(body, resting.pose, resting.driven);
+        let reckoned = Reckoned {
+            body,
+            pose: resting.pose,
+            driven: resting.driven,
+        };
         Self {
-            pilot: Pilot::resume(body, config.pilot.clone(), resting.forward),
+            pilot: Pilot::resume(reckoned, config.pilot.clone(), resting.forward),
             config,
             memory: resting.memory,
         }
@@ -217,22 +209,22 @@ impl<B: CpmRobot> Walker<B> {
 
     /// The body.
     pub const fn body(&self) -> &B {
-        self.pilot.robot().body()
+        &self.pilot.robot().body
     }
 
     /// The body, to be lifted.
     pub const fn body_mut(&mut self) -> &mut B {
-        self.pilot.robot_mut().body_mut()
+        &mut self.pilot.robot_mut().body
     }
 
     /// Where it believes to be, in the frame in which it began.
     pub const fn pose(&self) -> Pose {
-        self.pilot.robot().pose()
+        self.pilot.robot().pose
     }
 
     /// Microseconds since the robot was switched on.
     pub fn time_us(&self) -> u64 {
-        self.pilot.robot().body().sensing().time_us
+        self.pilot.robot().sensing().time_us
     }
 
     /// How many observations it has made.
@@ -258,7 +250,7 @@ impl<B: CpmRobot> Walker<B> {
 
     /// How far it drove so far, m.
     pub const fn driven(&self) -> f64 {
-        self.pilot.robot().driven()
+        self.pilot.robot().driven
     }
 
     /// Sweeps where it stands.
@@ -280,10 +272,8 @@ impl<B: CpmRobot> Walker<B> {
     /// # Errors
     /// [`WalkError`].
     pub fn begin(&mut self) -> Result<Sighting, WalkError<B::Error>> {
-        match self.set_off(|_| BeforePlace::Enter)? {
-            Walk::Arrived { sighting, .. } => Ok(sighting),
-            Walk::TurnedBack { .. } => Err(WalkError::Lost),
-        }
+        let walk = self.set_off(|_| BeforePlace::Enter)?;
+        walk.sighting.ok_or(WalkError::Lost)
     }
 
     /// As [`begin`](Self::begin), and tells what it saw on the way, from where it stands on; nothing where it stands at a place.
@@ -399,8 +389,10 @@ impl<B: CpmRobot> Walker<B> {
                 self.pilot.turn(PI)?;
                 let back = self.course(None, 0);
                 self.follow(back, None)?;
-                return Ok(Walk::TurnedBack {
+                return Ok(Walk {
                     observations: filled(&course.track),
+                    glimpse: None,
+                    sighting: None,
                 });
             }
         }
@@ -522,21 +514,19 @@ impl<B: CpmRobot> Walker<B> {
     /// Drives on from where a landmark is first seen to near its middle.
     fn drive_to_landmark(&mut self) -> Result<(), WalkError<B::Error>> {
         let width = self.config.corridor_width;
-        let begun = self.pilot.robot().driven();
+        let begun = self.driven();
         let step_s = self.config.pilot.step_us as f64 * 1e-6;
-        while self.pilot.robot().driven() - begun < TO_LANDMARK * width
-            && !self.pilot.is_enclosed(0.75 * width)
-        {
+        while self.driven() - begun < TO_LANDMARK * width && !self.pilot.is_enclosed(0.75 * width) {
             self.pilot.follow(step_s)?;
         }
         Ok(())
     }
 
     fn arrived(&self, track: Track, seen: Seen) -> Walk {
-        Walk::Arrived {
+        Walk {
             observations: self.up_to(track, self.pose().position),
             glimpse: seen.glimpse,
-            sighting: seen.sighting,
+            sighting: Some(seen.sighting),
         }
     }
 

@@ -1,7 +1,6 @@
-use thiserror::Error;
-use tolman_maps::cpm::{LocalizeError, Location};
+use tolman_maps::cpm::Location;
 
-use super::walker::{Observation, WalkError};
+use super::walker::Observation;
 
 /// How a robot goes to the first place that was put down amid a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,16 +41,4 @@ impl Whereabouts {
     pub fn is_sure(&self) -> bool {
         self.here().is_some_and(|here| here.probability > SURE)
     }
-}
-
-/// Why a robot cannot look where it is.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum WhereaboutsError<E> {
-    /// The robot.
-    #[error(transparent)]
-    Walk(#[from] WalkError<E>),
-    /// The maps.
-    #[error(transparent)]
-    Maps(#[from] LocalizeError),
 }

@@ -65,7 +65,7 @@ impl World {
                 continue;
             }
             for number in 0..degree {
-                let here = Port { number, ..port };
+                let here = port.junction.port(number);
                 let there = WorldPort {
                     number: (first.number + number) % degree,
                     ..first

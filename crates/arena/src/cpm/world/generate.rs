@@ -114,28 +114,35 @@ impl MazeConfig {
     }
 
     fn check(&self) -> Result<(), MazeError> {
-        let within = |field, value: f64, low: f64, high: f64, range| {
-            if (low..=high).contains(&value) {
-                Ok(())
-            } else {
-                Err(MazeError::OutOfRange {
+        let kinds = match self.likeness {
+            Likeness::Kinds(kinds) => kinds,
+            Likeness::Distinctive => 1,
+        };
+        let density = self.observations_per_cell;
+        let fields = [
+            ("columns", self.columns.into(), 2.0..=1000.0, "2 to 1000"),
+            ("rows", self.rows.into(), 2.0..=1000.0, "2 to 1000"),
+            ("loops", self.loops, 0.0..=1.0, "0 to 1"),
+            ("diagonals", self.diagonals, 0.0..=1.0, "0 to 1"),
+            (
+                "patterns",
+                self.patterns.into(),
+                2.0..=1e6,
+                "2 to 1 000 000",
+            ),
+            ("observations_per_cell", density, 1.0..=1000.0, "1 to 1000"),
+            ("persistence", self.persistence, 0.0..=1.0, "0 to 1"),
+            ("symmetrical", self.symmetrical, 0.0..=1.0, "0 to 1"),
+            ("likeness", kinds.into(), 1.0..=1e6, "1 to 1 000 000 kinds"),
+        ];
+        for (field, value, allowed, range) in fields {
+            if !allowed.contains(&value) {
+                return Err(MazeError::OutOfRange {
                     field,
                     value,
                     range,
-                })
+                });
             }
-        };
-        within("columns", self.columns.into(), 2.0, 1000.0, "2 to 1000")?;
-        within("rows", self.rows.into(), 2.0, 1000.0, "2 to 1000")?;
-        within("loops", self.loops, 0.0, 1.0, "0 to 1")?;
-        within("diagonals", self.diagonals, 0.0, 1.0, "0 to 1")?;
-        within("patterns", self.patterns.into(), 2.0, 1e6, "2 to 1 000 000")?;
-        let density = self.observations_per_cell;
-        within("observations_per_cell", density, 1.0, 1000.0, "1 to 1000")?;
-        within("persistence", self.persistence, 0.0, 1.0, "0 to 1")?;
-        within("symmetrical", self.symmetrical, 0.0, 1.0, "0 to 1")?;
-        if let Likeness::Kinds(kinds) = self.likeness {
-            within("likeness", kinds.into(), 1.0, 1e6, "1 to 1 000 000 kinds")?;
         }
         Ok(())
     }

@@ -175,10 +175,15 @@ impl<'a> Rover<'a> {
             };
             match self.go(leg.turn, leg.give_up_after, rng)? {
                 Outcome::Arrived(walk) => {
-                    let arrival = explorer.arrive(leg.turn, &walk, &self.world.dictionary)?;
+                    let arrival =
+                        explorer
+                            .mapper
+                            .arrive(leg.turn, &walk, &self.world.dictionary)?;
                     see(self, explorer, &leg, arrival);
                 }
-                Outcome::TurnedBack(seen) => explorer.turned_back(leg.turn, seen.len() as u32)?,
+                Outcome::TurnedBack(seen) => {
+                    explorer.mapper.turned_back(leg.turn, seen.len() as u32)?;
+                }
             }
         }
     }

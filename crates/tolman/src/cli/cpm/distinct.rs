@@ -4,11 +4,10 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use tolman_arena::cpm::{Pair, Venue, distinctness, learn};
+use tolman_arena::cpm::{Pair, distinctness};
 use tolman_maps::cpm::Sense;
 
-use super::learn::LEARNING_MAZE;
-use super::venue;
+use super::{learned_patterns, venue};
 use crate::cli::share::share;
 use crate::cli::{Failure, OrBadInput};
 
@@ -33,16 +32,11 @@ pub(in crate::cli) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
-    let patterns = learn(&learning.maze, learning.corridor_width, arguments.seed)?;
+    let patterns = learned_patterns(arguments.seed)?;
     for path in &arguments.mazes {
-        let Venue {
-            name,
-            maze,
-            corridor_width,
-        } = venue(path)?;
-        let seeds = 0..u64::from(arguments.walks);
-        let found = distinctness(&maze, corridor_width, &patterns, seeds).or_bad_input()?;
+        let venue = venue(path)?;
+        let (name, seeds) = (&venue.name, 0..u64::from(arguments.walks));
+        let found = distinctness(&venue, &patterns, seeds).or_bad_input()?;
         if let Some(most) = found.most_alike {
             let told = told(&most);
             if most.score >= arguments.below {

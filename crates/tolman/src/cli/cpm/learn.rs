@@ -6,13 +6,13 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use tolman_arena::cpm::{Learned, Progress, Trial, Venue, epuck, learn};
+use tolman_arena::cpm::{Learned, Progress, Trial, epuck};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_systems::Origin;
 use tolman_systems::cpm::{Aim, CommonPatterns, Done, MapFile, Preset};
 
-use super::{classify, venue};
+use super::{classify, learned_patterns, venue};
 use crate::cli::bar::bar;
 use crate::cli::words::words;
 use crate::cli::{Failure, file, interrupt};
@@ -80,22 +80,15 @@ const fn remedy(system: Preset) -> &'static str {
     }
 }
 
-/// Where the common patterns are learned.
-pub(super) const LEARNING_MAZE: &str = include_str!("../../../../../mazes/cpm-learning.maze");
-
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let venue = venue(&arguments.maze)?;
     let (system, aim) = (arguments.system, arguments.until);
     let patterns = match system {
-        Preset::Faithful | Preset::Better => {
-            let learning = Venue::new("", tolman_maze::read(LEARNING_MAZE)?)?;
-            learn(&learning.maze, learning.corridor_width, arguments.seed)?
-        }
+        Preset::Faithful | Preset::Better => learned_patterns(arguments.seed)?,
         Preset::Unlearned => CommonPatterns::none()?,
     };
     let trial = Trial {
-        maze: &venue.maze,
-        corridor_width: venue.corridor_width,
+        venue: &venue,
         patterns: &patterns,
         robot: epuck(),
         mode: system.mode(),
@@ -147,7 +140,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let there_are = trial.true_fragments();
     let file = MapFile {
         origin: Origin {
-            world: venue.name,
+            world: venue.name.clone(),
             robot: "e-puck".to_owned(),
             seed: arguments.seed,
         },

@@ -9,7 +9,8 @@ use std::path::Path;
 
 use anyhow::{Context, Error};
 use clap::Subcommand;
-use tolman_arena::cpm::{TrialError, Venue};
+use tolman_arena::cpm::{TrialError, Venue, learn};
+use tolman_systems::cpm::CommonPatterns;
 
 use super::{Failure, OrBadInput, maze};
 
@@ -41,6 +42,16 @@ fn classify(error: TrialError, context: String) -> Failure {
     failure(Error::from(error).context(context))
 }
 
+/// Learns common patterns in the learning maze.
+///
+/// # Errors
+/// If the robot fails.
+fn learned_patterns(seed: u64) -> Result<CommonPatterns, Failure> {
+    let learning = include_str!("../../../../../mazes/cpm-learning.maze");
+    let learning = Venue::of_file("", tolman_maze::read(learning)?)?;
+    Ok(learn(&learning, seed)?)
+}
+
 /// Reads a maze file with a start.
 ///
 /// # Errors
@@ -48,7 +59,7 @@ fn classify(error: TrialError, context: String) -> Failure {
 pub(super) fn venue(path: &Path) -> Result<Venue, Failure> {
     let file = maze::read(path)?;
     let name = maze::name(path);
-    Venue::new(&name, file)
+    Venue::of_file(&name, file)
         .with_context(|| name.clone())
         .or_bad_input()
 }

@@ -10,7 +10,6 @@ use tolman_draw::Figure;
 use tolman_geom::Pose;
 use tolman_maps::cpm::CpMap;
 use tolman_papers::cpm::drawing;
-use tolman_sim::World;
 use tolman_systems::cpm::Done;
 use tolman_systems::cpm::MapFile;
 
@@ -80,19 +79,17 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let venue = venue(&arguments.maze)?;
     let trial = Trial {
-        maze: &venue.maze,
-        corridor_width: venue.corridor_width,
+        venue: &venue,
         patterns: &first.patterns,
         robot: epuck(),
         mode: first.preset.mode(),
         seed: arguments.seed,
     };
-    let world = venue.world().or_bad_input()?;
     let maps: Vec<CpMap> = files.iter().map(|file| file.map.clone()).collect();
     let driven = match (&maps[..], arguments.start) {
         ([map], Start::Marked) => trial.drive(map.clone()).map(|errand| (None, errand)),
         (maps, start) => {
-            let start = pose(start, &venue, &world, arguments.seed)?;
+            let start = pose(start, &venue, arguments.seed)?;
             let drive = trial.drive_from(maps, start);
             drive.map(|drive| (Some(Found::of(&drive)), drive.errand))
         }
@@ -102,7 +99,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let Errand { episode, bumps, .. } = &errand;
     let reached = episode.done == Done::Reached;
     if let Some(path) = &arguments.svg {
-        let drawing = drawing::drive(&errand.map, &venue.maze, &world, &errand.path);
+        let drawing = drawing::drive(&errand.map, &venue, &errand.path);
         file::write(
             path,
             Figure::new("drive", &venue.name, drawing).standalone(),
@@ -162,11 +159,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 ///
 /// # Errors
 /// Bad input if there is nowhere.
-fn pose(start: Start, venue: &Venue, world: &World, seed: u64) -> Result<Pose, Failure> {
+fn pose(start: Start, venue: &Venue, seed: u64) -> Result<Pose, Failure> {
     match start {
-        Start::Marked => venue.start(world).or_bad_input(),
+        Start::Marked => venue.start().or_bad_input(),
         Start::Random => venue
-            .anywhere(world, seed)
+            .anywhere(seed)
             .ok_or_else(|| anyhow!("{} has no way to a goal", venue.name))
             .or_bad_input(),
         Start::At(pose) => Ok(pose),

@@ -5,7 +5,6 @@ use std::io::Write;
 use anyhow::anyhow;
 use serde_json::json;
 use tolman_draw::Figure;
-use tolman_maps::cpm::Port;
 use tolman_papers::cpm::drawing;
 use tolman_robot::Landmark;
 use tolman_systems::Origin;
@@ -13,7 +12,7 @@ use tolman_systems::cpm::MapFile;
 
 use super::show::Arguments;
 use crate::cli::maze::name as maze_name;
-use crate::cli::{Failure, OrBadInput, cpm, file};
+use crate::cli::{Failure, cpm, file};
 
 pub(super) fn carry_out(
     arguments: &Arguments,
@@ -37,23 +36,14 @@ pub(super) fn carry_out(
                 venue.name
             )));
         }
-        let walls = venue.world().or_bad_input()?;
-        let drawing = drawing::over_maze(map, &venue.maze, &walls);
+        let drawing = drawing::over_maze(map, &venue);
         file::write(path, Figure::new("map", &venue.name, drawing).standalone())?;
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
     let (fragments, junctions) = (map.fragments().len(), map.junctions().len());
     let unexplored = map.open_ports().count();
-    let is_goal = |junction| {
-        let junction = map.junction(junction);
-        junction.is_some_and(|junction| junction.landmark == Some(Landmark::Goal))
-    };
-    let start = map.landmarks(Landmark::Start).next();
-    let from = start.map(|junction| Port {
-        junction,
-        number: 0,
-    });
-    let plan = from.and_then(|from| map.plan(from, is_goal));
+    let is_goal = |junction| map.has(junction, Landmark::Goal);
+    let plan = map.start().and_then(|from| map.plan(from, is_goal));
     let length = plan.map(|plan| plan.length);
     if arguments.json {
         let json = json!({

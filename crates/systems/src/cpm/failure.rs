@@ -1,0 +1,34 @@
+use thiserror::Error;
+use tolman_geom::IntervalError;
+use tolman_maps::cpm::{CpmError, LocalizeError, Sighting};
+
+use super::walker::WalkError;
+
+/// Why CPM cannot go on with its robot.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CpmFailure<E> {
+    /// The robot.
+    #[error(transparent)]
+    Walk(#[from] WalkError<E>),
+    /// The map refuses what it met.
+    #[error(transparent)]
+    Map(#[from] CpmError),
+    /// Dead reckoning has no number.
+    #[error(transparent)]
+    Reckoning(#[from] IntervalError),
+    /// The maps cannot be searched for where it is.
+    #[error(transparent)]
+    Localize(#[from] LocalizeError),
+    /// The map has no start.
+    #[error("the map has no start to be put back to; mark the start of the maze")]
+    NoStart,
+    /// The robot stands elsewhere than where its map begins.
+    #[error(
+        "the robot stands at {found}, where its map does not begin; put it to the start of the maze that the map was learned in"
+    )]
+    NotTheStart {
+        /// What it sees.
+        found: Sighting,
+    },
+}
