@@ -15,7 +15,7 @@ use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Maze};
 use tolman_robot::epuck::MOST_WHEEL_SPEED;
-use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::ResponseCurve;
 use tolman_sim::{CorridorSize, Solo, World};
@@ -30,7 +30,7 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Solo<Epuck>> {
     let start = Pose::new(world.cell_centre(cell), heading_of(direction));
     let robot = Epuck::new(EpuckConfig {
         step_us: STEP_US,
-        wheels: vec![Fault::Slip(Slip { share: slip })],
+        wheels: vec![Fault::Slip { share: slip }],
         ..EpuckConfig::cpm()
     })
     .unwrap();

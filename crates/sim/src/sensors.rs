@@ -26,19 +26,15 @@
 
 use crate::{Chance, Surroundings};
 
-mod bumper;
 mod column_camera;
 mod compass;
 mod infrared;
 mod laser;
-mod odometry;
 
-pub use bumper::Bumper;
 pub use column_camera::{CameraError, ColumnCamera};
 pub use compass::Compass;
 pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};
-pub use odometry::WheelOdometry;
 
 /// Something that reads a value off the surroundings of a robot.
 pub trait Sensor {

@@ -1,8 +1,8 @@
 use thiserror::Error;
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, TurnTranslate};
 
-use crate::noise::{Fault, FaultError, Faults, Faulty, Gaussian};
-use crate::sensors::{Bumper, Compass, Laser, LaserError, Sensor, WheelOdometry};
+use crate::noise::{Fault, Faults, FaultsError, Faulty, Gaussian};
+use crate::sensors::{Compass, Laser, LaserError, Sensor};
 use crate::trace::Recordable;
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
 
@@ -121,14 +121,7 @@ impl LaserPioneerConfig {
             ("faults.odometry_turn", &self.faults.odometry_turn),
         ];
         for (field, faults) in faults {
-            for (index, fault) in faults.iter().enumerate() {
-                let error = |source| ConfigError::Fault {
-                    field,
-                    index,
-                    source,
-                };
-                fault.check().map_err(error)?;
-            }
+            Fault::check_all(field, faults)?;
         }
         if self.step_us == 0 {
             return Err(ConfigError::Field {
@@ -149,10 +142,8 @@ pub struct LaserPioneer {
     motor_distance: Faults<f64>,
     laser: Faulty<Laser>,
     compass: Faulty<Compass>,
-    odometry: WheelOdometry,
     odometry_distance: Faults<f64>,
     odometry_turn: Faults<f64>,
-    bumper: Bumper,
 }
 
 impl LaserPioneer {
@@ -189,13 +180,11 @@ impl LaserPioneer {
                 Compass,
                 all(config.compass_noise, &faults.compass),
             ),
-            odometry: WheelOdometry,
             odometry_distance: Faults::new("odometry distance", distance),
             odometry_turn: Faults::new(
                 "odometry turn",
                 all(config.odometry_turn_noise, &faults.odometry_turn),
             ),
-            bumper: Bumper,
             config,
         })
     }
@@ -261,16 +250,14 @@ impl Model for LaserPioneer {
         sensing.time_us = around.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
         self.compass.sense(around, chance, &mut sensing.compass);
-        self.odometry.sense(around, chance, &mut sensing.odometry);
-        if let Some(Odometry { distance, turn }) = sensing.odometry {
-            let (mut distance, mut turn) = (Some(distance), Some(turn));
-            self.odometry_distance.disturb(&mut distance, chance);
-            self.odometry_turn.disturb(&mut turn, chance);
-            sensing.odometry = distance
-                .zip(turn)
-                .map(|(distance, turn)| Odometry { distance, turn });
-        }
-        self.bumper.sense(around, chance, &mut sensing.bump);
+        // Wheels that a contact holds do not roll.
+        let (mut distance, mut turn) = (Some(around.motion.distance), Some(around.motion.turn));
+        self.odometry_distance.disturb(&mut distance, chance);
+        self.odometry_turn.disturb(&mut turn, chance);
+        sensing.odometry = distance
+            .zip(turn)
+            .map(|(distance, turn)| Odometry { distance, turn });
+        sensing.bump = Some(around.bump);
     }
 }
 
@@ -300,15 +287,8 @@ pub enum ConfigError {
         value: f64,
     },
     /// A fault has no sense.
-    #[error("`{field}`, fault {index}: {source}")]
-    Fault {
-        /// Of what.
-        field: &'static str,
-        /// Which of its faults, from 0.
-        index: usize,
-        /// What is wrong with it.
-        source: FaultError,
-    },
+    #[error(transparent)]
+    Fault(#[from] FaultsError),
     /// The laser cannot be built.
     #[error("`ring`: {0}")]
     Laser(#[from] LaserError),
