@@ -393,11 +393,7 @@ impl Doors {
     fn settle(&mut self, bodies: &Crowd) {
         self.shut.clear();
         for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
-            let wall = Wall {
-                start: door.start,
-                end: door.end,
-                material: door.material,
-            };
+            let wall = door.wall();
             standing.is_shut = standing.wanted == DoorState::Shut
                 && (standing.is_shut
                     || bodies

@@ -193,16 +193,9 @@ impl World {
         if self.doors.iter().any(|other| other.name == door.name) {
             return Err(WorldError::DoorTwice { name: door.name });
         }
-        let wall = Wall {
-            start: door.start,
-            end: door.end,
-            material: door.material,
-        };
-        if let Err(what) = wall.check() {
-            return Err(WorldError::Door {
-                name: door.name,
-                what,
-            });
+        if let Err(what) = door.wall().check() {
+            let name = door.name;
+            return Err(WorldError::Door { name, what });
         }
         if let Some(late) = door
             .schedule

@@ -1,5 +1,6 @@
+use nalgebra::Isometry2;
 use thiserror::Error;
-use tolman_geom::{Pose, Vector};
+use tolman_geom::Pose;
 
 use super::Sensor;
 use crate::{Chance, Channel, Ray, Surroundings};
@@ -192,16 +193,10 @@ impl<const N: usize> Sensor for Infrared<N> {
         chance: &Chance,
         reading: &mut Option<[f64; N]>,
     ) {
-        let (here, ahead) = (around.pose.position, around.pose.heading.unit());
-        let turned = |vector: Vector| {
-            Vector::new(
-                ahead.x * vector.x - ahead.y * vector.y,
-                ahead.y * vector.x + ahead.x * vector.y,
-            )
-        };
+        let world_from_robot = Isometry2::from(around.pose);
         let rays = self.rays.map(|ray| Ray {
-            origin: here + turned(ray.origin.coords),
-            direction: turned(ray.direction),
+            origin: world_from_robot * ray.origin,
+            direction: world_from_robot * ray.direction,
         });
         let echoes = around.echoes(&rays, self.curve.reach());
         let dark = self.curve.at(f64::INFINITY).value;
