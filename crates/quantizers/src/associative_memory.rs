@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::{
-    ConfigError, InputError, Nearest, Network, Observation, Quantizer, Scalar, Soinn, SoinnConfig,
+    ConfigError, InputError, Nearest, NearestTwo, Network, Quantizer, Scalar, Soinn, SoinnConfig,
     UnitId,
 };
 
@@ -78,7 +78,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     ///
     /// # Errors
     /// If one of them is invalid. Nothing is learnt then.
-    pub fn associate(&mut self, key: &[S], response: &[S]) -> Result<Observation<S>, InputError> {
+    pub fn associate(&mut self, key: &[S], response: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.check_size(Part::Key, key)?;
         self.check_size(Part::Response, response)?;
         self.soinn.observe(&[key, response].concat())
@@ -128,10 +128,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     /// # Errors
     /// If `start` is invalid, responses have another number of features than keys, or nothing was learnt yet.
     pub fn chain(&self, start: &[S], reach: S) -> Result<Chain<'_, S>, InputError> {
-        let (expected, found) = (self.key_dimension, self.dimension(Part::Response));
-        if expected != found {
-            return Err(InputError::WrongDimension { expected, found });
-        }
+        InputError::check_size(self.key_dimension, self.dimension(Part::Response))?;
         self.response(start)?;
         Ok(Chain {
             memory: self,
@@ -157,12 +154,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     }
 
     fn check_size(&self, part: Part, values: &[S]) -> Result<(), InputError> {
-        let (expected, found) = (self.dimension(part), values.len());
-        if expected == found {
-            Ok(())
-        } else {
-            Err(InputError::WrongDimension { expected, found })
-        }
+        InputError::check_size(self.dimension(part), values.len())
     }
 
     /// The other part of the association whose `part` is nearest.

@@ -131,7 +131,7 @@ fn one_point_stays_one_unit() {
     let mut gng = Gng::<f64>::new(3, GngConfig::fritzke()).unwrap();
     for _ in 0..10_000 {
         let observation = gng.observe(&[1.0, 2.0, 3.0]).unwrap();
-        assert!(observation.winner.squared_distance <= 0.0);
+        assert!(observation.first.squared_distance <= 0.0);
     }
     assert_eq!(gng.network().len(), 1);
     assert_eq!(gng.nearest_two(&[0.0, 0.0, 0.0]).unwrap().second, None);
