@@ -144,11 +144,7 @@ impl Grid {
     /// The cell beyond the `direction` edge of `cell`, or none outside the grid.
     #[must_use]
     pub fn neighbour(self, cell: Cell, direction: Direction) -> Option<Cell> {
-        let (east, north) = direction.step();
-        let x = cell.x.checked_add_signed(i16::from(east))?;
-        let y = cell.y.checked_add_signed(i16::from(north))?;
-        let next = Cell::new(x, y);
-        self.contains(next).then_some(next)
+        cell.beyond(direction).filter(|next| self.contains(*next))
     }
 
     /// The middle of the grid, where classic competitions put the goal: two columns by two rows,

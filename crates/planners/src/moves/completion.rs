@@ -1,7 +1,6 @@
 use tolman_maze::{Cell, Direction};
 
 use super::chart::Chart;
-use super::leap::beyond;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
 
@@ -65,7 +64,7 @@ impl<'a, const N: usize> Completions<'a, N> {
             unknown += 1;
         }
         let is_entrance = |cell: Cell, side: Direction| {
-            let next = beyond(cell, side);
+            let next = cell.beyond(side);
             chart.certain.contains(cell, side)
                 && !next.is_some_and(|cell| chart.goals.contains(cell))
         };
@@ -96,7 +95,7 @@ impl<'a, const N: usize> Completions<'a, N> {
         let mut entrance = self.entrance;
         let order = self.order.as_flattened().as_flattened();
         for (cell, side) in order.iter().copied().take(self.unknown) {
-            let Some(next) = beyond(cell, side) else {
+            let Some(next) = cell.beyond(side) else {
                 continue;
             };
             let goals = [cell, next].map(|cell| self.chart.goals.contains(cell));
@@ -138,7 +137,7 @@ impl<const N: usize> Draw<N> {
     /// The terms for what is around the `side` of `cell`, beyond which `next` lies.
     fn surroundings(&self, cell: Cell, side: Direction, next: Cell) -> f32 {
         let [left, right] = [side.left(), side.right()].map(|lateral| {
-            let across = match beyond(cell, lateral) {
+            let across = match cell.beyond(lateral) {
                 Some(beside) => self.sight(beside, side),
                 None => Sight::Wall,
             };
