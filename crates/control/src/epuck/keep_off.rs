@@ -57,10 +57,10 @@ impl KeepOff {
         let gap = nearest.coords.norm() - BODY_RADIUS;
         let freedom = ((gap - least) / (margin - least)).clamp(0.0, 1.0);
         let away = if nearest.y > 0.0 { -turn } else { turn };
-        Twist {
-            linear: proposal.linear.min(proposal.linear * freedom),
-            angular: proposal.angular + (1.0 - freedom) * away,
-        }
+        Twist::new(
+            proposal.linear.min(proposal.linear * freedom),
+            proposal.angular + (1.0 - freedom) * away,
+        )
     }
 }
 

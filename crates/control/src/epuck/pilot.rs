@@ -182,10 +182,7 @@ where
         let mut left = way.norm();
         while left > 1e-6 {
             let share = (left / step).min(1.0);
-            let twist = Twist {
-                linear: speed * share,
-                angular: 0.0,
-            };
+            let twist = Twist::new(speed * share, 0.0);
             let corrected = self.keep_off.correct(twist, &self.echoes()?);
             if speed > 0.0 && corrected.linear <= 0.0 {
                 break;
@@ -205,10 +202,7 @@ where
         while (radians - turned).abs() > self.config.turn_tolerance {
             let left = radians - turned;
             let share = (left.abs() / step).min(1.0);
-            let twist = Twist {
-                linear: 0.0,
-                angular: speed * left.signum(),
-            };
+            let twist = Twist::new(0.0, speed * left.signum());
             self.drive(twist, share)?;
             let encoders = self
                 .robot
@@ -227,10 +221,7 @@ where
 
     /// One time step at this twist times `share`.
     fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
-        let part = Twist {
-            linear: twist.linear * share,
-            angular: twist.angular * share,
-        };
+        let part = Twist::new(twist.linear * share, twist.angular * share);
         let speeds = WheelSpeeds::of_twist(part, self.config.most_wheel_speed);
         self.robot.step(&speeds).map_err(PilotError::Robot)
     }
