@@ -18,7 +18,7 @@
 //!     type Reading = f64;
 //!
 //!     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<f64>) {
-//!         let distance = (self.beacon - around.pose.position).norm();
+//!         let distance = (self.beacon - around.truth.pose.position).norm();
 //!         *reading = Some(1.0 / (1.0 + distance * distance));
 //!     }
 //! }

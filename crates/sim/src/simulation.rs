@@ -185,11 +185,7 @@ impl<M: Model> Simulation<M> {
                 bodies: &self.bodies,
             },
             robot: index,
-            pose: truth.pose,
-            motion: truth.motion,
-            bump: truth.bump,
-            tick: self.tick,
-            time_us: self.tick * self.step_us,
+            truth,
         };
         model.sense(
             &surroundings,

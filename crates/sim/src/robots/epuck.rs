@@ -153,10 +153,10 @@ impl Model for Epuck {
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut EpuckSensing) {
-        sensing.time_us = around.time_us;
+        sensing.time_us = around.truth.time_us;
         self.proximity.sense(around, chance, &mut sensing.proximity);
         sensing.encoders = Some(self.turned);
-        sensing.bump = Some(around.bump);
+        sensing.bump = Some(around.truth.bump);
     }
 }
 

@@ -247,17 +247,20 @@ impl Model for LaserPioneer {
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut LaserSensing) {
-        sensing.time_us = around.time_us;
+        sensing.time_us = around.truth.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
         self.compass.sense(around, chance, &mut sensing.compass);
         // Wheels that a contact holds do not roll.
-        let (mut distance, mut turn) = (Some(around.motion.distance), Some(around.motion.turn));
+        let (mut distance, mut turn) = (
+            Some(around.truth.motion.distance),
+            Some(around.truth.motion.turn),
+        );
         self.odometry_distance.disturb(&mut distance, chance);
         self.odometry_turn.disturb(&mut turn, chance);
         sensing.odometry = distance
             .zip(turn)
             .map(|(distance, turn)| Odometry { distance, turn });
-        sensing.bump = Some(around.bump);
+        sensing.bump = Some(around.truth.bump);
     }
 }
 

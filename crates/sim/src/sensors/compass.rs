@@ -11,6 +11,6 @@ impl Sensor for Compass {
     type Reading = Heading;
 
     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<Heading>) {
-        *reading = Some(around.pose.heading);
+        *reading = Some(around.truth.pose.heading);
     }
 }

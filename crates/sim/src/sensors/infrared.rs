@@ -193,7 +193,7 @@ impl<const N: usize> Sensor for Infrared<N> {
         chance: &Chance,
         reading: &mut Option<[f64; N]>,
     ) {
-        let world_from_robot = Isometry2::from(around.pose);
+        let world_from_robot = Isometry2::from(around.truth.pose);
         let rays = self.rays.map(|ray| Ray {
             origin: world_from_robot * ray.origin,
             direction: world_from_robot * ray.direction,
