@@ -27,12 +27,10 @@
 use crate::{Chance, Surroundings};
 
 mod column_camera;
-mod compass;
 mod infrared;
 mod laser;
 
 pub use column_camera::{CameraError, ColumnCamera};
-pub use compass::Compass;
 pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};
 

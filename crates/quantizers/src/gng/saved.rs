@@ -32,8 +32,8 @@ pub struct SavedGng<S> {
     pub steps: u64,
 }
 
-impl<S: Scalar> From<&Gng<S>> for SavedGng<S> {
-    fn from(gng: &Gng<S>) -> Self {
+impl<S: Scalar> From<Gng<S>> for SavedGng<S> {
+    fn from(gng: Gng<S>) -> Self {
         let sums = gng.network.slots().map(|slot| {
             let sums = gng.sums[slot];
             (sums.error, sums.utility)
@@ -47,12 +47,6 @@ impl<S: Scalar> From<&Gng<S>> for SavedGng<S> {
             factor: gng.decay.factor(),
             steps: gng.steps,
         }
-    }
-}
-
-impl<S: Scalar> From<Gng<S>> for SavedGng<S> {
-    fn from(gng: Gng<S>) -> Self {
-        Self::from(&gng)
     }
 }
 

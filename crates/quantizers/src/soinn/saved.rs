@@ -30,8 +30,8 @@ pub struct SavedSoinn<S> {
     pub steps: u64,
 }
 
-impl<S: Scalar> From<&Soinn<S>> for SavedSoinn<S> {
-    fn from(soinn: &Soinn<S>) -> Self {
+impl<S: Scalar> From<Soinn<S>> for SavedSoinn<S> {
+    fn from(soinn: Soinn<S>) -> Self {
         let tallies = soinn.network.slots().map(|slot| soinn.tallies[slot]);
         Self {
             format: FORMAT.into(),
@@ -41,12 +41,6 @@ impl<S: Scalar> From<&Soinn<S>> for SavedSoinn<S> {
             tallies: tallies.collect(),
             steps: soinn.steps,
         }
-    }
-}
-
-impl<S: Scalar> From<Soinn<S>> for SavedSoinn<S> {
-    fn from(soinn: Soinn<S>) -> Self {
-        Self::from(&soinn)
     }
 }
 

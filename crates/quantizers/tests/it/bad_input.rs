@@ -14,7 +14,7 @@ fn refuses_bad_inputs_and_stays_as_it_was() {
     for input in cube(2, 1000, 1) {
         gng.observe(&[input[0] as f32, input[1] as f32]).unwrap();
     }
-    let before = SavedGng::from(&gng);
+    let before = SavedGng::from(gng.clone());
     let bad: [&[f32]; 8] = [
         &[],
         &[0.0],
@@ -31,7 +31,7 @@ fn refuses_bad_inputs_and_stays_as_it_was() {
         let error = error.to_string();
         assert_eq!(gng.nearest(input).unwrap_err().to_string(), error);
         assert_eq!(gng.nearest_two(input).unwrap_err().to_string(), error);
-        assert_eq!(SavedGng::from(&gng), before);
+        assert_eq!(SavedGng::from(gng.clone()), before);
     }
     let error = gng.observe(&[0.0, f32::INFINITY]).unwrap_err();
     assert_eq!(

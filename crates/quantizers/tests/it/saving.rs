@@ -19,7 +19,7 @@ proptest! {
         for input in before {
             gng.observe(input).unwrap();
         }
-        let mut resumed = through_text(&SavedGng::from(&gng));
+        let mut resumed = through_text(&SavedGng::from(gng.clone()));
         for input in after {
             prop_assert_eq!(gng.observe(input).unwrap(), resumed.observe(input).unwrap());
         }

@@ -336,7 +336,7 @@ proptest! {
         for input in &inputs[..when] {
             soinn.observe(input).unwrap();
         }
-        let mut resumed = through_text(&SavedSoinn::from(&soinn));
+        let mut resumed = through_text(&SavedSoinn::from(soinn.clone()));
         for input in &inputs[when..] {
             prop_assert_eq!(soinn.observe(input).unwrap(), resumed.observe(input).unwrap());
         }

@@ -1,8 +1,9 @@
 use thiserror::Error;
+use tolman_geom::Heading;
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, TurnTranslate};
 
 use crate::noise::{Fault, Faults, FaultsError, Faulty, Gaussian};
-use crate::sensors::{Compass, Laser, LaserError, Sensor};
+use crate::sensors::{Laser, LaserError, Sensor};
 use crate::trace::Recordable;
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
 
@@ -141,7 +142,7 @@ pub struct LaserPioneer {
     motor_turn: Faults<f64>,
     motor_distance: Faults<f64>,
     laser: Faulty<Laser>,
-    compass: Faulty<Compass>,
+    compass: Faults<Heading>,
     odometry_distance: Faults<f64>,
     odometry_turn: Faults<f64>,
 }
@@ -175,11 +176,7 @@ impl LaserPioneer {
                 all(motors.translate, &faults.motor_distance),
             ),
             laser: Faulty::new("scan", laser, all(config.scan_noise, &faults.scan)),
-            compass: Faulty::new(
-                "compass",
-                Compass,
-                all(config.compass_noise, &faults.compass),
-            ),
+            compass: Faults::new("compass", all(config.compass_noise, &faults.compass)),
             odometry_distance: Faults::new("odometry distance", distance),
             odometry_turn: Faults::new(
                 "odometry turn",
@@ -249,7 +246,8 @@ impl Model for LaserPioneer {
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut LaserSensing) {
         sensing.time_us = around.truth.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
-        self.compass.sense(around, chance, &mut sensing.compass);
+        sensing.compass = Some(around.truth.pose.heading);
+        self.compass.disturb(&mut sensing.compass, chance);
         // Wheels that a contact holds do not roll.
         let (mut distance, mut turn) = (
             Some(around.truth.motion.distance),

@@ -25,6 +25,17 @@ pub struct ResponsePoint {
     pub relative_sd: f64,
 }
 
+impl From<(f64, f64, f64)> for ResponsePoint {
+    /// From range, value and relative standard deviation.
+    fn from((range, value, relative_sd): (f64, f64, f64)) -> Self {
+        Self {
+            range,
+            value,
+            relative_sd,
+        }
+    }
+}
+
 /// The e-puck's sensors as Webots has them: range (m), value, relative standard deviation.
 const EPUCK: [(f64, f64, f64); 10] = [
     (0.000, 4095.0, 0.002),
@@ -53,13 +64,8 @@ impl ResponseCurve {
     /// The e-puck's, by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
     #[must_use]
     pub fn epuck() -> Self {
-        let point = |(range, value, relative_sd)| ResponsePoint {
-            range,
-            value,
-            relative_sd,
-        };
         Self {
-            points: EPUCK.map(point).to_vec(),
+            points: EPUCK.map(ResponsePoint::from).to_vec(),
         }
     }
 
@@ -120,18 +126,11 @@ impl ResponseCurve {
                 let below = self.points[below];
                 let share = (range - below.range) / (above.range - below.range);
                 let between = |low: f64, high: f64| low + share * (high - low);
-                ResponsePoint {
-                    range,
-                    value: between(below.value, above.value),
-                    relative_sd: between(below.relative_sd, above.relative_sd),
-                }
+                let value = between(below.value, above.value);
+                ResponsePoint::from((range, value, between(below.relative_sd, above.relative_sd)))
             }
             (Some(last), None) => self.points[last],
-            (None, None) => ResponsePoint {
-                range,
-                value: 0.0,
-                relative_sd: 0.0,
-            },
+            (None, None) => ResponsePoint::from((range, 0.0, 0.0)),
         }
     }
 }
