@@ -124,9 +124,8 @@ impl Searched {
     /// The way from `source` to the goal.
     fn found(self, source: u32) -> Option<Found> {
         let (goal, cost) = self.goal?;
-        let came_from = |node: u32| self.reached[node as usize].map(|(_, before)| before);
         Some(Found {
-            path: trace_back(source, goal, came_from),
+            path: trace_back(source, goal, &self.reached),
             cost,
             expanded: self.expanded,
         })

@@ -1,4 +1,3 @@
-use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::Graph;
@@ -10,22 +9,14 @@ use crate::breadth_first::search;
 #[must_use]
 pub fn path_to(graph: &impl Graph, source: u32, is_goal: impl Fn(u32) -> bool) -> Option<Vec<u32>> {
     let (reached, goal) = search(graph, [source], is_goal);
-    let came_from = |node: u32| reached[node as usize].map(|(_, before)| before);
-    Some(trace_back(source, goal?, came_from))
+    Some(trace_back(source, goal?, &reached))
 }
 
 /// The nodes from `source` to `goal`, by the node that each was reached from.
-pub(crate) fn trace_back(
-    source: u32,
-    goal: u32,
-    came_from: impl Fn(u32) -> Option<u32>,
-) -> Vec<u32> {
-    let mut path = vec![goal];
-    let mut node = goal;
-    while let Some(origin) = came_from(node).filter(|_| node != source) {
-        path.push(origin);
-        node = origin;
-    }
+pub(crate) fn trace_back(source: u32, goal: u32, reached: &[Option<(u32, u32)>]) -> Vec<u32> {
+    let came_from = |node: &u32| reached[*node as usize].map(|(_, before)| before);
+    let back = |node: &u32| came_from(node).filter(|_| *node != source);
+    let mut path: Vec<u32> = core::iter::successors(Some(goal), back).collect();
     path.reverse();
     path
 }

@@ -298,11 +298,8 @@ impl Caster for LatticeWalk {
                 || self.cross::<3>(cell, sweep),
             ),
             _ => {
-                for beam in 0..sweep.beams() {
-                    let range =
-                        self.walk(cell, sweep.origin, sweep.direction(beam), sweep.range(beam));
-                    sweep.shorten(beam, range);
-                }
+                let origin = sweep.origin;
+                sweep.shorten_each(|direction, range| self.walk(cell, origin, direction, range));
             }
         }
     }

@@ -177,7 +177,7 @@ impl Fault {
                 }
             }
             Self::Stuck { probability, steps } => {
-                past.stick(value, draws.uniform() < probability, steps)
+                past.stick(value, draws.uniform() < probability, steps);
             }
             Self::Delay { steps } => past.delay(value, steps),
         }
