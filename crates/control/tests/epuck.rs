@@ -8,14 +8,14 @@
 use core::f64::consts::{PI, TAU};
 
 use tolman_control::epuck::{
-    Alignment, ForwardConfig, KeepOffConfig, MeetPointConfig, Pilot, PilotConfig, Place, Profile,
+    Alignment, ForwardConfig, KeepOff, MeetPointConfig, Pilot, PilotConfig, Place, Profile,
     RangeCurve, SegmentConfig, Segments,
 };
 use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Maze};
 use tolman_robot::epuck::MOST_WHEEL_SPEED;
-use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::ResponseCurve;
 use tolman_sim::{CorridorSize, Solo, World};
@@ -30,7 +30,7 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Solo<Epuck>> {
     let start = Pose::new(world.cell_centre(cell), heading_of(direction));
     let robot = Epuck::new(EpuckConfig {
         step_us: STEP_US,
-        wheels: vec![Fault::Slip(Slip { share: slip })],
+        wheels: vec![Fault::Slip { share: slip }],
         ..EpuckConfig::cpm()
     })
     .unwrap();
@@ -50,7 +50,7 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Solo<Epuck>> {
         )
         .unwrap(),
         forward: ForwardConfig::for_width(WIDTH),
-        keep_off: KeepOffConfig::ours(),
+        keep_off: KeepOff::ours(),
     };
     Pilot::new(solo, config)
 }
@@ -217,7 +217,7 @@ fn a_sweep_ends_where_it_began() {
     let before = pilot.robot().truth().pose;
     let sweep = pilot.sweep().unwrap();
     let after = pilot.robot().truth();
-    assert_eq!(sweep.samples().len(), 100);
+    assert_eq!(sweep.samples.len(), 100);
     assert!((after.pose.position - before.position).norm() < 1e-9);
     assert!(before.heading.turn_to(after.pose.heading).abs() < 1e-6);
     // One sample a step: the 1.3 s of wheels that turn no faster.

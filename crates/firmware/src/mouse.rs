@@ -113,7 +113,7 @@ impl<'a> Mouse<'a> {
         }
         match explorer.decide(&self.walls, *cell, *heading) {
             Decision::Drive(direction) => {
-                let side = relative(direction, *heading);
+                let side = direction.seen_from(*heading);
                 *cell = self
                     .walls
                     .grid()
@@ -175,16 +175,6 @@ fn look_around(poses: &mut PoseSet<MAZE>, patience: &mut u8, walls: &impl Walls)
     })
 }
 
-/// `direction` as a mouse sees it that looks to `heading`.
-fn relative(direction: Direction, heading: Direction) -> Direction {
-    match (direction.index() + 4 - heading.index()) % 4 {
-        0 => Direction::North,
-        1 => Direction::East,
-        2 => Direction::South,
-        _ => Direction::West,
-    }
-}
-
 impl Sides {
     fn all(self) -> [(Direction, bool); 3] {
         [
@@ -202,10 +192,7 @@ impl Sides {
                 Ray::to_wall(direction, 0)
             }
         };
-        [
-            ray(heading, self.ahead),
-            ray(heading.right(), self.right),
-            ray(heading.left(), self.left),
-        ]
+        self.all()
+            .map(|(side, is_open)| ray(heading.turned(side), is_open))
     }
 }

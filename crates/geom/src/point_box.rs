@@ -26,19 +26,14 @@ pub struct PointBox {
 
 impl PointBox {
     /// The origin alone.
-    pub const ORIGIN: Self = Self {
-        x: Interval::ZERO,
-        y: Interval::ZERO,
-    };
+    pub const ORIGIN: Self = Self::new(Interval::ZERO, Interval::ZERO);
 
     /// Nothing is known.
-    pub const UNBOUNDED: Self = Self {
-        x: Interval::UNBOUNDED,
-        y: Interval::UNBOUNDED,
-    };
+    pub const UNBOUNDED: Self = Self::new(Interval::UNBOUNDED, Interval::UNBOUNDED);
 
     /// A box from its sides.
     #[must_use]
+    #[inline]
     pub const fn new(x: Interval, y: Interval) -> Self {
         Self { x, y }
     }
@@ -105,20 +100,17 @@ impl PointBox {
     #[must_use]
     #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {
-        Some(Self {
-            x: self.x.intersection(other.x)?,
-            y: self.y.intersection(other.y)?,
-        })
+        Some(Self::new(
+            self.x.intersection(other.x)?,
+            self.y.intersection(other.y)?,
+        ))
     }
 
     /// The least box that holds both.
     #[must_use]
     #[inline]
     pub fn hull(self, other: Self) -> Self {
-        Self {
-            x: self.x.hull(other.x),
-            y: self.y.hull(other.y),
-        }
+        Self::new(self.x.hull(other.x), self.y.hull(other.y))
     }
 
     /// All distances from the origin: how long the displacement may be, m.
@@ -149,17 +141,17 @@ impl PointBox {
         if angles.width() >= WHOLE || !self.is_bounded() {
             let longest = self.norm();
             let all = longest.hull(-longest);
-            return Self { x: all, y: all };
+            return Self::new(all, all);
         }
         if angles.width() > PART {
             let (first, second) = angles.halves();
             return self.rotated(first).hull(self.rotated(second));
         }
         let ends = [angles.low(), angles.high()].map(|end| Interval::point(end).sines());
-        Self {
-            x: shadow(self.x, self.y, &ends),
-            y: shadow(self.y, -self.x, &ends),
-        }
+        Self::new(
+            shadow(self.x, self.y, &ends),
+            shadow(self.y, -self.x, &ends),
+        )
     }
 }
 
@@ -185,7 +177,7 @@ fn trace(a: f64, b: f64, ends: &Ends) -> Interval {
     let hull = first.hull(second);
     // Over less than half a circle there is an extreme between the ends only where the slope changes sign. Where a
     // slope's sign is not certain, an end is an extreme up to rounding.
-    let longest = || PointBox { x: a, y: b }.norm();
+    let longest = || PointBox::new(a, b).norm();
     let rises_then_falls = before.high() >= 0.0 && after.low() <= 0.0;
     let falls_then_rises = before.low() <= 0.0 && after.high() >= 0.0;
     match (rises_then_falls, falls_then_rises) {
@@ -203,10 +195,7 @@ impl core::ops::Neg for PointBox {
 
     #[inline]
     fn neg(self) -> Self {
-        Self {
-            x: -self.x,
-            y: -self.y,
-        }
+        Self::new(-self.x, -self.y)
     }
 }
 
@@ -215,10 +204,7 @@ impl core::ops::Add for PointBox {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self {
-            x: self.x + other.x,
-            y: self.y + other.y,
-        }
+        Self::new(self.x + other.x, self.y + other.y)
     }
 }
 

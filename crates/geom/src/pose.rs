@@ -24,10 +24,7 @@ pub struct Pose {
 
 impl Pose {
     /// The origin, looking east.
-    pub const IDENTITY: Self = Self {
-        position: Point::new(0.0, 0.0),
-        heading: Heading::EAST,
-    };
+    pub const IDENTITY: Self = Self::new(Point::new(0.0, 0.0), Heading::EAST);
 
     /// A pose from its parts.
     #[must_use]
@@ -38,10 +35,10 @@ impl Pose {
     /// `a_from_b.compose(b_from_c)` is `a_from_c`.
     #[must_use]
     pub fn compose(self, inner: Self) -> Self {
-        Self {
-            position: self.transform(inner.position),
-            heading: self.heading.turned(inner.heading.radians()),
-        }
+        Self::new(
+            self.transform(inner.position),
+            self.heading.turned(inner.heading.radians()),
+        )
     }
 
     /// `a_from_b.inverse()` is `b_from_a`.
@@ -90,10 +87,10 @@ impl Pose {
     pub fn displaced(self, distance: f64, turn: f64) -> Self {
         // The chord of the arc leaves at half the turn; its length is sinc(turn / 2) of the path.
         let chord = distance * sinc(0.5 * turn);
-        Self {
-            position: self.position + self.heading.turned(0.5 * turn).unit() * chord,
-            heading: self.heading.turned(turn),
-        }
+        Self::new(
+            self.position + self.heading.turned(0.5 * turn).unit() * chord,
+            self.heading.turned(turn),
+        )
     }
 
     /// Whether every number of the pose is one.
@@ -121,10 +118,10 @@ impl From<Pose> for Isometry2<f64> {
 
 impl From<Isometry2<f64>> for Pose {
     fn from(isometry: Isometry2<f64>) -> Self {
-        Self {
-            position: isometry.translation.vector.into(),
-            heading: Heading::of(Vector::new(isometry.rotation.re, isometry.rotation.im)),
-        }
+        Self::new(
+            isometry.translation.vector.into(),
+            Heading::of(Vector::new(isometry.rotation.re, isometry.rotation.im)),
+        )
     }
 }
 

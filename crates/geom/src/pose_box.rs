@@ -39,13 +39,11 @@ pub struct PoseBox {
 
 impl PoseBox {
     /// The origin, looking east, for certain.
-    pub const IDENTITY: Self = Self {
-        position: PointBox::ORIGIN,
-        heading: Interval::ZERO,
-    };
+    pub const IDENTITY: Self = Self::new(PointBox::ORIGIN, Interval::ZERO);
 
     /// A box from its parts.
     #[must_use]
+    #[inline]
     pub const fn new(position: PointBox, heading: Interval) -> Self {
         Self { position, heading }
     }
@@ -63,38 +61,32 @@ impl PoseBox {
     /// # Errors
     /// If a margin is negative or something is no number.
     pub fn about(middle: Pose, metres: f64, radians: f64) -> Result<Self, IntervalError> {
-        Ok(Self {
-            position: PointBox::about(middle.position, metres)?,
-            heading: Interval::about(middle.heading.radians(), radians)?,
-        })
+        Ok(Self::new(
+            PointBox::about(middle.position, metres)?,
+            Interval::about(middle.heading.radians(), radians)?,
+        ))
     }
 
     /// `a_from_b.compose(b_from_c)` is `a_from_c`.
     #[must_use]
     pub fn compose(self, inner: Self) -> Self {
-        Self {
-            position: self.transform(inner.position),
-            heading: self.heading + inner.heading,
-        }
+        Self::new(self.transform(inner.position), self.heading + inner.heading)
     }
 
     /// `a_from_b.inverse()` is `b_from_a`.
     #[must_use]
     pub fn inverse(self) -> Self {
-        Self {
-            position: (-self.position).rotated(-self.heading),
-            heading: -self.heading,
-        }
+        Self::new((-self.position).rotated(-self.heading), -self.heading)
     }
 
     /// `other` as seen from here: `world_from_a.between(world_from_b)` is `a_from_b`. Narrower than composing with the
     /// inverse, which forgets that its position and its heading are seen from the same place.
     #[must_use]
     pub fn between(self, other: Self) -> Self {
-        Self {
-            position: (other.position - self.position).rotated(-self.heading),
-            heading: other.heading - self.heading,
-        }
+        Self::new(
+            (other.position - self.position).rotated(-self.heading),
+            other.heading - self.heading,
+        )
     }
 
     /// Positions of this pose's own frame, in the frame the pose is given in.
@@ -116,19 +108,19 @@ impl PoseBox {
     /// what lies between them is in the result as well.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
-        Some(Self {
-            position: self.position.intersection(other.position)?,
-            heading: common(self.heading, other.heading)?,
-        })
+        Some(Self::new(
+            self.position.intersection(other.position)?,
+            common(self.heading, other.heading)?,
+        ))
     }
 
     /// The least box that holds both, the headings of `other` brought to within half a circle of those here.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
-        Self {
-            position: self.position.hull(other.position),
-            heading: self.heading.hull(nearest(other.heading, self.heading)),
-        }
+        Self::new(
+            self.position.hull(other.position),
+            self.heading.hull(nearest(other.heading, self.heading)),
+        )
     }
 
     /// A pose in the middle, always inside.

@@ -12,10 +12,7 @@ pub struct Twist {
 
 impl Twist {
     /// Standing still.
-    pub const ZERO: Self = Self {
-        linear: 0.0,
-        angular: 0.0,
-    };
+    pub const ZERO: Self = Self::new(0.0, 0.0);
 
     /// A twist of `linear` m/s and `angular` rad/s.
     #[must_use]

@@ -1,5 +1,7 @@
 use core::fmt;
 
+use crate::Direction;
+
 /// A cell of a maze: column `x` counted from the west, row `y` counted from the south, both from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -15,6 +17,15 @@ impl Cell {
     #[must_use]
     pub const fn new(x: u16, y: u16) -> Self {
         Self { x, y }
+    }
+
+    /// The cell one step in a direction, on a plane without an end in the north or east.
+    #[must_use]
+    pub fn beyond(self, direction: Direction) -> Option<Self> {
+        let (east, north) = direction.step();
+        let x = self.x.checked_add_signed(east.into())?;
+        let y = self.y.checked_add_signed(north.into())?;
+        Some(Self { x, y })
     }
 }
 

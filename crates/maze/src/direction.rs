@@ -43,6 +43,18 @@ impl Direction {
         Self::ALL[(self.index() + 3) % 4]
     }
 
+    /// The direction that is `side` for somebody who looks this way, north being ahead.
+    #[must_use]
+    pub const fn turned(self, side: Self) -> Self {
+        Self::ALL[(self.index() + side.index()) % 4]
+    }
+
+    /// The side on which somebody who looks to `heading` has this direction: the inverse of [`turned`](Self::turned).
+    #[must_use]
+    pub const fn seen_from(self, heading: Self) -> Self {
+        Self::ALL[(self.index() + 4 - heading.index()) % 4]
+    }
+
     /// The unit step of this direction: (east, north).
     #[must_use]
     pub const fn step(self) -> (i8, i8) {

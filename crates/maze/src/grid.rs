@@ -144,11 +144,7 @@ impl Grid {
     /// The cell beyond the `direction` edge of `cell`, or none outside the grid.
     #[must_use]
     pub fn neighbour(self, cell: Cell, direction: Direction) -> Option<Cell> {
-        let (east, north) = direction.step();
-        let x = cell.x.checked_add_signed(i16::from(east))?;
-        let y = cell.y.checked_add_signed(i16::from(north))?;
-        let next = Cell::new(x, y);
-        self.contains(next).then_some(next)
+        cell.beyond(direction).filter(|next| self.contains(*next))
     }
 
     /// The middle of the grid, where classic competitions put the goal: two columns by two rows,
@@ -167,30 +163,10 @@ impl Grid {
 
     /// Every edge of the outer border once: the cell inside and the side it is on.
     pub fn border(self) -> impl Iterator<Item = (Cell, Direction)> {
-        let (east, north) = (self.width.saturating_sub(1), self.height.saturating_sub(1));
-        let columns = if self.height == 0 {
-            0..0
-        } else {
-            0..self.width
-        };
-        let rows = if self.width == 0 {
-            0..0
-        } else {
-            0..self.height
-        };
-        let south_and_north = columns.flat_map(move |x| {
-            [
-                (Cell::new(x, 0), Direction::South),
-                (Cell::new(x, north), Direction::North),
-            ]
-        });
-        let west_and_east = rows.flat_map(move |y| {
-            [
-                (Cell::new(0, y), Direction::West),
-                (Cell::new(east, y), Direction::East),
-            ]
-        });
-        south_and_north.chain(west_and_east)
+        let sides = self
+            .cells()
+            .flat_map(|cell| Direction::ALL.map(|side| (cell, side)));
+        sides.filter(move |(cell, side)| self.neighbour(*cell, *side).is_none())
     }
 }
 

@@ -65,12 +65,9 @@ impl Maze {
     #[must_use]
     pub fn solid(grid: Grid) -> Self {
         let mut maze = Self::open(grid);
-        maze.standing.fill(u64::MAX);
-        if let Some(last) = maze.standing.last_mut() {
-            // The bits past the last wall stay clear, so that equal mazes have equal bits.
-            let used = grid.wall_count() % 64;
-            if used != 0 {
-                *last = (1 << used) - 1;
+        for cell in grid.cells() {
+            for direction in [Direction::North, Direction::East] {
+                maze.set_wall(cell, direction, true);
             }
         }
         maze

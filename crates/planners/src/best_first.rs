@@ -39,10 +39,11 @@ pub fn a_star(
     is_goal: impl Fn(u32) -> bool,
     heuristic: impl Fn(u32) -> u32,
 ) -> Option<Found> {
-    search(graph, source, is_goal, |node, cost| {
+    let searched = search(graph, [source], is_goal, |node, cost| {
         let guess = heuristic(node);
         (cost.saturating_add(guess), guess)
-    })
+    });
+    searched.found(source)
 }
 
 /// Some path from `source` to a goal, none where no way leads to one: greedy best-first search, which always goes on
@@ -64,34 +65,47 @@ pub fn best_first(
     is_goal: impl Fn(u32) -> bool,
     heuristic: impl Fn(u32) -> u32,
 ) -> Option<Found> {
-    search(graph, source, is_goal, |node, _| (heuristic(node), 0))
+    search(graph, [source], is_goal, |node, _| (heuristic(node), 0)).found(source)
 }
 
-/// Expands the node of least `priority`, which is given a node and the cost of the way to it.
-fn search(
+/// What a search has found.
+pub(crate) struct Searched {
+    /// By node: the least cost so far, and the node before it on that way. A source comes from itself.
+    pub(crate) reached: Vec<Option<(u32, u32)>>,
+    /// The first goal that was expanded, and what it cost.
+    goal: Option<(u32, u32)>,
+    expanded: u32,
+}
+
+/// Expands the node of least `priority`, which is given a node and the cost of the way to it, until it is a goal.
+pub(crate) fn search(
     graph: &impl Graph,
-    source: u32,
+    sources: impl IntoIterator<Item = u32>,
     is_goal: impl Fn(u32) -> bool,
     priority: impl Fn(u32, u32) -> (u32, u32),
-) -> Option<Found> {
-    // By node: the least cost so far, and the node before it on that way.
-    let mut reached: Vec<Option<(u32, u32)>> = vec![None; graph.node_count()];
-    *reached.get_mut(source as usize)? = Some((0, source));
-    let mut frontier = BinaryHeap::from([Reverse((priority(source, 0), source, 0))]);
-    let mut expanded = 0;
+) -> Searched {
+    let mut searched = Searched {
+        reached: vec![None; graph.node_count()],
+        goal: None,
+        expanded: 0,
+    };
+    let reached = &mut searched.reached;
+    let mut frontier = BinaryHeap::new();
+    for source in sources {
+        if let Some(slot) = reached.get_mut(source as usize) {
+            *slot = Some((0, source));
+            frontier.push(Reverse((priority(source, 0), source, 0)));
+        }
+    }
     while let Some(Reverse((_, node, cost))) = frontier.pop() {
         if reached[node as usize].is_some_and(|(best, _)| best < cost) {
             continue; // A cheaper way was found after this entry was queued.
         }
         if is_goal(node) {
-            let came_from = |node: u32| reached[node as usize].map(|(_, before)| before);
-            return Some(Found {
-                path: trace_back(source, node, came_from),
-                cost,
-                expanded,
-            });
+            searched.goal = Some((node, cost));
+            break;
         }
-        expanded += 1;
+        searched.expanded += 1;
         graph.for_each_arc(node, |head, step| {
             let (Some(cost), Some(slot)) = (cost.checked_add(step), reached.get_mut(head as usize))
             else {
@@ -103,5 +117,17 @@ fn search(
             }
         });
     }
-    None
+    searched
+}
+
+impl Searched {
+    /// The way from `source` to the goal.
+    fn found(self, source: u32) -> Option<Found> {
+        let (goal, cost) = self.goal?;
+        Some(Found {
+            path: trace_back(source, goal, &self.reached),
+            cost,
+            expanded: self.expanded,
+        })
+    }
 }

@@ -8,27 +8,40 @@ use crate::Graph;
 /// the end of an arc, are passed over.
 #[must_use]
 pub fn steps_from(graph: &impl Graph, sources: impl IntoIterator<Item = u32>) -> Vec<Option<u32>> {
-    let mut steps = vec![None; graph.node_count()];
-    let mut frontier = Vec::new();
+    let (reached, _) = search(graph, sources, |_| false);
+    reached
+        .into_iter()
+        .map(|reached| Some(reached?.0))
+        .collect()
+}
+
+/// For every node the number of arcs to it and the node before it, as far as they are known when a goal's turn comes, which is
+/// given as well. A source comes from itself.
+pub(crate) fn search(
+    graph: &impl Graph,
+    sources: impl IntoIterator<Item = u32>,
+    is_goal: impl Fn(u32) -> bool,
+) -> (Vec<Option<(u32, u32)>>, Option<u32>) {
+    let mut reached: Vec<Option<(u32, u32)>> = vec![None; graph.node_count()];
+    let mut queue = Vec::new();
     for source in sources {
-        if let Some(step @ None) = steps.get_mut(source as usize) {
-            *step = Some(0);
-            frontier.push(source);
+        if let Some(slot @ None) = reached.get_mut(source as usize) {
+            *slot = Some((0, source));
+            queue.push((source, 0));
         }
     }
-    let mut depth = 0;
-    while !frontier.is_empty() {
-        depth += 1;
-        let mut next = Vec::new();
-        for node in frontier {
-            graph.for_each_arc(node, |head, _| {
-                if let Some(step @ None) = steps.get_mut(head as usize) {
-                    *step = Some(depth);
-                    next.push(head);
-                }
-            });
+    let mut next = 0;
+    while let Some(&(node, steps)) = queue.get(next) {
+        next += 1;
+        if is_goal(node) {
+            return (reached, Some(node));
         }
-        frontier = next;
+        graph.for_each_arc(node, |head, _| {
+            if let Some(slot @ None) = reached.get_mut(head as usize) {
+                *slot = Some((steps + 1, node));
+                queue.push((head, steps + 1));
+            }
+        });
     }
-    steps
+    (reached, None)
 }

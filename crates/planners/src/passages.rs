@@ -1,4 +1,4 @@
-use tolman_maze::{Cell, Direction, Knowledge, Walls};
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
 /// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One byte a cell.
 ///
@@ -28,6 +28,28 @@ pub enum Unknown {
     Closed,
 }
 
+/// The sides that a plan may cross, each as the northern or eastern one of a cell; none in a maze of more than `N` columns or
+/// rows: rather no plan than a wrong one.
+pub(crate) fn open_sides<const N: usize>(
+    walls: &impl Walls,
+    unknown: Unknown,
+) -> impl Iterator<Item = (Cell, Direction)> {
+    let grid = walls.grid();
+    let fits = usize::from(grid.width().max(grid.height())) <= N;
+    let grid = if fits { grid } else { Grid::new(0, 0) };
+    let sides = grid
+        .cells()
+        .flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)]);
+    sides.filter(move |(cell, direction)| {
+        let open = match walls.knowledge(*cell, *direction) {
+            Knowledge::Open => true,
+            Knowledge::Wall => false,
+            Knowledge::Unknown => unknown == Unknown::Open,
+        };
+        open && grid.neighbour(*cell, *direction).is_some()
+    })
+}
+
 impl<const N: usize> Passages<N> {
     /// The passages of a maze as far as it is known. O(N²).
     ///
@@ -35,21 +57,10 @@ impl<const N: usize> Passages<N> {
     #[must_use]
     pub fn new(walls: &impl Walls, unknown: Unknown) -> Self {
         let mut passages = Self { sides: [[0; N]; N] };
-        let grid = walls.grid();
-        if usize::from(grid.width().max(grid.height())) > N {
-            return passages;
-        }
-        for cell in grid.cells() {
-            for direction in [Direction::North, Direction::East] {
-                let open = match walls.knowledge(cell, direction) {
-                    Knowledge::Open => true,
-                    Knowledge::Wall => false,
-                    Knowledge::Unknown => unknown == Unknown::Open,
-                };
-                if open && let Some(next) = grid.neighbour(cell, direction) {
-                    passages.open_side(cell, direction);
-                    passages.open_side(next, direction.opposite());
-                }
+        for (cell, direction) in open_sides::<N>(walls, unknown) {
+            passages.open_side(cell, direction);
+            if let Some(next) = cell.beyond(direction) {
+                passages.open_side(next, direction.opposite());
             }
         }
         passages

@@ -84,14 +84,14 @@ impl<const N: usize> PoseSet<N> {
     /// both can be. O(N²).
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
-        self.retain(|cell, heading| walls.knowledge(cell, turned(heading, side)) != contrary);
+        self.retain(|cell, heading| walls.knowledge(cell, heading.turned(side)) != contrary);
     }
 
     /// Takes in that the mouse has turned to `side` and driven one cell. O(N²).
     pub fn drive(&mut self, walls: &impl Walls, side: Direction) {
         let grid = self.grid;
-        let driven = |(cell, heading)| {
-            let heading = turned(heading, side);
+        let driven = |(cell, heading): (Cell, Direction)| {
+            let heading = heading.turned(side);
             let free = walls.knowledge(cell, heading) != Knowledge::Wall;
             let next = grid.neighbour(cell, heading).filter(|_| free)?;
             Some((next, heading))
@@ -166,10 +166,10 @@ impl<const N: usize> PoseSet<N> {
             let twin = twin(cell, first, other);
             let way = ways.get(here).copied()?;
             for side in Direction::ALL {
-                let direction = turned(first.1, side);
+                let direction = first.1.turned(side);
                 let ours = walls.knowledge(cell, direction);
                 let theirs = twin.map_or(Knowledge::Unknown, |twin| {
-                    walls.knowledge(twin, turned(other.1, side))
+                    walls.knowledge(twin, other.1.turned(side))
                 });
                 let differ = ours.is_known() && theirs.is_known() && ours != theirs;
                 // Around the mouse itself everything has been seen.
@@ -241,26 +241,15 @@ struct Way {
     side: Direction,
 }
 
-/// The direction that is `side` for a mouse that looks to `heading`.
-fn turned(heading: Direction, side: Direction) -> Direction {
-    match side {
-        Direction::North => heading,
-        Direction::East => heading.right(),
-        Direction::South => heading.opposite(),
-        Direction::West => heading.left(),
-    }
-}
-
 /// Where a mouse is that began at `other`, when one that began at `first` and drove the same way is in `cell`.
 fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
     let east = i32::from(cell.x) - i32::from(first.0.x);
     let north = i32::from(cell.y) - i32::from(first.0.y);
-    let quarters = (other.1.index() + 4 - first.1.index()) % 4;
-    let (east, north) = match quarters {
-        0 => (east, north),
-        1 => (north, -east),
-        2 => (-east, -north),
-        _ => (-north, east),
+    let (east, north) = match other.1.seen_from(first.1) {
+        Direction::North => (east, north),
+        Direction::East => (north, -east),
+        Direction::South => (-east, -north),
+        Direction::West => (-north, east),
     };
     let x = u16::try_from(i32::from(other.0.x) + east).ok()?;
     let y = u16::try_from(i32::from(other.0.y) + north).ok()?;

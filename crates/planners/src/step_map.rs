@@ -93,16 +93,9 @@ impl<const N: usize> StepMap<N> {
         let open = directions
             .into_iter()
             .filter(|direction| passages.is_open(cell, *direction));
-        let steps = |direction: &Direction| {
-            let (east, north) = direction.step();
-            let x = cell.x.checked_add_signed(east.into())?;
-            let y = cell.y.checked_add_signed(north.into())?;
-            self.steps(Cell::new(x, y))
-        };
+        let steps = |direction| Some((self.steps(cell.beyond(direction)?)?, direction));
         // Of equals, min_by_key takes the first.
-        let nearest = open
-            .filter_map(|direction| steps(&direction).map(|steps| (steps, direction)))
-            .min_by_key(|(steps, _)| *steps);
+        let nearest = open.filter_map(steps).min_by_key(|(steps, _)| *steps);
         nearest.map(|(_, direction)| direction)
     }
 }

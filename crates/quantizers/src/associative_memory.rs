@@ -2,9 +2,10 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::{
-    ConfigError, InputError, Nearest, Network, Observation, Quantizer, Scalar, Soinn, SoinnConfig,
+    ConfigError, InputError, Nearest, NearestTwo, Network, Quantizer, Scalar, Soinn, SoinnConfig,
     UnitId,
 };
 
@@ -78,7 +79,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     ///
     /// # Errors
     /// If one of them is invalid. Nothing is learnt then.
-    pub fn associate(&mut self, key: &[S], response: &[S]) -> Result<Observation<S>, InputError> {
+    pub fn associate(&mut self, key: &[S], response: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.check_size(Part::Key, key)?;
         self.check_size(Part::Response, response)?;
         self.soinn.observe(&[key, response].concat())
@@ -128,10 +129,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     /// # Errors
     /// If `start` is invalid, responses have another number of features than keys, or nothing was learnt yet.
     pub fn chain(&self, start: &[S], reach: S) -> Result<Chain<'_, S>, InputError> {
-        let (expected, found) = (self.key_dimension, self.dimension(Part::Response));
-        if expected != found {
-            return Err(InputError::WrongDimension { expected, found });
-        }
+        InputError::check_size(self.key_dimension, self.features(Part::Response).len())?;
         self.response(start)?;
         Ok(Chain {
             memory: self,
@@ -149,20 +147,16 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.soinn.network()
     }
 
-    fn dimension(&self, part: Part) -> usize {
+    /// The features of a part.
+    fn features(&self, part: Part) -> Range<usize> {
         match part {
-            Part::Key => self.key_dimension,
-            Part::Response => self.network().dimension() - self.key_dimension,
+            Part::Key => 0..self.key_dimension,
+            Part::Response => self.key_dimension..self.network().dimension(),
         }
     }
 
     fn check_size(&self, part: Part, values: &[S]) -> Result<(), InputError> {
-        let (expected, found) = (self.dimension(part), values.len());
-        if expected == found {
-            Ok(())
-        } else {
-            Err(InputError::WrongDimension { expected, found })
-        }
+        InputError::check_size(self.features(part).len(), values.len())
     }
 
     /// The other part of the association whose `part` is nearest.
@@ -215,23 +209,16 @@ impl<S: Scalar> AssociativeMemory<S> {
         self.check_size(part, asked)?;
         let dimension = self.network().dimension();
         let (mut input, mut mask) = (vec![S::ZERO; dimension], vec![false; dimension]);
-        let start = match part {
-            Part::Key => 0,
-            Part::Response => self.key_dimension,
-        };
-        input[start..start + asked.len()].copy_from_slice(asked);
-        mask[start..start + asked.len()].fill(true);
+        input[self.features(part)].copy_from_slice(asked);
+        mask[self.features(part)].fill(true);
         Ok((input, mask))
     }
 
     /// A part of a unit; nothing if there is no such unit.
     fn part(&self, part: Part, id: UnitId) -> impl Iterator<Item = S> + '_ {
-        let (skipped, taken) = match part {
-            Part::Key => (0, self.key_dimension),
-            Part::Response => (self.key_dimension, self.dimension(Part::Response)),
-        };
+        let features = self.features(part);
         let values = self.network().prototype(id).into_iter().flatten();
-        values.skip(skipped).take(taken)
+        values.skip(features.start).take(features.len())
     }
 
     fn other_part(&self, asked: Part, unit: Nearest<S>) -> Vec<S> {

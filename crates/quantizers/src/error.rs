@@ -57,6 +57,18 @@ pub enum InputError {
     NoInputs,
 }
 
+impl InputError {
+    /// Refuses an input of another number of features than expected.
+    #[inline]
+    pub(crate) fn check_size(expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found {
+            Ok(())
+        } else {
+            Err(Self::WrongDimension { expected, found })
+        }
+    }
+}
+
 /// Why a quantizer cannot be made as asked for.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -64,10 +76,10 @@ pub enum ConfigError {
     /// Inputs must have features.
     #[error("a network needs inputs of at least one feature")]
     NoFeatures,
-    /// A field is outside its range.
+    /// A field, or a number that was saved, is outside its range.
     #[error("{field} is {value} but has to be {range}")]
     OutOfRange {
-        /// The name of the field.
+        /// The name of the field, or what it is.
         field: &'static str,
         /// What it is.
         value: f64,
@@ -101,14 +113,30 @@ pub enum ConfigError {
     },
 }
 
-/// Refuses the value of a field unless a condition holds.
+/// What a number may be: the test, and in words.
+pub(crate) type Range = (fn(f64) -> bool, &'static str);
+
+pub(crate) const SHARE: Range = (|value| (0.0..=1.0).contains(&value), "between 0 and 1");
+pub(crate) const AT_LEAST_1: Range = (|value| value >= 1.0, "at least 1");
+pub(crate) const NOT_NEGATIVE: Range = (
+    |value| value >= 0.0 && value.is_finite(),
+    "finite and not negative",
+);
+
+/// No sum of errors or utilities can have become larger.
+pub(crate) const SUM: Range = (
+    |value| (0.0..1e280).contains(&value),
+    "not negative and less than 1e280",
+);
+
+/// Refuses a number outside of its range.
 pub(crate) fn within(
     field: &'static str,
-    value: f64,
-    holds: bool,
-    range: &'static str,
+    value: impl Into<f64>,
+    (holds, range): Range,
 ) -> Result<(), ConfigError> {
-    if holds {
+    let value = value.into();
+    if holds(value) {
         return Ok(());
     }
     Err(ConfigError::OutOfRange {
@@ -145,7 +173,7 @@ pub enum SnapshotError {
         /// The version of the text.
         found: u32,
     },
-    /// A field of the configuration is outside its range, or a weight is.
+    /// A field of the configuration is outside its range, or a weight is, or a number that an algorithm keeps.
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// A prototype is no valid input.
@@ -178,16 +206,6 @@ pub enum SnapshotError {
         /// The ends.
         ends: (UnitId, UnitId),
     },
-    /// A number that an algorithm keeps is not what it can be.
-    #[error("{field} is {value} but has to be {range}")]
-    BadNumber {
-        /// What it is.
-        field: &'static str,
-        /// The value.
-        value: f64,
-        /// What it may be, in words.
-        range: &'static str,
-    },
     /// A list has another length than what it belongs to.
     #[error("{found} {what} where {expected} were expected")]
     WrongCount {
@@ -198,6 +216,22 @@ pub enum SnapshotError {
         /// How many there are.
         found: usize,
     },
+}
+
+/// Refuses a list of another length than what it belongs to.
+pub(crate) fn check_count(
+    what: &'static str,
+    expected: usize,
+    found: usize,
+) -> Result<(), SnapshotError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(SnapshotError::WrongCount {
+        what,
+        expected,
+        found,
+    })
 }
 
 /// Refuses what is not of a format, or of a version that is not known.

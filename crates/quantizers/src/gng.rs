@@ -13,8 +13,8 @@ pub use saved::SavedGng;
 
 use crate::network::{Best, Candidate};
 use crate::{
-    ConfigError, Events, InputError, Lanes, Network, Observation, Quantizer, Scalar, Search,
-    UnitId, UnknownUnit,
+    ConfigError, Events, InputError, Lanes, NearestTwo, Network, Quantizer, Scalar, Search, UnitId,
+    UnknownUnit,
 };
 
 /// A growing neural gas.
@@ -193,18 +193,16 @@ impl<S: Scalar> Gng<S> {
 
     /// What to do while there are fewer than two units.
     #[cold]
-    fn begin(&mut self, input: &[S], best: Best<S>) -> Observation<S> {
+    fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         let met = self.network.found(best.first);
-        if let Some(met) = met.filter(|met| met.squared_distance <= S::ZERO) {
+        if let Some(first) = met.filter(|met| met.squared_distance <= S::ZERO) {
             // Still the one point.
-            return Observation {
-                winner: met,
-                second: None,
-            };
+            let second = None;
+            return NearestTwo { first, second };
         }
         let slot = self.seed(input, met.map(|_| best.first.slot as usize));
-        Observation {
-            winner: self.network.at(slot),
+        NearestTwo {
+            first: self.network.at(slot),
             second: met,
         }
     }
@@ -212,6 +210,7 @@ impl<S: Scalar> Gng<S> {
     /// One step with the two nearest units.
     fn step(&mut self, input: &[S], best: Best<S>) {
         let (first, second) = (best.first.slot as usize, best.second.slot as usize);
+        let max_age = self.config.max_age;
         self.steps += 1;
         match self.config.order {
             StepOrder::Fritzke => {
@@ -219,7 +218,7 @@ impl<S: Scalar> Gng<S> {
                 self.charge(input, best);
                 self.adapt(first, input);
                 self.network.link(first, second, 0);
-                self.network.drop_old_edges(first, self.config.max_age);
+                self.network.drop_edges(first, |age| age > max_age);
                 self.grow_if_due();
                 self.decay_sums();
             }
@@ -228,7 +227,7 @@ impl<S: Scalar> Gng<S> {
                 self.network.age_edges(first);
                 self.charge(input, best);
                 self.adapt(first, input);
-                self.network.drop_old_edges(first, self.config.max_age);
+                self.network.drop_edges(first, |age| age > max_age);
                 self.decay_sums();
                 self.grow_if_due();
             }
@@ -303,21 +302,8 @@ impl<S: Scalar> Gng<S> {
 
     /// Puts a unit half-way between the unit of largest error and its neighbour of largest error.
     fn grow(&mut self) {
-        let worst = |slots: &mut dyn Iterator<Item = usize>| {
-            let mut worst: Option<(usize, f64)> = None;
-            for slot in slots {
-                let error = self.sums[slot].error;
-                // The first of equals, which has the smallest id.
-                if worst.is_none_or(|(_, most)| error > most) {
-                    worst = Some((slot, error));
-                }
-            }
-            worst.map(|(slot, _)| slot)
-        };
-        let Some(q) = worst(&mut self.network.slots()) else {
-            return;
-        };
-        let Some(f) = worst(&mut self.network.links().neighbours(q)) else {
+        let error = |slot: usize| self.sums[slot].error;
+        let Some((q, f)) = self.network.worst_edge(error) else {
             return;
         };
         self.network.split_edge(q, f);
@@ -357,12 +343,7 @@ impl<S: Scalar> Gng<S> {
         if self.network.len() < alone + 3 {
             return;
         }
-        while let Some((other, _)) = self.network.links().last(slot) {
-            self.network.cut(slot, other);
-            if self.network.links().degree(other) == 0 {
-                self.network.remove(other);
-            }
-        }
+        self.network.drop_edges(slot, |_| true);
         self.network.remove(slot);
     }
 }
@@ -379,20 +360,14 @@ fn relative_error(squared_distance: f64, squared_length: f64) -> f64 {
 }
 
 impl<S: Scalar> Quantizer<S> for Gng<S> {
-    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError> {
+    fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.network.check(input)?;
         let best = self.network.search(input);
-        let (Some(winner), Some(second)) = (
-            self.network.found(best.first),
-            self.network.found(best.second),
-        ) else {
+        let Some(met) = self.network.found_two(best) else {
             return Ok(self.begin(input, best));
         };
         self.step(input, best);
-        Ok(Observation {
-            winner,
-            second: Some(second),
-        })
+        Ok(met)
     }
 
     fn network(&self) -> &Network<S> {

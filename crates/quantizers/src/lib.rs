@@ -6,7 +6,7 @@
 //! - [`Scalar`]: what an input is made of;
 //! - [`Quantizer::observe`] takes an input and learns: [`Gng`], as its [`GngConfig`] says, or [`Soinn`], which chooses the number of
 //!   its units and clusters itself;
-//! - the [`Observation`] names the units that it met;
+//! - it names the [`NearestTwo`] units that it met;
 //! - the [`Network`] has the units, their edges and [`Clusters`], answers which unit is nearest to
 //!   something, and measures the [`QuantizationError`];
 //! - an [`AssociativeMemory`] recalls one part of what was learnt from another;
@@ -58,11 +58,11 @@ pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, Removal, SavedGng, StepOrde
 pub use network::{
     Clusters, Edge, Lanes, Network, QuantizationError, Search, Snapshot, SnapshotUnit,
 };
-pub use quantizer::{Observation, Quantizer};
+pub use quantizer::Quantizer;
 pub use replay::{Memory, Replay, ReplayConfig, SavedReplay};
 pub use scalar::Scalar;
 pub use soinn::{
-    Denoising, ErrorInsertion, SavedSoinn, SavedTally, SecondLayerConfig, SecondLayerError,
-    SecondThreshold, SimilarityThreshold, Soinn, SoinnConfig,
+    Denoising, ErrorInsertion, SavedSoinn, SecondLayerConfig, SecondLayerError, SecondThreshold,
+    SimilarityThreshold, Soinn, SoinnConfig, Tally,
 };
 pub use unit::{Nearest, NearestTwo, UnitId};

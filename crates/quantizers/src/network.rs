@@ -262,6 +262,13 @@ impl<S: Scalar> Network<S> {
         slots.find(|other| *other != slot && *other < self.ids.len())
     }
 
+    /// Both candidates by name, if there were two.
+    pub(crate) fn found_two(&self, best: Best<S>) -> Option<NearestTwo<S>> {
+        let second = Some(self.found(best.second)?);
+        let first = self.found(best.first)?;
+        Some(NearestTwo { first, second })
+    }
+
     /// A candidate by name, if there was one.
     pub(crate) fn found(&self, candidate: Candidate<S>) -> Option<Nearest<S>> {
         let id = self.ids.get(candidate.slot as usize)?;
@@ -302,6 +309,20 @@ impl<S: Scalar> Network<S> {
             weight * (value.to_f64() * value.to_f64())
         });
         squares.sum()
+    }
+
+    /// The edge on which a unit is needed most: from the unit of largest error, the first of equals, to its neighbour of
+    /// largest error.
+    pub(crate) fn worst_edge(&self, error: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
+        let worse = |worst, slot| {
+            if error(slot) > error(worst) {
+                slot
+            } else {
+                worst
+            }
+        };
+        let worst = self.slots().reduce(worse)?;
+        Some((worst, self.links.neighbours(worst).reduce(worse)?))
     }
 
     /// The slots of all units, ascending.
@@ -422,13 +443,12 @@ impl<S: Scalar> Network<S> {
         self.links.age(slot);
     }
 
-    /// Takes away the edges of a unit that are older than `max_age`, then its former neighbours
-    /// that have no edge left.
+    /// Takes away the edges of a unit whose age is too much, then its former neighbours that have no edge left.
     #[inline]
-    pub(crate) fn drop_old_edges(&mut self, slot: usize, max_age: u32) {
+    pub(crate) fn drop_edges(&mut self, slot: usize, is_old: impl Fn(u32) -> bool) {
         for place in (0..self.links.degree(slot)).rev() {
             let (other, age) = self.links.at(slot, place);
-            if age > max_age {
+            if is_old(age) {
                 self.cut(slot, other);
                 if self.links.degree(other) == 0 {
                     self.remove(other);

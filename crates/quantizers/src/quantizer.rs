@@ -7,12 +7,14 @@ use crate::{Events, InputError, Nearest, NearestTwo, Network, Scalar, Snapshot};
 /// Maps that are built on states need no more than this: feed it, ask which unit is nearest, look at its
 /// [`Network`].
 pub trait Quantizer<S: Scalar> {
-    /// Learns from one input.
+    /// Learns from one input, and returns what it met: first the unit that stands for the input now, and its distance when
+    /// the input came (the nearest unit, or the one that was made of the input, at distance 0), then the nearest unit but
+    /// that one when the input came, if there was one.
     ///
     /// # Errors
     /// If the input has another number of features than the network, or one that is NaN, infinite
     /// or so large that squares overflow. Nothing is learnt then.
-    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError>;
+    fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError>;
 
     /// The units and their edges.
     fn network(&self) -> &Network<S>;
@@ -40,14 +42,4 @@ pub trait Quantizer<S: Scalar> {
     fn snapshot(&self) -> Snapshot<S> {
         self.network().snapshot()
     }
-}
-
-/// What one input met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Observation<S> {
-    /// The unit that stands for the input now, and its distance when the input came: the nearest unit, or the one that was
-    /// made of the input, at distance 0.
-    pub winner: Nearest<S>,
-    /// The nearest unit but the winner when the input came, if there was one.
-    pub second: Option<Nearest<S>>,
 }

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::error::{check_header, within};
+use crate::error::{AT_LEAST_1, check_count, check_header, within};
 use crate::{
-    ConfigError, Events, InputError, Network, Observation, Quantizer, Scalar, SnapshotError,
+    ConfigError, Events, InputError, NearestTwo, Network, Quantizer, Scalar, SnapshotError,
 };
 
 /// A quantizer that remembers some of its inputs and learns from them again and again.
@@ -101,9 +101,8 @@ impl ReplayConfig {
     }
 
     fn check(&self) -> Result<(), ConfigError> {
-        let (capacity, per_input) = (self.capacity, self.per_input);
-        within("capacity", capacity.into(), capacity >= 1, "at least 1")?;
-        within("per_input", per_input.into(), per_input >= 1, "at least 1")
+        within("capacity", self.capacity, AT_LEAST_1)?;
+        within("per_input", self.per_input, AT_LEAST_1)
     }
 }
 
@@ -216,13 +215,7 @@ impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for Replay<S, Q> {
         let network = saved.quantizer.network();
         let remembered = saved.seen.min(saved.config.capacity.into()) as usize;
         let expected = remembered.saturating_mul(network.dimension());
-        if saved.memory.len() != expected {
-            return Err(SnapshotError::WrongCount {
-                what: "remembered features",
-                expected,
-                found: saved.memory.len(),
-            });
-        }
+        check_count("remembered features", expected, saved.memory.len())?;
         for (input, values) in saved.memory.chunks(network.dimension()).enumerate() {
             network
                 .check(values)
@@ -242,18 +235,14 @@ impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for Replay<S, Q> {
 }
 
 impl<S: Scalar, Q: Quantizer<S>> Quantizer<S> for Replay<S, Q> {
-    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError> {
+    fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.network().check(input)?;
         self.remember(input);
         for _ in 0..self.config.per_input {
             self.draw();
             self.quantizer.observe(&self.drawn)?;
         }
-        let found = self.nearest_two(input)?;
-        Ok(Observation {
-            winner: found.first,
-            second: found.second,
-        })
+        self.nearest_two(input)
     }
 
     fn network(&self) -> &Network<S> {

@@ -7,13 +7,13 @@ mod second_layer;
 use alloc::vec::Vec;
 
 pub use config::{Denoising, ErrorInsertion, SimilarityThreshold, SoinnConfig};
-pub use saved::{SavedSoinn, SavedTally};
+pub use saved::SavedSoinn;
 pub use second_layer::{SecondLayerConfig, SecondLayerError, SecondThreshold};
 
 use crate::network::{Best, Candidate};
 use crate::{
-    ConfigError, Events, InputError, Lanes, Network, Observation, Quantizer, Scalar, Search,
-    UnitId, UnknownUnit,
+    ConfigError, Events, InputError, Lanes, NearestTwo, Network, Quantizer, Scalar, Search, UnitId,
+    UnknownUnit,
 };
 
 /// One layer of a SOINN: "An incremental network for on-line unsupervised classification and topology learning" (Shen and
@@ -66,17 +66,18 @@ pub struct Soinn<S> {
     doomed: Vec<usize>,
 }
 
-/// What a unit remembers.
+/// What a unit of a [`Soinn`] remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Tally {
-    /// E: the distances of the inputs it won.
-    error: f64,
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Tally {
+    /// E: the sum of the distances of the inputs it won.
+    pub error: f64,
     /// M: how many those are.
-    wins: f64,
+    pub wins: f64,
     /// The step at which it came, or the older of the two it was put between, from which it has wins.
-    since: u64,
-    /// R: E / M after the last insertion it had part in.
-    radius: f64,
+    pub since: u64,
+    /// R: E / M after the last insertion it had part in; none if there was none.
+    pub radius: Option<f64>,
 }
 
 impl Tally {
@@ -86,7 +87,7 @@ impl Tally {
             error: 0.0,
             wins: 1.0,
             since,
-            radius: f64::INFINITY,
+            radius: None,
         }
     }
 
@@ -96,7 +97,7 @@ impl Tally {
 
     /// Whether it is worse off than it remembers.
     fn has_grown(&self) -> bool {
-        self.mean_error() > self.radius
+        self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
 
     /// Left to one of two units between which a unit is put.
@@ -114,13 +115,13 @@ impl Tally {
             error: (q.error + f.error) / 6.0,
             wins: 0.25 * (q.wins + f.wins),
             since: q.since.min(f.since),
-            radius: 0.25 * (q.radius + f.radius),
+            radius: q.radius.zip(f.radius).map(|(q, f)| 0.25 * (q + f)),
         }
     }
 
     fn remembering(self) -> Self {
         Self {
-            radius: self.mean_error(),
+            radius: Some(self.mean_error()),
             ..self
         }
     }
@@ -187,65 +188,47 @@ impl<S: Scalar> Soinn<S> {
     }
 
     /// Learns a valid input.
-    fn learn(&mut self, input: &[S]) -> Observation<S> {
+    fn learn(&mut self, input: &[S]) -> NearestTwo<S> {
         let best = self.network.search(input);
-        let (Some(winner), Some(second)) = (
-            self.network.found(best.first),
-            self.network.found(best.second),
-        ) else {
+        let Some(mut met) = self.network.found_two(best) else {
             return self.begin(input, best);
         };
         self.steps += 1;
-        let mut observation = Observation {
-            winner,
-            second: Some(second),
-        };
         if self.is_similar(best.first) && self.is_similar(best.second) {
             self.adapt(input, best);
         } else if self.network.has_ids_left() {
             let slot = self.insert(input);
-            observation = Observation {
-                winner: self.network.at(slot),
-                second: Some(winner),
+            met = NearestTwo {
+                second: Some(met.first),
+                first: self.network.at(slot),
             };
         }
         if self.steps.is_multiple_of(self.config.period.into()) {
             self.insert_where_error_is_large();
             self.remove_noise();
-            if !self.network.contains(observation.winner.id) {
-                self.name_again(input, &mut observation);
+            if !self.network.contains(met.first.id) {
+                // The unit that stood for the input was taken for noise at once.
+                met = self.network.nearest_two(input).unwrap_or(met);
             }
         }
         self.network.tidy(&mut self.tallies);
-        observation
+        met
     }
 
     /// What to do while there are fewer than two units.
     #[cold]
-    fn begin(&mut self, input: &[S], best: Best<S>) -> Observation<S> {
+    fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         match self.network.found(best.first) {
-            Some(only) if only.squared_distance <= S::ZERO => {
+            Some(first) if first.squared_distance <= S::ZERO => {
                 self.tallies[best.first.slot as usize].wins += 1.0;
-                Observation {
-                    winner: only,
-                    second: None,
-                }
+                let second = None;
+                NearestTwo { first, second }
             }
             second => {
                 let slot = self.insert(input);
-                let winner = self.network.at(slot);
-                Observation { winner, second }
+                let first = self.network.at(slot);
+                NearestTwo { first, second }
             }
-        }
-    }
-
-    /// The unit that stood for the input was taken for noise at once.
-    #[cold]
-    fn name_again(&self, input: &[S], observation: &mut Observation<S>) {
-        let best = self.network.search(input);
-        if let Some(winner) = self.network.found(best.first) {
-            let second = self.network.found(best.second);
-            *observation = Observation { winner, second };
         }
     }
 
@@ -294,10 +277,8 @@ impl<S: Scalar> Soinn<S> {
         if self.config.insertion == ErrorInsertion::Off || !self.network.has_ids_left() {
             return;
         }
-        let Some(q) = self.worst(self.network.slots()) else {
-            return;
-        };
-        let Some(f) = self.worst(self.network.links().neighbours(q)) else {
+        let error = |slot: usize| self.tallies[slot].error;
+        let Some((q, f)) = self.network.worst_edge(error) else {
             return;
         };
         let (old_q, old_f) = (self.tallies[q], self.tallies[f]);
@@ -319,17 +300,6 @@ impl<S: Scalar> Soinn<S> {
         self.tallies[q] = q_tally;
         self.tallies[f] = f_tally;
         self.tallies.push(r_tally);
-    }
-
-    /// The slot of largest error, the first of equals.
-    fn worst(&self, slots: impl Iterator<Item = usize>) -> Option<usize> {
-        slots.reduce(|worst, slot| {
-            if self.tallies[slot].error > self.tallies[worst].error {
-                slot
-            } else {
-                worst
-            }
-        })
     }
 
     /// Takes away what [`Denoising`] takes for noise. It comes by itself at the end of every period of λ inputs (step 10, its
@@ -371,7 +341,7 @@ impl<S: Scalar> Soinn<S> {
 }
 
 impl<S: Scalar> Quantizer<S> for Soinn<S> {
-    fn observe(&mut self, input: &[S]) -> Result<Observation<S>, InputError> {
+    fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.network.check(input)?;
         Ok(self.learn(input))
     }

@@ -42,63 +42,35 @@ pub trait Clock {
     fn time_us(&self) -> u64;
 }
 
-impl Ranges for LaserSensing {
+// Whatever holds the sensing of a laser robot can tell what that can.
+
+impl<S: AsRef<LaserSensing>> Ranges for S {
     fn scan(&self) -> Option<&Scan> {
-        self.scan.as_ref()
+        self.as_ref().scan.as_ref()
     }
 }
 
-impl Compass for LaserSensing {
+impl<S: AsRef<LaserSensing>> Compass for S {
     fn heading(&self) -> Option<Heading> {
-        self.compass
+        self.as_ref().compass
     }
 }
 
-impl Rolls for LaserSensing {
+impl<S: AsRef<LaserSensing>> Rolls for S {
     fn odometry(&self) -> Option<Odometry> {
-        self.odometry
+        self.as_ref().odometry
     }
 }
 
-impl Bumps for LaserSensing {
+impl<S: AsRef<LaserSensing>> Bumps for S {
     fn bump(&self) -> Option<bool> {
-        self.bump
+        self.as_ref().bump
     }
 }
 
-impl Clock for LaserSensing {
+impl<S: AsRef<LaserSensing>> Clock for S {
     fn time_us(&self) -> u64 {
-        self.time_us
-    }
-}
-
-impl Ranges for CameraSensing {
-    fn scan(&self) -> Option<&Scan> {
-        self.laser.scan()
-    }
-}
-
-impl Compass for CameraSensing {
-    fn heading(&self) -> Option<Heading> {
-        self.laser.heading()
-    }
-}
-
-impl Rolls for CameraSensing {
-    fn odometry(&self) -> Option<Odometry> {
-        self.laser.odometry()
-    }
-}
-
-impl Bumps for CameraSensing {
-    fn bump(&self) -> Option<bool> {
-        self.laser.bump()
-    }
-}
-
-impl Clock for CameraSensing {
-    fn time_us(&self) -> u64 {
-        self.laser.time_us()
+        self.as_ref().time_us
     }
 }
 

@@ -36,3 +36,9 @@ pub struct CameraSensing {
     /// The camera's image; `None` is a drop-out.
     pub image: Option<ColumnImage>,
 }
+
+impl AsRef<LaserSensing> for CameraSensing {
+    fn as_ref(&self) -> &LaserSensing {
+        &self.laser
+    }
+}

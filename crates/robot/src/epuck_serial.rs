@@ -98,27 +98,19 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
     }
 
     fn proximity(&mut self) -> Result<[f64; PROXIMITY_SENSORS], SerialError> {
-        let answer = self.ask("N", "n")?;
-        let numbers: Vec<f64> = numbers(&answer, PROXIMITY_SENSORS)?;
-        let mut values = [0.0; PROXIMITY_SENSORS];
-        values.copy_from_slice(&numbers);
-        Ok(values)
+        Ok(numbers(self.ask("N", "n")?)?.map(f64::from))
     }
 
     fn encoders(&mut self) -> Result<[u16; 2], SerialError> {
-        let answer = self.ask("Q", "q")?;
-        let numbers = numbers(&answer, 2)?;
         // Signed or not, the lower sixteen bits are the counter.
-        Ok([numbers[0] as i64 as u16, numbers[1] as i64 as u16])
+        Ok(numbers(self.ask("Q", "q")?)?.map(|counter| counter as u16))
     }
 
     /// Sets the speeds of the wheels, encoder steps a second, and sees that they are set.
     fn drive(&mut self, told: [i32; 2]) -> Result<(), SerialError> {
         let [left, right] = told;
         self.ask(&format!("D,{left},{right}"), "d")?;
-        let answer = self.ask("E", "e")?;
-        let numbers = numbers(&answer, 2)?;
-        let set = [numbers[0] as i32, numbers[1] as i32];
+        let set = numbers(self.ask("E", "e")?)?;
         if set == told {
             Ok(())
         } else {
@@ -177,19 +169,14 @@ fn steps_per_second(speed: f64) -> i32 {
 }
 
 /// The numbers behind the letter of an answer.
-fn numbers(answer: &str, count: usize) -> Result<Vec<f64>, SerialError> {
+fn numbers<const N: usize>(answer: String) -> Result<[i32; N], SerialError> {
     let parts = answer.split(',').skip(1);
-    let numbers: Vec<f64> = parts
-        .map_while(|part| part.trim().parse::<i32>().ok().map(f64::from))
-        .collect();
-    if numbers.len() == count && answer.split(',').count() == count + 1 {
-        Ok(numbers)
-    } else {
-        Err(SerialError::Numbers {
-            expected: count,
-            answer: answer.to_owned(),
-        })
-    }
+    let numbers: Option<Vec<i32>> = parts.map(|part| part.trim().parse().ok()).collect();
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or(SerialError::Numbers {
+        expected: N,
+        answer,
+    })
 }
 
 impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {

@@ -34,6 +34,12 @@ impl LaserSensing {
     }
 }
 
+impl AsRef<Self> for LaserSensing {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}
+
 #[cfg(all(test, feature = "serde"))]
 mod tests {
     use tolman_geom::Heading;

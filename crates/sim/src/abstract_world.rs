@@ -6,9 +6,9 @@
 use alloc::sync::Arc;
 
 use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox, Vector};
-use tolman_maze::{Direction, Maze};
+use tolman_maze::{Cell, Direction, Maze};
 
-use crate::chance::{Chance, Channel};
+use crate::chance::{Chance, Channel, Draws};
 
 /// Places and where each direction leads from them.
 ///
@@ -39,21 +39,10 @@ impl AbstractWorld {
     #[must_use]
     pub fn from_maze(maze: &Maze, spacing: f64) -> Self {
         let cells: Vec<_> = maze.grid().cells().collect();
-        let places = cells
-            .iter()
-            .map(|cell| Point::new(f64::from(cell.x) * spacing, f64::from(cell.y) * spacing));
-        let neighbours = cells.iter().map(|&cell| {
-            let mut to = [None; 4];
-            for (direction, next) in maze.neighbours(cell) {
-                to[direction as usize] = Some(maze.grid().index(next) as u32);
-            }
-            to
-        });
-        Self {
-            places: places.collect(),
-            neighbours: neighbours.collect(),
-            looks: vec![[0.0; 4]; cells.len()],
-        }
+        let number = |cell| maze.grid().index(cell) as u32;
+        Self::of_cells(&cells, spacing, |cell, direction| {
+            maze.beside(cell, direction).map(number)
+        })
     }
 
     /// The corridors of a maze whose cells are `spacing` metres apart: a place at every bend, junction and dead end, numbered
@@ -73,15 +62,23 @@ impl AbstractWorld {
             let mut along = core::iter::successors(maze.beside(cell, direction), |cell| {
                 maze.beside(*cell, direction)
             });
-            along.find(|cell| is_place(*cell)).and_then(number)
+            let place = along.find(|cell| is_place(*cell)).and_then(number);
+            place.map(|place| place as u32)
         };
-        let neighbours = cells.iter().map(|&cell| {
-            Direction::ALL.map(|direction| next(cell, direction).map(|place| place as u32))
-        });
+        Self::of_cells(&cells, spacing, next)
+    }
+
+    /// A place a cell, `spacing` metres apart, and where `next` says that each direction leads.
+    fn of_cells(
+        cells: &[Cell],
+        spacing: f64,
+        next: impl Fn(Cell, Direction) -> Option<u32>,
+    ) -> Self {
         let point = |x: u16, y: u16| Point::new(f64::from(x) * spacing, f64::from(y) * spacing);
+        let ways = |cell| Direction::ALL.map(|direction| next(cell, direction));
         Self {
-            neighbours: neighbours.collect(),
             places: cells.iter().map(|cell| point(cell.x, cell.y)).collect(),
+            neighbours: cells.iter().copied().map(ways).collect(),
             looks: vec![[0.0; 4]; cells.len()],
         }
     }
@@ -178,12 +175,6 @@ impl AbstractWorld {
     pub fn exits(&self, place: u32) -> impl Iterator<Item = Direction> + '_ {
         let all = Direction::ALL.into_iter();
         all.filter(move |&direction| self.neighbour(place, direction).is_some())
-    }
-
-    /// How many links there are, each direction for itself.
-    #[must_use]
-    pub fn link_count(&self) -> usize {
-        self.neighbours.iter().flatten().flatten().count()
     }
 }
 
@@ -313,13 +304,16 @@ impl AbstractRobot {
         self.scale
     }
 
+    /// The numbers of a channel since the last move.
+    fn draws(&self, channel: &str) -> Draws {
+        let chance = self.chance.at(0, self.moves);
+        chance.draws(Channel::named(channel))
+    }
+
     /// What it sees now.
     #[must_use]
     pub fn look(&self) -> [f64; 4] {
-        let mut draws = self
-            .chance
-            .at(0, self.moves)
-            .draws(Channel::named("abstract look"));
+        let mut draws = self.draws("abstract look");
         let look = self.world.looks.get(self.at as usize).copied();
         look.unwrap_or_default()
             .map(|value| value + self.errors.look * (2.0 * draws.uniform() - 1.0))
@@ -328,10 +322,7 @@ impl AbstractRobot {
     /// One of the directions that lead somewhere, each as likely as the others; none if there are none.
     #[must_use]
     pub fn wander(&self) -> Option<Direction> {
-        let mut draws = self
-            .chance
-            .at(0, self.moves)
-            .draws(Channel::named("abstract walk"));
+        let mut draws = self.draws("abstract walk");
         let exits: Vec<Direction> = self.world.exits(self.at).collect();
         let drawn = (draws.uniform() * exits.len() as f64) as usize;
         exits.get(drawn).copied()
@@ -343,10 +334,7 @@ impl AbstractRobot {
         let to = self.world.neighbour(from, direction)?;
         self.moves += 1;
         self.at = to;
-        let mut draws = self
-            .chance
-            .at(0, self.moves)
-            .draws(Channel::named("abstract odometry"));
+        let mut draws = self.draws("abstract odometry");
         let mut within = |bound: f64| bound * (2.0 * draws.uniform() - 1.0);
         let stop = Vector::new(within(self.errors.stop), within(self.errors.stop));
         let points = [from, to].map(|place| self.world.places[place as usize]);

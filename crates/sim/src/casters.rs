@@ -34,10 +34,7 @@ pub trait Caster: fmt::Debug + Send + Sync {
     /// Shortens every beam of `sweep` to the wall it meets.
     fn scan(&self, sweep: &mut Sweep) {
         let origin = sweep.origin();
-        for beam in 0..sweep.beams() {
-            let range = self.cast(origin, sweep.direction(beam), sweep.range(beam));
-            sweep.shorten(beam, range);
-        }
+        sweep.shorten_each(|direction, range| self.cast(origin, direction, range));
     }
 }
 

@@ -7,7 +7,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::{Point, Pose, Vector};
 
-use crate::scene::{Crowd, Placed, Scene};
+use crate::scene::{Crowd, Disc, Placed, Scene};
 use crate::{Motion, Wall, World};
 
 /// What happens where a body meets something.
@@ -92,7 +92,7 @@ pub(crate) struct Obstacles {
     /// Walls, shut doors and the sides of polygons.
     walls: Vec<Wall>,
     /// Other robots: centre and radius.
-    discs: Vec<(Point, f64)>,
+    discs: Vec<Disc>,
 }
 
 impl Obstacles {
@@ -106,7 +106,7 @@ impl Obstacles {
         self.walls.extend(scene.shut.iter().filter(near));
         for other in scene.bodies.near(robot, position, reach) {
             if other.corners().is_empty() {
-                self.discs.push((other.pose().position, other.radius()));
+                self.discs.push(other.disc());
             } else {
                 self.walls.extend(other.sides());
             }

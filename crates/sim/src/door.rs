@@ -1,6 +1,6 @@
 use tolman_geom::Point;
 
-use crate::Material;
+use crate::{Material, Wall};
 
 /// Whether a door lets through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -32,6 +32,17 @@ pub struct Door {
     /// When it changes by itself, in order of time.
     #[serde(default)]
     pub schedule: Vec<DoorEvent>,
+}
+
+impl Door {
+    /// The wall that it is when shut.
+    pub(crate) fn wall(&self) -> Wall {
+        Wall {
+            start: self.start,
+            end: self.end,
+            material: self.material,
+        }
+    }
 }
 
 /// One change of a door on schedule.

@@ -1,3 +1,4 @@
+use nalgebra::Isometry2;
 use tolman_geom::{Point, Pose};
 use tolman_robot::Body;
 
@@ -21,26 +22,12 @@ pub(crate) struct Crowd {
     discs: Vec<Disc>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Disc {
-    x: f64,
-    y: f64,
-    radius: f64,
-}
-
-impl Disc {
-    fn round(body: &Placed) -> Self {
-        Self {
-            x: body.pose.position.x,
-            y: body.pose.position.y,
-            radius: body.radius,
-        }
-    }
-}
+/// Centre and radius.
+pub(crate) type Disc = (Point, f64);
 
 impl Crowd {
     pub(crate) fn push(&mut self, body: Placed) {
-        self.discs.push(Disc::round(&body));
+        self.discs.push(body.disc());
         self.bodies.push(body);
     }
 
@@ -56,7 +43,7 @@ impl Crowd {
     /// Lets `change` move or replace a body.
     pub(crate) fn change<R>(&mut self, robot: usize, change: impl FnOnce(&mut Placed) -> R) -> R {
         let result = change(&mut self.bodies[robot]);
-        self.discs[robot] = Disc::round(&self.bodies[robot]);
+        self.discs[robot] = self.bodies[robot].disc();
         result
     }
 
@@ -68,7 +55,7 @@ impl Crowd {
         reach: f64,
     ) -> impl Iterator<Item = &Placed> {
         let is_near = move |disc: &Disc| {
-            let (x, y, reach) = (disc.x - centre.x, disc.y - centre.y, disc.radius + reach);
+            let (x, y, reach) = (disc.0.x - centre.x, disc.0.y - centre.y, disc.1 + reach);
             x * x + y * y <= reach * reach
         };
         let near = self
@@ -108,14 +95,9 @@ impl Placed {
         self.pose = pose;
         if let Body::Polygon { corners } = &self.body {
             self.corners.clear();
-            let (ahead, origin) = (pose.heading.unit(), pose.position);
-            self.corners.extend(corners.iter().map(|corner| {
-                let (x, y) = (corner.x, corner.y);
-                Point::new(
-                    origin.x + (ahead.x * x - ahead.y * y),
-                    origin.y + (ahead.y * x + ahead.x * y),
-                )
-            }));
+            let world_from_robot = Isometry2::from(pose);
+            let turned = corners.iter().map(|corner| world_from_robot * corner);
+            self.corners.extend(turned);
         }
     }
 
@@ -123,7 +105,12 @@ impl Placed {
         self.pose
     }
 
-    /// The radius of the smallest disc round the pose that holds the body.
+    /// The smallest disc round the pose that holds the body.
+    pub(crate) fn disc(&self) -> Disc {
+        (self.pose.position, self.radius)
+    }
+
+    /// The radius of that disc.
     pub(crate) fn radius(&self) -> f64 {
         self.radius
     }

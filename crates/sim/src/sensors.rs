@@ -18,7 +18,7 @@
 //!     type Reading = f64;
 //!
 //!     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<f64>) {
-//!         let distance = (self.beacon - around.pose.position).norm();
+//!         let distance = (self.beacon - around.truth.pose.position).norm();
 //!         *reading = Some(1.0 / (1.0 + distance * distance));
 //!     }
 //! }
@@ -26,19 +26,13 @@
 
 use crate::{Chance, Surroundings};
 
-mod bumper;
 mod column_camera;
-mod compass;
 mod infrared;
 mod laser;
-mod odometry;
 
-pub use bumper::Bumper;
 pub use column_camera::{CameraError, ColumnCamera};
-pub use compass::Compass;
 pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};
-pub use odometry::WheelOdometry;
 
 /// Something that reads a value off the surroundings of a robot.
 pub trait Sensor {

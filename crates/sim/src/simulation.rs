@@ -185,11 +185,7 @@ impl<M: Model> Simulation<M> {
                 bodies: &self.bodies,
             },
             robot: index,
-            pose: truth.pose,
-            motion: truth.motion,
-            bump: truth.bump,
-            tick: self.tick,
-            time_us: self.tick * self.step_us,
+            truth,
         };
         model.sense(
             &surroundings,
@@ -393,11 +389,7 @@ impl Doors {
     fn settle(&mut self, bodies: &Crowd) {
         self.shut.clear();
         for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
-            let wall = Wall {
-                start: door.start,
-                end: door.end,
-                material: door.material,
-            };
+            let wall = door.wall();
             standing.is_shut = standing.wanted == DoorState::Shut
                 && (standing.is_shut
                     || bodies

@@ -1,24 +1,16 @@
-use tolman_geom::{Point, Pose, Vector};
+use tolman_geom::{Point, Vector};
 
 use crate::casters::Sweep;
 use crate::scene::Scene;
-use crate::{Material, Motion, World};
+use crate::{Material, Truth, World};
 
 /// What a sensor can be sensitive to: the true state of things round one robot at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
     pub(crate) scene: Scene<'a>,
     pub(crate) robot: usize,
-    /// Where the robot is.
-    pub pose: Pose,
-    /// How it moved in this step.
-    pub motion: Motion,
-    /// Whether that motion was cut by a contact.
-    pub bump: bool,
-    /// Steps since the run began.
-    pub tick: u64,
-    /// Microseconds since the run began.
-    pub time_us: u64,
+    /// Where the robot is, how it moved in this step, and when that is.
+    pub truth: &'a Truth,
 }
 
 /// A half-line in the world.
@@ -87,7 +79,7 @@ impl<'a> Surroundings<'a> {
             echo
         });
         // Who is near is asked once for all rays, which begin somewhere on the body.
-        let here = self.pose.position;
+        let here = self.truth.pose.position;
         let spread = rays.iter().map(|ray| (ray.origin - here).norm());
         let reach = max_range + spread.fold(0.0, f64::max);
         let body = Material::default();

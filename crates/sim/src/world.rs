@@ -74,9 +74,11 @@ pub struct World {
 }
 
 /// The cells of a world made from a maze.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Cells {
-    grid: Grid,
+    width: u16,
+    height: u16,
     pitch: f64,
 }
 
@@ -102,7 +104,8 @@ impl World {
         }
         let pitch = size.pitch();
         let cells = Cells {
-            grid: maze.grid(),
+            width: maze.grid().width(),
+            height: maze.grid().height(),
             pitch,
         };
         let lattice = Lattice::of_maze(maze, pitch, wall_thickness);
@@ -193,16 +196,9 @@ impl World {
         if self.doors.iter().any(|other| other.name == door.name) {
             return Err(WorldError::DoorTwice { name: door.name });
         }
-        let wall = Wall {
-            start: door.start,
-            end: door.end,
-            material: door.material,
-        };
-        if let Err(what) = wall.check() {
-            return Err(WorldError::Door {
-                name: door.name,
-                what,
-            });
+        if let Err(what) = door.wall().check() {
+            let name = door.name;
+            return Err(WorldError::Door { name, what });
         }
         if let Some(late) = door
             .schedule
@@ -280,7 +276,7 @@ impl World {
     /// The size of the maze this world was made from, if it was.
     #[must_use]
     pub fn grid(&self) -> Option<Grid> {
-        self.cells.map(|cells| cells.grid)
+        self.cells.map(|cells| Grid::new(cells.width, cells.height))
     }
 
     /// The middle of a cell of the maze this world was made from; in a world of another kind, where
@@ -298,15 +294,16 @@ impl World {
     /// none in a world of another kind.
     #[must_use]
     pub fn cell_at(&self, point: Point) -> Option<Cell> {
-        let Cells { grid, pitch } = self.cells?;
+        let Cells {
+            width,
+            height,
+            pitch,
+        } = self.cells?;
         let along = |value: f64, count: u16| {
             let index = (value / pitch).floor();
             (index >= 0.0 && index < f64::from(count)).then_some(index as u16)
         };
-        Some(Cell::new(
-            along(point.x, grid.width())?,
-            along(point.y, grid.height())?,
-        ))
+        Some(Cell::new(along(point.x, width)?, along(point.y, height)?))
     }
 
     /// How far `point` is from the nearest wall, m. Doors do not count.

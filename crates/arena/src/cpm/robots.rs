@@ -87,7 +87,7 @@ mod tests {
             let body = maze.robot(robot.clone(), 1).unwrap();
             let config = walker_config(robot, 0.25).unwrap();
             let mut pilot = Pilot::new(body, config.pilot);
-            let samples = pilot.sweep().unwrap().samples().len();
+            let samples = pilot.sweep().unwrap().samples.len();
             assert_eq!(samples, 100);
             pilot.robot().sensing().time_us
         };

@@ -8,7 +8,7 @@ use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, CpmError, FragmentId, LocalizeError, RecallError};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
-use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::noise::Fault;
 use tolman_sim::robots::{EpuckConfig, EpuckError};
 use tolman_sim::{PlaceError, StepError, WorldError};
 use tolman_systems::cpm::{
@@ -128,7 +128,7 @@ impl Trial<'_> {
     #[must_use]
     pub fn slipping(share: f64) -> EpuckConfig {
         EpuckConfig {
-            wheels: vec![Fault::Slip(Slip { share })],
+            wheels: vec![Fault::Slip { share }],
             ..epuck()
         }
     }
@@ -332,7 +332,6 @@ pub(super) mod tests {
 
     use tolman_maps::cpm::{Matching, Similarity};
     use tolman_maze::{Direction, Grid, Maze};
-    use tolman_sim::noise::{DropOut, Stuck};
 
     use super::*;
     use crate::cpm::{KnownMaze, PutDown, RoundTrip};
@@ -462,14 +461,14 @@ pub(super) mod tests {
             proximity: vec![fault],
             ..epuck()
         };
-        let silent = faulty(Fault::DropOut(DropOut { probability: 1.0 }));
+        let silent = faulty(Fault::DropOut { probability: 1.0 });
         let trouble = play(&maze, silent).trouble.unwrap();
         assert!(trouble.contains("check the proximity sensors"), "{trouble}");
         // A sensor that always says the same shows no way on, or one everywhere: an end without the goal, whichever.
-        let stuck = faulty(Fault::Stuck(Stuck {
+        let stuck = faulty(Fault::Stuck {
             probability: 1.0,
             steps: u32::MAX,
-        }));
+        });
         assert!(!play(&maze, stuck).is_solved());
     }
 

@@ -1,6 +1,6 @@
 use tolman_robot::{CameraSensing, Ring};
 use tolman_sim::Contact;
-use tolman_sim::noise::{Bounded, Fault, Gaussian};
+use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
 use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, RoutineConfig, SenseError};
 
@@ -97,12 +97,10 @@ impl SurveyorConfig {
     /// Returns the Pioneer with the errors of its compass and odometry.
     #[must_use]
     pub fn laser_robot(&self) -> LaserPioneerConfig {
-        let bounded = |share: f64, offset: f64| {
-            Fault::Bounded(Bounded {
-                share,
-                offset,
-                steps: self.hold_steps,
-            })
+        let bounded = |share: f64, offset: f64| Fault::Bounded {
+            share,
+            offset,
+            steps: self.hold_steps,
         };
         let mut pioneer = self.pioneer.clone();
         pioneer

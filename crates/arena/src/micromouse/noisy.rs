@@ -8,7 +8,7 @@ use thiserror::Error;
 use tolman_maps::wall_belief::PoseFilterConfig;
 use tolman_maze::Maze;
 use tolman_robot::Ring;
-use tolman_sim::noise::{Fault, Gaussian, Slip};
+use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
@@ -49,7 +49,7 @@ impl NoisyConfig {
     /// A body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step of 20
     /// ms.
     fn robot(&self) -> LaserPioneerConfig {
-        let slip = Fault::Slip(Slip { share: self.slip });
+        let slip = Fault::Slip { share: self.slip };
         let mut robot = LaserPioneerConfig {
             radius: 0.04,
             ring: Ring::fan(3, core::f64::consts::PI, 1.0),

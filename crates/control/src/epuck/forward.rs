@@ -115,14 +115,8 @@ impl Forward {
             self.look_along();
         }
         match self.bend {
-            Some(Side::Left) => Twist {
-                linear: 0.0,
-                angular: self.config.turn,
-            },
-            Some(Side::Right) => Twist {
-                linear: 0.0,
-                angular: -self.config.turn,
-            },
+            Some(Side::Left) => Twist::new(0.0, self.config.turn),
+            Some(Side::Right) => Twist::new(0.0, -self.config.turn),
             None => self.keep_to_the_middle(left, right),
         }
     }
@@ -147,10 +141,10 @@ impl Forward {
             self.way = sum / count;
         }
         let turn = self.config.to_middle * off.clamp(-0.03, 0.03) + self.config.along * self.way;
-        Twist {
-            linear: self.config.speed,
-            angular: turn.clamp(-self.config.turn, self.config.turn),
-        }
+        Twist::new(
+            self.config.speed,
+            turn.clamp(-self.config.turn, self.config.turn),
+        )
     }
 
     /// The wall beside, by the sensor that looks straight aside and the one half ahead of it.

@@ -6,14 +6,9 @@ use super::Echoes;
 /// Layer 0: keeps the robot off walls and off what comes towards it (section 3.2).
 ///
 /// It slows the proposal down as something comes near ahead, and turns away from it.
+/// The paper gives no values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KeepOff {
-    config: KeepOffConfig,
-}
-
-/// What layer 0 holds to. The paper gives no values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KeepOffConfig {
     /// Between body and wall, m: where slowing down begins.
     pub margin: f64,
     /// Between body and wall, m: where all driving ahead ends. Below the margin.
@@ -22,7 +17,7 @@ pub struct KeepOffConfig {
     pub turn: f64,
 }
 
-impl KeepOffConfig {
+impl KeepOff {
     /// Ours: slower from 3 cm on, no nearer than 1 cm.
     #[must_use]
     pub const fn ours() -> Self {
@@ -32,35 +27,26 @@ impl KeepOffConfig {
             turn: 2.0,
         }
     }
-}
-
-impl KeepOff {
-    /// A layer 0.
-    #[must_use]
-    pub const fn new(config: KeepOffConfig) -> Self {
-        Self { config }
-    }
 
     /// Corrects what the layer above proposes.
     #[must_use]
     pub fn correct(&self, proposal: Twist, echoes: &Echoes) -> Twist {
-        let KeepOffConfig {
-            margin,
-            least,
-            turn,
-        } = self.config;
         // What lies behind the wheels' axle is left behind by driving ahead.
         let ahead = echoes.iter().filter(|point| point.x > 0.0);
         let Some(nearest) = ahead.min_by(|a, b| a.coords.norm().total_cmp(&b.coords.norm())) else {
             return proposal;
         };
         let gap = nearest.coords.norm() - BODY_RADIUS;
-        let freedom = ((gap - least) / (margin - least)).clamp(0.0, 1.0);
-        let away = if nearest.y > 0.0 { -turn } else { turn };
-        Twist {
-            linear: proposal.linear.min(proposal.linear * freedom),
-            angular: proposal.angular + (1.0 - freedom) * away,
-        }
+        let freedom = ((gap - self.least) / (self.margin - self.least)).clamp(0.0, 1.0);
+        let away = if nearest.y > 0.0 {
+            -self.turn
+        } else {
+            self.turn
+        };
+        Twist::new(
+            proposal.linear.min(proposal.linear * freedom),
+            proposal.angular + (1.0 - freedom) * away,
+        )
     }
 }
 
@@ -83,7 +69,7 @@ mod tests {
 
     #[test]
     fn what_is_far_changes_nothing() {
-        let layer = KeepOff::new(KeepOffConfig::ours());
+        let layer = KeepOff::ours();
         assert_eq!(layer.correct(AHEAD, &echoes(7, 0.2)), AHEAD);
         assert_eq!(layer.correct(AHEAD, &Echoes::default()), AHEAD);
         // Nor does what is behind.
@@ -92,7 +78,7 @@ mod tests {
 
     #[test]
     fn what_is_near_stops_it_and_turns_it_away() {
-        let layer = KeepOff::new(KeepOffConfig::ours());
+        let layer = KeepOff::ours();
         let left = layer.correct(AHEAD, &echoes(7, 0.005));
         assert!(left.linear.abs() < 1e-12 && left.angular < -1.0, "{left:?}");
         let right = layer.correct(AHEAD, &echoes(0, 0.005));

@@ -24,7 +24,7 @@ mod sweep;
 
 pub use echoes::Echoes;
 pub use forward::{Forward, ForwardConfig};
-pub use keep_off::{KeepOff, KeepOffConfig};
+pub use keep_off::KeepOff;
 pub use meet_point::MeetPointConfig;
 pub use pilot::{Pilot, PilotConfig, PilotError, TURN_STEP};
 pub use profile::{Alignment, Profile, ProfileError};

@@ -5,7 +5,7 @@ use tolman_geom::{Point, Twist};
 use tolman_robot::Robot;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds};
 
-use super::{Echoes, Forward, ForwardConfig, KeepOff, KeepOffConfig, RangeCurve, Sweep};
+use super::{Echoes, Forward, ForwardConfig, KeepOff, RangeCurve, Sweep};
 
 /// Drives an e-puck for layer 3: sweeps, half seconds of path, turns.
 #[derive(Clone, Debug)]
@@ -13,7 +13,6 @@ pub struct Pilot<R> {
     robot: R,
     config: PilotConfig,
     forward: Forward,
-    keep_off: KeepOff,
 }
 
 /// The least turn that the real robot's encoders tell, rad: each wheel by a step, against the other.
@@ -41,7 +40,7 @@ pub struct PilotConfig {
     /// Layer 1.
     pub forward: ForwardConfig,
     /// Layer 0.
-    pub keep_off: KeepOffConfig,
+    pub keep_off: KeepOff,
 }
 
 impl<R> Pilot<R>
@@ -50,21 +49,16 @@ where
 {
     /// A pilot of this robot.
     pub fn new(robot: R, config: PilotConfig) -> Self {
-        Self {
-            forward: Forward::new(config.forward),
-            keep_off: KeepOff::new(config.keep_off),
-            robot,
-            config,
-        }
+        let forward = Forward::new(config.forward);
+        Self::resume(robot, config, forward)
     }
 
     /// Returns a pilot that goes on with this robot where its layer 1 left off.
     pub const fn resume(robot: R, config: PilotConfig, forward: Forward) -> Self {
         Self {
-            keep_off: KeepOff::new(config.keep_off),
-            forward,
             robot,
             config,
+            forward,
         }
     }
 
@@ -111,7 +105,7 @@ where
     /// # Errors
     /// If the robot fails, or its wheels do not say how far they turned.
     pub fn sweep(&mut self) -> Result<Sweep, PilotError<R::Error>> {
-        let mut sweep = Sweep::new();
+        let mut sweep = Sweep::default();
         let spacing = TAU / f64::from(self.config.samples.max(1));
         let mut turned = 0.0;
         for sample in 0..self.config.samples {
@@ -119,7 +113,7 @@ where
                 spacing * f64::from(sample) - turned,
                 self.config.sweep_speed,
             )?;
-            sweep.push(self.robot.sensing().proximity);
+            sweep.samples.push(self.robot.sensing().proximity);
         }
         self.turn_on(TAU - turned, self.config.sweep_speed)?;
         Ok(sweep)
@@ -140,7 +134,7 @@ where
             let echoes = self.echoes()?;
             let proposal = self.forward.propose(&echoes);
             forward += u64::from(proposal.linear > 0.0);
-            let twist = self.keep_off.correct(proposal, &echoes);
+            let twist = self.config.keep_off.correct(proposal, &echoes);
             self.drive(twist, 1.0)?;
             self.forward.turned(twist.angular * self.step_seconds());
         }
@@ -182,11 +176,8 @@ where
         let mut left = way.norm();
         while left > 1e-6 {
             let share = (left / step).min(1.0);
-            let twist = Twist {
-                linear: speed * share,
-                angular: 0.0,
-            };
-            let corrected = self.keep_off.correct(twist, &self.echoes()?);
+            let twist = Twist::new(speed * share, 0.0);
+            let corrected = self.config.keep_off.correct(twist, &self.echoes()?);
             if speed > 0.0 && corrected.linear <= 0.0 {
                 break;
             }
@@ -205,10 +196,7 @@ where
         while (radians - turned).abs() > self.config.turn_tolerance {
             let left = radians - turned;
             let share = (left.abs() / step).min(1.0);
-            let twist = Twist {
-                linear: 0.0,
-                angular: speed * left.signum(),
-            };
+            let twist = Twist::new(0.0, speed * left.signum());
             self.drive(twist, share)?;
             let encoders = self
                 .robot
@@ -227,10 +215,7 @@ where
 
     /// One time step at this twist times `share`.
     fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
-        let part = Twist {
-            linear: twist.linear * share,
-            angular: twist.angular * share,
-        };
+        let part = Twist::new(twist.linear * share, twist.angular * share);
         let speeds = WheelSpeeds::of_twist(part, self.config.most_wheel_speed);
         self.robot.step(&speeds).map_err(PilotError::Robot)
     }

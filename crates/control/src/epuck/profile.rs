@@ -42,7 +42,7 @@ impl Profile {
     /// # Errors
     /// If the sweep has no samples, a value is not finite, or a bearing was seen by no sensor.
     pub fn of(sweep: &Sweep, alignment: Alignment) -> Result<Self, ProfileError> {
-        let samples = sweep.samples();
+        let samples = &sweep.samples;
         if samples.is_empty() {
             return Err(ProfileError::Empty);
         }

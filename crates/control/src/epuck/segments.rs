@@ -27,9 +27,7 @@ pub const FEATURES: usize = 11;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segments {
     segments: Vec<Segment>,
-    space_below: f64,
-    narrowest_space: u32,
-    way_below: f64,
+    config: SegmentConfig,
 }
 
 /// A part of a profile that does not change much.
@@ -171,9 +169,7 @@ impl Profile {
         }
         Ok(Segments {
             segments,
-            space_below: config.space_below,
-            narrowest_space: config.narrowest_space,
-            way_below: config.way_below,
+            config: *config,
         })
     }
 }
@@ -256,7 +252,8 @@ impl Segments {
     pub fn spaces(&self) -> impl Iterator<Item = f64> + '_ {
         let spaces = || {
             let below = self.segments.iter().filter(|segment| {
-                segment.mean < self.space_below && segment.samples >= self.narrowest_space
+                segment.mean < self.config.space_below
+                    && segment.samples >= self.config.narrowest_space
             });
             below.map(|segment| segment.bearing)
         };
@@ -272,7 +269,7 @@ impl Segments {
     pub fn ways(&self) -> usize {
         self.segments
             .iter()
-            .filter(|segment| segment.mean < self.way_below)
+            .filter(|segment| segment.mean < self.config.way_below)
             .count()
     }
 

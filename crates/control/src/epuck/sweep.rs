@@ -7,26 +7,6 @@ use tolman_robot::epuck::PROXIMITY_SENSORS;
 /// Sample *k* of *n* was taken when the robot had turned by *k* · 360°/*n*, so that the first looks as the robot does.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sweep {
-    samples: Vec<Option<[f64; PROXIMITY_SENSORS]>>,
-}
-
-impl Sweep {
-    /// Nothing was seen yet.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            samples: Vec::new(),
-        }
-    }
-
-    /// Adds the next sample: the values of all sensors, or none where they gave nothing.
-    pub fn push(&mut self, values: Option<[f64; PROXIMITY_SENSORS]>) {
-        self.samples.push(values);
-    }
-
-    /// The samples, in order.
-    #[must_use]
-    pub fn samples(&self) -> &[Option<[f64; PROXIMITY_SENSORS]>] {
-        &self.samples
-    }
+    /// The samples, in order: the values of all sensors, or none where they gave nothing.
+    pub samples: Vec<Option<[f64; PROXIMITY_SENSORS]>>,
 }

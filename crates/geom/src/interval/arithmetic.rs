@@ -39,29 +39,24 @@ impl Interval {
                 quotient(numerator, divisor)
             }
         };
-        Some(Self {
-            low: over(self.low, quotient_down, [low, high]),
-            high: over(self.high, quotient_up, [high, low]),
-        })
+        Some(Self::from_bounds(
+            over(self.low, quotient_down, [low, high]),
+            over(self.high, quotient_up, [high, low]),
+        ))
     }
 
     /// All squares; narrower than the product with itself where 0 lies inside.
     #[must_use]
     pub fn squared(self) -> Self {
         let Self { low, high } = self.abs();
-        Self {
-            low: product_down(low, low).max(0.0),
-            high: product_up(high, high),
-        }
+        Self::from_bounds(product_down(low, low).max(0.0), product_up(high, high))
     }
 
     /// The roots of the numbers that have one; none if all are negative.
     #[must_use]
     pub fn sqrt(self) -> Option<Self> {
-        (self.high >= 0.0).then(|| Self {
-            low: root_down(self.low.max(0.0)),
-            high: root_up(self.high),
-        })
+        (self.high >= 0.0)
+            .then(|| Self::from_bounds(root_down(self.low.max(0.0)), root_up(self.high)))
     }
 
     /// All absolute values.
@@ -72,10 +67,7 @@ impl Interval {
         } else if self.high <= 0.0 {
             -self
         } else {
-            Self {
-                low: 0.0,
-                high: self.high.max(-self.low),
-            }
+            Self::from_bounds(0.0, self.high.max(-self.low))
         }
     }
 
@@ -93,10 +85,7 @@ impl Neg for Interval {
 
     #[inline]
     fn neg(self) -> Self {
-        Self {
-            low: -self.high,
-            high: -self.low,
-        }
+        Self::from_bounds(-self.high, -self.low)
     }
 }
 
@@ -105,10 +94,7 @@ impl Add for Interval {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self {
-            low: sum_down(self.low, other.low),
-            high: sum_up(self.high, other.high),
-        }
+        Self::from_bounds(sum_down(self.low, other.low), sum_up(self.high, other.high))
     }
 }
 
@@ -133,9 +119,9 @@ impl Mul for Interval {
         ];
         let low = corners.map(|(a, b)| product_down(a, b));
         let high = corners.map(|(a, b)| product_up(a, b));
-        Self {
-            low: low.into_iter().fold(f64::INFINITY, f64::min),
-            high: high.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        }
+        Self::from_bounds(
+            low.into_iter().fold(f64::INFINITY, f64::min),
+            high.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        )
     }
 }

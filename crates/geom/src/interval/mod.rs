@@ -42,16 +42,10 @@ pub struct Interval {
 
 impl Interval {
     /// Nothing but 0.
-    pub const ZERO: Self = Self {
-        low: 0.0,
-        high: 0.0,
-    };
+    pub const ZERO: Self = Self::from_bounds(0.0, 0.0);
 
     /// Nothing is known.
-    pub const UNBOUNDED: Self = Self {
-        low: f64::NEG_INFINITY,
-        high: f64::INFINITY,
-    };
+    pub const UNBOUNDED: Self = Self::from_bounds(f64::NEG_INFINITY, f64::INFINITY);
 
     /// From `low` to `high`.
     ///
@@ -86,26 +80,24 @@ impl Interval {
         Ok(Self::of(middle)? + Self::new(-margin, margin)?)
     }
 
+    /// From `low` to `high`, which are known to be bounds.
+    #[inline]
+    const fn from_bounds(low: f64, high: f64) -> Self {
+        Self { low, high }
+    }
+
     /// One number that is known to be finite.
     pub(crate) const fn point(value: f64) -> Self {
-        Self {
-            low: value,
-            high: value,
-        }
+        Self::from_bounds(value, value)
     }
 
     /// Its lower and its upper half.
     pub(crate) fn halves(self) -> (Self, Self) {
         let middle = self.middle();
-        let lower = Self {
-            high: middle,
-            ..self
-        };
-        let upper = Self {
-            low: middle,
-            ..self
-        };
-        (lower, upper)
+        (
+            Self::from_bounds(self.low, middle),
+            Self::from_bounds(middle, self.high),
+        )
     }
 
     /// The least it may be.
@@ -177,20 +169,15 @@ impl Interval {
     #[must_use]
     #[inline]
     pub fn intersection(self, other: Self) -> Option<Self> {
-        self.meets(other).then(|| Self {
-            low: self.low.max(other.low),
-            high: self.high.min(other.high),
-        })
+        self.meets(other)
+            .then(|| Self::from_bounds(self.low.max(other.low), self.high.min(other.high)))
     }
 
     /// The least interval that holds both.
     #[must_use]
     #[inline]
     pub fn hull(self, other: Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-        }
+        Self::from_bounds(self.low.min(other.low), self.high.max(other.high))
     }
 }
 
@@ -203,24 +190,22 @@ impl fmt::Debug for Interval {
 impl fmt::Display for Interval {
     /// `[low, high]`, with the decimals asked for.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str("[")?;
-        fmt::Display::fmt(&self.low, out)?;
-        out.write_str(", ")?;
-        fmt::Display::fmt(&self.high, out)?;
-        out.write_str("]")
+        let Self { low, high } = self;
+        match out.precision() {
+            Some(decimals) => write!(out, "[{low:.decimals$}, {high:.decimals$}]"),
+            None => write!(out, "[{low}, {high}]"),
+        }
     }
 }
 
 /// How intervals are written: `[low, high]`, `null` for a bound that is not there, since JSON has no infinity.
 #[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(transparent)]
-struct Bounds([Option<f64>; 2]);
+type Bounds = [Option<f64>; 2];
 
 #[cfg(feature = "serde")]
 impl From<Interval> for Bounds {
     fn from(interval: Interval) -> Self {
-        Self([interval.low, interval.high].map(|bound| Some(bound).filter(|b| b.is_finite())))
+        [interval.low, interval.high].map(|bound| Some(bound).filter(|b| b.is_finite()))
     }
 }
 
@@ -228,7 +213,7 @@ impl From<Interval> for Bounds {
 impl TryFrom<Bounds> for Interval {
     type Error = IntervalError;
 
-    fn try_from(Bounds([low, high]): Bounds) -> Result<Self, IntervalError> {
+    fn try_from([low, high]: Bounds) -> Result<Self, IntervalError> {
         Self::new(
             low.unwrap_or(f64::NEG_INFINITY),
             high.unwrap_or(f64::INFINITY),

@@ -12,20 +12,14 @@ use super::Interval;
 const HALF_PI: [Interval; 3] = [
     Interval::point(f64::from_bits(0x3FF9_21FB_5440_0000)),
     Interval::point(f64::from_bits(0x3DD0_B461_1A62_6331)),
-    Interval {
-        low: 3.521e-27,
-        high: 3.522e-27,
-    },
+    Interval::from_bounds(3.521e-27, 3.522e-27),
 ];
 
 /// Angles beyond this many quarter turns are not told apart.
 const MOST_QUARTERS: f64 = 1_048_576.0;
 
 /// The most that the series up to x¹⁷ (x¹⁸ for the cosine) can lack for |x| ≤ 0.8: 0.8¹⁹ / 19!.
-const REMAINDER: Interval = Interval {
-    low: -1.2e-19,
-    high: 1.2e-19,
-};
+const REMAINDER: Interval = Interval::from_bounds(-1.2e-19, 1.2e-19);
 
 impl Interval {
     /// The sines of all angles here, in radians: exact up to a few units in the last place, also where an extreme
@@ -48,10 +42,7 @@ impl Interval {
 
     /// Sine and cosine.
     pub(crate) fn sines(self) -> (Self, Self) {
-        const ALL: Interval = Interval {
-            low: -1.0,
-            high: 1.0,
-        };
+        const ALL: Interval = Interval::from_bounds(-1.0, 1.0);
         let reach = MOST_QUARTERS * FRAC_PI_2;
         if self.width() >= TAU || self.low < -reach || self.high > reach {
             return (ALL, ALL);
@@ -75,10 +66,7 @@ impl Interval {
                 cos = cos.hull(Interval::point(of_cos));
             }
         }
-        let within = |values: Self| Self {
-            low: values.low.max(-1.0),
-            high: values.high.min(1.0),
-        };
+        let within = |values: Self| Self::from_bounds(values.low.max(-1.0), values.high.min(1.0));
         (within(sin), within(cos))
     }
 }

@@ -277,14 +277,7 @@ impl Parsed {
     }
 }
 
-/// Start and goals of the formats that leave them unsaid: the south-west cell looking north, and the
-/// middle.
-fn mark_classic(maze: &mut Maze) {
-    maze.set_start(Some(CLASSIC_START));
-    maze.set_goals(maze.grid().middle().collect());
-}
-
-/// Whether start and goals are those of [`mark_classic`]; such formats can hold no others.
+/// Whether start and goals are those of classic competitions; formats that leave them unsaid can hold no others.
 fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     let mut goals: Vec<Cell> = maze.grid().middle().collect();
     goals.sort_unstable();
@@ -304,4 +297,5 @@ fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     }
 }
 
+/// Where runs begin in formats that leave it unsaid.
 const CLASSIC_START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::lines::{Line, Lines};
 use super::sides::{self, Sides};
-use super::{Fault, Format, MazeError, Parsed, WriteError, expect_classic, mark_classic};
+use super::{Fault, Format, MazeError, Parsed, WriteError, expect_classic};
 use crate::{Cell, Direction, Grid, Maze};
 
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
@@ -51,9 +51,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     }
 
     let sides: Vec<Sides> = cells.into_iter().map(|(_, sides)| sides).collect();
-    let mut maze = sides::maze(grid, &sides)?;
-    mark_classic(&mut maze);
-    Ok(Parsed::new(maze, sides::places(&sides)))
+    sides::parsed(grid, &sides)
 }
 
 /// `X Y N E S W`

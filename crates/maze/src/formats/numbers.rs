@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::lines::{Line, Lines};
 use super::sides::{self, Sides};
-use super::{Fault, Format, MazeError, Parsed, WriteError, expect_classic, mark_classic};
+use super::{Fault, Format, MazeError, Parsed, WriteError, expect_classic};
 use crate::{Cell, Grid, Maze};
 
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
@@ -69,9 +69,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
 
     let cell_at = |cell: Cell| columns[usize::from(cell.x) * side + usize::from(cell.y)];
     let rows: Vec<Sides> = grid.cells().map(cell_at).collect();
-    let mut maze = sides::maze(grid, &rows)?;
-    mark_classic(&mut maze);
-    Ok(Parsed::new(maze, sides::places(&rows)))
+    sides::parsed(grid, &rows)
 }
 
 fn size(lines: &mut Lines<'_>) -> Result<Grid, MazeError> {

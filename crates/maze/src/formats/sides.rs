@@ -1,8 +1,6 @@
 //! Mazes told cell by cell: each wall is told twice, and the two must agree.
 
-use alloc::vec::Vec;
-
-use super::{Fault, MazeError, Place};
+use super::{CLASSIC_START, Fault, MazeError, Parsed, Place};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
 
 /// What a text says of one cell.
@@ -25,8 +23,17 @@ pub(super) fn open_sides(maze: &Maze, cell: Cell) -> u8 {
     Direction::ALL.into_iter().map(bit).sum()
 }
 
-/// The maze of which `sides` tells every cell, by [`Grid::index`].
-pub(super) fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
+/// The maze of which `sides` tells every cell, by [`Grid::index`], with start and goals where classic competitions have
+/// them.
+pub(super) fn parsed(grid: Grid, sides: &[Sides]) -> Result<Parsed, MazeError> {
+    let mut maze = maze(grid, sides)?;
+    maze.set_start(Some(CLASSIC_START));
+    maze.set_goals(grid.middle().collect());
+    let places = sides.iter().map(|sides| sides.place).collect();
+    Ok(Parsed::new(maze, places))
+}
+
+fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
     let mut maze = Maze::open(grid);
     for (cell, here) in grid.cells().zip(sides) {
         for direction in Direction::ALL {
@@ -54,8 +61,4 @@ pub(super) fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
         }
     }
     Ok(maze)
-}
-
-pub(super) fn places(sides: &[Sides]) -> Vec<Place> {
-    sides.iter().map(|sides| sides.place).collect()
 }

@@ -96,27 +96,24 @@ impl<const N: usize> CellSet<N> {
     }
 
     pub(super) fn or(&self, other: &Self) -> Self {
-        let mut both = *self;
-        for (row, other) in both.rows.iter_mut().zip(&other.rows) {
-            *row |= other;
-        }
-        both
+        self.with(other, |row, other| row | other)
     }
 
     pub(super) fn and(&self, other: &Self) -> Self {
-        let mut both = *self;
-        for (row, other) in both.rows.iter_mut().zip(&other.rows) {
-            *row &= other;
-        }
-        both
+        self.with(other, |row, other| row & other)
     }
 
     pub(super) fn minus(&self, other: &Self) -> Self {
-        let mut rest = *self;
-        for (row, other) in rest.rows.iter_mut().zip(&other.rows) {
-            *row &= !other;
+        self.with(other, |row, other| row & !other)
+    }
+
+    /// Two sets, put together row by row.
+    #[inline(always)]
+    fn with(mut self, other: &Self, each: impl Fn(u32, u32) -> u32) -> Self {
+        for (row, other) in self.rows.iter_mut().zip(&other.rows) {
+            *row = each(*row, *other);
         }
-        rest
+        self
     }
 
     /// Row by row from the south, each from the west: in the order of [`tolman_maze::Grid::index`].

@@ -3,7 +3,6 @@ use core::cmp::Ordering;
 use tolman_maze::{Cell, Direction, Walls};
 
 use super::cell_set::CellSet;
-use super::leap::beyond;
 use super::map::Wave;
 use super::sides::Sides;
 use super::{Leap, MoveMap};
@@ -97,16 +96,11 @@ impl<const N: usize> Chart<N> {
         let mut stop = target;
         course.steps = here.moves(target)?;
         for steps in (1..course.steps).rev() {
-            let mut best = None;
-            self.certain.for_each_leap(stop, |leap| {
-                if here.moves(leap.end) == Some(steps) {
-                    let seen = self.unknown_sides(leap.end).count();
-                    if best.is_none_or(|(most, _)| seen > most) {
-                        best = Some((seen, leap.end));
-                    }
-                }
-            });
-            (_, stop) = best?;
+            let ends = self.certain.leaps(stop).map(|leap| leap.end);
+            let ends = ends.filter(|end| here.moves(*end) == Some(steps));
+            // Of equals the first.
+            let seen = ends.map(|end| (self.unknown_sides(end).count(), end));
+            (_, stop) = seen.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
             course.pass(stop, steps);
         }
         Some(course)
@@ -149,7 +143,7 @@ impl<const N: usize> Chart<N> {
 
     /// Whether what is across a side is a goal, or leads on: a run over a side that is certain only now has to go on from there.
     fn joins(&self, at: Cell, side: Direction) -> bool {
-        let Some(across) = beyond(at, side) else {
+        let Some(across) = at.beyond(side) else {
             return false;
         };
         let mut onward = Direction::ALL
@@ -178,7 +172,7 @@ impl<const N: usize> Chart<N> {
                     shorter |= self.joins(at, side)
                         && self.run_through(at, side).is_some_and(|run| run < limit);
                 }
-                match beyond(at, side) {
+                match at.beyond(side) {
                     Some(next) => at = next,
                     None => break,
                 }

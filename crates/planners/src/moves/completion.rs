@@ -1,7 +1,6 @@
-use tolman_maze::{Cell, Direction};
+use tolman_maze::{Cell, Direction, Knowledge};
 
 use super::chart::Chart;
-use super::leap::beyond;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
 
@@ -28,15 +27,7 @@ enum Entrance {
     Known,
 }
 
-/// What is known or drawn of a side.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Sight {
-    Unknown,
-    Open,
-    Wall,
-}
-
-/// Terms for a post, by the side across it (unknown, open, wall) and the two lateral ones.
+/// Terms for a post, by the side across it (unknown, open, wall) and the two lateral ones, as [`term`] orders them.
 const POST: [[f32; 6]; 3] = [
     [0.00, -0.20, -0.56, 0.36, 0.22, 0.62],
     [0.22, -0.32, -2.78, 0.43, -0.06, 0.79],
@@ -65,7 +56,7 @@ impl<'a, const N: usize> Completions<'a, N> {
             unknown += 1;
         }
         let is_entrance = |cell: Cell, side: Direction| {
-            let next = beyond(cell, side);
+            let next = cell.beyond(side);
             chart.certain.contains(cell, side)
                 && !next.is_some_and(|cell| chart.goals.contains(cell))
         };
@@ -96,7 +87,7 @@ impl<'a, const N: usize> Completions<'a, N> {
         let mut entrance = self.entrance;
         let order = self.order.as_flattened().as_flattened();
         for (cell, side) in order.iter().copied().take(self.unknown) {
-            let Some(next) = beyond(cell, side) else {
+            let Some(next) = cell.beyond(side) else {
                 continue;
             };
             let goals = [cell, next].map(|cell| self.chart.goals.contains(cell));
@@ -138,9 +129,9 @@ impl<const N: usize> Draw<N> {
     /// The terms for what is around the `side` of `cell`, beyond which `next` lies.
     fn surroundings(&self, cell: Cell, side: Direction, next: Cell) -> f32 {
         let [left, right] = [side.left(), side.right()].map(|lateral| {
-            let across = match beyond(cell, lateral) {
+            let across = match cell.beyond(lateral) {
                 Some(beside) => self.sight(beside, side),
-                None => Sight::Wall,
+                None => Knowledge::Wall,
             };
             (across, self.sight(cell, lateral), self.sight(next, lateral))
         });
@@ -150,26 +141,21 @@ impl<const N: usize> Draw<N> {
         posts.iter().sum::<f32>() + near + far
     }
 
-    fn sight(&self, cell: Cell, side: Direction) -> Sight {
+    fn sight(&self, cell: Cell, side: Direction) -> Knowledge {
         if self.certain.contains(cell, side) {
-            Sight::Open
+            Knowledge::Open
         } else if self.hoped.contains(cell, side) {
-            Sight::Unknown
+            Knowledge::Unknown
         } else {
-            Sight::Wall
+            Knowledge::Wall
         }
     }
 }
 
-fn term(terms: &[[f32; 6]; 3], across: Sight, one: Sight, other: Sight) -> f32 {
-    let lateral = match (one, other) {
-        (Sight::Unknown, Sight::Unknown) => 0,
-        (Sight::Unknown, Sight::Open) | (Sight::Open, Sight::Unknown) => 1,
-        (Sight::Open, Sight::Open) => 2,
-        (Sight::Unknown, Sight::Wall) | (Sight::Wall, Sight::Unknown) => 3,
-        (Sight::Open, Sight::Wall) | (Sight::Wall, Sight::Open) => 4,
-        (Sight::Wall, Sight::Wall) => 5,
-    };
+fn term(terms: &[[f32; 6]; 3], across: Knowledge, one: Knowledge, other: Knowledge) -> f32 {
+    // Pairs in whichever order: by the later of the two, then by the other.
+    let (low, high) = (one.min(other) as usize, one.max(other) as usize);
+    let lateral = high * (high + 1) / 2 + low;
     let row = terms.get(across as usize);
     row.and_then(|row| row.get(lateral)).copied().unwrap_or(0.0)
 }
@@ -177,7 +163,7 @@ fn term(terms: &[[f32; 6]; 3], across: Sight, one: Sight, other: Sight) -> f32 {
 #[cfg(all(test, feature = "alloc"))]
 mod tests {
     use super::*;
-    use tolman_maze::{Grid, Knowledge, Walls};
+    use tolman_maze::{Grid, Walls};
 
     /// A maze of which two rows are known: their sides are open.
     struct TwoRows;

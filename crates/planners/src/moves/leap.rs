@@ -30,25 +30,25 @@ impl Leap {
         from: Cell,
         direction: Direction,
     ) -> impl Iterator<Item = Self> {
-        let mut at = from;
+        Self::row(from, direction, move |cell| {
+            passages.is_open(cell, direction)
+        })
+    }
+
+    /// The same, as long as the cells before are open to that direction.
+    pub(super) fn row(
+        from: Cell,
+        direction: Direction,
+        is_open: impl Fn(Cell) -> bool,
+    ) -> impl Iterator<Item = Self> {
+        let mut end = from;
         (1..=Self::MOST_CELLS).map_while(move |cells| {
-            if !passages.is_open(at, direction) {
-                return None;
-            }
-            at = beyond(at, direction)?;
+            end = end.beyond(direction).filter(|_| is_open(end))?;
             Some(Self {
                 direction,
                 cells,
-                end: at,
+                end,
             })
         })
     }
-}
-
-/// The cell beside another one, on a plane without an end in the north or east.
-pub(super) fn beyond(cell: Cell, direction: Direction) -> Option<Cell> {
-    let (east, north) = direction.step();
-    let x = cell.x.checked_add_signed(i16::from(east))?;
-    let y = cell.y.checked_add_signed(i16::from(north))?;
-    Some(Cell::new(x, y))
 }

@@ -102,7 +102,8 @@ impl<const N: usize> MoveMap<N> {
             };
             // The farther one was a step farther than the nearer one by this leap. It still is, if by another, too.
             let before = self.moves_or_never(near);
-            if sides.any_leap(far, |leap| self.moves_or_never(leap.end) == before) {
+            let mut leaps = sides.leaps(far);
+            if leaps.any(|leap| self.moves_or_never(leap.end) == before) {
                 return;
             }
             let doubtful = self.moves_or_never(far);

@@ -1,9 +1,9 @@
-use tolman_maze::{Cell, Direction, Knowledge, Walls};
+use tolman_maze::{Cell, Direction, Grid, Walls};
 
 use super::Leap;
 use super::cell_set::CellSet;
-use super::leap::beyond;
 use super::split_mix::SplitMix;
+use crate::passages::open_sides;
 use crate::{Passages, Unknown};
 
 /// A set of sides of cells: those that are open. A side is in it for both its cells. What [`Passages`] is for one cell at a time, this is
@@ -24,37 +24,27 @@ impl<const N: usize> Sides<N> {
 
     /// The open sides of a maze as far as it is known; none where it has more than `N` columns or rows. O(N²).
     pub(super) fn new(walls: &impl Walls, unknown: Unknown) -> Self {
-        let mut sides = Self::NONE;
-        let grid = walls.grid();
-        if usize::from(grid.width().max(grid.height())) > N {
-            return sides;
+        Self::of(open_sides::<N>(walls, unknown))
+    }
+
+    fn of(sides: impl Iterator<Item = (Cell, Direction)>) -> Self {
+        let mut set = Self::NONE;
+        for (cell, direction) in sides {
+            set.insert(cell, direction);
         }
-        for cell in grid.cells() {
-            for (direction, last) in [
-                (Direction::North, cell.y + 1 == grid.height()),
-                (Direction::East, cell.x + 1 == grid.width()),
-            ] {
-                let open = match walls.knowledge(cell, direction) {
-                    Knowledge::Open => true,
-                    Knowledge::Wall => false,
-                    Knowledge::Unknown => unknown == Unknown::Open,
-                };
-                if open && !last {
-                    sides.insert(cell, direction);
-                }
-            }
-        }
-        sides
+        set
     }
 
     /// The cell that a side is north or east of, and the set that it is in.
     fn slot(&mut self, cell: Cell, direction: Direction) -> Option<(Cell, &mut CellSet<N>)> {
-        Some(match direction {
-            Direction::North => (cell, &mut self.north),
-            Direction::East => (cell, &mut self.east),
-            Direction::South => (beyond(cell, direction)?, &mut self.north),
-            Direction::West => (beyond(cell, direction)?, &mut self.east),
-        })
+        let (cell, side) = northern_or_eastern(cell, direction)?;
+        let is_north = side == Direction::North;
+        let set = if is_north {
+            &mut self.north
+        } else {
+            &mut self.east
+        };
+        Some((cell, set))
     }
 
     pub(super) fn insert(&mut self, cell: Cell, direction: Direction) {
@@ -70,28 +60,22 @@ impl<const N: usize> Sides<N> {
     }
 
     pub(super) fn contains(&self, cell: Cell, direction: Direction) -> bool {
+        let beyond = || cell.beyond(direction);
         match direction {
             Direction::North => self.north.contains(cell),
             Direction::East => self.east.contains(cell),
-            Direction::South => {
-                beyond(cell, direction).is_some_and(|cell| self.north.contains(cell))
-            }
-            Direction::West => beyond(cell, direction).is_some_and(|cell| self.east.contains(cell)),
+            Direction::South => beyond().is_some_and(|cell| self.north.contains(cell)),
+            Direction::West => beyond().is_some_and(|cell| self.east.contains(cell)),
         }
     }
 
     /// A number that hardly another side has; the same from both its cells.
     pub(super) fn fingerprint(cell: Cell, direction: Direction) -> u64 {
-        let (cell, is_north) = match direction {
-            Direction::North => (Some(cell), true),
-            Direction::East => (Some(cell), false),
-            Direction::South => (beyond(cell, direction), true),
-            Direction::West => (beyond(cell, direction), false),
-        };
-        let cell = cell.map_or(u64::MAX, |cell| {
-            u64::from(cell.y) << 17 | u64::from(cell.x) << 1
+        let number = northern_or_eastern(cell, direction).map_or(u64::MAX, |(cell, side)| {
+            let is_north = u64::from(side == Direction::North);
+            u64::from(cell.y) << 17 | u64::from(cell.x) << 1 | is_north
         });
-        SplitMix::new(cell | u64::from(is_north)).next()
+        SplitMix::new(number).next()
     }
 
     pub(super) fn minus(&self, other: &Self) -> Self {
@@ -160,48 +144,14 @@ impl<const N: usize> Sides<N> {
         from: Cell,
         direction: Direction,
     ) -> impl Iterator<Item = Leap> {
-        let mut at = from;
-        (1..=Leap::MOST_CELLS).map_while(move |cells| {
-            if !self.contains(at, direction) {
-                return None;
-            }
-            at = beyond(at, direction)?;
-            Some(Leap {
-                direction,
-                cells,
-                end: at,
-            })
-        })
+        Leap::row(from, direction, move |cell| self.contains(cell, direction))
     }
 
-    /// Visits all leaps from a cell, in the order of [`Leap::all`].
-    pub(super) fn for_each_leap(&self, from: Cell, mut visit: impl FnMut(Leap)) {
-        self.any_leap(from, |leap| {
-            visit(leap);
-            false
-        });
-    }
-
-    /// Whether a predicate holds for a leap from a cell; the others are not looked at any more then.
-    pub(super) fn any_leap(&self, from: Cell, mut holds: impl FnMut(Leap) -> bool) -> bool {
-        for direction in Direction::ALL {
-            let mut end = from;
-            for cells in 1..=Leap::MOST_CELLS {
-                match self.next(end, direction) {
-                    Some(next) => end = next,
-                    None => break,
-                }
-                let leap = Leap {
-                    direction,
-                    cells,
-                    end,
-                };
-                if holds(leap) {
-                    return true;
-                }
-            }
-        }
-        false
+    /// All leaps from a cell, in the order of [`Leap::all`].
+    pub(super) fn leaps(&self, from: Cell) -> impl Iterator<Item = Leap> {
+        Direction::ALL
+            .into_iter()
+            .flat_map(move |direction| self.leaps_along(from, direction))
     }
 
     /// All leaps over the `side` of `cell`, whether it is in the set or not: `visit` is told where they begin and where they
@@ -212,7 +162,7 @@ impl<const N: usize> Sides<N> {
         side: Direction,
         mut visit: impl FnMut(Cell, Cell),
     ) {
-        let Some(mut head) = beyond(cell, side) else {
+        let Some(mut head) = cell.beyond(side) else {
             return;
         };
         let mut heads = [head; Leap::MOST_CELLS as usize];
@@ -239,24 +189,23 @@ impl<const N: usize> Sides<N> {
 
     /// The cell across an open side.
     fn next(&self, cell: Cell, side: Direction) -> Option<Cell> {
-        beyond(cell, side).filter(|_| self.contains(cell, side))
+        cell.beyond(side).filter(|_| self.contains(cell, side))
     }
 }
 
 impl<const N: usize> From<&Passages<N>> for Sides<N> {
     fn from(passages: &Passages<N>) -> Self {
-        let mut sides = Self::NONE;
-        for y in 0..N as u16 {
-            for x in 0..N as u16 {
-                let cell = Cell::new(x, y);
-                for direction in [Direction::North, Direction::East] {
-                    if passages.is_open(cell, direction) {
-                        sides.insert(cell, direction);
-                    }
-                }
-            }
-        }
-        sides
+        let cells = Grid::new(N as u16, N as u16).cells();
+        let sides = cells.flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)]);
+        Self::of(sides.filter(|(cell, direction)| passages.is_open(*cell, *direction)))
+    }
+}
+
+/// A side as the northern or eastern one of a cell; none in the west or south of all cells.
+fn northern_or_eastern(cell: Cell, direction: Direction) -> Option<(Cell, Direction)> {
+    match direction {
+        Direction::North | Direction::East => Some((cell, direction)),
+        Direction::South | Direction::West => Some((cell.beyond(direction)?, direction.opposite())),
     }
 }
 
@@ -283,7 +232,7 @@ mod tests {
             for _ in 0..10 {
                 let cell = Cell::new(rng.below(16) as u16, rng.below(16) as u16);
                 from.insert(cell);
-                sides.for_each_leap(cell, |leap| expect.insert(leap.end));
+                sides.leaps(cell).for_each(|leap| expect.insert(leap.end));
             }
             assert_eq!(sides.leaps_from(&from), expect);
         }
@@ -297,11 +246,8 @@ mod tests {
             let cell = Cell::new(rng.below(15) as u16, rng.below(15) as u16);
             for side in [Direction::North, Direction::East] {
                 let count = |sides: &Sides<16>| {
-                    let mut leaps = 0;
-                    for cell in sides.cells().iter() {
-                        sides.for_each_leap(cell, |_| leaps += 1);
-                    }
-                    leaps
+                    let cells = sides.cells().iter();
+                    cells.map(|cell| sides.leaps(cell).count()).sum::<usize>()
                 };
                 sides.remove(cell, side);
                 let without = count(&sides);

@@ -179,54 +179,30 @@ struct Template {
     turned: i32,
 }
 
+impl Template {
+    const fn new(slalom: Slalom, passed: &'static [Point], end: Point, turned: i32) -> Self {
+        Self {
+            slalom,
+            passed,
+            end,
+            turned,
+        }
+    }
+}
+
 /// From the middle of a cell, looking north.
 const FROM_STRAIGHT: [Template; 4] = [
-    Template {
-        slalom: Slalom::F45,
-        passed: &[(0, 1), (1, 2)],
-        end: (1, 2),
-        turned: 1,
-    },
-    Template {
-        slalom: Slalom::F90,
-        passed: &[(0, 1), (1, 2)],
-        end: (2, 2),
-        turned: 2,
-    },
-    Template {
-        slalom: Slalom::F135,
-        passed: &[(0, 1), (1, 2), (2, 1)],
-        end: (2, 1),
-        turned: 3,
-    },
-    Template {
-        slalom: Slalom::F180,
-        passed: &[(0, 1), (1, 2), (2, 1)],
-        end: (2, 0),
-        turned: 4,
-    },
+    Template::new(Slalom::F45, &[(0, 1), (1, 2)], (1, 2), 1),
+    Template::new(Slalom::F90, &[(0, 1), (1, 2)], (2, 2), 2),
+    Template::new(Slalom::F135, &[(0, 1), (1, 2), (2, 1)], (2, 1), 3),
+    Template::new(Slalom::F180, &[(0, 1), (1, 2), (2, 1)], (2, 0), 4),
 ];
 
 /// From a southern edge, looking north-east, so that the cell is left through its eastern edge.
 const FROM_DIAGONAL: [Template; 3] = [
-    Template {
-        slalom: Slalom::F45,
-        passed: &[(1, 1)],
-        end: (2, 1),
-        turned: 1,
-    },
-    Template {
-        slalom: Slalom::Fv90,
-        passed: &[(1, 1), (2, 0)],
-        end: (2, 0),
-        turned: 2,
-    },
-    Template {
-        slalom: Slalom::F135,
-        passed: &[(1, 1), (2, 0)],
-        end: (2, -1),
-        turned: 3,
-    },
+    Template::new(Slalom::F45, &[(1, 1)], (2, 1), 1),
+    Template::new(Slalom::Fv90, &[(1, 1), (2, 0)], (2, 0), 2),
+    Template::new(Slalom::F135, &[(1, 1), (2, 0)], (2, -1), 3),
 ];
 
 impl Spot {

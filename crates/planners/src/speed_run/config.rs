@@ -1,5 +1,3 @@
-use core::fmt;
-
 use thiserror::Error;
 
 /// How a speed run is driven: what its times follow from.
@@ -97,7 +95,7 @@ pub enum SpeedRunConfigError {
     #[error("{field} is {value}, but has to be a number above 0")]
     NotPositive {
         /// Which field.
-        field: Field,
+        field: &'static str,
         /// What it holds.
         value: f64,
     },
@@ -107,7 +105,7 @@ pub enum SpeedRunConfigError {
     )]
     TopSpeedTooLow {
         /// Which field.
-        field: Field,
+        field: &'static str,
         /// What it holds.
         value: f64,
         /// The speed in the turns.
@@ -135,35 +133,4 @@ pub enum SpeedRunConfigError {
         /// How many times as long it may take.
         most: usize,
     },
-}
-
-/// A field of [`SpeedRunConfig`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Field {
-    /// [`SpeedRunConfig::cell_mm`]
-    Cell,
-    /// [`SpeedRunConfig::turn_speed_mm_s`]
-    TurnSpeed,
-    /// The acceleration of [`SpeedRunConfig::straight`]
-    StraightAcceleration,
-    /// The top speed of [`SpeedRunConfig::straight`]
-    StraightTopSpeed,
-    /// The acceleration of [`SpeedRunConfig::diagonal`]
-    DiagonalAcceleration,
-    /// The top speed of [`SpeedRunConfig::diagonal`]
-    DiagonalTopSpeed,
-}
-
-impl fmt::Display for Field {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Cell => "cell_mm",
-            Self::TurnSpeed => "turn_speed_mm_s",
-            Self::StraightAcceleration => "straight.acceleration_mm_s2",
-            Self::StraightTopSpeed => "straight.top_speed_mm_s",
-            Self::DiagonalAcceleration => "diagonal.acceleration_mm_s2",
-            Self::DiagonalTopSpeed => "diagonal.top_speed_mm_s",
-        })
-    }
 }

@@ -59,7 +59,7 @@ mod times;
 
 #[cfg(feature = "alloc")]
 pub use certificate::{CertificateError, SpeedRunCertificate, best_possible_ms};
-pub use config::{Drive, Field, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
+pub use config::{Drive, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
 pub use explorer::{Decision, SpeedRunExplorer};
 pub use map::{Extent, SpeedRunMap};
 pub use moves::{RunMove, RunStep, Side, Slalom};

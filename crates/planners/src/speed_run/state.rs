@@ -149,10 +149,5 @@ pub(super) const fn index<const N: usize>(cell: Cell) -> usize {
 }
 
 pub(super) const fn direction(index: usize) -> Direction {
-    match index % 4 {
-        0 => Direction::North,
-        1 => Direction::East,
-        2 => Direction::South,
-        _ => Direction::West,
-    }
+    Direction::ALL[index % 4]
 }

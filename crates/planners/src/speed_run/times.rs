@@ -1,4 +1,6 @@
-use super::config::{Drive, Field, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
+use core::array;
+
+use super::config::{Drive, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
 
 /// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells: 16 for
 /// classic ones, 32 for half-size ones.
@@ -31,40 +33,35 @@ impl<const N: usize> SpeedRunTimes<N> {
         check(config)?;
         let speed = config.turn_speed_mm_s;
         let half_diagonal = config.cell_mm * core::f64::consts::FRAC_1_SQRT_2;
-        let (straight, diagonal) = (config.straight, config.diagonal);
-        let slalom = config.slalom;
+        let straight_ms =
+            |cells: usize| milliseconds(config.straight, speed, config.cell_mm * cells as f64);
+        let diagonal_ms =
+            |halves: usize| milliseconds(config.diagonal, speed, half_diagonal * halves as f64);
 
-        let longest = milliseconds(diagonal, speed, half_diagonal * (2 * N - 1) as f64)
-            .max(milliseconds(
-                straight,
-                speed,
-                config.cell_mm * (N - 1) as f64,
-            ))
-            .max(u64::from(slalom.longest()));
-        let shortest = milliseconds(diagonal, speed, half_diagonal)
-            .min(milliseconds(straight, speed, config.cell_mm))
-            .min(u64::from(slalom.shortest()));
-        if shortest == 0 || longest > u64::from(u16::MAX) {
+        let slalom = config.slalom;
+        let turns = slalom.all().map(u64::from);
+        let straights = [straight_ms(N - 1), diagonal_ms(2 * N - 1)];
+        let longest_ms = turns.into_iter().chain(straights).fold(0, u64::max);
+        let straights = [straight_ms(1), diagonal_ms(1)];
+        let shortest_ms = turns.into_iter().chain(straights).fold(u64::MAX, u64::min);
+        if shortest_ms == 0 || longest_ms > u64::from(u16::MAX) {
             return Err(SpeedRunConfigError::OutOfRange {
-                longest_ms: longest,
-                shortest_ms: shortest,
+                longest_ms,
+                shortest_ms,
             });
         }
-        let bucket_scale = (1_u32 << 16).div_ceil(shortest as u32);
-        if bucket(bucket_scale, longest as u16) + 2 > 2 * N {
+        let bucket_scale = (1_u32 << 16).div_ceil(shortest_ms as u32);
+        if bucket(bucket_scale, longest_ms as u16) + 2 > 2 * N {
             return Err(SpeedRunConfigError::TooUneven {
-                longest_ms: longest,
-                shortest_ms: shortest,
+                longest_ms,
+                shortest_ms,
                 most: 2 * N - 2,
             });
         }
         // All fit in 16 bits: none is longer than the longest.
-        let time = |drive, length: f64| milliseconds(drive, speed, length) as u16;
         Ok(Self {
-            straight: core::array::from_fn(|cells| time(straight, config.cell_mm * cells as f64)),
-            diagonal: core::array::from_fn(|half| {
-                core::array::from_fn(|n| time(diagonal, half_diagonal * (half * N + n) as f64))
-            }),
+            straight: array::from_fn(|cells| straight_ms(cells) as u16),
+            diagonal: array::from_fn(|half| array::from_fn(|n| diagonal_ms(half * N + n) as u16)),
             slalom,
             bucket_scale,
         })
@@ -121,14 +118,6 @@ impl SlalomTimes {
             self.fv90_ms,
         ]
     }
-
-    fn longest(&self) -> u16 {
-        self.all().into_iter().fold(0, u16::max)
-    }
-
-    fn shortest(&self) -> u16 {
-        self.all().into_iter().fold(u16::MAX, u16::min)
-    }
 }
 
 /// How long a straight of `length` millimetres takes, rounded up.
@@ -149,23 +138,23 @@ fn milliseconds(drive: Drive, speed: f64, length: f64) -> u64 {
 
 fn check(config: &SpeedRunConfig) -> Result<(), SpeedRunConfigError> {
     let (straight, diagonal) = (config.straight, config.diagonal);
-    for (field, value) in [
-        (Field::Cell, config.cell_mm),
-        (Field::TurnSpeed, config.turn_speed_mm_s),
-        (Field::StraightAcceleration, straight.acceleration_mm_s2),
-        (Field::StraightTopSpeed, straight.top_speed_mm_s),
-        (Field::DiagonalAcceleration, diagonal.acceleration_mm_s2),
-        (Field::DiagonalTopSpeed, diagonal.top_speed_mm_s),
-    ] {
+    let top_speeds = [
+        ("straight.top_speed_mm_s", straight.top_speed_mm_s),
+        ("diagonal.top_speed_mm_s", diagonal.top_speed_mm_s),
+    ];
+    let others = [
+        ("cell_mm", config.cell_mm),
+        ("turn_speed_mm_s", config.turn_speed_mm_s),
+        ("straight.acceleration_mm_s2", straight.acceleration_mm_s2),
+        ("diagonal.acceleration_mm_s2", diagonal.acceleration_mm_s2),
+    ];
+    for (field, value) in others.into_iter().chain(top_speeds) {
         if !(value > 0.0 && value.is_finite()) {
             return Err(SpeedRunConfigError::NotPositive { field, value });
         }
     }
     let turn_speed_mm_s = config.turn_speed_mm_s;
-    for (field, value) in [
-        (Field::StraightTopSpeed, straight.top_speed_mm_s),
-        (Field::DiagonalTopSpeed, diagonal.top_speed_mm_s),
-    ] {
+    for (field, value) in top_speeds {
         if value < turn_speed_mm_s {
             return Err(SpeedRunConfigError::TopSpeedTooLow {
                 field,
@@ -230,21 +219,21 @@ mod tests {
         assert!(matches!(
             outcome(|config| config.cell_mm = f64::NAN),
             Err(NotPositive {
-                field: Field::Cell,
+                field: "cell_mm",
                 ..
             })
         ));
         assert!(matches!(
             outcome(|config| config.diagonal.acceleration_mm_s2 = f64::INFINITY),
             Err(NotPositive {
-                field: Field::DiagonalAcceleration,
+                field: "diagonal.acceleration_mm_s2",
                 ..
             })
         ));
         assert!(matches!(
             outcome(|config| config.straight.top_speed_mm_s = 400.0),
             Err(TopSpeedTooLow {
-                field: Field::StraightTopSpeed,
+                field: "straight.top_speed_mm_s",
                 ..
             })
         ));

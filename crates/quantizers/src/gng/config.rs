@@ -1,7 +1,7 @@
 //! What can be chosen about a growing neural gas.
 
 use crate::ConfigError;
-use crate::error::within;
+use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 
 /// The parameters of a growing neural gas. Its `Default` is [`fritzke`](Self::fritzke).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,64 +175,28 @@ impl GngConfig {
     /// # Errors
     /// If a field is outside its range.
     pub(super) fn check(&self) -> Result<(), ConfigError> {
-        let in_unit = "between 0 and 1";
-        let unit = 0.0..=1.0;
-        within(
-            "winner_rate",
-            self.winner_rate,
-            unit.contains(&self.winner_rate),
-            in_unit,
-        )?;
-        within(
-            "neighbour_rate",
-            self.neighbour_rate,
-            unit.contains(&self.neighbour_rate),
-            in_unit,
-        )?;
-        within(
-            "max_age",
-            self.max_age.into(),
-            self.max_age >= 1,
-            "at least 1",
-        )?;
-        within(
-            "growth_period",
-            self.growth_period.into(),
-            self.growth_period >= 1,
-            "at least 1",
-        )?;
-        within(
-            "split_factor",
-            self.split_factor,
-            unit.contains(&self.split_factor),
-            in_unit,
-        )?;
-        within(
-            "decay",
-            self.decay,
-            self.decay > 0.0 && self.decay <= 1.0,
-            "above 0 and at most 1",
-        )?;
+        within("winner_rate", self.winner_rate, SHARE)?;
+        within("neighbour_rate", self.neighbour_rate, SHARE)?;
+        within("max_age", self.max_age, AT_LEAST_1)?;
+        within("growth_period", self.growth_period, AT_LEAST_1)?;
+        within("split_factor", self.split_factor, SHARE)?;
+        let above_0 = |value| value > 0.0 && value <= 1.0;
+        within("decay", self.decay, (above_0, "above 0 and at most 1"))?;
+        let at_least_2 = |value| value >= 2.0;
         within(
             "max_units",
             self.max_units as f64,
-            self.max_units >= 2,
-            "at least 2",
+            (at_least_2, "at least 2"),
         )?;
         if let GrowthGate::MeanError { threshold } | GrowthGate::Rate { threshold } = self.gate {
-            within(
-                "gate.threshold",
-                threshold,
-                threshold >= 0.0 && threshold.is_finite(),
-                "finite and not negative",
-            )?;
+            within("gate.threshold", threshold, NOT_NEGATIVE)?;
         }
         if let Some(Utility { threshold, .. }) = self.utility {
+            let above_0 = |value: f64| value > 0.0 && value.is_finite();
             within(
                 "utility.threshold",
                 threshold,
-                threshold > 0.0 && threshold.is_finite(),
-                "finite and above 0",
+                (above_0, "finite and above 0"),
             )?;
         }
         Ok(())

@@ -1,5 +1,8 @@
 //! The errors of all units decay at once.
 
+use crate::ConfigError;
+use crate::error::within;
+
 /// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is kept of a sum is the
 /// sum divided by the factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,11 +18,11 @@ impl Decay {
         Self { factor: 1.0 }
     }
 
-    /// None unless 2⁻⁶³ ≤ factor ≤ 1.
-    pub(super) fn with_factor(factor: f64) -> Option<Self> {
-        (SMALLEST..=1.0)
-            .contains(&factor)
-            .then_some(Self { factor })
+    /// Refuses a factor below 2⁻⁶³ or above 1.
+    pub(super) fn with_factor(factor: f64) -> Result<Self, ConfigError> {
+        let holds = |factor| (SMALLEST..=1.0).contains(&factor);
+        within("factor", factor, (holds, "between 2⁻⁶³ and 1"))?;
+        Ok(Self { factor })
     }
 
     pub(super) fn factor(self) -> f64 {

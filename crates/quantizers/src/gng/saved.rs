@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::{Decay, Gng, GngConfig, Sums};
-use crate::error::check_header;
+use crate::error::{SUM, check_count, check_header, within};
 use crate::{Network, Scalar, Snapshot, SnapshotError};
 
 const FORMAT: &str = "tolman-gng";
@@ -32,8 +32,8 @@ pub struct SavedGng<S> {
     pub steps: u64,
 }
 
-impl<S: Scalar> From<&Gng<S>> for SavedGng<S> {
-    fn from(gng: &Gng<S>) -> Self {
+impl<S: Scalar> From<Gng<S>> for SavedGng<S> {
+    fn from(gng: Gng<S>) -> Self {
         let sums = gng.network.slots().map(|slot| {
             let sums = gng.sums[slot];
             (sums.error, sums.utility)
@@ -50,12 +50,6 @@ impl<S: Scalar> From<&Gng<S>> for SavedGng<S> {
     }
 }
 
-impl<S: Scalar> From<Gng<S>> for SavedGng<S> {
-    fn from(gng: Gng<S>) -> Self {
-        Self::from(&gng)
-    }
-}
-
 impl<S: Scalar> TryFrom<SavedGng<S>> for Gng<S> {
     type Error = SnapshotError;
 
@@ -64,36 +58,14 @@ impl<S: Scalar> TryFrom<SavedGng<S>> for Gng<S> {
         check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         let network = Network::from_snapshot(&saved.network)?;
         let mut gng = Self::around(network, saved.config)?;
-        if saved.sums.len() != gng.network.len() {
-            return Err(SnapshotError::WrongCount {
-                what: "sums",
-                expected: gng.network.len(),
-                found: saved.sums.len(),
-            });
-        }
+        check_count("sums", gng.network.len(), saved.sums.len())?;
         for (error, utility) in saved.sums {
-            in_range("the error of a unit", error)?;
-            in_range("the utility of a unit", utility)?;
+            within("the error of a unit", error, SUM)?;
+            within("the utility of a unit", utility, SUM)?;
             gng.sums.push(Sums { error, utility });
         }
-        gng.decay = Decay::with_factor(saved.factor).ok_or(SnapshotError::BadNumber {
-            field: "factor",
-            value: saved.factor,
-            range: "between 2⁻⁶³ and 1",
-        })?;
+        gng.decay = Decay::with_factor(saved.factor)?;
         gng.steps = saved.steps;
         Ok(gng)
     }
-}
-
-/// No sum can have become larger.
-fn in_range(field: &'static str, value: f64) -> Result<(), SnapshotError> {
-    if (0.0..1e280).contains(&value) {
-        return Ok(());
-    }
-    Err(SnapshotError::BadNumber {
-        field,
-        value,
-        range: "not negative and less than 1e280",
-    })
 }

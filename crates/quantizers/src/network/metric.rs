@@ -62,21 +62,12 @@ impl<S: Scalar> Metric<S> {
     /// Whether `input` can be learnt or asked for.
     #[inline]
     pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
-        if input.len() != self.dimension {
-            return Err(InputError::WrongDimension {
-                expected: self.dimension,
-                found: input.len(),
-            });
-        }
+        InputError::check_size(self.dimension, input.len())?;
         // A comparison with NaN is false, so this catches it as well.
-        if input.iter().all(|value| self.allows(*value)) {
-            return Ok(());
+        match input.iter().position(|value| !self.allows(*value)) {
+            None => Ok(()),
+            Some(feature) => Err(self.complain(feature, input[feature])),
         }
-        let bad = input.iter().position(|value| !self.allows(*value));
-        bad.map_or(
-            Ok(()),
-            |feature| Err(self.complain(feature, input[feature])),
-        )
     }
 
     /// Whether a prototype can have come from valid inputs: it may miss the limit by roundings.
@@ -92,12 +83,7 @@ impl<S: Scalar> Metric<S> {
 
     /// Whether `input` can be asked for where `mask` is true.
     pub(crate) fn check_masked(&self, input: &[S], mask: &[bool]) -> Result<(), InputError> {
-        if input.len() != self.dimension {
-            return Err(InputError::WrongDimension {
-                expected: self.dimension,
-                found: input.len(),
-            });
-        }
+        InputError::check_size(self.dimension, input.len())?;
         if mask.len() != self.dimension {
             return Err(InputError::WrongMask {
                 expected: self.dimension,

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::{Edge, Network};
+use crate::error::check_count;
 use crate::{Scalar, SnapshotError, UnitId};
 
 /// The units and edges of a network at one moment.
@@ -50,14 +51,10 @@ impl<S: Scalar> Network<S> {
     /// The network that the snapshot is a copy of; slots are units in order. Nobody listens to its events.
     pub(crate) fn from_snapshot(snapshot: &Snapshot<S>) -> Result<Self, SnapshotError> {
         let mut network = match &snapshot.weights {
-            Some(weights) if weights.len() != snapshot.dimension => {
-                return Err(SnapshotError::WrongCount {
-                    what: "weights",
-                    expected: snapshot.dimension,
-                    found: weights.len(),
-                });
+            Some(weights) => {
+                check_count("weights", snapshot.dimension, weights.len())?;
+                Self::weighted(weights)?
             }
-            Some(weights) => Self::weighted(weights)?,
             None => Self::new(snapshot.dimension)?,
         };
         for SnapshotUnit { id, prototype } in &snapshot.units {

@@ -6,6 +6,7 @@
 //! since rounding keeps order: where |x − p| ≥ |x − s| in a feature, the same holds for their rounded differences,
 //! squares and sums, as long as both are summed in the same order.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::prototypes::{LANES, Prototypes};
@@ -14,9 +15,6 @@ use crate::Scalar;
 
 /// With more features than that, a search visits so many leaves that it might as well visit all units.
 pub(crate) const MOST_FEATURES: usize = 4;
-
-/// No path from the root is longer: see [`steepest`] for 2³² units.
-const DEEPEST: usize = 64;
 
 /// How many inner nodes may stand on a path to a leaf of a tree of so many units: twice what a balanced one has, and two.
 fn steepest(units: usize) -> u32 {
@@ -59,8 +57,8 @@ struct Place {
 
 /// An exact index of up to [`MOST_FEATURES`] features.
 ///
-/// It stays balanced as a scapegoat tree does (Galperin and Rivest 1993): when a path has become too long, the
-/// smallest part that is to blame is built anew.
+/// It stays balanced by being built anew when a path has become too long or leaves have become too empty, which takes many
+/// units that came or moved since the last time.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<S> {
     dimension: usize,
@@ -70,12 +68,8 @@ pub(crate) struct Tree<S> {
     /// By slot; arbitrary where no unit is.
     places: Vec<Place>,
     len: usize,
-    /// The first of each pair of nodes that is not used, and the leaves that are not used.
-    free_pairs: Vec<u32>,
-    free_leaves: Vec<u32>,
     /// What a rebuild works on; kept so as not to allocate.
     slots: Vec<u32>,
-    open_nodes: Vec<u32>,
     open_parts: Vec<Part>,
 }
 
@@ -115,31 +109,31 @@ impl<S: Scalar> Tree<S> {
         slots: impl Iterator<Item = usize>,
         highest: usize,
     ) -> Self {
-        let slots: Vec<u32> = slots.map(|slot| slot as u32).collect();
         let mut tree = Self {
             dimension: prototypes.dimension(),
-            nodes: Vec::from([Node::Leaf(0)]),
-            leaves: Vec::from([Leaf::root()]),
-            places: Vec::new(),
-            len: slots.len(),
-            free_pairs: Vec::new(),
-            free_leaves: Vec::new(),
-            slots,
-            open_nodes: Vec::new(),
+            nodes: Vec::new(),
+            leaves: Vec::new(),
+            places: vec![Place::default(); highest],
+            len: 0,
+            slots: slots.map(|slot| slot as u32).collect(),
             open_parts: Vec::new(),
         };
-        tree.places.resize(highest, Place::default());
-        tree.fill(0, prototypes);
+        tree.len = tree.slots.len();
+        tree.fill(prototypes);
         tree
     }
 
-    /// Puts all of `self.slots` below an empty leaf, balanced.
-    fn fill(&mut self, leaf: u32, prototypes: &Prototypes<S>) {
+    /// Builds a balanced tree of all of `self.slots`.
+    fn fill(&mut self, prototypes: &Prototypes<S>) {
+        self.nodes.clear();
+        self.nodes.push(Node::Leaf(0));
+        self.leaves.clear();
+        self.leaves.push(Leaf::root());
         let mut slots = core::mem::take(&mut self.slots);
         self.open_parts.push(Part {
             start: 0,
             end: slots.len() as u32,
-            leaf,
+            leaf: 0,
         });
         while let Some(part) = self.open_parts.pop() {
             let range = part.start as usize..part.end as usize;
@@ -170,16 +164,8 @@ impl<S: Scalar> Tree<S> {
     fn fork(&mut self, lower: u32, feature: usize, split: S) -> u32 {
         let mut below = self.leaves[lower as usize];
         let mut above = below;
-        let upper = self.free_leaves.pop().unwrap_or_else(|| {
-            self.leaves.push(above);
-            self.leaves.len() as u32 - 1
-        });
-        let children = [Node::Leaf(lower), Node::Leaf(upper)];
-        let pair = self.free_pairs.pop().unwrap_or_else(|| {
-            self.nodes.extend(children);
-            self.nodes.len() as u32 - 2
-        });
-        self.nodes[pair as usize..][..2].copy_from_slice(&children);
+        let (upper, pair) = (self.leaves.len() as u32, self.nodes.len() as u32);
+        self.nodes.extend([Node::Leaf(lower), Node::Leaf(upper)]);
         self.nodes[below.node as usize] = Node::Inner {
             feature: feature as u32,
             split,
@@ -191,7 +177,7 @@ impl<S: Scalar> Tree<S> {
         below.high[feature] = split;
         above.low[feature] = split;
         self.leaves[lower as usize] = below;
-        self.leaves[upper as usize] = above;
+        self.leaves.push(above);
         upper
     }
 
@@ -218,43 +204,30 @@ impl<S: Scalar> Tree<S> {
         }
         self.len += 1;
         loop {
-            let path = self.descend(slot, prototypes);
-            let leaf = path.leaf;
-            if (self.leaves[leaf as usize].len as usize) < LANES {
+            let leaf = self.leaf_at(slot, prototypes);
+            let Leaf { len, depth, .. } = &self.leaves[leaf as usize];
+            if (*len as usize) < LANES {
                 return self.put(leaf, slot as u32, prototypes);
             }
-            if self.is_sparse() {
-                self.rebuild(&path, 0, prototypes);
-                continue;
-            }
-            self.divide_leaf(leaf, prototypes);
-            let depth = path.len as u32;
-            if depth > steepest(self.len) {
-                let to_blame = self.scapegoat(&path);
-                self.rebuild(&path, to_blame, prototypes);
+            if self.is_sparse() || *depth >= steepest(self.len) {
+                self.rebuild(prototypes);
+            } else {
+                self.divide_leaf(leaf, prototypes);
             }
         }
     }
 
     /// Whether leaves are so empty that a new tree pays.
     fn is_sparse(&self) -> bool {
-        self.leaves.len() - self.free_leaves.len() > self.len / 4 + 8
+        self.leaves.len() > self.len / 4 + 8
     }
 
-    /// The way from the root to the leaf whose region a unit is in.
-    fn descend(&self, slot: usize, prototypes: &Prototypes<S>) -> Path {
-        let mut path = Path {
-            nodes: [0; DEEPEST],
-            len: 1,
-            leaf: 0,
-        };
+    /// The leaf whose region a unit is in.
+    fn leaf_at(&self, slot: usize, prototypes: &Prototypes<S>) -> u32 {
+        let (mut node, mut depth) = (0, 0);
         loop {
-            let depth = path.len - 1;
-            match self.nodes[path.nodes[depth] as usize] {
-                Node::Leaf(leaf) => {
-                    path.leaf = leaf;
-                    return path;
-                }
+            match self.nodes[node as usize] {
+                Node::Leaf(leaf) => return leaf,
                 Node::Inner {
                     feature,
                     split,
@@ -269,8 +242,8 @@ impl<S: Scalar> Tree<S> {
                         // Many equal units spread over both sides.
                         (slot >> (depth % 32)) as u32 & 1
                     };
-                    path.nodes[path.len] = children + side;
-                    path.len += 1;
+                    node = children + side;
+                    depth += 1;
                 }
             }
         }
@@ -288,72 +261,14 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Where on a path that is too long the smallest part begins that is too deep for its units. The path's leaf
-    /// has just been divided.
-    fn scapegoat(&mut self, path: &Path) -> usize {
-        for depth in (1..path.len).rev() {
-            let height = (path.len - depth) as u32;
-            if height > steepest(self.count(path.nodes[depth])) {
-                return depth;
-            }
-        }
-        0
-    }
-
-    /// How many units are below a node.
-    fn count(&mut self, node: u32) -> usize {
-        let mut units = 0;
-        self.open_nodes.push(node);
-        while let Some(node) = self.open_nodes.pop() {
-            match self.nodes[node as usize] {
-                Node::Leaf(leaf) => units += self.leaves[leaf as usize].len as usize,
-                Node::Inner { children, .. } => self.open_nodes.extend([children, children + 1]),
-            }
-        }
-        units
-    }
-
-    /// Builds what is below the node at `depth` on a path anew.
+    /// Builds the tree anew.
     #[cold]
-    fn rebuild(&mut self, path: &Path, depth: usize, prototypes: &Prototypes<S>) {
-        let top = path.nodes[depth];
-        let mut region = Leaf::root();
-        (region.node, region.depth) = (top, depth as u32);
-        for step in path.nodes[..=depth].windows(2) {
-            if let Node::Inner {
-                feature,
-                split,
-                children,
-            } = self.nodes[step[0] as usize]
-            {
-                let bounds = if step[1] == children {
-                    &mut region.high
-                } else {
-                    &mut region.low
-                };
-                bounds[feature as usize] = split;
-            }
+    fn rebuild(&mut self, prototypes: &Prototypes<S>) {
+        for leaf in &self.leaves {
+            let slots = &leaf.slots[..leaf.len as usize];
+            self.slots.extend_from_slice(slots);
         }
-        self.open_nodes.push(top);
-        while let Some(node) = self.open_nodes.pop() {
-            match self.nodes[node as usize] {
-                Node::Leaf(leaf) => {
-                    let inside = &mut self.leaves[leaf as usize];
-                    self.slots
-                        .extend_from_slice(&inside.slots[..inside.len as usize]);
-                    inside.clear();
-                    self.free_leaves.push(leaf);
-                }
-                Node::Inner { children, .. } => {
-                    self.free_pairs.push(children);
-                    self.open_nodes.extend([children, children + 1]);
-                }
-            }
-        }
-        let leaf = self.free_leaves.pop().unwrap_or_default();
-        self.leaves[leaf as usize] = region;
-        self.nodes[top as usize] = Node::Leaf(leaf);
-        self.fill(leaf, prototypes);
+        self.fill(prototypes);
     }
 
     /// Takes a unit out.
@@ -470,13 +385,6 @@ impl<S: Scalar> Tree<S> {
             }
         }
     }
-}
-
-/// The way from the root to a leaf.
-struct Path {
-    nodes: [u32; DEEPEST],
-    len: usize,
-    leaf: u32,
 }
 
 /// Where slots are divided: those from `middle` on are not below `split` in `feature`, the others not above it.

@@ -1,7 +1,7 @@
 //! What can be chosen about a SOINN.
 
 use crate::ConfigError;
-use crate::error::within;
+use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 
 /// The parameters of one layer of a SOINN. Its `Default` is [`shen_hasegawa`](Self::shen_hasegawa).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,25 +125,13 @@ impl SoinnConfig {
     /// # Errors
     /// If a field is outside its range.
     pub(super) fn check(&self) -> Result<(), ConfigError> {
-        let at_least_1 = "at least 1";
-        within(
-            "max_age",
-            self.max_age.into(),
-            self.max_age >= 1,
-            at_least_1,
-        )?;
-        within("period", self.period.into(), self.period >= 1, at_least_1)?;
+        within("max_age", self.max_age, AT_LEAST_1)?;
+        within("period", self.period, AT_LEAST_1)?;
         if let Denoising::FewWins { c } | Denoising::LowRate { c } = self.denoising {
-            let holds = (0.0..=1.0).contains(&c);
-            within("denoising.c", c, holds, "between 0 and 1")?;
+            within("denoising.c", c, SHARE)?;
         }
         if let SimilarityThreshold::Constant(distance) = self.threshold {
-            within(
-                "threshold",
-                distance,
-                distance >= 0.0 && distance.is_finite(),
-                "finite and not negative",
-            )?;
+            within("threshold", distance, NOT_NEGATIVE)?;
         }
         Ok(())
     }

@@ -4,8 +4,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::{Soinn, SoinnConfig, Tally};
-use crate::error::check_header;
-use crate::{Network, Scalar, Snapshot, SnapshotError};
+use crate::error::{SUM, check_count, check_header, within};
+use crate::{ConfigError, Network, Scalar, Snapshot, SnapshotError};
 
 const FORMAT: &str = "tolman-soinn";
 const VERSION: u32 = 1;
@@ -25,41 +25,14 @@ pub struct SavedSoinn<S> {
     /// The units and edges.
     pub network: Snapshot<S>,
     /// What each unit remembers.
-    pub tallies: Vec<SavedTally>,
+    pub tallies: Vec<Tally>,
     /// Inputs learnt.
     pub steps: u64,
 }
 
-/// What a unit remembers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SavedTally {
-    /// E: the sum of the distances of the inputs it won.
-    pub error: f64,
-    /// M: how many those are.
-    pub wins: f64,
-    /// The step since which it has them, at most the inputs learnt.
-    pub since: u64,
-    /// R: the mean error after the last insertion that it had part in; none if there was none.
-    pub radius: Option<f64>,
-}
-
-impl<S: Scalar> From<&Soinn<S>> for SavedSoinn<S> {
-    fn from(soinn: &Soinn<S>) -> Self {
-        let tallies = soinn.network.slots().map(|slot| {
-            let Tally {
-                error,
-                wins,
-                since,
-                radius,
-            } = soinn.tallies[slot];
-            SavedTally {
-                error,
-                wins,
-                since,
-                radius: radius.is_finite().then_some(radius),
-            }
-        });
+impl<S: Scalar> From<Soinn<S>> for SavedSoinn<S> {
+    fn from(soinn: Soinn<S>) -> Self {
+        let tallies = soinn.network.slots().map(|slot| soinn.tallies[slot]);
         Self {
             format: FORMAT.into(),
             version: VERSION,
@@ -71,12 +44,6 @@ impl<S: Scalar> From<&Soinn<S>> for SavedSoinn<S> {
     }
 }
 
-impl<S: Scalar> From<Soinn<S>> for SavedSoinn<S> {
-    fn from(soinn: Soinn<S>) -> Self {
-        Self::from(&soinn)
-    }
-}
-
 impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
     type Error = SnapshotError;
 
@@ -84,52 +51,34 @@ impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
     fn try_from(saved: SavedSoinn<S>) -> Result<Self, SnapshotError> {
         check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         let mut soinn = Self::around(Network::from_snapshot(&saved.network)?, saved.config)?;
-        if saved.tallies.len() != soinn.network.len() {
-            return Err(SnapshotError::WrongCount {
-                what: "tallies",
-                expected: soinn.network.len(),
-                found: saved.tallies.len(),
-            });
+        check_count("tallies", soinn.network.len(), saved.tallies.len())?;
+        for tally in &saved.tallies {
+            tally.check(saved.steps)?;
         }
-        for SavedTally {
-            error,
-            wins,
-            since,
-            radius,
-        } in saved.tallies
-        {
-            in_range("the error of a unit", error, 0.0)?;
-            in_range("the wins of a unit", wins, f64::MIN_POSITIVE)?;
-            if since > saved.steps {
-                return Err(SnapshotError::BadNumber {
-                    field: "since of a unit",
-                    value: since as f64,
-                    range: "at most the steps",
-                });
-            }
-            if let Some(radius) = radius {
-                in_range("the radius of a unit", radius, 0.0)?;
-            }
-            soinn.tallies.push(Tally {
-                error,
-                wins,
-                since,
-                radius: radius.unwrap_or(f64::INFINITY),
-            });
-        }
+        soinn.tallies = saved.tallies;
         soinn.steps = saved.steps;
         Ok(soinn)
     }
 }
 
-/// No sum can have become larger.
-fn in_range(field: &'static str, value: f64, least: f64) -> Result<(), SnapshotError> {
-    if (least..1e280).contains(&value) {
-        return Ok(());
+impl Tally {
+    /// Whether a unit can remember this after so many inputs.
+    fn check(&self, steps: u64) -> Result<(), ConfigError> {
+        let wins = |wins| (f64::MIN_POSITIVE..1e280).contains(&wins);
+        within("the error of a unit", self.error, SUM)?;
+        within(
+            "the wins of a unit",
+            self.wins,
+            (wins, "above 0 and less than 1e280"),
+        )?;
+        within("the radius of a unit", self.radius.unwrap_or_default(), SUM)?;
+        if self.since <= steps {
+            return Ok(());
+        }
+        Err(ConfigError::OutOfRange {
+            field: "since of a unit",
+            value: self.since as f64,
+            range: "at most the steps",
+        })
     }
-    Err(SnapshotError::BadNumber {
-        field,
-        value,
-        range: "not negative and less than 1e280; wins above 0",
-    })
 }

@@ -145,8 +145,8 @@ impl<S: Scalar> Soinn<S> {
         let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
         match threshold {
             SecondThreshold::WithinClusters { factor } => {
-                let holds = factor > 1.0 && factor.is_finite();
-                within("threshold.factor", factor, holds, "finite and above 1")?;
+                let above_1 = |value: f64| value > 1.0 && value.is_finite();
+                within("threshold.factor", factor, (above_1, "finite and above 1"))?;
                 Ok(factor * mean)
             }
             SecondThreshold::BetweenClusters => {

@@ -14,7 +14,7 @@ fn refuses_bad_inputs_and_stays_as_it_was() {
     for input in cube(2, 1000, 1) {
         gng.observe(&[input[0] as f32, input[1] as f32]).unwrap();
     }
-    let before = SavedGng::from(&gng);
+    let before = SavedGng::from(gng.clone());
     let bad: [&[f32]; 8] = [
         &[],
         &[0.0],
@@ -31,7 +31,7 @@ fn refuses_bad_inputs_and_stays_as_it_was() {
         let error = error.to_string();
         assert_eq!(gng.nearest(input).unwrap_err().to_string(), error);
         assert_eq!(gng.nearest_two(input).unwrap_err().to_string(), error);
-        assert_eq!(SavedGng::from(&gng), before);
+        assert_eq!(SavedGng::from(gng.clone()), before);
     }
     let error = gng.observe(&[0.0, f32::INFINITY]).unwrap_err();
     assert_eq!(
@@ -131,7 +131,7 @@ fn one_point_stays_one_unit() {
     let mut gng = Gng::<f64>::new(3, GngConfig::fritzke()).unwrap();
     for _ in 0..10_000 {
         let observation = gng.observe(&[1.0, 2.0, 3.0]).unwrap();
-        assert!(observation.winner.squared_distance <= 0.0);
+        assert!(observation.first.squared_distance <= 0.0);
     }
     assert_eq!(gng.network().len(), 1);
     assert_eq!(gng.nearest_two(&[0.0, 0.0, 0.0]).unwrap().second, None);

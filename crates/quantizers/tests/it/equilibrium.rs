@@ -15,7 +15,7 @@ fn equilibrium(config: GngConfig, dimension: usize, seed: u64) -> (f64, f64) {
     }
     let mut sum = 0.0;
     for input in last {
-        let squared = gng.observe(input).unwrap().winner.squared_distance;
+        let squared = gng.observe(input).unwrap().first.squared_distance;
         sum += match config.error {
             ErrorKind::Squared => squared,
             _ => squared.sqrt(),

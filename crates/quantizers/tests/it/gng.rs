@@ -84,7 +84,7 @@ proptest! {
         for input in &inputs {
             let observation = gng.observe(input).unwrap();
             let network = gng.network();
-            prop_assert!(seen.contains(&observation.winner.id) || network.contains(observation.winner.id));
+            prop_assert!(seen.contains(&observation.first.id) || network.contains(observation.first.id));
             prop_assert!(network.len() <= config.max_units);
 
             let now: BTreeSet<_> = network.ids().collect();

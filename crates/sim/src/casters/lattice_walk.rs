@@ -1,4 +1,5 @@
 use alloc::sync::Arc;
+use core::array;
 
 use tolman_geom::{Point, Vector};
 
@@ -152,21 +153,15 @@ impl LatticeWalk {
         south: bool,
     ) -> Quadrant<COUNT> {
         let lattice = &self.lattice;
-        let mut ahead = Quadrant {
+        let (along_x, along_y) = ((column, west), (row, south));
+        Quadrant {
             west,
             south,
-            columns: [0.0; COUNT],
-            rows: [0.0; COUNT],
-            vertical: [&Line::TABLE[0]; COUNT],
-            horizontal: [&Line::TABLE[0]; COUNT],
-        };
-        for by in 0..COUNT {
-            ahead.columns[by] = lattice.columns.ahead(column, west, by, origin.x);
-            ahead.rows[by] = lattice.rows.ahead(row, south, by, origin.y);
-            ahead.vertical[by] = self.vertical.along((column, west), by, (row, south));
-            ahead.horizontal[by] = self.horizontal.along((row, south), by, (column, west));
+            columns: array::from_fn(|by| lattice.columns.ahead(column, west, by, origin.x)),
+            rows: array::from_fn(|by| lattice.rows.ahead(row, south, by, origin.y)),
+            vertical: array::from_fn(|by| self.vertical.along(along_x, by, along_y)),
+            horizontal: array::from_fn(|by| self.horizontal.along(along_y, by, along_x)),
         }
-        ahead
     }
 
     /// All beams, each crossing `COUNT` lines of each axis at most.
@@ -303,11 +298,8 @@ impl Caster for LatticeWalk {
                 || self.cross::<3>(cell, sweep),
             ),
             _ => {
-                for beam in 0..sweep.beams() {
-                    let range =
-                        self.walk(cell, sweep.origin, sweep.direction(beam), sweep.range(beam));
-                    sweep.shorten(beam, range);
-                }
+                let origin = sweep.origin;
+                sweep.shorten_each(|direction, range| self.walk(cell, origin, direction, range));
             }
         }
     }

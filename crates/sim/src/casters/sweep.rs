@@ -251,6 +251,14 @@ impl Sweep {
         *old = old.min(range);
     }
 
+    /// Lets every beam end where `meets` says for its direction and how far it has got, unless it ends before.
+    pub fn shorten_each(&mut self, meets: impl Fn(Vector, f64) -> f64) {
+        for beam in 0..self.beams() {
+            let range = meets(self.direction(beam), self.range(beam));
+            self.shorten(beam, range);
+        }
+    }
+
     /// Shortens the beams that meet `wall`.
     pub fn meet_wall(&mut self, wall: &Wall) {
         let seen = Seen::new(wall.start - self.origin, wall.end - self.origin);
@@ -277,10 +285,8 @@ impl Sweep {
     /// lies on it.
     #[cold]
     pub(super) fn meet_edge_on(&mut self, wall: &Wall) {
-        for beam in 0..self.beams() {
-            let range = wall.ray(self.origin, self.direction(beam));
-            self.shorten(beam, range);
-        }
+        let origin = self.origin;
+        self.shorten_each(|direction, _| wall.ray(origin, direction));
     }
 
     /// Shortens the beams that meet a disc from outside.

@@ -238,7 +238,7 @@ struct Block {
     walls: [Walls; BLOCK / LANES],
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Walls {
     start_x: [f64; LANES],
     start_y: [f64; LANES],
@@ -339,20 +339,10 @@ impl WallIndex {
 
 impl Block {
     fn empty() -> Self {
-        let nothing = [0.0; LANES];
-        let walls = Walls {
-            start_x: nothing,
-            start_y: nothing,
-            end_x: nothing,
-            end_y: nothing,
-            area: nothing,
-            from: nothing,
-            to: nothing,
-        };
         Self {
             count: 0,
             places: [0; BLOCK],
-            walls: [walls; BLOCK / LANES],
+            walls: [Walls::default(); BLOCK / LANES],
         }
     }
 

@@ -1,33 +1,72 @@
+use alloc::collections::VecDeque;
+
 use thiserror::Error;
 
-use super::{
-    Bias, Bounded, Delay, Disturbance, DropOut, Gaussian, Outliers, Past, Quantization, Slip,
-    Stuck, Values,
-};
+use super::{Gaussian, Values};
 use crate::Draws;
 
-/// Any of the disturbances, as a configuration names them.
+/// Something that happens to a value each time it is read, as a configuration names it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Fault {
     /// Noise without bias.
     Gaussian(Gaussian),
-    /// A constant error.
-    Bias(Bias),
-    /// An error of which nothing but its bounds is known.
-    Bounded(Bounded),
-    /// Wheels that slip.
-    Slip(Slip),
-    /// A resolution.
-    Quantization(Quantization),
+    /// A constant error: `scale · value + offset`.
+    Bias {
+        /// What the value is multiplied by; 1 for none.
+        scale: f64,
+        /// What is added then, in the value's own unit.
+        offset: f64,
+    },
+    /// An error of which nothing but its bounds is known: `(1 + a) · value + b`, `a` uniform in ± `share` and `b` in
+    /// ± `offset`, drawn anew after every `steps` readings and for all numbers of a reading alike.
+    ///
+    /// Unlike those of [`Slip`](Self::Slip), these errors do not average out while they hold: with many steps they are
+    /// a calibration that is wrong all along.
+    Bounded {
+        /// The largest share gained or lost.
+        share: f64,
+        /// The largest amount gained or lost, in the value's own unit.
+        offset: f64,
+        /// For how many readings one draw holds, at least 1.
+        steps: u32,
+    },
+    /// Wheels that slip: the value times a factor uniform in 1 ± `share`, as Webots has it.
+    Slip {
+        /// The largest share gained or lost.
+        share: f64,
+    },
+    /// A resolution: every number is rounded to the nearest multiple of `step`, halves away from 0.
+    Quantization {
+        /// The resolution, in the value's own unit.
+        step: f64,
+    },
     /// Readings that do not come.
-    DropOut(DropOut),
-    /// Numbers that have nothing to do with the truth.
-    Outliers(Outliers),
-    /// A sensor that gets stuck.
-    Stuck(Stuck),
-    /// Readings that come late.
-    Delay(Delay),
+    DropOut {
+        /// How likely each reading is missing, 0 … 1.
+        probability: f64,
+    },
+    /// Numbers that have nothing to do with the truth: uniform between `low` and `high`.
+    Outliers {
+        /// How likely each number is one, 0 … 1.
+        probability: f64,
+        /// The least of them, in the value's own unit.
+        low: f64,
+        /// The greatest, in the value's own unit.
+        high: f64,
+    },
+    /// A sensor that now and then gets stuck and repeats the reading it got stuck at.
+    Stuck {
+        /// How likely it gets stuck at each reading, 0 … 1.
+        probability: f64,
+        /// How many readings it repeats before it comes free.
+        steps: u32,
+    },
+    /// Readings that come late. There is none before the first has arrived.
+    Delay {
+        /// By how many time steps.
+        steps: u32,
+    },
 }
 
 impl Fault {
@@ -36,73 +75,166 @@ impl Fault {
     /// # Errors
     /// The first that has none.
     pub fn check(&self) -> Result<(), FaultError> {
-        let positive = f64::MIN_POSITIVE..=f64::MAX;
-        let (any, share, size) = (f64::MIN..=f64::MAX, 0.0..=1.0, 0.0..=f64::MAX);
+        let (any, size) = (f64::MIN..=f64::MAX, 0.0..=f64::MAX);
+        let probable = |probability| ("probability", probability, 0.0..=1.0);
         let parts = match *self {
-            Self::Gaussian(Gaussian {
-                relative_sd,
-                absolute_sd,
-            }) => {
-                vec![
-                    ("relative_sd", relative_sd, size.clone()),
-                    ("absolute_sd", absolute_sd, size),
-                ]
-            }
-            Self::Bias(Bias { scale, offset }) => {
+            Self::Gaussian(noise) => vec![
+                ("relative_sd", noise.relative_sd, size.clone()),
+                ("absolute_sd", noise.absolute_sd, size),
+            ],
+            Self::Bias { scale, offset } => {
                 vec![("scale", scale, any.clone()), ("offset", offset, any)]
             }
-            Self::Bounded(Bounded {
+            Self::Bounded {
                 share,
                 offset,
                 steps,
-            }) => vec![
+            } => vec![
                 ("share", share, size.clone()),
                 ("offset", offset, size),
                 ("steps", f64::from(steps), 1.0..=f64::from(u32::MAX)),
             ],
-            Self::Slip(Slip { share: largest }) => vec![("share", largest, size)],
-            Self::Quantization(Quantization { step }) => vec![("step", step, positive)],
-            Self::DropOut(DropOut { probability }) | Self::Stuck(Stuck { probability, .. }) => {
-                vec![("probability", probability, share)]
+            Self::Slip { share } => vec![("share", share, size)],
+            Self::Quantization { step } => vec![("step", step, f64::MIN_POSITIVE..=f64::MAX)],
+            Self::DropOut { probability } | Self::Stuck { probability, .. } => {
+                vec![probable(probability)]
             }
-            Self::Outliers(Outliers {
+            Self::Outliers {
                 probability,
                 low,
                 high,
-            }) => vec![
-                ("probability", probability, share),
+            } => vec![
+                probable(probability),
                 ("low", low, any),
                 ("high", high, low..=f64::MAX),
             ],
-            Self::Delay(Delay { steps }) => vec![("steps", f64::from(steps), 0.0..=1e6)],
+            Self::Delay { steps } => vec![("steps", f64::from(steps), 0.0..=1e6)],
         };
-        match parts
+        let wrong = parts
             .into_iter()
-            .find(|(_, value, range)| !range.contains(value))
-        {
-            None => Ok(()),
-            Some((part, value, range)) => Err(FaultError {
+            .find(|(_, value, range)| !range.contains(value));
+        wrong.map_or(Ok(()), |(part, value, range)| {
+            let (least, most) = range.into_inner();
+            Err(FaultError {
                 part,
                 value,
-                least: *range.start(),
-                most: *range.end(),
+                least,
+                most,
+            })
+        })
+    }
+
+    /// Checks the faults of one value, which the configuration calls `field`.
+    pub(crate) fn check_all(field: &'static str, faults: &[Self]) -> Result<(), FaultsError> {
+        for (index, fault) in faults.iter().enumerate() {
+            fault.check().map_err(|source| FaultsError {
+                field,
+                index,
+                source,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Changes `value`, or takes it away.
+    pub(super) fn disturb<V: Values>(
+        &self,
+        value: &mut Option<V>,
+        past: &mut Past<V>,
+        draws: &mut Draws,
+    ) {
+        match *self {
+            Self::Gaussian(noise) if noise == Gaussian::NONE => {}
+            Self::Gaussian(noise) => value.change(|number| noise.around(number, draws)),
+            Self::Bias { scale, offset } => value.change(|number| scale * number + offset),
+            Self::Bounded {
+                share,
+                offset,
+                steps,
+            } => {
+                let [a, b] = past.drawn(steps, draws);
+                value.change(|number| number * (1.0 + share * a) + offset * b);
+            }
+            Self::Slip { share } => {
+                value.change(|number| number * (1.0 + share * (2.0 * draws.uniform() - 1.0)));
+            }
+            Self::Quantization { step } => value.change(|number| (number / step).round() * step),
+            Self::Outliers {
+                probability,
+                low,
+                high,
+            } => value.change(|number| {
+                let (chance, place) = (draws.uniform(), draws.uniform());
+                if chance < probability {
+                    low + place * (high - low)
+                } else {
+                    number
+                }
             }),
+            Self::DropOut { probability } => {
+                if draws.uniform() < probability {
+                    *value = None;
+                }
+            }
+            Self::Stuck { probability, steps } => {
+                past.stick(value, draws.uniform() < probability, steps);
+            }
+            Self::Delay { steps } => past.delay(value, steps),
         }
     }
 }
 
-impl<V: Values> Disturbance<V> for Fault {
-    fn disturb(&self, value: &mut Option<V>, past: &mut Past<V>, draws: &mut Draws) {
-        match self {
-            Self::Gaussian(fault) => fault.disturb(value, past, draws),
-            Self::Bias(fault) => fault.disturb(value, past, draws),
-            Self::Bounded(fault) => fault.disturb(value, past, draws),
-            Self::Slip(fault) => fault.disturb(value, past, draws),
-            Self::Quantization(fault) => fault.disturb(value, past, draws),
-            Self::DropOut(fault) => fault.disturb(value, past, draws),
-            Self::Outliers(fault) => fault.disturb(value, past, draws),
-            Self::Stuck(fault) => fault.disturb(value, past, draws),
-            Self::Delay(fault) => fault.disturb(value, past, draws),
+/// What a fault remembers from one reading to the next; empty before the first.
+#[derive(Clone, Debug)]
+pub(super) struct Past<V> {
+    /// Earlier values, the oldest first.
+    values: VecDeque<Option<V>>,
+    /// For how many more readings something goes on.
+    steps_left: u32,
+    /// What was drawn for that long.
+    drawn: [f64; 2],
+}
+
+impl<V> Default for Past<V> {
+    fn default() -> Self {
+        Self {
+            values: VecDeque::new(),
+            steps_left: 0,
+            drawn: [0.0; 2],
+        }
+    }
+}
+
+impl<V: Values> Past<V> {
+    /// Two numbers uniform in ± 1, which hold for so many readings.
+    fn drawn(&mut self, steps: u32, draws: &mut Draws) -> [f64; 2] {
+        if self.steps_left == 0 {
+            self.drawn = [draws.uniform(), draws.uniform()].map(|draw| 2.0 * draw - 1.0);
+            self.steps_left = steps;
+        }
+        self.steps_left = self.steps_left.saturating_sub(1);
+        self.drawn
+    }
+
+    /// Repeats the reading that a sensor is stuck at, or lets it get stuck at this one for so many readings.
+    fn stick(&mut self, value: &mut Option<V>, gets_stuck: bool, steps: u32) {
+        if self.steps_left > 0 {
+            self.steps_left -= 1;
+            if let Some(held) = self.values.front() {
+                value.clone_from(held);
+            }
+        } else if gets_stuck {
+            self.steps_left = steps;
+            self.values.clear();
+            self.values.push_front(value.clone());
+        }
+    }
+
+    /// Gives the reading of so many steps before in place of this one.
+    fn delay(&mut self, value: &mut Option<V>, steps: u32) {
+        self.values.push_back(value.take());
+        if self.values.len() > steps as usize {
+            *value = self.values.pop_front().flatten();
         }
     }
 }
@@ -119,4 +251,16 @@ pub struct FaultError {
     pub least: f64,
     /// The most.
     pub most: f64,
+}
+
+/// A fault without sense in a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("`{field}`, fault {index}: {source}")]
+pub struct FaultsError {
+    /// Of what.
+    pub field: &'static str,
+    /// Which of its faults, from 0.
+    pub index: usize,
+    /// What is wrong with it.
+    pub source: FaultError,
 }

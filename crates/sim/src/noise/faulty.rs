@@ -1,4 +1,5 @@
-use super::{Disturbance, Fault, Past, Values};
+use super::fault::Past;
+use super::{Fault, Values};
 use crate::sensors::Sensor;
 use crate::{Chance, Channel, Surroundings};
 

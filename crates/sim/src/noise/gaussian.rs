@@ -1,4 +1,3 @@
-use super::{Disturbance, Past, Values};
 use crate::Draws;
 
 /// Gaussian noise without bias: a share of the value and an amount of its own.
@@ -46,16 +45,6 @@ impl Gaussian {
             value + sd * draws.gaussian()
         } else {
             value
-        }
-    }
-}
-
-impl<V: Values> Disturbance<V> for Gaussian {
-    fn disturb(&self, value: &mut Option<V>, _: &mut Past<V>, draws: &mut Draws) {
-        if let Some(value) = value
-            && *self != Self::NONE
-        {
-            value.change(|number| self.around(number, draws));
         }
     }
 }

@@ -2,7 +2,7 @@ use thiserror::Error;
 use tolman_robot::{Body, CameraSensing, ColumnImage, TurnTranslate};
 
 use super::{ConfigError, LaserPioneer, LaserPioneerConfig};
-use crate::noise::{Fault, FaultError, Faulty};
+use crate::noise::{Fault, FaultsError, Faulty};
 use crate::sensors::{CameraError, ColumnCamera, Sensor};
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
@@ -35,10 +35,7 @@ impl CameraPioneer {
     /// # Errors
     /// If a field of the configuration has no sense.
     pub fn new(config: CameraPioneerConfig) -> Result<Self, CameraPioneerError> {
-        for (index, fault) in config.image.iter().enumerate() {
-            let error = |source| CameraPioneerError::Fault { index, source };
-            fault.check().map_err(error)?;
-        }
+        Fault::check_all("image", &config.image)?;
         let camera = ColumnCamera::new(config.columns, config.reach)?;
         Ok(Self {
             pioneer: LaserPioneer::new(config.pioneer)?,
@@ -90,13 +87,8 @@ impl Model for CameraPioneer {
 #[non_exhaustive]
 pub enum CameraPioneerError {
     /// A fault has no sense.
-    #[error("`image`, fault {index}: {source}")]
-    Fault {
-        /// Which fault, from 0.
-        index: usize,
-        /// What is wrong with it.
-        source: FaultError,
-    },
+    #[error(transparent)]
+    Fault(#[from] FaultsError),
     /// The camera cannot be built.
     #[error(transparent)]
     Camera(#[from] CameraError),

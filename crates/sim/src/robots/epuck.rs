@@ -6,8 +6,8 @@ use tolman_robot::epuck::{
     WheelSpeeds, WheelTurns, proximity_mounts,
 };
 
-use crate::noise::{Fault, FaultError, Faults, Faulty, Slip};
-use crate::sensors::{Bumper, Infrared, ResponseCurve, ResponseError, Sensor};
+use crate::noise::{Fault, Faults, FaultsError, Faulty};
+use crate::sensors::{Infrared, ResponseCurve, ResponseError, Sensor};
 use crate::trace::Recordable;
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
@@ -45,7 +45,7 @@ impl EpuckConfig {
     pub fn webots() -> Self {
         Self {
             response: ResponseCurve::epuck(),
-            wheels: vec![Fault::Slip(Slip { share: 0.1 })],
+            wheels: vec![Fault::Slip { share: 0.1 }],
             proximity: Vec::new(),
             contact: Contact::Slide,
             step_us: 10_000,
@@ -87,16 +87,8 @@ impl Epuck {
         if !(most.is_finite() && most > 0.0) {
             return Err(EpuckError::WheelSpeed { most });
         }
-        let faults = [("wheels", &config.wheels), ("proximity", &config.proximity)];
-        for (field, faults) in faults {
-            for (index, fault) in faults.iter().enumerate() {
-                fault.check().map_err(|source| EpuckError::Fault {
-                    field,
-                    index,
-                    source,
-                })?;
-            }
-        }
+        Fault::check_all("wheels", &config.wheels)?;
+        Fault::check_all("proximity", &config.proximity)?;
         let infrared = Infrared::new(proximity_mounts(), config.response.clone())?;
         Ok(Self {
             left: Faults::new("left wheel", config.wheels.iter().copied()),
@@ -161,10 +153,10 @@ impl Model for Epuck {
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut EpuckSensing) {
-        sensing.time_us = around.time_us;
+        sensing.time_us = around.truth.time_us;
         self.proximity.sense(around, chance, &mut sensing.proximity);
         sensing.encoders = Some(self.turned);
-        Bumper.sense(around, chance, &mut sensing.bump);
+        sensing.bump = Some(around.truth.bump);
     }
 }
 
@@ -195,15 +187,8 @@ pub enum EpuckError {
         most: f64,
     },
     /// A fault has no sense.
-    #[error("`{field}`, fault {index}: {source}")]
-    Fault {
-        /// Of what.
-        field: &'static str,
-        /// Which of its faults, from 0.
-        index: usize,
-        /// What is wrong with it.
-        source: FaultError,
-    },
+    #[error(transparent)]
+    Fault(#[from] FaultsError),
     /// The response curve is none.
     #[error("`response`: {0}")]
     Response(#[from] ResponseError),

@@ -1,8 +1,9 @@
 use thiserror::Error;
+use tolman_geom::Heading;
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, TurnTranslate};
 
-use crate::noise::{Fault, FaultError, Faults, Faulty, Gaussian};
-use crate::sensors::{Bumper, Compass, Laser, LaserError, Sensor, WheelOdometry};
+use crate::noise::{Fault, Faults, FaultsError, Faulty, Gaussian};
+use crate::sensors::{Laser, LaserError, Sensor};
 use crate::trace::Recordable;
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
 
@@ -121,14 +122,7 @@ impl LaserPioneerConfig {
             ("faults.odometry_turn", &self.faults.odometry_turn),
         ];
         for (field, faults) in faults {
-            for (index, fault) in faults.iter().enumerate() {
-                let error = |source| ConfigError::Fault {
-                    field,
-                    index,
-                    source,
-                };
-                fault.check().map_err(error)?;
-            }
+            Fault::check_all(field, faults)?;
         }
         if self.step_us == 0 {
             return Err(ConfigError::Field {
@@ -148,11 +142,9 @@ pub struct LaserPioneer {
     motor_turn: Faults<f64>,
     motor_distance: Faults<f64>,
     laser: Faulty<Laser>,
-    compass: Faulty<Compass>,
-    odometry: WheelOdometry,
+    compass: Faults<Heading>,
     odometry_distance: Faults<f64>,
     odometry_turn: Faults<f64>,
-    bumper: Bumper,
 }
 
 impl LaserPioneer {
@@ -184,18 +176,12 @@ impl LaserPioneer {
                 all(motors.translate, &faults.motor_distance),
             ),
             laser: Faulty::new("scan", laser, all(config.scan_noise, &faults.scan)),
-            compass: Faulty::new(
-                "compass",
-                Compass,
-                all(config.compass_noise, &faults.compass),
-            ),
-            odometry: WheelOdometry,
+            compass: Faults::new("compass", all(config.compass_noise, &faults.compass)),
             odometry_distance: Faults::new("odometry distance", distance),
             odometry_turn: Faults::new(
                 "odometry turn",
                 all(config.odometry_turn_noise, &faults.odometry_turn),
             ),
-            bumper: Bumper,
             config,
         })
     }
@@ -258,19 +244,21 @@ impl Model for LaserPioneer {
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut LaserSensing) {
-        sensing.time_us = around.time_us;
+        sensing.time_us = around.truth.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
-        self.compass.sense(around, chance, &mut sensing.compass);
-        self.odometry.sense(around, chance, &mut sensing.odometry);
-        if let Some(Odometry { distance, turn }) = sensing.odometry {
-            let (mut distance, mut turn) = (Some(distance), Some(turn));
-            self.odometry_distance.disturb(&mut distance, chance);
-            self.odometry_turn.disturb(&mut turn, chance);
-            sensing.odometry = distance
-                .zip(turn)
-                .map(|(distance, turn)| Odometry { distance, turn });
-        }
-        self.bumper.sense(around, chance, &mut sensing.bump);
+        sensing.compass = Some(around.truth.pose.heading);
+        self.compass.disturb(&mut sensing.compass, chance);
+        // Wheels that a contact holds do not roll.
+        let (mut distance, mut turn) = (
+            Some(around.truth.motion.distance),
+            Some(around.truth.motion.turn),
+        );
+        self.odometry_distance.disturb(&mut distance, chance);
+        self.odometry_turn.disturb(&mut turn, chance);
+        sensing.odometry = distance
+            .zip(turn)
+            .map(|(distance, turn)| Odometry { distance, turn });
+        sensing.bump = Some(around.truth.bump);
     }
 }
 
@@ -300,15 +288,8 @@ pub enum ConfigError {
         value: f64,
     },
     /// A fault has no sense.
-    #[error("`{field}`, fault {index}: {source}")]
-    Fault {
-        /// Of what.
-        field: &'static str,
-        /// Which of its faults, from 0.
-        index: usize,
-        /// What is wrong with it.
-        source: FaultError,
-    },
+    #[error(transparent)]
+    Fault(#[from] FaultsError),
     /// The laser cannot be built.
     #[error("`ring`: {0}")]
     Laser(#[from] LaserError),

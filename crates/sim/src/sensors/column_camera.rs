@@ -43,10 +43,10 @@ impl ColumnCamera {
         let rays = core::array::from_fn::<Ray, RAYS, _>(|ray| {
             let within = (ray as f64 + 0.5) / RAYS as f64 - 0.5;
             let bearing = (f64::from(index) + within) * width;
-            let heading = Heading::from_radians(around.pose.heading.radians() + bearing);
+            let heading = Heading::from_radians(around.truth.pose.heading.radians() + bearing);
             let (sin, cos) = libm::sincos(heading.radians());
             Ray {
-                origin: around.pose.position,
+                origin: around.truth.pose.position,
                 direction: Vector::new(cos, sin),
             }
         });
@@ -66,7 +66,7 @@ impl Sensor for ColumnCamera {
     type Reading = ColumnImage;
 
     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<ColumnImage>) {
-        if around.motion != Motion::default() {
+        if around.truth.motion != Motion::default() {
             *reading = None;
             return;
         }

@@ -1,5 +1,6 @@
+use nalgebra::Isometry2;
 use thiserror::Error;
-use tolman_geom::{Pose, Vector};
+use tolman_geom::Pose;
 
 use super::Sensor;
 use crate::{Chance, Channel, Ray, Surroundings};
@@ -22,6 +23,17 @@ pub struct ResponsePoint {
     pub value: f64,
     /// Standard deviation of the value, as a share of it.
     pub relative_sd: f64,
+}
+
+impl From<(f64, f64, f64)> for ResponsePoint {
+    /// From range, value and relative standard deviation.
+    fn from((range, value, relative_sd): (f64, f64, f64)) -> Self {
+        Self {
+            range,
+            value,
+            relative_sd,
+        }
+    }
 }
 
 /// The e-puck's sensors as Webots has them: range (m), value, relative standard deviation.
@@ -52,13 +64,8 @@ impl ResponseCurve {
     /// The e-puck's, by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
     #[must_use]
     pub fn epuck() -> Self {
-        let point = |(range, value, relative_sd)| ResponsePoint {
-            range,
-            value,
-            relative_sd,
-        };
         Self {
-            points: EPUCK.map(point).to_vec(),
+            points: EPUCK.map(ResponsePoint::from).to_vec(),
         }
     }
 
@@ -119,18 +126,11 @@ impl ResponseCurve {
                 let below = self.points[below];
                 let share = (range - below.range) / (above.range - below.range);
                 let between = |low: f64, high: f64| low + share * (high - low);
-                ResponsePoint {
-                    range,
-                    value: between(below.value, above.value),
-                    relative_sd: between(below.relative_sd, above.relative_sd),
-                }
+                let value = between(below.value, above.value);
+                ResponsePoint::from((range, value, between(below.relative_sd, above.relative_sd)))
             }
             (Some(last), None) => self.points[last],
-            (None, None) => ResponsePoint {
-                range,
-                value: 0.0,
-                relative_sd: 0.0,
-            },
+            (None, None) => ResponsePoint::from((range, 0.0, 0.0)),
         }
     }
 }
@@ -192,16 +192,10 @@ impl<const N: usize> Sensor for Infrared<N> {
         chance: &Chance,
         reading: &mut Option<[f64; N]>,
     ) {
-        let (here, ahead) = (around.pose.position, around.pose.heading.unit());
-        let turned = |vector: Vector| {
-            Vector::new(
-                ahead.x * vector.x - ahead.y * vector.y,
-                ahead.y * vector.x + ahead.x * vector.y,
-            )
-        };
+        let world_from_robot = Isometry2::from(around.truth.pose);
         let rays = self.rays.map(|ray| Ray {
-            origin: here + turned(ray.origin.coords),
-            direction: turned(ray.direction),
+            origin: world_from_robot * ray.origin,
+            direction: world_from_robot * ray.direction,
         });
         let echoes = around.echoes(&rays, self.curve.reach());
         let dark = self.curve.at(f64::INFINITY).value;

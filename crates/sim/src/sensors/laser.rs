@@ -52,7 +52,7 @@ impl Sensor for Laser {
 
     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<Scan>) {
         let scan = reading.get_or_insert_with(|| Scan::clear(self.ring()));
-        self.sweep.aim(around.pose);
+        self.sweep.aim(around.truth.pose);
         around.scan(&mut self.sweep);
         for (range, read) in scan.ranges.iter_mut().zip(self.sweep.ranges()) {
             *range = read;

@@ -35,12 +35,6 @@ impl BitRows {
                 .is_some_and(|places| places.div_ceil(64) == self.words.len())
     }
 
-    /// All places: row and place in it.
-    pub(super) fn places(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let length = self.length;
-        (0..self.rows).flat_map(move |row| (0..length).map(move |place| (row, place)))
-    }
-
     /// Sets or clears the bit of a place.
     pub(super) fn set(&mut self, row: usize, place: usize, is_set: bool) {
         let bit = row * self.length + place;

@@ -14,7 +14,6 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
-use tolman_maze::Grid;
 
 use super::{Cells, Lattice, Material, Wall, World, WorldError, Zone};
 use crate::Door;
@@ -74,19 +73,11 @@ struct WorldFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lattice: Option<Lattice>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    cells: Option<CellsFile>,
+    cells: Option<Cells>,
     #[serde(default)]
     zones: Vec<Zone>,
     #[serde(default)]
     doors: Vec<Door>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CellsFile {
-    width: u16,
-    height: u16,
-    pitch: f64,
 }
 
 impl World {
@@ -123,11 +114,6 @@ impl World {
     /// # Errors
     /// None for a world that was built by this crate.
     pub fn to_json(&self) -> Result<String, WorldFileError> {
-        let cells = |cells: Cells| CellsFile {
-            width: cells.grid.width(),
-            height: cells.grid.height(),
-            pitch: cells.pitch,
-        };
         let file = WorldFile {
             format: FORMAT.to_owned(),
             version: VERSION,
@@ -138,7 +124,7 @@ impl World {
             },
             polylines: Vec::new(),
             lattice: self.lattice.as_deref().cloned(),
-            cells: self.cells.map(cells),
+            cells: self.cells,
             zones: self.zones.clone(),
             doors: self.doors.clone(),
         };
@@ -155,19 +141,12 @@ impl World {
                 Self::from_segments(walls)?
             }
         };
-        if let Some(CellsFile {
-            width,
-            height,
-            pitch,
-        }) = file.cells
+        world.cells = file.cells;
+        if world
+            .cells
+            .is_some_and(|cells| !(cells.pitch.is_finite() && cells.pitch > 0.0))
         {
-            if !(pitch.is_finite() && pitch > 0.0) {
-                return Err(WorldFileError::Lattice);
-            }
-            world.cells = Some(Cells {
-                grid: Grid::new(width, height),
-                pitch,
-            });
+            return Err(WorldFileError::Lattice);
         }
         for zone in file.zones {
             world = world.with_zone(zone)?;

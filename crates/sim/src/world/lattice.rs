@@ -49,6 +49,16 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
+    /// Lines without thickness, from 0 on.
+    fn thin(cells: usize, pitch: f64) -> Self {
+        Self {
+            cells,
+            origin: 0.0,
+            pitch,
+            thickness: 0.0,
+        }
+    }
+
     fn line(&self, index: usize) -> f64 {
         if self.thickness > 0.0 {
             let half = if index.is_multiple_of(2) { -0.5 } else { 0.5 } * self.thickness;
@@ -107,15 +117,9 @@ impl Lattice {
             horizontal.set(y, x, stands(Direction::South));
             horizontal.set(y + 1, x, stands(Direction::North));
         }
-        let axis = |cells| Axis {
-            cells,
-            origin: 0.0,
-            pitch,
-            thickness: 0.0,
-        };
         Self {
-            columns: axis(width),
-            rows: axis(height),
+            columns: Axis::thin(width, pitch),
+            rows: Axis::thin(height, pitch),
             vertical,
             horizontal,
             solid: BitRows::new(height, width),
@@ -125,10 +129,8 @@ impl Lattice {
     fn thick(maze: &Maze, pitch: f64, thickness: f64) -> Self {
         let grid = maze.grid();
         let axis = |cells: u16| Axis {
-            cells: 2 * usize::from(cells) + 1,
-            origin: 0.0,
-            pitch,
             thickness,
+            ..Axis::thin(2 * usize::from(cells) + 1, pitch)
         };
         let (columns, rows) = (axis(grid.width()), axis(grid.height()));
         let mut solid = BitRows::new(rows.cells, columns.cells);
@@ -172,10 +174,8 @@ impl Lattice {
             return Err(WorldError::NoFloor);
         }
         let axis = |cells, origin| Axis {
-            cells,
             origin,
-            pitch: resolution,
-            thickness: 0.0,
+            ..Axis::thin(cells, resolution)
         };
         let mut solid = BitRows::new(height, width);
         for (index, occupied) in occupied.iter().enumerate() {
@@ -195,29 +195,13 @@ impl Lattice {
             (Some(x), Some(y)) if x < width && y < height => solid.get(y, x),
             _ => true,
         };
-        let mut vertical = BitRows::new(width + 1, height);
-        for (line, cell) in vertical.places() {
-            let (before, after) = (line.checked_sub(1), Some(line));
-            vertical.set(
-                line,
-                cell,
-                is_solid(before, Some(cell)) != is_solid(after, Some(cell)),
-            );
-        }
-        let mut horizontal = BitRows::new(height + 1, width);
-        for (line, cell) in horizontal.places() {
-            let (before, after) = (line.checked_sub(1), Some(line));
-            horizontal.set(
-                line,
-                cell,
-                is_solid(Some(cell), before) != is_solid(Some(cell), after),
-            );
-        }
+        let column = |x, y| is_solid(x, Some(y));
+        let row = |y, x| is_solid(Some(x), y);
         Self {
+            vertical: edges(width, height, column),
+            horizontal: edges(height, width, row),
             columns,
             rows,
-            vertical,
-            horizontal,
             solid,
         }
     }
@@ -269,51 +253,50 @@ impl Lattice {
 
     /// The walls, those in a row joined.
     pub(super) fn walls(&self, material: Material) -> Vec<Wall> {
-        let (width, height) = (self.columns.cells, self.rows.cells);
-        let mut walls = Vec::new();
-        for x in 0..=width {
-            let at = self.columns.line(x);
-            runs(
-                height,
-                |y| self.vertical.get(x, y),
-                |from, to| {
-                    walls.push(Wall {
-                        start: Point::new(at, self.rows.line(from)),
-                        end: Point::new(at, self.rows.line(to)),
-                        material,
-                    });
-                },
-            );
-        }
-        for y in 0..=height {
-            let at = self.rows.line(y);
-            runs(
-                width,
-                |x| self.horizontal.get(y, x),
-                |from, to| {
-                    walls.push(Wall {
-                        start: Point::new(self.columns.line(from), at),
-                        end: Point::new(self.columns.line(to), at),
-                        material,
-                    });
-                },
-            );
-        }
-        walls
+        let corner = |x, y| Point::new(self.columns.line(x), self.rows.line(y));
+        let wall = |start, end| Wall {
+            start,
+            end,
+            material,
+        };
+        let vertical = runs(&self.vertical)
+            .into_iter()
+            .map(|(x, from, to)| wall(corner(x, from), corner(x, to)));
+        let horizontal = runs(&self.horizontal)
+            .into_iter()
+            .map(|(y, from, to)| wall(corner(from, y), corner(to, y)));
+        vertical.chain(horizontal).collect()
     }
 }
 
-/// Calls `run(from, to)` for every longest run of consecutive indices below `count` that stand.
-fn runs(count: usize, stands: impl Fn(usize) -> bool, mut run: impl FnMut(usize, usize)) {
-    let mut from = None;
-    for index in 0..=count {
-        match (from, index < count && stands(index)) {
-            (None, true) => from = Some(index),
-            (Some(start), false) => {
-                run(start, index);
-                from = None;
-            }
-            _ => {}
+/// The walls on the lines before and after so many rows of cells: where one side is solid and the other is not.
+fn edges(rows: usize, cells: usize, is_solid: impl Fn(Option<usize>, usize) -> bool) -> BitRows {
+    let mut walls = BitRows::new(rows + 1, cells);
+    for line in 0..=rows {
+        for cell in 0..cells {
+            let stands = is_solid(line.checked_sub(1), cell) != is_solid(Some(line), cell);
+            walls.set(line, cell, stands);
         }
     }
+    walls
+}
+
+/// The longest runs of consecutive walls on each line: the line, the first cell and one past the last.
+fn runs(lines: &BitRows) -> Vec<(usize, usize, usize)> {
+    let mut runs = Vec::new();
+    for line in 0..lines.rows() {
+        let mut from = None;
+        // Past the last cell nothing stands.
+        for cell in 0..=lines.length() {
+            match (from, lines.get(line, cell)) {
+                (None, true) => from = Some(cell),
+                (Some(start), false) => {
+                    runs.push((line, start, cell));
+                    from = None;
+                }
+                _ => {}
+            }
+        }
+    }
+    runs
 }

@@ -2,7 +2,7 @@
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::{Robot, TurnTranslate};
-use tolman_sim::noise::{Bounded, Fault};
+use tolman_sim::noise::Fault;
 use tolman_sim::robots::{
     CameraPioneer, CameraPioneerConfig, CameraPioneerError, LaserPioneerConfig,
 };
@@ -87,11 +87,11 @@ fn pictures_are_taken_standing_still() {
 #[test]
 fn measurements_are_disturbed_and_stay_between_dark_and_light() {
     let mut config = config();
-    config.image.push(Fault::Bounded(Bounded {
+    config.image.push(Fault::Bounded {
         share: 0.0,
         offset: 0.2,
         steps: 1,
-    }));
+    });
     let mut solo = robot(config, Heading::EAST);
     let mut seen = Vec::new();
     for _ in 0..200 {
@@ -117,15 +117,15 @@ fn a_camera_without_columns_or_reach_is_refused() {
         refuse(|config| config.reach = f64::NAN),
         CameraPioneerError::Camera(_)
     ));
-    let fault = Fault::Bounded(Bounded {
+    let fault = Fault::Bounded {
         share: 0.0,
         offset: 0.1,
         steps: 0,
-    });
+    };
     let mut noisy = config();
     noisy.image.push(fault);
     assert!(matches!(
         CameraPioneer::new(noisy),
-        Err(CameraPioneerError::Fault { index: 0, .. })
+        Err(CameraPioneerError::Fault(error)) if error.index == 0
     ));
 }

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::Robot;
 use tolman_robot::epuck::{MOST_WHEEL_SPEED, TRACK, WHEEL_RADIUS, WheelSpeeds};
-use tolman_sim::noise::{Fault, Slip};
+use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::{ResponseCurve, ResponsePoint};
 use tolman_sim::trace::{Detail, Recording, replay};
@@ -191,7 +191,7 @@ fn encoders_tell_what_the_wheels_turned_not_what_the_body_moved() {
 #[test]
 fn each_wheel_slips_by_itself() {
     let config = EpuckConfig {
-        wheels: vec![Fault::Slip(Slip { share: 0.1 })],
+        wheels: vec![Fault::Slip { share: 0.1 }],
         ..quiet()
     };
     let ahead = WheelSpeeds {
@@ -290,7 +290,7 @@ fn what_is_no_curve_is_refused() {
             .contains("step_us")
     );
     let mut config = quiet();
-    config.wheels.push(Fault::Slip(Slip { share: f64::NAN }));
+    config.wheels.push(Fault::Slip { share: f64::NAN });
     assert!(
         Epuck::new(config)
             .unwrap_err()

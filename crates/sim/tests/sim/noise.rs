@@ -3,9 +3,7 @@
 use tolman_geom::{Heading, Pose};
 use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::{LaserSensing, Robot, TurnTranslate};
-use tolman_sim::noise::{
-    Bias, Bounded, Delay, DropOut, Fault, Faults, Gaussian, Outliers, Quantization, Slip, Stuck,
-};
+use tolman_sim::noise::{Fault, Faults, Gaussian};
 use tolman_sim::robots::{
     ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise,
 };
@@ -27,22 +25,22 @@ fn series(fault: Fault, count: u32) -> Vec<Option<f64>> {
 #[test]
 fn each_fault_does_what_it_says() {
     let biased = series(
-        Fault::Bias(Bias {
+        Fault::Bias {
             scale: 2.0,
             offset: 0.5,
-        }),
+        },
         2,
     );
     assert_eq!(biased, [Some(2.5), Some(4.5)]);
-    let rounded = series(Fault::Quantization(Quantization { step: 2.0 }), 4);
+    let rounded = series(Fault::Quantization { step: 2.0 }, 4);
     assert_eq!(rounded, [Some(2.0), Some(2.0), Some(4.0), Some(4.0)]);
-    let late = series(Fault::Delay(Delay { steps: 2 }), 4);
+    let late = series(Fault::Delay { steps: 2 }, 4);
     assert_eq!(late, [None, None, Some(1.0), Some(2.0)]);
     let stuck = series(
-        Fault::Stuck(Stuck {
+        Fault::Stuck {
             probability: 1.0,
             steps: 2,
-        }),
+        },
         5,
     );
     assert_eq!(
@@ -51,11 +49,11 @@ fn each_fault_does_what_it_says() {
     );
 
     let held = series(
-        Fault::Bounded(Bounded {
+        Fault::Bounded {
             share: 0.1,
             offset: 0.0,
             steps: 3,
-        }),
+        },
         300,
     );
     let factors: Vec<f64> = (1..)
@@ -72,16 +70,16 @@ fn each_fault_does_what_it_says() {
     assert!((1.08..=1.1).contains(&high), "{high}");
 
     let count = 4000;
-    let missing = series(Fault::DropOut(DropOut { probability: 0.25 }), count);
+    let missing = series(Fault::DropOut { probability: 0.25 }, count);
     let missing = missing.iter().filter(|value| value.is_none()).count();
     assert!((900..1100).contains(&missing), "{missing}");
 
-    let outliers = Outliers {
+    let outliers = Fault::Outliers {
         probability: 0.1,
         low: -2.0,
         high: -1.0,
     };
-    let out = series(Fault::Outliers(outliers), count);
+    let out = series(outliers, count);
     let out = out
         .iter()
         .flatten()
@@ -95,7 +93,7 @@ fn each_fault_does_what_it_says() {
             .map(|(tick, value)| value.unwrap() / f64::from(tick))
             .collect()
     };
-    let slipped = shares(Fault::Slip(Slip { share: 0.1 }));
+    let slipped = shares(Fault::Slip { share: 0.1 });
     assert!(slipped.iter().all(|share| (0.9..1.1).contains(share)));
     assert!(slipped.iter().any(|share| *share > 1.08) && slipped.iter().any(|share| *share < 0.92));
     let noisy = shares(Fault::Gaussian(Gaussian::relative(0.1)));
@@ -182,7 +180,7 @@ fn the_same_seed_gives_the_same_bits_and_another_others() {
 #[test]
 fn a_further_consumer_shifts_no_other() {
     let plain = drive(noisy(), 5);
-    let dropping = Fault::DropOut(DropOut { probability: 0.5 });
+    let dropping = Fault::DropOut { probability: 0.5 };
     let faults = LaserPioneerFaults {
         scan: vec![Fault::Gaussian(Gaussian::absolute(0.1)), dropping],
         ..LaserPioneerFaults::default()
@@ -250,7 +248,7 @@ fn numbers_without_sense_are_refused() {
     assert!(field(with(&|config| config.turn_per_step = f64::INFINITY)).contains("turn_per_step"));
     assert!(field(with(&|config| config.scan_noise.absolute_sd = -0.1)).contains("scan_noise"));
     assert!(field(with(&|config| config.step_us = 0)).contains("step_us"));
-    let dropping = Fault::DropOut(DropOut { probability: 1.5 });
+    let dropping = Fault::DropOut { probability: 1.5 };
     let error = field(with(&|config| config.faults.compass.push(dropping)));
     assert!(
         error.contains("faults.compass") && error.contains("probability"),

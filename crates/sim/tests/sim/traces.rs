@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use tolman_geom::{Heading, Pose};
 use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::TurnTranslate;
-use tolman_sim::noise::{Delay, Fault, Gaussian, Stuck};
+use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise};
 use tolman_sim::trace::{Detail, Recording, ReplayError, replay};
 use tolman_sim::{CorridorSize, Door, DoorState, Material, RobotId, World};
@@ -25,11 +25,11 @@ fn robot() -> LaserPioneer {
         scan_noise: noise,
         compass_noise: noise,
         faults: LaserPioneerFaults {
-            compass: vec![Fault::Delay(Delay { steps: 2 })],
-            scan: vec![Fault::Stuck(Stuck {
+            compass: vec![Fault::Delay { steps: 2 }],
+            scan: vec![Fault::Stuck {
                 probability: 0.1,
                 steps: 3,
-            })],
+            }],
             ..LaserPioneerFaults::default()
         },
         ..LaserPioneerConfig::noiseless()

@@ -1,8 +1,7 @@
 use core::f64::consts::TAU;
 
 use tolman_control::epuck::{
-    Alignment, ForwardConfig, KeepOffConfig, MeetPointConfig, PilotConfig, RangeCurve,
-    SegmentConfig,
+    Alignment, ForwardConfig, KeepOff, MeetPointConfig, PilotConfig, RangeCurve, SegmentConfig,
 };
 
 /// What of an e-puck has to be measured before it can be driven.
@@ -73,7 +72,7 @@ impl WalkerConfig {
                 turn_tolerance: EXACT,
                 curve,
                 forward: ForwardConfig::for_width(width),
-                keep_off: KeepOffConfig::ours(),
+                keep_off: KeepOff::ours(),
             },
             alignment: Alignment::Mounts,
             segments: SegmentConfig::cut(),
