@@ -1,4 +1,4 @@
-use super::counts::Expected;
+use super::Expected;
 
 /// How constant something is that may come and go, as a door that is shut and opened: when it was last looked for, whether it was
 /// there, and how often that had changed.

@@ -3,12 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::Point;
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 
-use super::error::StepError;
-use super::ids::PlaceId;
-use super::map::Diktiometry;
-use super::observation::Move;
-use super::observer::Observer;
-use super::track::Track;
+use super::{Diktiometry, Move, Observer, PlaceId, StepError, Track};
 
 /// An observer works on a log as on a robot: its observation is a [`Move`].
 ///

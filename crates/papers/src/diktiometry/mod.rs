@@ -1,5 +1,6 @@
 //! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how a robot that walks an office learns its map.
 
+mod ablations;
 pub mod drawing;
 mod figures;
 mod replay;
@@ -15,6 +16,7 @@ use tolman_experiment::{
 };
 use tolman_replay::Replay;
 
+pub use ablations::{ABLATIONS, Change};
 use settings::{Rows, Setting, Subject, Trial};
 
 /// The experiment, ready to run.

@@ -5,8 +5,9 @@ use alloc::sync::Arc;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
-use tolman_maps::diktiometry::{Ablation, Config};
+use tolman_maps::diktiometry::Config;
 
+use super::ablations::{ABLATIONS, Change};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
@@ -171,18 +172,18 @@ fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
 pub(super) const ABLATION: &str = "ablation";
 
 fn ablations(office: &Arc<Office>) -> Vec<Setting> {
-    let setting = |ablation: Ablation| {
+    let setting = |(row, change): (&'static str, Change)| {
         let mut config = SurveyConfig::paper(office, 1000);
         config.heed = HEED;
-        (ablation.change)(&mut config.mapper);
+        change(&mut config.mapper);
         Setting {
-            row: ablation.name,
+            row,
             office: Arc::clone(office),
             config,
             subject: Subject::Map,
         }
     };
-    Ablation::ALL.into_iter().map(setting).collect()
+    ABLATIONS.map(setting).into()
 }
 
 /// A maze of MSLST as that paper has it, with that paper's robot.

@@ -3,10 +3,7 @@ use alloc::vec::Vec;
 
 use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use crate::diktiometry::config::{Rotation, SignatureKind};
-use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::path_graph::PathGraph;
-use crate::diktiometry::signature::Signature;
+use crate::diktiometry::{PathGraph, PlaceId, Rotation, Signature, SignatureKind};
 
 /// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
 /// marking each signature found at the offset implied by the column match. When enough of a database signature's
@@ -127,7 +124,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::diktiometry::map::{Diktiometry, Site};
+    use crate::diktiometry::Diktiometry;
 
     const ROWS: usize = 2;
     const COLUMNS: usize = 7;
@@ -160,7 +157,7 @@ mod tests {
                 })
             };
             for view in views.iter().map(signature) {
-                let place = map.new_place(Site::OwnFrame);
+                let place = map.found_place();
                 index.insert(place, &view, &kind);
                 if alike(&view) {
                     expected.push(place);
