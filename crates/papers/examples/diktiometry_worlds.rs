@@ -17,7 +17,7 @@ mod walk;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
+    GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
 };
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::{ABLATIONS, Change};

@@ -1,13 +1,12 @@
 //! CPM's e-puck as the robot of a diktiometry: its layers 0 and 1 drive from one junction or dead end to the next, which are the places;
 //! encoders with headings trued up by the walls are its odometry, a sweep is what a place looks like.
 
-use alloc::collections::BTreeMap;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use thiserror::Error;
 use tolman_control::epuck::{Profile, RangeCurveError};
 use tolman_control::heading_of;
-use tolman_geom::{Heading, IntervalError, Point, PointBox, Pose, Vector};
+use tolman_geom::{Heading, IntervalError, PointBox, Pose, Vector};
 use tolman_maps::diktiometry::{
     ActionKind, Config, Percepts, Rotation, Signature, SignatureError, SignatureKind,
 };
@@ -17,7 +16,7 @@ use tolman_systems::diktiometry::{
     Arrival, MapError, MappedMove, Mapping, Planner, RoutineOutcome, Rover,
 };
 
-use super::office::{PlaceKind, TruePlace};
+use super::office::{Places, TruePlace, least_distance};
 use super::score::{MapScore, Visit, score};
 use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, epuck, placed, walker_config};
 use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
@@ -133,7 +132,7 @@ pub fn survey_maze(
 ) -> Result<EpuckSurvey, EpuckSurveyError> {
     let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
-    let mapper = config.mapper(separation(&truth, corridor_width));
+    let mapper = config.mapper(least_distance(&truth).unwrap_or(corridor_width));
     let mut mapping = Mapping::begin(&mut rover, mapper)?;
     let mut planner = Planner::new(config.heed);
     let mut rng = stream(seed, 1);
@@ -292,46 +291,30 @@ fn value_at(profile: &Profile, bearing: f64) -> f64 {
 }
 
 fn direction_of(heading: Heading) -> Direction {
-    let quarters = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
-    match quarters % 4 {
-        0 => Direction::East,
-        1 => Direction::North,
-        2 => Direction::West,
-        _ => Direction::South,
-    }
+    let quarters = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as usize;
+    let turning = [
+        Direction::East,
+        Direction::North,
+        Direction::West,
+        Direction::South,
+    ];
+    turning[quarters % 4]
 }
 
 /// The junctions, dead ends, start and goals of a maze and where their ways lead, by the number of their cell.
-fn true_places(maze: &Maze, world: &World) -> BTreeMap<u32, TruePlace> {
+fn true_places(maze: &Maze, world: &World) -> Places {
     let fragments = TrueFragments::of(maze);
     let site = |cell: Cell| maze.grid().index(cell) as u32;
-    let mut places = BTreeMap::new();
-    for (cell, ..) in fragments.ways() {
+    let places = fragments.ways().map(|(cell, ..)| {
         let leads = |way| fragments.way(cell, heading_of(way)).map(|way| site(way.to));
         let place = TruePlace {
             site: site(cell),
-            kind: PlaceKind::Corner,
             position: world.cell_centre(cell),
             ways: Direction::ALL.map(leads),
         };
-        places.insert(site(cell), place);
-    }
-    places
-}
-
-/// The least distance between two places, m, which the mapper is told as it is in offices.
-fn separation(places: &BTreeMap<u32, TruePlace>, corridor_width: f64) -> f64 {
-    let positions: Vec<Point> = places.values().map(|place| place.position).collect();
-    let pairs = positions
-        .iter()
-        .enumerate()
-        .flat_map(|(index, a)| positions[..index].iter().map(move |b| (a - b).norm()));
-    let least = pairs.fold(f64::INFINITY, f64::min);
-    if least.is_finite() {
-        least
-    } else {
-        corridor_width
-    }
+        (site(cell), place)
+    });
+    places.collect()
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to};
 
-use super::office::TruePlace;
+use super::office::{Places, leads};
+use super::score::share;
 
 /// Where a way led.
 #[derive(Clone, Copy, Debug)]
@@ -63,16 +64,11 @@ impl Memory {
     }
 
     /// The share of the ways it takes to be there that lead where it says.
-    pub(super) fn precision(&self, truth: &BTreeMap<u32, TruePlace>) -> f64 {
-        let leads = |((site, direction), to): &((u32, Direction), u32)| {
-            let place = truth.get(site);
-            place.and_then(|place| place.ways[direction.index()]) == Some(*to)
-        };
-        let right = self.ways().filter(leads).count();
-        match self.ways().count() {
-            0 => 1.0,
-            all => right as f64 / all as f64,
-        }
+    pub(super) fn precision(&self, truth: &Places) -> f64 {
+        let right = self
+            .ways()
+            .filter(|(way, to)| leads(truth, *way) == Some(*to));
+        share(right.count(), self.ways().count())
     }
 
     /// The fewest moves from one site to another, if it knows a way.

@@ -87,7 +87,7 @@ impl Watch {
             samples: Vec::new(),
         };
         let mut watch = Self {
-            start: survey.start(),
+            start: survey.past().start,
             home: survey.observer().place(),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),

@@ -48,20 +48,13 @@ impl Setting {
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Row<'a> {
-            robot: &'a SurveyorConfig,
-            mapper: &'a Config,
-            heed: f64,
-            moves: u32,
-            door_period: u32,
+            #[serde(flatten)]
+            survey: &'a SurveyConfig,
             maze: String,
             furniture: &'a OfficeConfig,
         }
         Row {
-            robot: &self.config.robot,
-            mapper: &self.config.mapper,
-            heed: self.config.heed,
-            moves: self.config.moves,
-            door_period: self.config.door_period,
+            survey: &self.config,
             maze: self.office.maze().to_string(),
             furniture: self.office.config(),
         }

@@ -1,7 +1,6 @@
 use alloc::collections::BTreeMap;
 use alloc::format;
 
-use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{Action, Config, Observer, PlaceId};
 use tolman_maze::Direction;
@@ -11,6 +10,7 @@ use tolman_robot::{Goal, Landmark, Task};
 use super::mapping::{MapError, Mapping};
 use super::planner::Planner;
 use super::rover::Rover;
+use crate::stream;
 
 /// Chooses the next move of a task by the map of a rover. It knows no robot.
 #[derive(Clone, Debug)]
@@ -73,14 +73,12 @@ const WALK_STREAM: u64 = 1;
 
 impl Guide {
     pub(super) fn new(observer: Option<Observer>, heed: f64, seed: u64) -> Self {
-        let mut walk = ChaCha8Rng::seed_from_u64(seed);
-        walk.set_stream(WALK_STREAM);
         Self {
             mapping: observer.map(Mapping::of),
             whereabouts: Whereabouts::Unknown,
             under_way: None,
             planner: Planner::new(heed),
-            walk,
+            walk: stream(seed, WALK_STREAM),
             landmarks: BTreeMap::new(),
         }
     }
@@ -208,36 +206,24 @@ impl Guide {
             // It was set down and takes itself to be there: a move will tell.
             return self.wander();
         }
-        match first_step(observer, to) {
-            Some(direction) => {
-                self.planner.drop_script();
-                Next::Go(direction)
-            }
-            None => give_up(&format!(
-                "no way is known from place {} to place {}",
-                from.0, to.0
-            )),
-        }
+        let Some(direction) = first_step(observer, to) else {
+            let (from, to) = (from.0, to.0);
+            return give_up(&format!("no way is known from place {from} to place {to}"));
+        };
+        self.planner.drop_script();
+        Next::Go(direction)
     }
 
     /// Follows the plan to where a landmark was sensed, and explores where that is not known.
     fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
-        let place = self.place_of(landmark);
-        let observer = self.observer();
-        match (place, observer) {
-            // It is not where it was.
-            (Some(place), Some(observer))
-                if place == observer.place() && here != Some(landmark) =>
-            {
+        if let (Some(place), Some(observer)) = (self.place_of(landmark), self.observer()) {
+            if place == observer.place() && here != Some(landmark) {
+                // It is not where it was.
                 self.landmarks.remove(&landmark);
+            } else if let Some(direction) = first_step(observer, place) {
+                self.planner.drop_script();
+                return Next::Go(direction);
             }
-            (Some(place), Some(observer)) => {
-                if let Some(direction) = first_step(observer, place) {
-                    self.planner.drop_script();
-                    return Next::Go(direction);
-                }
-            }
-            _ => {}
         }
         if self.observer().is_some_and(is_explored) {
             return give_up("the landmark is at no place that it can reach");

@@ -4,7 +4,8 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::Heading;
 
-use super::corridor::{Around, Gauge};
+use super::corridor::Around;
+use super::routine_config::RoutineConfig;
 
 /// How far the robot stands from the middle of a place, m.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,7 @@ const WALL: f64 = 0.4;
 ///
 /// Only distances to walls and corners are used, which no error of the compass changes: two corners
 /// that are equally far say that one stands between them.
-pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: Gauge) -> Offset {
+pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: &RoutineConfig) -> Offset {
     let nearest =
         |quarters: f64, spread: f64| around.nearest(ahead.turned(quarters * FRAC_PI_2), spread);
     let [front, left, back, right] = [0.0, 1.0, 2.0, 3.0].map(|quarter| nearest(quarter, WALL));
@@ -50,7 +51,7 @@ pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: Gauge) -> Offset
 
 /// Returns how far the robot stands towards the first of two opposite walls, from the ranges to
 /// both. Of each side it takes the range to its wall and to its far and near corner.
-fn axis(gauge: Gauge, [plus, minus]: [f64; 2], sides: [(f64, f64, f64); 2]) -> f64 {
+fn axis(gauge: &RoutineConfig, [plus, minus]: [f64; 2], sides: [(f64, f64, f64); 2]) -> f64 {
     let half = gauge.half();
     // Where both ends of an axis are open, the corners beside an open side tell; a doorway has none.
     let between = |far: f64, near: f64| (far * far - near * near) / (4.0 * half);

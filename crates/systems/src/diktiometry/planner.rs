@@ -70,10 +70,8 @@ impl Planner {
             && heeds
             && let Some(best) = observer.opportunities().into_iter().next()
         {
-            let known = best
-                .script
-                .iter()
-                .filter_map(|action| Direction::ALL.get(action.0 as usize));
+            let known = best.script.iter();
+            let known = known.filter_map(|action| Direction::ALL.get(action.0 as usize));
             self.script = known.copied().collect();
             reason = Reason::Advice(best);
         }
@@ -83,10 +81,8 @@ impl Planner {
             _ => {
                 self.script.clear();
                 let direction = *open.get(chosen)?;
-                Some(Decision {
-                    direction,
-                    reason: Reason::Walk,
-                })
+                let reason = Reason::Walk;
+                Some(Decision { direction, reason })
             }
         }
     }
