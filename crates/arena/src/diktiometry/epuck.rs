@@ -8,16 +8,13 @@ use tolman_control::epuck::{Profile, RangeCurveError};
 use tolman_control::heading_of;
 use tolman_geom::{Heading, IntervalError, PointBox, Pose, Vector};
 use tolman_maps::diktiometry::{
-    ActionKind, Config, Percepts, Rotation, Signature, SignatureError, SignatureKind,
+    ActionKind, Config, Outcome, Percepts, Rotation, Signature, SignatureError, SignatureKind,
 };
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::{StepError, World};
-use tolman_systems::diktiometry::{
-    Arrival, MapError, MappedMove, Mapping, Planner, RoutineOutcome, Rover,
-};
+use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Mapping, Planner, Rover};
 
-use super::office::{Places, TruePlace, least_distance};
-use super::score::{MapScore, Visit, score};
+use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
 use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, epuck, placed, walker_config};
 use tolman_systems::cpm::{HeadingBy, Walk, WalkError, Walker};
 use tolman_systems::stream;
@@ -141,9 +138,8 @@ pub fn survey_maze(
         place: mapping.observer().place(),
     };
     let mut visits = vec![visit(&rover, &mapping)];
-    let (mut gone, mut moves, mut bounded) = (Vec::new(), 0, 0);
-    let mut trouble = None;
-    while moves < config.moves {
+    let (mut gone, mut bounded, mut trouble) = (Vec::new(), 0, None);
+    for _ in 0..config.moves {
         let Some(decision) = planner.choose(mapping.observer(), mapping.exits(), &mut rng) else {
             trouble = Some("no way leads on".to_owned());
             break;
@@ -157,7 +153,6 @@ pub fn survey_maze(
             }
             Err(error) => return Err(error.into()),
         };
-        moves += 1;
         let truly = rover.truth().position - before;
         bounded += u32::from(arrival.moved.contains(truly.into()));
         gone.push((site, decision.direction));
@@ -166,7 +161,7 @@ pub fn survey_maze(
     let paths = &mapping.observer().map().paths;
     Ok(EpuckSurvey {
         score: score(paths, &visits, &gone, &truth),
-        moves,
+        moves: gone.len() as u32,
         bounded,
         trouble,
     })
@@ -233,11 +228,7 @@ impl EpuckRover {
     }
 
     /// What there is at the place it came to.
-    fn arrival(
-        &mut self,
-        outcome: RoutineOutcome,
-        moved: PointBox,
-    ) -> Result<Arrival, EpuckRoverError> {
+    fn arrival(&mut self, outcome: Outcome, moved: PointBox) -> Result<Arrival, EpuckRoverError> {
         let profile = self.walker.look_around()?;
         let values = (0..COLUMNS).map(|column| {
             let east = column as f64 * TAU / COLUMNS as f64;
@@ -256,12 +247,12 @@ impl Rover for EpuckRover {
     type Error = EpuckRoverError;
 
     fn look(&mut self) -> Result<Arrival, EpuckRoverError> {
-        self.arrival(RoutineOutcome::Completed, PointBox::ORIGIN)
+        self.arrival(Outcome::Arrived, PointBox::ORIGIN)
     }
 
     fn go(&mut self, direction: Direction) -> Result<Arrival, EpuckRoverError> {
         let Some(branch) = self.ways[direction.index()] else {
-            return self.arrival(RoutineOutcome::Blocked, PointBox::ORIGIN);
+            return self.arrival(Outcome::Blocked, PointBox::ORIGIN);
         };
         let (from, driven) = (self.walker.pose(), self.walker.driven());
         match self.walker.walk(branch, 0, None)? {
@@ -276,7 +267,7 @@ impl Rover for EpuckRover {
         let moved = Vector::new(cos * moved.x - sin * moved.y, sin * moved.x + cos * moved.y);
         self.orient();
         let moved = PointBox::about(moved.into(), margin)?;
-        self.arrival(RoutineOutcome::Completed, moved)
+        self.arrival(Outcome::Arrived, moved)
     }
 }
 

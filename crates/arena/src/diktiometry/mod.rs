@@ -28,3 +28,7 @@ pub use score::{Isomorphism, MapScore, Visit, score};
 pub use survey::{Drawn, Past, PlanTrial, RunError, Survey, SurveyConfig, Surveyed, mapper};
 pub use survey_file::{SurveyFile, SurveyFileError};
 pub use surveyor_config::{Sight, SurveyorConfig};
+
+use memory::Memory;
+use office::{Places, leads, least_distance};
+use score::share;

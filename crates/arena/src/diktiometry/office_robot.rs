@@ -5,8 +5,7 @@ use tolman_sim::robots::{CameraPioneer, CameraPioneerError};
 use tolman_sim::{DoorError, DoorState, PlaceError, Solo, StepError};
 use tolman_systems::diktiometry::{RoutineConfigError, Surveyor};
 
-use super::office::Office;
-use super::surveyor_config::{Sight, SurveyorConfig};
+use super::{Office, Sight, SurveyorConfig};
 
 /// A simulated Pioneer with a camera in an [`Office`], which keeps where it truly was.
 #[derive(Debug)]
@@ -117,10 +116,10 @@ pub fn surveyor(
 mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use tolman_maps::diktiometry::Signature;
+    use tolman_maps::diktiometry::{Outcome, Signature};
     use tolman_maze::Direction;
     use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
-    use tolman_systems::diktiometry::{Arrival, RoutineOutcome, Rover};
+    use tolman_systems::diktiometry::{Arrival, Rover};
 
     use super::super::office::{OfficeConfig, TruePlace, blocks};
     use super::*;
@@ -159,8 +158,8 @@ mod tests {
             let arrival = rover.go(direction).unwrap();
             let way = places[&at].ways[direction.index()];
             let expected = match way {
-                Some(_) => RoutineOutcome::Completed,
-                None => RoutineOutcome::Blocked,
+                Some(_) => Outcome::Arrived,
+                None => Outcome::Blocked,
             };
             assert_eq!(
                 arrival.outcome, expected,

@@ -6,7 +6,7 @@ use core::cmp::Reverse;
 use tolman_maps::diktiometry::{PathGraph, PlaceId};
 use tolman_maze::Direction;
 
-use super::office::{Places, leads};
+use super::{Places, leads};
 
 /// Where the robot truly was while the map had it at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

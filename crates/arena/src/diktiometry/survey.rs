@@ -4,20 +4,17 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{Config, Observer, PlaceId, StepReport};
+use tolman_maps::diktiometry::{Config, Observer, Outcome, PlaceId, StepReport};
 use tolman_maze::Direction;
 use tolman_sim::{DoorState, StepError};
 use tolman_systems::diktiometry::{
-    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineError, RoutineOutcome,
-    aligned_signatures,
+    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineError, aligned_signatures,
 };
 
-use super::errors::MoveError;
-use super::memory::Memory;
-use super::office::{Office, Places, leads};
-use super::office_robot::{OfficeRobot, OfficeSurveyor, SurveyError, surveyor};
-use super::score::{MapScore, Visit, score};
-use super::surveyor_config::{Sight, SurveyorConfig};
+use super::{
+    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, Places, Sight, SurveyError,
+    SurveyorConfig, Visit, leads, score, surveyor,
+};
 use tolman_systems::stream;
 
 /// Everything a run depends on but the office and the seed.
@@ -281,7 +278,7 @@ impl<'a> Survey<'a> {
             gone.map_err(|source| RunError::BrokeOff { at: here, source })?;
         let from = self.site;
         self.site = self.true_site(here)?;
-        if arrival.outcome == RoutineOutcome::Completed {
+        if arrival.outcome == Outcome::Arrived {
             let way = (here - before).norm();
             self.memory.go(from, decision.direction, self.site, way);
             self.past.gone.push((from, decision.direction));

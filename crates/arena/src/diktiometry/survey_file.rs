@@ -6,10 +6,9 @@ use tolman_geom::Point;
 use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
 use tolman_maze::{Direction, MazeError, MazeFile};
 
-use super::office::{Office, OfficeConfig, OfficeError};
-use super::score::Visit;
-use super::survey::{Past, RunError, Survey, SurveyConfig};
-use super::surveyor_config::SurveyorConfig;
+use super::{
+    Office, OfficeConfig, OfficeError, Past, RunError, Survey, SurveyConfig, SurveyorConfig, Visit,
+};
 use tolman_systems::{FileError, MapSystem, Origin};
 
 /// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the

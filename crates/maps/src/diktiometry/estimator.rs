@@ -111,11 +111,8 @@ impl Observer {
                 Culprit::Link
             };
             let known = self.motion(from, excluded.place);
-            contradiction(
-                excluded.place,
-                culprit,
-                known.unwrap_or(PointBox::UNBOUNDED),
-            )
+            let known = known.unwrap_or(PointBox::UNBOUNDED);
+            contradiction(excluded.place, culprit, known)
         });
         let best = choice.matches.first().and_then(|best| best.candidate);
         let strange = best.filter(|_| choice.look == Similarity::Unlike);

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use tolman_geom::PointBox;
 use tolman_planners::{Graph, path_to, steps_from};
 
-use super::{Action, Link, Observer, Opportunities, PlaceId, PlanStep, Use};
+use super::{Action, Link, Observer, PlaceId, PlanStep, Use};
 
 /// An opportunity script: a "short, stereotyped sequence of actions designed to help mapping in particular situations".
 #[derive(Clone, Debug, PartialEq)]
@@ -40,20 +40,22 @@ pub enum OpportunityKind {
 }
 
 impl Opportunity {
-    fn new(kind: OpportunityKind, place: PlaceId, script: Vec<Action>, gain: f64) -> Self {
-        Self {
-            kind,
-            place,
-            cost: script.len() as f64,
-            script,
-            gain,
-        }
-    }
-
     /// What is won per move: the scripts are offered in this order.
     #[must_use]
     pub fn worth(&self) -> f64 {
         self.gain / self.cost
+    }
+}
+
+impl OpportunityKind {
+    fn offer(self, place: PlaceId, script: Vec<Action>, gain: f64) -> Option<Opportunity> {
+        Some(Opportunity {
+            kind: self,
+            place,
+            cost: script.len() as f64,
+            script,
+            gain,
+        })
     }
 }
 
@@ -64,23 +66,15 @@ impl Observer {
     /// The opportunity checker "examines the current mapper state to determine if any scripts are applicable".
     #[must_use]
     pub fn opportunities(&self) -> Vec<Opportunity> {
-        let Opportunities {
-            unknown,
-            priming,
-            shuttle,
-            close_loop,
-            ..
-        } = self.config.opportunities;
-        let confident = self.tracks[0].confidence >= self.config.tracks.high;
+        let used = &self.config.opportunities;
         let scripts = [
-            (unknown == Use::On).then(|| self.go_to_unknown()),
-            (priming == Use::On && confident).then(|| self.prime_pump()),
-            (shuttle == Use::On).then(|| self.shuttle()),
-            (close_loop == Use::On).then(|| self.close_loop()),
+            (used.unknown == Use::On).then(|| self.go_to_unknown()),
+            (used.priming == Use::On).then(|| self.prime_pump()),
+            (used.shuttle == Use::On).then(|| self.shuttle()),
+            (used.close_loop == Use::On).then(|| self.close_loop()),
         ];
         let mut all: Vec<Opportunity> = scripts.into_iter().flatten().flatten().collect();
-        let most = f64::from(self.config.opportunities.reach);
-        all.retain(|script| script.cost <= most);
+        all.retain(|script| script.cost <= f64::from(used.reach));
         all.sort_by(|a, b| {
             let worth = b.worth().total_cmp(&a.worth());
             worth.then(a.kind.cmp(&b.kind)).then(a.place.cmp(&b.place))
@@ -92,15 +86,17 @@ impl Observer {
     /// if `place` is not on the map. O(actions · degree).
     #[must_use]
     pub fn untried(&self, place: PlaceId) -> Vec<Action> {
-        let place = self.map.paths.resolve(place);
+        let Some(place) = self.map.paths.resolve(place) else {
+            return Vec::new();
+        };
         let all = (0..self.config.actions.len() as u32).map(Action);
-        let untried = all.filter(|action| {
-            place.is_some_and(|place| {
-                let mut along = self.map.paths.along(place, *action);
-                self.map.place(place).is_open(*action) && along.next().is_none()
-            })
-        });
-        untried.collect()
+        let untried = |action: &Action| self.is_untried(place, *action);
+        all.filter(untried).collect()
+    }
+
+    fn is_untried(&self, place: PlaceId, action: Action) -> bool {
+        let mut along = self.map.paths.along(place, action);
+        self.map.place(place).is_open(action) && along.next().is_none()
     }
 
     fn go_to_unknown(&self) -> Option<Opportunity> {
@@ -109,15 +105,13 @@ impl Observer {
         let (mut script, place) =
             self.script_to(|place| resolved(place) && !self.untried(place).is_empty())?;
         script.push(*self.untried(place).first()?);
-        Some(Opportunity::new(
-            OpportunityKind::GoToUnknown,
-            place,
-            script,
-            1.0,
-        ))
+        OpportunityKind::GoToUnknown.offer(place, script, 1.0)
     }
 
     fn prime_pump(&self) -> Option<Opportunity> {
+        if self.tracks[0].confidence < self.config.tracks.high {
+            return None;
+        }
         let (from, least) = (self.place(), self.config.least_distance());
         let neighbours = self.map.paths.ways(from).filter_map(|(_, link)| {
             let width = self.width(from, link.to)?;
@@ -127,12 +121,7 @@ impl Observer {
             neighbours.max_by(|(a, one), (b, other)| a.total_cmp(b).then(other.to.cmp(&one.to)))?;
         let gain = (0.5 * width / least).min(1.0);
         let script = vec![link.action];
-        Some(Opportunity::new(
-            OpportunityKind::PrimePump,
-            link.to,
-            script,
-            gain,
-        ))
+        OpportunityKind::PrimePump.offer(link.to, script, gain)
     }
 
     fn shuttle(&self) -> Option<Opportunity> {
@@ -146,12 +135,7 @@ impl Observer {
         }
         let gain = self.width(link.from, link.to)? / self.config.least_distance();
         let script = vec![back, link.action];
-        Some(Opportunity::new(
-            OpportunityKind::Shuttle,
-            link.from,
-            script,
-            gain.min(1.0),
-        ))
+        OpportunityKind::Shuttle.offer(link.from, script, gain.min(1.0))
     }
 
     fn close_loop(&self) -> Option<Opportunity> {
@@ -169,12 +153,7 @@ impl Observer {
         let (_, other) = others.min()?;
         let (script, _) = self.script_to(|place| place == other)?;
         // A place that is one with another saves a place and its links.
-        Some(Opportunity::new(
-            OpportunityKind::CloseLoop,
-            other,
-            script,
-            1.0,
-        ))
+        OpportunityKind::CloseLoop.offer(other, script, 1.0)
     }
 
     /// The actions from here to the nearest place that is a goal, and that place.
@@ -208,13 +187,12 @@ struct Walkable<'a>(&'a Observer);
 
 impl Walkable<'_> {
     fn ways(&self, place: PlaceId) -> impl Iterator<Item = PlanStep> {
-        let Self(Observer { map, config, .. }) = self;
-        let known = map.paths.ways(place).map(|(_, link)| link.step());
-        let back = map.paths.incoming(place).filter_map(move |(_, link)| {
-            let action = config.reverse(link.action)?;
-            let walkable = map.place(place).is_open(action)
-                && map.paths.along(place, action).next().is_none()
-                && self.0.is_proved_by_return(link);
+        let Self(observer) = *self;
+        let paths = &observer.map.paths;
+        let known = paths.ways(place).map(|(_, link)| link.step());
+        let back = paths.incoming(place).filter_map(move |(_, link)| {
+            let action = observer.config.reverse(link.action)?;
+            let walkable = observer.is_untried(place, action) && observer.is_proved_by_return(link);
             let to = link.from;
             walkable.then_some(PlanStep { action, to })
         });

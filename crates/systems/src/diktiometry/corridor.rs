@@ -5,8 +5,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use tolman_geom::Heading;
 use tolman_robot::{Compass, Ranges, Scan};
 
-use super::errors::SenseError;
-use super::routine_config::RoutineConfig;
+use super::{RoutineConfig, SenseError};
 
 impl RoutineConfig {
     /// Returns half a corridor: how far from a wall ahead a robot in the middle of a cell stands.

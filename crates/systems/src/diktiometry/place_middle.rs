@@ -4,8 +4,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_geom::Heading;
 
-use super::corridor::Around;
-use super::routine_config::RoutineConfig;
+use super::{Around, RoutineConfig};
 
 /// How far the robot stands from the middle of a place, m.
 #[derive(Clone, Copy, Debug)]

@@ -3,17 +3,14 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use tolman_control::heading_of;
 use tolman_geom::Heading;
-use tolman_maps::diktiometry::Signature;
+use tolman_maps::diktiometry::{Outcome, Signature};
 use tolman_maze::Direction;
 use tolman_robot::{Compass, Odometry, Ranges, Robot, Rolls, TurnTranslate};
 
-use super::corridor::{Around, Beside, View, compass};
-use super::errors::{RoutineError, SenseError};
-use super::eye::Eye;
-use super::odometer::Odometer;
-use super::place_middle::{Offset, offset};
-use super::routine_config::{RoutineConfig, RoutineConfigError};
-use super::rover::{Arrival, RoutineOutcome, Rover};
+use super::{
+    Around, Arrival, Beside, Eye, Odometer, Offset, RoutineConfig, RoutineConfigError,
+    RoutineError, Rover, SenseError, View, compass, offset,
+};
 
 /// A robot with the paper's control routines: they follow corridors and end at corners and
 /// doorways, and measure the way.
@@ -185,7 +182,7 @@ where
     }
 
     /// Ends a routine: what the place looks like is taken in standing still.
-    fn arrive(&mut self, outcome: RoutineOutcome) -> Result<Arrival, RoutineError<R::Error>> {
+    fn arrive(&mut self, outcome: Outcome) -> Result<Arrival, RoutineError<R::Error>> {
         self.robot.stop().map_err(RoutineError::Robot)?;
         Ok(Arrival {
             outcome,
@@ -236,7 +233,7 @@ where
 
     fn look(&mut self) -> Result<Arrival, Self::Error> {
         self.odometer.begin();
-        self.arrive(RoutineOutcome::Completed)
+        self.arrive(Outcome::Arrived)
     }
 
     /// Follows the corridor in `direction` to the next corner or doorway: turns there, drives
@@ -247,10 +244,10 @@ where
         let ahead = heading_of(direction);
         self.turn_to(ahead)?;
         if self.config.is_closed(self.view(ahead)?.ahead) {
-            return self.arrive(RoutineOutcome::Blocked);
+            return self.arrive(Outcome::Blocked);
         }
         self.follow(direction)?;
         self.settle(ahead)?;
-        self.arrive(RoutineOutcome::Completed)
+        self.arrive(Outcome::Arrived)
     }
 }

@@ -120,11 +120,8 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
         })
     };
     let (one, other) = before.or_else(after)?;
-    Some(similarity(
-        map.place(one),
-        map.place(other),
-        &config.percepts,
-    ))
+    let [one, other] = [one, other].map(|end| map.place(end));
+    Some(similarity(one, other, &config.percepts))
 }
 
 /// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing there.

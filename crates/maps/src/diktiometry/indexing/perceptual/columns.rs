@@ -43,9 +43,9 @@ impl ColumnIndex {
         } else {
             groups.starts().collect()
         };
+        let trees = self.trees.len();
         for (at, start) in starts.into_iter().enumerate() {
-            let tree = if turned { 0 } else { at };
-            self.trees[tree].insert(Feature {
+            self.trees[at % trees].insert(Feature {
                 values: groups.values(view, start),
                 view: number,
                 column: start as u32,
