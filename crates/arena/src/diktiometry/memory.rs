@@ -62,19 +62,15 @@ impl Memory {
 
     /// The ways that it takes to be there.
     fn ways(&self) -> impl Iterator<Item = ((u32, Direction), u32)> {
-        let met = self
-            .led
-            .keys()
-            .filter(|(site, _)| !self.missed.contains(site));
+        let all = self.led.keys();
+        let met = all.filter(|(site, _)| !self.missed.contains(site));
         met.filter_map(|way| Some((*way, self.end(*way)?)))
     }
 
     /// The share of the ways it takes to be there that lead where it says.
     pub(super) fn precision(&self, truth: &Places) -> f64 {
-        let right = self
-            .ways()
-            .filter(|(way, to)| leads(truth, *way) == Some(*to));
-        share(right.count(), self.ways().count())
+        let is_right = |(way, to): &((u32, Direction), u32)| leads(truth, *way) == Some(*to);
+        share(self.ways().filter(is_right).count(), self.ways().count())
     }
 
     /// The fewest moves from one site to another, if it knows a way.

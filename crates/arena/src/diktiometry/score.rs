@@ -74,9 +74,8 @@ pub fn score(
     }
     let stands_for = taken.iter().filter_map(|(place, sites)| {
         // Of sites that are equally frequent the first.
-        let most = sites
-            .iter()
-            .max_by_key(|(site, count)| (**count, Reverse(**site)));
+        let all = sites.iter();
+        let most = all.max_by_key(|(site, count)| (**count, Reverse(**site)));
         most.map(|(site, _)| (*place, *site))
     });
     let stands_for: BTreeMap<PlaceId, u32> = stands_for.collect();
@@ -109,9 +108,8 @@ pub fn score(
             believed_rightly += usize::from(is_believed);
         }
     }
-    let ways = truth
-        .keys()
-        .flat_map(|site| Direction::ALL.map(|direction| (*site, direction)));
+    let sites = truth.keys();
+    let ways = sites.flat_map(|site| Direction::ALL.map(|direction| (*site, direction)));
     let open: BTreeSet<Way> = ways.filter(|way| leads(*way).is_some()).collect();
     let gone: BTreeSet<Way> = gone.iter().copied().collect();
     let gone: BTreeSet<Way> = gone.intersection(&open).copied().collect();

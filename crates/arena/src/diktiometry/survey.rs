@@ -6,7 +6,7 @@ use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
 use tolman_maps::diktiometry::{Config, Observer, Outcome, PlaceId, StepReport};
 use tolman_maze::Direction;
-use tolman_sim::{DoorState, StepError};
+use tolman_sim::{Bounds, DoorState, StepError};
 use tolman_systems::diktiometry::{
     Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineError, aligned_signatures,
 };
@@ -110,10 +110,8 @@ pub struct Survey<'a> {
 pub struct Drawn {
     /// Its id.
     pub id: u32,
-    /// South-west corner of the box that holds it as seen from the start, m.
-    pub low: Point,
-    /// North-east corner, m.
-    pub high: Point,
+    /// The box that holds it as seen from the start, m.
+    pub bounds: Bounds,
     /// What is known of it, in words.
     pub label: String,
 }
@@ -429,8 +427,10 @@ impl<'a> Survey<'a> {
             let visits = map.paths.place(drawn.place).map_or(0, |place| place.visits);
             Drawn {
                 id: drawn.place.0,
-                low: corner(x.low(), y.low()),
-                high: corner(x.high(), y.high()),
+                bounds: Bounds {
+                    min: corner(x.low(), y.low()),
+                    max: corner(x.high(), y.high()),
+                },
                 label: format!("place {}, {visits} visits", drawn.place.0),
             }
         });

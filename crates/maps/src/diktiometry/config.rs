@@ -387,11 +387,8 @@ impl Config {
     /// [`Direction::ALL`](tolman_maze::Direction::ALL).
     #[must_use]
     pub fn compass_actions() -> Vec<ActionKind> {
-        [2, 3, 0, 1]
-            .map(|reverse| ActionKind {
-                reverse: Some(Action(reverse)),
-            })
-            .to_vec()
+        let reverses = [2, 3, 0, 1].map(|reverse| Some(Action(reverse)));
+        reverses.map(|reverse| ActionKind { reverse }).into()
     }
 
     /// The action that usually leads back, if one does.

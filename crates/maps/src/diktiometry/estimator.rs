@@ -37,7 +37,6 @@ impl Observer {
             let contradictions = self.contradictions(track.id, &projection, &choice);
             report.contradictions.extend(contradictions);
         }
-        let surprise = Surprise::at(&choice, self.rivals);
         for (number, chosen) in choice.matches.iter().enumerate() {
             let landed = if rank == Rank::Best && number == 0 {
                 let contradictions = &mut report.contradictions;
@@ -49,12 +48,10 @@ impl Observer {
             let Some((place, link)) = landed else {
                 continue; // Only the best track may make places.
             };
-            let mut child = Track {
-                place,
-                link,
-                confidence: confidence_after(track.confidence, chosen.matcher, surprise),
-                ..track.clone()
-            };
+            let mut child = track.clone();
+            (child.place, child.link) = (place, link);
+            child.confidence =
+                confidence_after(track.confidence, chosen.matcher, &choice, self.rivals);
             if number > 0 {
                 child.id = self.next_id();
             }
@@ -286,40 +283,17 @@ pub(super) fn trusted_odometry(step: &Move, choice: &Choice, matcher: Matcher) -
 /// The confidence of a track that begins because a place looks like what the robot sees.
 const SUPPOSED: f64 = 0.5;
 
-/// What else speaks against a track.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Surprise {
-    None,
-    /// The place looks different.
-    Look,
-    /// It expected another place.
-    Excluded,
-    /// Other tracks explain the same moves.
-    Rivals,
-}
-
-impl Surprise {
-    fn at(choice: &Choice, rivals: bool) -> Self {
-        match (choice.look, choice.excluded) {
-            (Similarity::Unlike, _) => Self::Look,
-            (Similarity::Alike, Some(_)) => Self::Excluded,
-            (Similarity::Alike, None) if rivals => Self::Rivals,
-            (Similarity::Alike, None) => Self::None,
-        }
-    }
-}
-
 /// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error or looks
 /// strange loses it. A new place
 /// posits one where another place was expected, or where another track needs none.
-fn confidence_after(confidence: f64, matcher: Matcher, surprise: Surprise) -> f64 {
-    match (matcher, surprise) {
-        (_, Surprise::Look) => 0.7 * confidence,
-        (Matcher::Continue, _) => confidence + 0.2 * (1.0 - confidence),
-        (Matcher::NewPlace, Surprise::Excluded) => 0.9 * confidence,
-        (Matcher::NewPlace, Surprise::Rivals) => 0.7 * confidence,
-        (Matcher::Link, _) | (Matcher::NewPlace, Surprise::None) => confidence,
-        (Matcher::Alpha, _) => 0.7 * confidence,
-        (Matcher::Beta, _) => 0.5 * confidence,
+fn confidence_after(confidence: f64, matcher: Matcher, choice: &Choice, rivals: bool) -> f64 {
+    match matcher {
+        _ if choice.look == Similarity::Unlike => 0.7 * confidence,
+        Matcher::Continue => confidence + 0.2 * (1.0 - confidence),
+        Matcher::NewPlace if choice.excluded.is_some() => 0.9 * confidence,
+        Matcher::NewPlace if rivals => 0.7 * confidence,
+        Matcher::Link | Matcher::NewPlace => confidence,
+        Matcher::Alpha => 0.7 * confidence,
+        Matcher::Beta => 0.5 * confidence,
     }
 }

@@ -89,10 +89,7 @@ impl Observer {
     /// [`ReplayError`] if the journal does not fit the configuration.
     pub fn replay(config: Config, journal: &Journal) -> Result<Self, ReplayError> {
         let mut observer = Self::new(config, journal.start.clone())?;
-        observer
-            .journal
-            .distinctions
-            .clone_from(&journal.distinctions);
+        observer.journal.distinctions = journal.distinctions.clone();
         for (number, step) in (1..).zip(&journal.moves) {
             let told = observer.step(step);
             told.map_err(|source| ReplayError::Move { number, source })?;
@@ -127,10 +124,8 @@ impl Observer {
     /// [`UndoError`] if no journal is kept or a place was never made.
     pub fn tell_apart(&mut self, one: PlaceId, other: PlaceId) -> Result<(), UndoError> {
         let paths = &self.map().paths;
-        if let Some(place) = [one, other]
-            .into_iter()
-            .find(|place| paths.place(*place).is_none())
-        {
+        let mut places = [one, other].into_iter();
+        if let Some(place) = places.find(|place| paths.place(*place).is_none()) {
             return Err(UndoError::NoSuchPlace(place));
         }
         let mut journal = self.journal().ok_or(UndoError::NoJournal)?.clone();

@@ -41,13 +41,9 @@ impl Observer {
             }
         }
         // Looks tell more than ever, of places where the robot may never come again, too.
-        if self
-            .map
-            .looks
-            .least_wanted
-            .is_none_or(|least| wanted < least)
-        {
-            self.map.looks.least_wanted = Some(wanted);
+        let least = &mut self.map.looks.least_wanted;
+        if least.is_none_or(|least| wanted < least) {
+            *least = Some(wanted);
             let places = self.map.paths.places();
             let waiting = places.filter(|(_, place)| !place.notes.is_empty());
             hints.near.extend(waiting.map(|(id, _)| id));

@@ -1,3 +1,4 @@
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use tolman_geom::Point;
@@ -72,11 +73,9 @@ fn view(map: &Diktiometry) -> MapView {
         from: link.from.0,
         to: link.to.0,
     });
-    let mut links: Vec<MapLink> = links.collect();
-    links.sort_unstable();
-    links.dedup();
+    let links: BTreeSet<MapLink> = links.collect();
     MapView {
         places: map.paths.places().map(|(id, _)| place(id)).collect(),
-        links,
+        links: links.into_iter().collect(),
     }
 }

@@ -25,9 +25,8 @@ pub(super) fn arrive(
 ) -> (LinkId, Result<(), Excluded>) {
     let Projection { from, action, .. } = *projection;
     let link = map.paths.link_to(from, action, to);
-    map.place_mut(from)
-        .blocked
-        .retain(|blocked| *blocked != action);
+    let blocked = &mut map.place_mut(from).blocked;
+    blocked.retain(|blocked| *blocked != action);
     let taken = Taken {
         link,
         length: length(projection.displacement),
@@ -95,18 +94,15 @@ fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
 /// equal pairs the older.
 pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     loop {
-        let mut closest: Option<(f64, usize, usize)> = None;
-        for (second, b) in estims.iter().enumerate() {
-            for (first, a) in estims[..second].iter().enumerate() {
-                let distance = (a.position - b.position).norm();
-                if distance < 0.5 * separation
-                    && closest.is_none_or(|(least, _, _)| distance < least)
-                {
-                    closest = Some((distance, first, second));
-                }
-            }
-        }
-        let Some((_, first, second)) = closest else {
+        let pairs =
+            (0..estims.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
+        let distance = |first: usize, second: usize| {
+            let between = estims[first].position - estims[second].position;
+            between.norm()
+        };
+        let near = pairs.map(|(first, second)| (distance(first, second), first, second));
+        let near = near.filter(|(distance, ..)| *distance < 0.5 * separation);
+        let Some((_, first, second)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return;
         };
         let b = estims.remove(second);
@@ -132,10 +128,8 @@ pub(super) fn see_exits(map: &mut Diktiometry, place: PlaceId, exits: &Exits, co
     }
     // What is open leads where it always led, or, if it was shut, where it mostly led.
     let here = map.place(place);
-    let open = map
-        .paths
-        .outgoing(place)
-        .filter(|(_, link)| exits.allow(link.action));
+    let outgoing = map.paths.outgoing(place);
+    let open = outgoing.filter(|(_, link)| exits.allow(link.action));
     let told = open.filter(|(id, link)| {
         let alone = map.paths.along(place, link.action).count() == 1;
         let again = !here.exits.allow(link.action);

@@ -61,13 +61,6 @@ impl DiktiometerConfig {
             heed: 0.3,
         }
     }
-
-    /// Sets the probability that a script is begun when one is applicable, 0 … 1.
-    #[must_use]
-    pub const fn with_heed(mut self, heed: f64) -> Self {
-        self.heed = heed;
-        self
-    }
 }
 
 /// Why a [`Diktiometer`] cannot go on.

@@ -28,23 +28,17 @@ pub(super) fn offset(around: Around<'_>, ahead: Heading, gauge: &RoutineConfig) 
     let [front, left, back, right] = [0.0, 1.0, 2.0, 3.0].map(|quarter| nearest(quarter, WALL));
     let [front_left, back_left, back_right, front_right] =
         [0.5, 1.5, 2.5, 3.5].map(|quarter| nearest(quarter, 0.5 * FRAC_PI_2));
+    let beside = [
+        (left, back_left, front_left),
+        (right, back_right, front_right),
+    ];
+    let across = [
+        (front, front_right, front_left),
+        (back, back_right, back_left),
+    ];
     Offset {
-        along: axis(
-            gauge,
-            [front, back],
-            [
-                (left, back_left, front_left),
-                (right, back_right, front_right),
-            ],
-        ),
-        aside: axis(
-            gauge,
-            [left, right],
-            [
-                (front, front_right, front_left),
-                (back, back_right, back_left),
-            ],
-        ),
+        along: axis(gauge, [front, back], beside),
+        aside: axis(gauge, [left, right], across),
     }
 }
 
@@ -59,11 +53,10 @@ fn axis(gauge: &RoutineConfig, [plus, minus]: [f64; 2], sides: [(f64, f64, f64);
         (true, false) => half - plus,
         (false, true) => minus - half,
         (false, false) => {
-            let open = sides
-                .into_iter()
-                .filter(|(side, ..)| !gauge.is_closed(*side));
-            let open: Vec<f64> = open.map(|(_, far, near)| between(far, near)).collect();
-            open.iter().sum::<f64>() / open.len().max(1) as f64
+            let mut open = Vec::from(sides);
+            open.retain(|(side, ..)| !gauge.is_closed(*side));
+            let all = open.iter().map(|(_, far, near)| between(*far, *near));
+            all.sum::<f64>() / open.len().max(1) as f64
         }
     };
     offset.clamp(-0.5 * half, 0.5 * half)

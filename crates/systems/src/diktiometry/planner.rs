@@ -60,10 +60,8 @@ impl Planner {
     ) -> Option<Decision> {
         // As many draws in any case, so that runs that heed and runs that do not walk alike.
         let heeds = rng.random_range(0.0..1.0) < self.heed;
-        let open: Vec<Direction> = Direction::ALL
-            .into_iter()
-            .filter(|direction| exits[direction.index()])
-            .collect();
+        let mut open = Vec::from(Direction::ALL);
+        open.retain(|direction| exits[direction.index()]);
         let chosen = rng.random_range(0..open.len().max(1) as u32) as usize;
         let mut reason = Reason::Script;
         if self.script.is_empty()

@@ -38,13 +38,12 @@ pub(crate) fn search(
             continue; // It was reached by a narrower way.
         }
         let relations = &graph.frames[frame.index()].relations;
-        let met = relations
+        let positions = relations
             .iter()
-            .map(|relation| (relation, ways[relation.to.index()]));
-        let positions = met.filter_map(|(relation, way)| match way {
-            Way::Reached(there) => Some(reached[there as usize].position - relation.position),
-            Way::Unknown | Way::Seen(_) => None,
-        });
+            .filter_map(|relation| match ways[relation.to.index()] {
+                Way::Reached(there) => Some(reached[there as usize].position - relation.position),
+                Way::Unknown | Way::Seen(_) => None,
+            });
         // Ways that exclude each other are told apart elsewhere; here the first counts.
         let both = |a: PointBox, b: PointBox| a.intersection(b).unwrap_or(a);
         let position = positions.reduce(both).unwrap_or(PointBox::ORIGIN);

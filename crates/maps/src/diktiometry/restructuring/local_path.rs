@@ -51,10 +51,10 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
 
 /// Whether the ends of a link of each place may be one place, if the two places are.
 fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bool {
-    let ends = map
-        .related(pair.a, of_a.to)
-        .zip(map.related(pair.b, of_b.to));
-    of_a.to == of_b.to || ends.is_none_or(|(a, b)| (a - b).contains(Point::origin()))
+    let (a, b) = (map.related(pair.a, of_a.to), map.related(pair.b, of_b.to));
+    of_a.to == of_b.to
+        || a.zip(b)
+            .is_none_or(|(a, b)| (a - b).contains(Point::origin()))
 }
 
 /// "If the incoming links can be partitioned into two sets such that the sets' 'images' (the sets of outgoing links taken
@@ -87,9 +87,8 @@ pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Optio
     while let Some(at) = rest.iter().position(|image| agrees(&side, image)) {
         side.push(rest.remove(at));
     }
-    let differ = side
-        .iter()
-        .any(|one| rest.iter().any(|other| one.contradicts(other)));
+    let contradicted = |one: &Image| rest.iter().any(|other| one.contradicts(other));
+    let differ = side.iter().any(contradicted);
     let [weight, others] = [&side, &rest].map(|images| {
         let weights = images.iter().map(Image::weight);
         weights.fold(0, u32::saturating_add)
@@ -146,9 +145,7 @@ impl Image {
     }
 
     fn any(&self, other: &Self, holds: fn(&Taken, &Taken) -> bool) -> bool {
-        let all = other.taken.iter();
-        self.taken
-            .iter()
-            .any(|one| all.clone().any(|two| holds(one, two)))
+        let mut all = self.taken.iter();
+        all.any(|one| other.taken.iter().any(|two| holds(one, two)))
     }
 }

@@ -51,16 +51,13 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
 fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let Pair { a, b, .. } = *pair;
     let paths = &map.paths;
-    let one_origin = paths
-        .incoming(a)
-        .any(|(_, link)| paths.between(link.from, link.action, b).is_some());
-    one_origin
+    let leads = |from, action, to| paths.between(from, action, to).is_some();
+    let mut incoming = paths.incoming(a);
+    incoming.any(|(_, link)| leads(link.from, link.action, b))
         || paths.outgoing(a).any(|(_, link)| {
-            let Some(back) = config.reverse(link.action) else {
-                return false;
-            };
-            let leads_back = |place| paths.between(link.to, back, place).is_some();
-            paths.between(b, link.action, link.to).is_some() && (leads_back(a) || leads_back(b))
+            let back = config.reverse(link.action);
+            let leads_back = |place| back.is_some_and(|back| leads(link.to, back, place));
+            leads(b, link.action, link.to) && (leads_back(a) || leads_back(b))
         })
 }
 

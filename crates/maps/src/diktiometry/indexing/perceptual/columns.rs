@@ -80,9 +80,8 @@ impl ColumnIndex {
             percept.agreement(view, vote.offset as usize, tolerance) >= kind.enough()
         };
         let elected = votes.iter().filter(|vote| agrees(vote));
-        let mut places: Vec<PlaceId> = elected
-            .filter_map(|vote| paths.resolve(self.views[vote.view as usize].place))
-            .collect();
+        let places = elected.map(|vote| self.views[vote.view as usize].place);
+        let mut places: Vec<PlaceId> = places.filter_map(|place| paths.resolve(place)).collect();
         places.sort_unstable();
         places.dedup();
         places
@@ -112,10 +111,8 @@ impl Groups {
     /// The values of the columns from one on, round the circle.
     fn values(&self, view: &Signature, start: usize) -> Vec<f64> {
         let columns = (start..start + self.size).map(|column| column % view.columns());
-        columns
-            .flat_map(|column| view.column(column))
-            .copied()
-            .collect()
+        let values = columns.flat_map(|column| view.column(column));
+        values.copied().collect()
     }
 }
 

@@ -184,12 +184,11 @@ fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
     let turns = [[a, b, c], [b, c, a], [c, a, b]];
-    let longest = turns
-        .iter()
-        .map(|[from, to, _]| side(from, to, columns))
-        .max();
-    let is_longest = move |turn: &Triangle<'_>| Some(side(turn[0], turn[1], columns)) == longest;
-    let told = turns.into_iter().filter(is_longest);
+    let first = move |turn: &Triangle<'_>| side(turn[0], turn[1], columns);
+    let longest = turns.iter().map(first).max();
+    let told = turns
+        .into_iter()
+        .filter(move |turn| Some(first(turn)) == longest);
     told.map(move |turn| feature(turn, columns))
 }
 
