@@ -230,10 +230,8 @@ impl Office {
             position: self.doorway(number),
             ways: Direction::ALL.map(|direction| chart.behind(number, direction)),
         });
-        corners
-            .chain(doorways)
-            .map(|place| (place.site, place))
-            .collect()
+        let all = corners.chain(doorways);
+        all.map(|place| (place.site, place)).collect()
     }
 
     fn site(&self, cell: Cell) -> u32 {

@@ -6,13 +6,15 @@ use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
 use tolman_maps::diktiometry::{Config, Observer, Outcome, PlaceId, StepReport};
 use tolman_maze::Direction;
-use tolman_sim::{Bounds, DoorState, StepError};
+use tolman_sim::robots::CameraPioneerError;
+use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
 use tolman_systems::diktiometry::{
-    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineError, aligned_signatures,
+    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineConfigError, RoutineError,
+    aligned_signatures,
 };
 
 use super::{
-    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, Places, Sight, SurveyError,
+    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, Places, Sight,
     SurveyorConfig, Visit, leads, score, surveyor,
 };
 use tolman_systems::stream;
@@ -145,9 +147,18 @@ pub struct Surveyed {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The robot cannot be built or a doorway not be moved.
-    #[error("the robot cannot begin")]
-    Robot(#[from] SurveyError),
+    /// The configuration is out of its bounds.
+    #[error(transparent)]
+    Config(#[from] RoutineConfigError),
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] CameraPioneerError),
+    /// The robot cannot stand where it is put.
+    #[error("the robot cannot stand there")]
+    Place(#[from] PlaceError),
+    /// There is no such door.
+    #[error("there is no such door")]
+    Door(#[from] DoorError),
     /// Robot or observer cannot begin.
     #[error(transparent)]
     Map(#[from] MapError<RoutineError<StepError>>),

@@ -53,13 +53,8 @@ impl Observer {
         }
         self.relate_lately(track, to, trusted_odometry(step, choice, best.matcher));
         // What looks like another place is no new view of this one: the robot may be there.
-        let looks_elsewhere = |view| {
-            choice.look == Similarity::Unlike
-                && !self
-                    .views
-                    .alike(view, &self.config, &self.map.paths)
-                    .is_empty()
-        };
+        let alike = |view| self.views.alike(view, &self.config, &self.map.paths);
+        let looks_elsewhere = |view| choice.look == Similarity::Unlike && !alike(view).is_empty();
         if let Some(view) = &step.percept {
             let is_new_view = !looks_elsewhere(view);
             if best.candidate.is_none() {

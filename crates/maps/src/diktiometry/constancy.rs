@@ -45,9 +45,8 @@ impl Constancy {
             changes: 0,
         };
         let seen = self.seen.get_or_insert(first);
-        seen.changes = seen
-            .changes
-            .saturating_add(u32::from(seen.outcome != outcome));
+        let changed = u32::from(seen.outcome != outcome);
+        seen.changes = seen.changes.saturating_add(changed);
         seen.outcome = outcome;
         seen.last = now;
     }

@@ -287,13 +287,12 @@ impl PathGraph {
     /// lately, then the older.
     pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
-            let best = self
-                .along(place, link.action)
-                .max_by(|(a, one), (b, other)| {
-                    let chance = self.chance(*a).total_cmp(&self.chance(*b));
-                    let met = one.counts.met().total_cmp(&other.counts.met());
-                    chance.then(met).then(b.cmp(a))
-                });
+            let along = self.along(place, link.action);
+            let best = along.max_by(|(a, one), (b, other)| {
+                let chance = self.chance(*a).total_cmp(&self.chance(*b));
+                let met = one.counts.met().total_cmp(&other.counts.met());
+                chance.then(met).then(b.cmp(a))
+            });
             best.is_some_and(|(best, _)| best == *id)
         })
     }

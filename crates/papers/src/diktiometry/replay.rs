@@ -148,10 +148,8 @@ impl Watch {
         for drawn in map.layout(self.home) {
             let position = self.start + drawn.bounds.middle().coords;
             let id = drawn.place;
-            let node = self
-                .nodes
-                .entry(id)
-                .or_insert_with(|| Node::new(id.0, position, step));
+            let node = self.nodes.entry(id);
+            let node = node.or_insert_with(|| Node::new(id.0, position, step));
             if (latest(node) - position).norm() > STILL {
                 node.moves.pop_if(|moved| moved.step >= step);
                 node.moves.push(NodeMove { step, position });

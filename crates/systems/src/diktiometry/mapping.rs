@@ -124,10 +124,8 @@ impl Mapping {
 
 /// Returns what the rover saw, if the map wants to know.
 fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
-    match config.percepts {
-        Percepts::None => None,
-        Percepts::Signatures(_) => arrival.look.clone(),
-    }
+    let look = arrival.look.as_ref();
+    look.filter(|_| config.percepts != Percepts::None).cloned()
 }
 
 fn exits(arrival: &Arrival) -> Exits {

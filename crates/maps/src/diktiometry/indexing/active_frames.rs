@@ -43,25 +43,21 @@ pub(crate) fn moved(
     here: ActiveFrame,
     cap: usize,
 ) -> Vec<ActiveFrame> {
-    let mut next: Vec<ActiveFrame> = active
-        .iter()
-        .map(|frame| ActiveFrame {
-            frame: frame.frame,
-            robot: frame.robot + displacement,
-        })
-        .collect();
+    let carried = active.iter().map(|frame| ActiveFrame {
+        robot: frame.robot + displacement,
+        ..*frame
+    });
+    let mut next: Vec<ActiveFrame> = carried.collect();
     next.push(here);
-    let neighbours: Vec<ActiveFrame> = next
-        .iter()
-        .flat_map(|frame| {
-            let relations = map.frame(frame.frame).relations.iter();
-            relations.map(|relation| ActiveFrame {
-                frame: relation.to,
-                robot: frame.robot - relation.position,
-            })
+    let around = next.iter().flat_map(|frame| {
+        let relations = map.frame(frame.frame).relations.iter();
+        relations.map(|relation| ActiveFrame {
+            frame: relation.to,
+            robot: frame.robot - relation.position,
         })
-        .filter(|frame| is_relevant(map, frame))
-        .collect();
+    });
+    let neighbours = around.filter(|frame| is_relevant(map, frame));
+    let neighbours: Vec<ActiveFrame> = neighbours.collect();
     next.extend(neighbours);
     next.sort_by_key(|frame| frame.frame);
     // What several ways say of one frame holds together; where they exclude each other, the narrower counts.
