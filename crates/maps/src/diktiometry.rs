@@ -41,7 +41,6 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
-mod ablation;
 mod adapter;
 mod config;
 mod constancy;
@@ -71,7 +70,6 @@ mod signature;
 mod track;
 mod updater;
 
-pub use ablation::Ablation;
 pub use config::{
     ActionKind, Config, ConfigError, GeometricIndexing, GeometricMerge, Identity, Indexing,
     JournalLength, Matching, Opportunities, Order, Percepts, PerceptualIndexing, Restructuring,
@@ -99,3 +97,14 @@ pub use report::{
 };
 pub use signature::{Signature, SignatureError};
 pub use track::{Match, Track};
+
+use counts::{Expected, wilson_upper};
+use estimator::{Rank, trusted_odometry};
+use indexing::{Candidate, Expectation, ViewIndex, expected, moved, plies};
+use looks::Similarity;
+use matching::{Choice, Situation, Traversal, choose, remember, share_a_view, similarity};
+use opportunities::steps_along;
+use projector::{Projection, between_places, project};
+use reference_graph::{Reached, search};
+use restructuring::{Hints, deposit, elide_place, learn_of_two, restructure, wanted_anywhere};
+use updater::{arrive, block, merge_estims, see_exits};

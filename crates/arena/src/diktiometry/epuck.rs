@@ -1,24 +1,20 @@
 //! CPM's e-puck as the robot of a diktiometry: its layers 0 and 1 drive from one junction or dead end to the next, which are the places;
 //! encoders with headings trued up by the walls are its odometry, a sweep is what a place looks like.
 
-use alloc::collections::BTreeMap;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use thiserror::Error;
 use tolman_control::epuck::{Profile, RangeCurveError};
 use tolman_control::heading_of;
-use tolman_geom::{Heading, IntervalError, Point, PointBox, Pose, Vector};
+use tolman_geom::{Heading, IntervalError, PointBox, Pose, Vector};
 use tolman_maps::diktiometry::{
-    ActionKind, Config, Percepts, Rotation, Signature, SignatureError, SignatureKind,
+    ActionKind, Config, Outcome, Percepts, Rotation, Signature, SignatureError, SignatureKind,
 };
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::{StepError, World};
-use tolman_systems::diktiometry::{
-    Arrival, MapError, MappedMove, Mapping, Planner, RoutineOutcome, Rover,
-};
+use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Mapping, Planner, Rover};
 
-use super::office::{PlaceKind, TruePlace};
-use super::score::{MapScore, Visit, score};
+use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
 use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, Venue, epuck, walker_config};
 use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
 use tolman_systems::stream;
@@ -133,7 +129,7 @@ pub fn survey_maze(
 ) -> Result<EpuckSurvey, EpuckSurveyError> {
     let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
-    let mapper = config.mapper(separation(&truth, corridor_width));
+    let mapper = config.mapper(least_distance(&truth).unwrap_or(corridor_width));
     let mut mapping = Mapping::begin(&mut rover, mapper)?;
     let mut planner = Planner::new(config.heed);
     let mut rng = stream(seed, 1);
@@ -142,9 +138,8 @@ pub fn survey_maze(
         place: mapping.observer().place(),
     };
     let mut visits = vec![visit(&rover, &mapping)];
-    let (mut gone, mut moves, mut bounded) = (Vec::new(), 0, 0);
-    let mut trouble = None;
-    while moves < config.moves {
+    let (mut gone, mut bounded, mut trouble) = (Vec::new(), 0, None);
+    for _ in 0..config.moves {
         let Some(decision) = planner.choose(mapping.observer(), mapping.exits(), &mut rng) else {
             trouble = Some("no way leads on".to_owned());
             break;
@@ -158,7 +153,6 @@ pub fn survey_maze(
             }
             Err(error) => return Err(error.into()),
         };
-        moves += 1;
         let truly = rover.truth().position - before;
         bounded += u32::from(arrival.moved.contains(truly.into()));
         gone.push((site, decision.direction));
@@ -167,7 +161,7 @@ pub fn survey_maze(
     let paths = &mapping.observer().map().paths;
     Ok(EpuckSurvey {
         score: score(paths, &visits, &gone, &truth),
-        moves,
+        moves: gone.len() as u32,
         bounded,
         trouble,
     })
@@ -234,11 +228,7 @@ impl EpuckRover {
     }
 
     /// What there is at the place it came to.
-    fn arrival(
-        &mut self,
-        outcome: RoutineOutcome,
-        moved: PointBox,
-    ) -> Result<Arrival, EpuckRoverError> {
+    fn arrival(&mut self, outcome: Outcome, moved: PointBox) -> Result<Arrival, EpuckRoverError> {
         let profile = self.walker.look_around()?;
         let values = (0..COLUMNS).map(|column| {
             let east = column as f64 * TAU / COLUMNS as f64;
@@ -257,12 +247,12 @@ impl Rover for EpuckRover {
     type Error = EpuckRoverError;
 
     fn look(&mut self) -> Result<Arrival, EpuckRoverError> {
-        self.arrival(RoutineOutcome::Completed, PointBox::ORIGIN)
+        self.arrival(Outcome::Arrived, PointBox::ORIGIN)
     }
 
     fn go(&mut self, direction: Direction) -> Result<Arrival, EpuckRoverError> {
         let Some(branch) = self.ways[direction.index()] else {
-            return self.arrival(RoutineOutcome::Blocked, PointBox::ORIGIN);
+            return self.arrival(Outcome::Blocked, PointBox::ORIGIN);
         };
         let (from, driven) = (self.walker.pose(), self.walker.driven());
         let walk = self.walker.walk(branch, 0, None)?;
@@ -275,7 +265,7 @@ impl Rover for EpuckRover {
         let moved = Vector::new(cos * moved.x - sin * moved.y, sin * moved.x + cos * moved.y);
         self.orient();
         let moved = PointBox::about(moved.into(), margin)?;
-        self.arrival(RoutineOutcome::Completed, moved)
+        self.arrival(Outcome::Arrived, moved)
     }
 }
 
@@ -290,46 +280,30 @@ fn value_at(profile: &Profile, bearing: f64) -> f64 {
 }
 
 fn direction_of(heading: Heading) -> Direction {
-    let quarters = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
-    match quarters % 4 {
-        0 => Direction::East,
-        1 => Direction::North,
-        2 => Direction::West,
-        _ => Direction::South,
-    }
+    let quarters = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as usize;
+    let turning = [
+        Direction::East,
+        Direction::North,
+        Direction::West,
+        Direction::South,
+    ];
+    turning[quarters % 4]
 }
 
 /// The junctions, dead ends, start and goals of a maze and where their ways lead, by the number of their cell.
-fn true_places(maze: &Maze, world: &World) -> BTreeMap<u32, TruePlace> {
+fn true_places(maze: &Maze, world: &World) -> Places {
     let fragments = TrueFragments::of(maze);
     let site = |cell: Cell| maze.grid().index(cell) as u32;
-    let mut places = BTreeMap::new();
-    for (cell, ..) in fragments.ways() {
+    let places = fragments.ways().map(|(cell, ..)| {
         let leads = |way| fragments.way(cell, heading_of(way)).map(|way| site(way.to));
         let place = TruePlace {
             site: site(cell),
-            kind: PlaceKind::Corner,
             position: world.cell_centre(cell),
             ways: Direction::ALL.map(leads),
         };
-        places.insert(site(cell), place);
-    }
-    places
-}
-
-/// The least distance between two places, m, which the mapper is told as it is in offices.
-fn separation(places: &BTreeMap<u32, TruePlace>, corridor_width: f64) -> f64 {
-    let positions: Vec<Point> = places.values().map(|place| place.position).collect();
-    let pairs = positions
-        .iter()
-        .enumerate()
-        .flat_map(|(index, a)| positions[..index].iter().map(move |b| (a - b).norm()));
-    let least = pairs.fold(f64::INFINITY, f64::min);
-    if least.is_finite() {
-        least
-    } else {
-        corridor_width
-    }
+        (site(cell), place)
+    });
+    places.collect()
 }
 
 #[cfg(test)]

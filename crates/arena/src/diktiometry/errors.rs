@@ -27,21 +27,18 @@ impl MoveError {
             let predicted = track.predicted.and_then(|predicted| predicted.displacement);
             predicted.map(PointBox::middle).map(square)
         });
-        let (mut map, mut covered, mut tracks) = (0.0, 0.0, 0.0);
-        for error in expected {
-            map += error.unwrap_or(odometry);
-            covered += f64::from(u8::from(error.is_some()));
-            tracks += 1.0;
-        }
-        if tracks > 0.0 {
-            (map, covered) = (map / tracks, covered / tracks);
-        } else {
-            map = odometry;
-        }
+        let expected: Vec<Option<f64>> = expected.collect();
+        let tracks = expected.len() as f64;
+        let errors = expected.iter().map(|error| error.unwrap_or(odometry));
+        let covered = expected.iter().flatten().count() as f64;
         Self {
-            map,
+            map: if tracks > 0.0 {
+                errors.sum::<f64>() / tracks
+            } else {
+                odometry
+            },
             odometry,
-            coverage: covered,
+            coverage: covered / tracks.max(1.0),
         }
     }
 }

@@ -5,7 +5,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to};
 
-use super::office::TruePlace;
+use super::{Places, leads, share};
 
 /// Where a way led.
 #[derive(Clone, Copy, Debug)]
@@ -53,47 +53,40 @@ impl Memory {
         }
     }
 
+    /// Where a way leads if it is there, for all it knows.
+    fn end(&self, way: (u32, Direction)) -> Option<u32> {
+        let to = self.led.get(&way)?.site;
+        let is_there = !self.shut.contains(&way) && !self.missed.contains(&to);
+        is_there.then_some(to)
+    }
+
     /// The ways that it takes to be there.
     fn ways(&self) -> impl Iterator<Item = ((u32, Direction), u32)> {
-        let all = self.led.iter().map(|(way, end)| (*way, end.site));
-        all.filter(|(way, to)| {
-            let ends = [way.0, *to].iter().any(|end| self.missed.contains(end));
-            !ends && !self.shut.contains(way)
-        })
+        let all = self.led.keys();
+        let met = all.filter(|(site, _)| !self.missed.contains(site));
+        met.filter_map(|way| Some((*way, self.end(*way)?)))
     }
 
     /// The share of the ways it takes to be there that lead where it says.
-    pub(super) fn precision(&self, truth: &BTreeMap<u32, TruePlace>) -> f64 {
-        let leads = |((site, direction), to): &((u32, Direction), u32)| {
-            let place = truth.get(site);
-            place.and_then(|place| place.ways[direction.index()]) == Some(*to)
-        };
-        let right = self.ways().filter(leads).count();
-        match self.ways().count() {
-            0 => 1.0,
-            all => right as f64 / all as f64,
-        }
+    pub(super) fn precision(&self, truth: &Places) -> f64 {
+        let is_right = |(way, to): &((u32, Direction), u32)| leads(truth, *way) == Some(*to);
+        share(self.ways().filter(is_right).count(), self.ways().count())
     }
 
     /// The fewest moves from one site to another, if it knows a way.
     pub(super) fn plan(&self, from: u32, to: u32) -> Option<Vec<Direction>> {
         let path = path_to(self, from, |site| site == to)?;
-        let hops = path.iter().zip(path.iter().skip(1));
-        hops.map(|(tail, head)| {
-            let mut ways = self.ways_from(*tail);
-            ways.find(|(_, end)| end == head)
-                .map(|(direction, _)| direction)
-        })
-        .collect()
+        let hops = path.windows(2);
+        let directions = hops.map(|hop| {
+            let mut ways = self.ways_from(hop[0]);
+            Some(ways.find(|(_, end)| *end == hop[1])?.0)
+        });
+        directions.collect()
     }
 
     fn ways_from(&self, site: u32) -> impl Iterator<Item = (Direction, u32)> {
-        let ways = Direction::ALL.map(|direction| (site, direction));
-        ways.into_iter().filter_map(|way| {
-            let to = self.led.get(&way)?.site;
-            let there = !self.shut.contains(&way) && !self.missed.contains(&to);
-            there.then_some((way.1, to))
-        })
+        let all = Direction::ALL.into_iter();
+        all.filter_map(move |direction| Some((direction, self.end((site, direction))?)))
     }
 }
 

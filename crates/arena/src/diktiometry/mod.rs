@@ -22,9 +22,13 @@ mod surveyor_config;
 
 pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, EpuckSurveyError, survey_maze};
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
-pub use office::{Office, OfficeConfig, OfficeError, PlaceKind, TruePlace, blocks};
-pub use office_robot::{OfficeRobot, OfficeSurveyor, SurveyError, surveyor};
+pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
+pub use office_robot::{OfficeRobot, OfficeSurveyor, surveyor};
 pub use score::{Isomorphism, MapScore, Visit, score};
 pub use survey::{Drawn, Past, PlanTrial, RunError, Survey, SurveyConfig, Surveyed, mapper};
 pub use survey_file::{SurveyFile, SurveyFileError};
 pub use surveyor_config::{Sight, SurveyorConfig};
+
+use memory::Memory;
+use office::{Places, leads, least_distance};
+use score::share;

@@ -133,23 +133,26 @@ impl Office {
             corridor_width: config.corridor_width,
             wall_thickness: config.wall_thickness,
         };
-        let scale = Scale(config);
         let bare = World::from_maze(maze, &size)?;
-        let mut walls = Vec::new();
-        for wall in bare.walls() {
-            scale.pieces(wall, &mut paint, &mut walls);
-        }
-        for cell in cells.iter().copied() {
-            if config.wall_thickness > 0.0 && maze.is_room(cell) {
-                scale.pillar(cell, &mut paint, &mut walls);
-            }
+        let pieces = bare.walls().iter().map(|wall| config.pieces(wall));
+        let mut outlines: Vec<Vec<Point>> = pieces.collect();
+        if config.wall_thickness > 0.0 {
+            let rooms = cells.iter().filter(|cell| maze.is_room(**cell));
+            outlines.extend(rooms.map(|cell| config.pillar(*cell)));
         }
         for (cell, direction) in &doorways {
-            scale.jambs(*cell, *direction, &mut paint, &mut walls);
+            outlines.extend(config.jambs(*cell, *direction));
         }
+        let stretches = outlines.iter().flat_map(|outline| outline.windows(2));
+        let walls = stretches.map(|ends| Wall {
+            start: ends[0],
+            end: ends[1],
+            material: paint(),
+        });
+        let walls = walls.collect();
         let mut world = World::from_segments(walls)?;
         for (number, (cell, direction)) in doorways.iter().enumerate() {
-            for door in scale.leaves(number, *cell, *direction) {
+            for door in config.leaves(number, *cell, *direction) {
                 world = world.with_door(door)?;
             }
         }
@@ -187,12 +190,7 @@ impl Office {
         if !self.doorways.is_empty() {
             return 0.5 * pitch;
         }
-        let places = self.places(&[]);
-        let distances = places.values().flat_map(|one| {
-            let later = places.range(one.site + 1..);
-            later.map(|(_, other)| (one.position - other.position).norm())
-        });
-        distances.reduce(f64::min).unwrap_or(pitch)
+        least_distance(&self.places(&[])).unwrap_or(pitch)
     }
 
     /// How many doorways there are.
@@ -208,7 +206,7 @@ impl Office {
     #[must_use]
     pub fn doorway(&self, number: usize) -> Point {
         let (cell, direction) = self.doorways[number];
-        Scale(&self.config).between(cell, direction)
+        self.config.between(cell, direction)
     }
 
     /// What is truly there while some doorways are shut, by site: a place at every bend, junction and dead end of the
@@ -223,21 +221,17 @@ impl Office {
         let corners = corners.filter(|cell| chart.is_corner(*cell));
         let corners = corners.map(|cell| TruePlace {
             site: self.site(cell),
-            kind: PlaceKind::Corner,
-            position: Scale(&self.config).middle(cell),
+            position: self.config.middle(cell),
             ways: Direction::ALL.map(|direction| chart.onward(cell, direction)),
         });
         let doorways = (0..self.doorways.len()).filter(|number| !shut.contains(number));
         let doorways = doorways.map(|number| TruePlace {
             site: self.site_of_doorway(number),
-            kind: PlaceKind::Doorway,
             position: self.doorway(number),
             ways: Direction::ALL.map(|direction| chart.behind(number, direction)),
         });
-        corners
-            .chain(doorways)
-            .map(|place| (place.site, place))
-            .collect()
+        let all = corners.chain(doorways);
+        all.map(|place| (place.site, place)).collect()
     }
 
     fn site(&self, cell: Cell) -> u32 {
@@ -281,26 +275,32 @@ pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     maze
 }
 
+/// The places that are truly there, by site.
+pub(super) type Places = BTreeMap<u32, TruePlace>;
+
 /// A place that is truly there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruePlace {
     /// Its number, the same whatever doorways are shut.
     pub site: u32,
-    /// What makes it one.
-    pub kind: PlaceKind,
     /// Where it is, m.
     pub position: Point,
     /// The site that the way north, east, south and west leads to; none where a wall is.
     pub ways: [Option<u32>; 4],
 }
 
-/// What makes a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlaceKind {
-    /// A bend, a junction or the end of a corridor.
-    Corner,
-    /// A narrow passage.
-    Doorway,
+/// Where the way from a site in a direction truly leads.
+pub(super) fn leads(truth: &Places, (site, direction): (u32, Direction)) -> Option<u32> {
+    truth.get(&site)?.ways[direction.index()]
+}
+
+/// The least distance between two places, m; none if there are fewer. O(places²).
+pub(super) fn least_distance(places: &Places) -> Option<f64> {
+    let distances = places.values().flat_map(|one| {
+        let later = places.range(one.site + 1..);
+        later.map(|(_, other)| (one.position - other.position).norm())
+    });
+    distances.reduce(f64::min)
 }
 
 /// An office while some doorways are shut.
@@ -364,90 +364,55 @@ fn unit(direction: Direction) -> Vector {
     Vector::new(f64::from(east), f64::from(north))
 }
 
-/// Raises a painted wall along each stretch of an outline.
-fn raise(outline: &[Point], paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
-    for ends in outline.windows(2) {
-        walls.push(Wall {
-            start: ends[0],
-            end: ends[1],
-            material: paint(),
-        });
-    }
-}
-
-/// Where an office's parts are and how they look.
-#[derive(Clone, Copy)]
-struct Scale<'a>(&'a OfficeConfig);
-
-impl Scale<'_> {
+/// Where an office's parts are.
+impl OfficeConfig {
     /// The middle of a cell.
-    fn middle(self, cell: Cell) -> Point {
-        let along = |index: u16| (f64::from(index) + 0.5) * self.0.pitch();
+    fn middle(&self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.pitch();
         Point::new(along(cell.x), along(cell.y))
     }
 
     /// The middle between a cell and the next.
-    fn between(self, cell: Cell, direction: Direction) -> Point {
-        self.middle(cell) + unit(direction) * (0.5 * self.0.pitch())
+    fn between(&self, cell: Cell, direction: Direction) -> Point {
+        self.middle(cell) + unit(direction) * (0.5 * self.pitch())
     }
 
-    /// Cuts a wall into pieces no longer than a cell and paints each.
-    fn pieces(self, wall: &Wall, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
+    /// The outline of a wall in equal pieces no longer than a cell.
+    fn pieces(&self, wall: &Wall) -> Vec<Point> {
         let along = wall.end - wall.start;
-        let count = libm::ceil(along.norm() / self.0.pitch() - 1e-9).max(1.0) as u32;
-        for piece in 0..count {
-            let at = |index: u32| wall.start + along * (f64::from(index) / f64::from(count));
-            walls.push(Wall {
-                start: at(piece),
-                end: at(piece + 1),
-                material: paint(),
-            });
-        }
+        let count = libm::ceil(along.norm() / self.pitch() - 1e-9).max(1.0) as u32;
+        let at = |index: u32| wall.start + along * (f64::from(index) / f64::from(count));
+        (0..=count).map(at).collect()
     }
 
-    /// A pillar at the north-east corner of a cell, which keeps the corridors beside it apart.
-    fn pillar(self, cell: Cell, paint: &mut impl FnMut() -> Material, walls: &mut Vec<Wall>) {
-        let half = 0.5 * self.0.pitch();
+    /// The outline of a pillar at the north-east corner of a cell, which keeps the corridors beside it apart.
+    fn pillar(&self, cell: Cell) -> Vec<Point> {
+        let half = 0.5 * self.pitch();
         let centre = self.middle(cell) + Vector::new(half, half);
-        let corner = |x: f64, y: f64| centre + Vector::new(x, y) * (0.5 * self.0.wall_thickness);
-        let outline = [
-            (-1.0, -1.0),
-            (1.0, -1.0),
-            (1.0, 1.0),
-            (-1.0, 1.0),
-            (-1.0, -1.0),
-        ];
-        raise(&outline.map(|(x, y)| corner(x, y)), paint, walls);
+        let corner = |x: f64, y: f64| centre + Vector::new(x, y) * (0.5 * self.wall_thickness);
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let outline = corners.into_iter().cycle().take(5);
+        outline.map(|(x, y)| corner(x, y)).collect()
     }
 
     /// What narrows a passage to a doorway: on both sides the outline of a post.
-    fn jambs(
-        self,
-        cell: Cell,
-        direction: Direction,
-        paint: &mut impl FnMut() -> Material,
-        walls: &mut Vec<Wall>,
-    ) {
-        let width = self.0.corridor_width;
+    fn jambs(&self, cell: Cell, direction: Direction) -> [Vec<Point>; 2] {
+        let width = self.corridor_width;
         let (centre, ahead) = (self.between(cell, direction), unit(direction));
-        for side in [unit(direction.left()), unit(direction.right())] {
+        [direction.left(), direction.right()].map(|side| {
             let corner = |across: f64, along: f64| {
-                centre + side * (0.5 * across) + ahead * (0.5 * along * DOORWAY_DEPTH * width)
+                centre + unit(side) * (0.5 * across) + ahead * (0.5 * along * DOORWAY_DEPTH * width)
             };
-            let outline = [
-                corner(width, -1.0),
-                corner(self.0.doorway_width(), -1.0),
-                corner(self.0.doorway_width(), 1.0),
-                corner(width, 1.0),
-            ];
-            raise(&outline, paint, walls);
-        }
+            let doorway = self.doorway_width();
+            let outline = [(width, -1.0), (doorway, -1.0), (doorway, 1.0), (width, 1.0)];
+            outline.map(|(across, along)| corner(across, along)).into()
+        })
     }
 
     /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like a wall from both sides.
-    fn leaves(self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
-        let across = unit(direction.left()) * (0.5 * self.0.corridor_width);
-        let depth = unit(direction) * (0.5 * self.0.wall_thickness);
+    fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
+        let across = unit(direction.left()) * (0.5 * self.corridor_width);
+        let depth = unit(direction) * (0.5 * self.wall_thickness);
         let centre = self.between(cell, direction);
         [("a", centre - depth), ("b", centre + depth)].map(|(leaf, at)| Door {
             name: format!("{number} {leaf}"),

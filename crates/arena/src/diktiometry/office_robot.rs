@@ -1,12 +1,10 @@
-use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::{CameraSensing, Robot, TurnTranslate};
-use tolman_sim::robots::{CameraPioneer, CameraPioneerError};
-use tolman_sim::{DoorError, DoorState, PlaceError, Solo, StepError};
-use tolman_systems::diktiometry::{RoutineConfigError, Surveyor};
+use tolman_sim::robots::CameraPioneer;
+use tolman_sim::{DoorState, Solo, StepError};
+use tolman_systems::diktiometry::Surveyor;
 
-use super::office::Office;
-use super::surveyor_config::{Sight, SurveyorConfig};
+use super::{Office, RunError, Sight, SurveyorConfig};
 
 /// A simulated Pioneer with a camera in an [`Office`], which keeps where it truly was.
 #[derive(Debug)]
@@ -18,35 +16,17 @@ pub struct OfficeRobot {
 /// An [`OfficeRobot`] with its control routines.
 pub type OfficeSurveyor = Surveyor<OfficeRobot, Sight>;
 
-/// Why no robot can survey an office.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SurveyError {
-    /// The configuration is out of its bounds.
-    #[error(transparent)]
-    Config(#[from] RoutineConfigError),
-    /// The robot cannot be built.
-    #[error("the robot cannot be built")]
-    Robot(#[from] CameraPioneerError),
-    /// The robot cannot stand where it is put.
-    #[error("the robot cannot stand there")]
-    Place(#[from] PlaceError),
-    /// There is no such door.
-    #[error("there is no such door")]
-    Door(#[from] DoorError),
-}
-
 impl OfficeRobot {
     /// Returns a robot at `at`, m, that faces north. `seed` is that of all noise.
     ///
     /// # Errors
-    /// [`SurveyError`] if the robot cannot be built or cannot stand there.
+    /// [`RunError`] if the robot cannot be built or cannot stand there.
     pub fn new(
         office: &Office,
         config: &SurveyorConfig,
         at: Point,
         seed: u64,
-    ) -> Result<Self, SurveyError> {
+    ) -> Result<Self, RunError> {
         let pose = Pose::new(at, Heading::NORTH);
         let robot = CameraPioneer::new(config.camera_robot())?;
         let solo = Solo::new(office.world().clone(), robot, pose, seed)?;
@@ -69,8 +49,8 @@ impl OfficeRobot {
     /// Opens or shuts both leaves of doorway `number`.
     ///
     /// # Errors
-    /// [`SurveyError::Door`] if there is none of that number.
-    pub fn set_doorway(&mut self, number: usize, state: DoorState) -> Result<(), SurveyError> {
+    /// [`RunError::Door`] if there is none of that number.
+    pub fn set_doorway(&mut self, number: usize, state: DoorState) -> Result<(), RunError> {
         for leaf in ["a", "b"] {
             let simulation = self.solo.simulation_mut();
             simulation.set_door(&format!("{number} {leaf}"), state)?;
@@ -98,13 +78,13 @@ impl Robot for OfficeRobot {
 /// Returns a robot with its routines at `at`, m, in `office`. `seed` is that of all noise.
 ///
 /// # Errors
-/// [`SurveyError`] if the configuration is out of its bounds or the robot cannot stand there.
+/// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
 pub fn surveyor(
     office: &Office,
     config: &SurveyorConfig,
     at: Point,
     seed: u64,
-) -> Result<OfficeSurveyor, SurveyError> {
+) -> Result<OfficeSurveyor, RunError> {
     let furniture = office.config();
     let routines = config
         .routines(furniture.corridor_width)
@@ -117,10 +97,10 @@ pub fn surveyor(
 mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use tolman_maps::diktiometry::Signature;
+    use tolman_maps::diktiometry::{Outcome, Signature};
     use tolman_maze::Direction;
     use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
-    use tolman_systems::diktiometry::{Arrival, RoutineOutcome, Rover};
+    use tolman_systems::diktiometry::{Arrival, Rover};
 
     use super::super::office::{OfficeConfig, TruePlace, blocks};
     use super::*;
@@ -159,8 +139,8 @@ mod tests {
             let arrival = rover.go(direction).unwrap();
             let way = places[&at].ways[direction.index()];
             let expected = match way {
-                Some(_) => RoutineOutcome::Completed,
-                None => RoutineOutcome::Blocked,
+                Some(_) => Outcome::Arrived,
+                None => Outcome::Blocked,
             };
             assert_eq!(
                 arrival.outcome, expected,

@@ -1,11 +1,12 @@
 //! A learned map held against the truth.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
+use core::cmp::Reverse;
 
 use tolman_maps::diktiometry::{PathGraph, PlaceId};
 use tolman_maze::Direction;
 
-use super::office::TruePlace;
+use super::{Places, leads};
 
 /// Where the robot truly was while the map had it at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,35 +61,27 @@ pub fn score(
     map: &PathGraph,
     visits: &[Visit],
     gone: &[(u32, Direction)],
-    truth: &BTreeMap<u32, TruePlace>,
+    truth: &Places,
 ) -> MapScore {
     // How often each place on the map was each true place.
     let mut taken: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();
     for visit in visits {
         // A place that was elided is not on the map: its visits say nothing of it.
         if let Some(place) = map.resolve(visit.place) {
-            *taken
-                .entry(place)
-                .or_default()
-                .entry(visit.site)
-                .or_default() += 1;
+            let sites = taken.entry(place).or_default();
+            *sites.entry(visit.site).or_default() += 1;
         }
     }
-    let stands_for: BTreeMap<PlaceId, u32> = taken
-        .iter()
-        .filter_map(|(place, sites)| {
-            // Of sites that are equally frequent the first.
-            let most = sites
-                .iter()
-                .max_by_key(|(site, count)| (**count, core::cmp::Reverse(**site)));
-            most.map(|(site, _)| (*place, *site))
-        })
-        .collect();
+    let stands_for = taken.iter().filter_map(|(place, sites)| {
+        // Of sites that are equally frequent the first.
+        let all = sites.iter();
+        let most = all.max_by_key(|(site, count)| (**count, Reverse(**site)));
+        most.map(|(site, _)| (*place, *site))
+    });
+    let stands_for: BTreeMap<PlaceId, u32> = stands_for.collect();
     let all: usize = taken.values().flat_map(BTreeMap::values).sum();
-    let right: usize = taken
-        .iter()
-        .map(|(place, sites)| sites[&stands_for[place]])
-        .sum();
+    let right = taken.iter().map(|(place, sites)| sites[&stands_for[place]]);
+    let right: usize = right.sum();
 
     let mut visited: BTreeMap<u32, usize> = visits.iter().map(|visit| (visit.site, 0)).collect();
     for site in stands_for.values() {
@@ -96,13 +89,9 @@ pub fn score(
     }
     let once = visited.values().filter(|count| **count == 1).count();
 
-    let leads = |way: Way| {
-        truth
-            .get(&way.0)
-            .and_then(|place| place.ways[way.1.index()])
-    };
-    let mut found: Vec<Way> = Vec::new();
-    let mut links = 0;
+    let leads = |way: Way| leads(truth, way);
+    let mut found: BTreeSet<Way> = BTreeSet::new();
+    let (mut links, mut correct) = (0, 0);
     let (mut believed, mut believed_rightly) = (0, 0);
     for (id, link) in map.links() {
         links += 1;
@@ -114,26 +103,17 @@ pub fn score(
         if let (Some(direction), [Some(from), Some(to)]) = (direction, ends)
             && leads((from, direction)) == Some(to)
         {
-            found.push((from, direction));
+            correct += 1;
+            found.insert((from, direction));
             believed_rightly += usize::from(is_believed);
         }
     }
-    let correct = found.len();
-    found.sort_unstable();
-    found.dedup();
-    let has = |way: &Way| found.binary_search(way).is_ok();
-    let ways = || {
-        let places = truth.values();
-        places.flat_map(|place| Direction::ALL.map(|direction| (place.site, direction)))
-    };
-    let open: Vec<Way> = ways().filter(|way| leads(*way).is_some()).collect();
-    let mut gone: Vec<Way> = gone
-        .iter()
-        .copied()
-        .filter(|way| leads(*way).is_some())
-        .collect();
-    gone.sort_unstable();
-    gone.dedup();
+    let sites = truth.keys();
+    let ways = sites.flat_map(|site| Direction::ALL.map(|direction| (*site, direction)));
+    let open: BTreeSet<Way> = ways.filter(|way| leads(*way).is_some()).collect();
+    let gone: BTreeSet<Way> = gone.iter().copied().collect();
+    let gone: BTreeSet<Way> = gone.intersection(&open).copied().collect();
+    let recall = |ways: &BTreeSet<Way>| share(ways.intersection(&found).count(), ways.len());
 
     let places = map.places().count();
     let same = places == visited.len()
@@ -141,7 +121,7 @@ pub fn score(
         && right == all
         && correct == links
         && links == gone.len()
-        && gone.iter().all(has);
+        && gone.is_subset(&found);
     MapScore {
         places,
         visited: visited.len(),
@@ -149,8 +129,8 @@ pub fn score(
         share_once: share(once, visited.len()),
         link_precision: share(correct, links),
         believed_precision: share(believed_rightly, believed),
-        link_recall: share(open.iter().filter(|way| has(way)).count(), open.len()),
-        gone_recall: share(gone.iter().filter(|way| has(way)).count(), gone.len()),
+        link_recall: recall(&open),
+        gone_recall: recall(&gone),
         isomorphism: if same {
             Isomorphism::Yes
         } else {
@@ -159,7 +139,8 @@ pub fn score(
     }
 }
 
-fn share(part: usize, whole: usize) -> f64 {
+/// A part of a whole, and all of nothing.
+pub(super) fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 {
         1.0
     } else {

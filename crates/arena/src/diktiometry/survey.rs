@@ -1,29 +1,26 @@
 //! One run: a robot walks an office, its observer maps it, and the truth is kept beside.
 
-use alloc::collections::BTreeMap;
-
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{Config, Observer, PlaceId, StepReport};
+use tolman_maps::diktiometry::{Config, Observer, Outcome, PlaceId, StepReport};
 use tolman_maze::Direction;
-use tolman_sim::{DoorState, StepError};
+use tolman_sim::robots::CameraPioneerError;
+use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
 use tolman_systems::diktiometry::{
-    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineError, RoutineOutcome,
+    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineConfigError, RoutineError,
     aligned_signatures,
 };
 
-use super::errors::MoveError;
-use super::memory::Memory;
-use super::office::{Office, TruePlace};
-use super::office_robot::{OfficeRobot, OfficeSurveyor, SurveyError, surveyor};
-use super::score::{MapScore, Visit, score};
-use super::surveyor_config::{Sight, SurveyorConfig};
+use super::{
+    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, Places, Sight,
+    SurveyorConfig, Visit, leads, score, surveyor,
+};
 use tolman_systems::stream;
 
 /// Everything a run depends on but the office and the seed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SurveyConfig {
     /// The robot and its noise.
     pub robot: SurveyorConfig,
@@ -102,12 +99,10 @@ pub struct Survey<'a> {
     doors: ChaCha8Rng,
     plans: ChaCha8Rng,
     shut: Vec<usize>,
-    /// What is truly there now, by site.
-    truth: BTreeMap<u32, TruePlace>,
-    start: Point,
+    /// What is truly there now.
+    truth: Places,
     site: u32,
-    visits: Vec<Visit>,
-    gone: Vec<(u32, Direction)>,
+    past: Past,
     errors: Vec<MoveError>,
     memory: Memory,
 }
@@ -117,10 +112,8 @@ pub struct Survey<'a> {
 pub struct Drawn {
     /// Its id.
     pub id: u32,
-    /// South-west corner of the box that holds it as seen from the start, m.
-    pub low: Point,
-    /// North-east corner, m.
-    pub high: Point,
+    /// The box that holds it as seen from the start, m.
+    pub bounds: Bounds,
     /// What is known of it, in words.
     pub label: String,
 }
@@ -154,9 +147,18 @@ pub struct Surveyed {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The robot cannot be built or a doorway not be moved.
-    #[error("the robot cannot begin")]
-    Robot(#[from] SurveyError),
+    /// The configuration is out of its bounds.
+    #[error(transparent)]
+    Config(#[from] RoutineConfigError),
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] CameraPioneerError),
+    /// The robot cannot stand where it is put.
+    #[error("the robot cannot stand there")]
+    Place(#[from] PlaceError),
+    /// There is no such door.
+    #[error("there is no such door")]
+    Door(#[from] DoorError),
     /// Robot or observer cannot begin.
     #[error(transparent)]
     Map(#[from] MapError<RoutineError<StepError>>),
@@ -243,15 +245,13 @@ impl<'a> Survey<'a> {
             plans: stream(seed, 3),
             shut: Vec::new(),
             truth: office.places(&[]),
-            start: past.start,
             site: 0,
-            visits: past.visits,
-            gone: past.gone,
+            past,
             errors: Vec::new(),
             memory: Memory::default(),
             config,
         };
-        survey.site = survey.true_site(past.at)?;
+        survey.site = survey.true_site(survey.past.at)?;
         survey.memory.see(survey.site, survey.mapping.exits());
         Ok(survey)
     }
@@ -273,40 +273,31 @@ impl<'a> Survey<'a> {
     /// [`RunError`] if robot or observer cannot go on.
     pub fn step(&mut self) -> Result<Surveyed, RunError> {
         self.move_a_door()?;
-        let decision = self.planner.choose(
-            self.mapping.observer(),
-            self.mapping.exits(),
-            &mut self.walk,
-        );
+        let (observer, exits) = (self.mapping.observer(), self.mapping.exits());
+        let decision = self.planner.choose(observer, exits, &mut self.walk);
         let at = self.robot().position();
-        let decision = decision.ok_or(RunError::NoWay { at })?;
-        let surveyed = self.go(decision)?;
-        Ok(surveyed)
+        self.go(decision.ok_or(RunError::NoWay { at })?)
     }
 
     fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
         let before = self.robot().position();
         let gone = self.mapping.go(&mut self.rover, decision.direction);
-        let gone = gone.map_err(|source| RunError::BrokeOff {
-            at: self.robot().position(),
-            source,
-        })?;
-        let MappedMove { arrival, report } = gone;
         let here = self.robot().position();
+        let MappedMove { arrival, report } =
+            gone.map_err(|source| RunError::BrokeOff { at: here, source })?;
         let from = self.site;
         self.site = self.true_site(here)?;
-        if arrival.outcome == RoutineOutcome::Completed {
+        if arrival.outcome == Outcome::Arrived {
             let way = (here - before).norm();
             self.memory.go(from, decision.direction, self.site, way);
-            self.gone.push((from, decision.direction));
-            self.errors
-                .push(MoveError::of(&report, arrival.moved, here - before));
+            self.past.gone.push((from, decision.direction));
+            let error = MoveError::of(&report, arrival.moved, here - before);
+            self.errors.push(error);
         }
         self.memory.see(self.site, self.mapping.exits());
-        self.visits.push(Visit {
-            site: self.site,
-            place: self.observer().place(),
-        });
+        let place = self.observer().place();
+        let site = self.site;
+        self.past.visits.push(Visit { site, place });
         Ok(Surveyed {
             decision,
             arrival,
@@ -316,30 +307,22 @@ impl<'a> Survey<'a> {
 
     /// Shuts or opens a doorway when it is time to, but none that the robot is near.
     fn move_a_door(&mut self) -> Result<(), RunError> {
-        let period = self.config.door_period as usize;
+        let (moves, period) = (self.past.gone.len(), self.config.door_period as usize);
         let doorways = self.office.doorways();
-        if period == 0
-            || doorways == 0
-            || !self.gone.len().is_multiple_of(period)
-            || self.gone.is_empty()
-        {
+        if moves == 0 || doorways == 0 || !moves.is_multiple_of(period) {
             return Ok(());
         }
         let number = self.doors.random_range(0..doorways as u32) as usize;
-        let near = (self.office.doorway(number) - self.robot().position()).norm() < 3.0;
-        let is_shut = self.shut.contains(&number);
-        if near {
+        if (self.office.doorway(number) - self.robot().position()).norm() < 3.0 {
             return Ok(());
         }
-        let state = if is_shut {
-            DoorState::Open
+        let robot = self.rover.robot_mut();
+        if let Some(at) = self.shut.iter().position(|shut| *shut == number) {
+            robot.set_doorway(number, DoorState::Open)?;
+            self.shut.remove(at);
         } else {
-            DoorState::Shut
-        };
-        self.rover.robot_mut().set_doorway(number, state)?;
-        match state {
-            DoorState::Open => self.shut.retain(|other| *other != number),
-            DoorState::Shut => self.shut.push(number),
+            robot.set_doorway(number, DoorState::Shut)?;
+            self.shut.push(number);
         }
         self.truth = self.office.places(&self.shut);
         Ok(())
@@ -347,12 +330,9 @@ impl<'a> Survey<'a> {
 
     /// The true place the robot is at.
     fn true_site(&self, here: Point) -> Result<u32, RunError> {
-        let near = self
-            .truth
-            .values()
-            .map(|place| ((place.position - here).norm(), place.site))
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        match near {
+        let places = self.truth.values();
+        let distances = places.map(|place| ((place.position - here).norm(), place.site));
+        match distances.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((distance, site)) if distance < 0.5 * self.office.separation() => Ok(site),
             _ => Err(RunError::OffPlace { at: here }),
         }
@@ -368,10 +348,8 @@ impl<'a> Survey<'a> {
     #[must_use]
     pub fn past(&self) -> Past {
         Past {
-            start: self.start,
             at: self.robot().position(),
-            visits: self.visits.clone(),
-            gone: self.gone.clone(),
+            ..self.past.clone()
         }
     }
 
@@ -396,7 +374,7 @@ impl<'a> Survey<'a> {
     /// Where the robot truly was and where the map had it, from the start on.
     #[must_use]
     pub fn visits(&self) -> &[Visit] {
-        &self.visits
+        &self.past.visits
     }
 
     /// The errors of all moves so far.
@@ -411,34 +389,28 @@ impl<'a> Survey<'a> {
     pub fn try_plan(&mut self) -> Option<PlanTrial> {
         let paths = &self.mapping.observer().map().paths;
         let here = self.observer().place();
-        let others: Vec<PlaceId> = paths
-            .places()
-            .map(|(id, _)| id)
-            .filter(|id| *id != here)
-            .collect();
+        let others = paths.places().map(|(id, _)| id);
+        let others: Vec<PlaceId> = others.filter(|id| *id != here).collect();
         if others.is_empty() {
             return None;
         }
         let to = others[self.plans.random_range(0..others.len() as u32) as usize];
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
-        let wanted = self.visits.iter().rev().find(is_to)?.site;
+        let wanted = self.visits().iter().rev().find(is_to)?.site;
         if !self.truth.contains_key(&wanted) {
             return Some(PlanTrial::Gone);
         }
-        let end = |plan: Vec<usize>| {
-            plan.into_iter().try_fold(self.site, |site, direction| {
-                self.truth.get(&site)?.ways.get(direction).copied()?
-            })
+        let end = |plan: Vec<Direction>| {
+            let mut directions = plan.into_iter();
+            directions.try_fold(self.site, |site, way| leads(&self.truth, (site, way)))
         };
         let plan = self.observer().plan(here, to);
-        let plan = plan.map(|plan| {
-            plan.steps
-                .iter()
-                .map(|step| step.action.0 as usize)
-                .collect()
+        let plan = plan.and_then(|plan| {
+            let steps = plan.steps.iter();
+            let directions = steps.map(|step| Direction::ALL.get(step.action.0 as usize).copied());
+            directions.collect()
         });
         let remembered = self.memory.plan(self.site, wanted);
-        let remembered = remembered.map(|plan| plan.into_iter().map(Direction::index).collect());
         Some(PlanTrial::There {
             works: plan.and_then(end) == Some(wanted),
             remembered_works: remembered.and_then(end) == Some(wanted),
@@ -453,27 +425,23 @@ impl<'a> Survey<'a> {
         self.memory.precision(&self.truth)
     }
 
-    /// Where the run began, m.
-    #[must_use]
-    pub const fn start(&self) -> Point {
-        self.start
-    }
-
     /// The places of the map, moved so that the first lies where the run truly began.
     #[must_use]
     pub fn drawn(&self) -> Vec<Drawn> {
         let map = self.observer().map();
-        let Some(home) = self.visits.first().map(|visit| visit.place) else {
+        let Some(home) = self.visits().first().map(|visit| visit.place) else {
             return Vec::new();
         };
         let places = map.layout(home).into_iter().map(|drawn| {
             let PointBox { x, y } = drawn.bounds;
-            let corner = |x: f64, y: f64| self.start + Vector::new(x, y);
+            let corner = |x: f64, y: f64| self.past.start + Vector::new(x, y);
             let visits = map.paths.place(drawn.place).map_or(0, |place| place.visits);
             Drawn {
                 id: drawn.place.0,
-                low: corner(x.low(), y.low()),
-                high: corner(x.high(), y.high()),
+                bounds: Bounds {
+                    min: corner(x.low(), y.low()),
+                    max: corner(x.high(), y.high()),
+                },
                 label: format!("place {}, {visits} visits", drawn.place.0),
             }
         });
@@ -491,7 +459,7 @@ impl<'a> Survey<'a> {
     #[must_use]
     pub fn score(&self) -> MapScore {
         let paths = &self.observer().map().paths;
-        score(paths, &self.visits, &self.gone, &self.truth)
+        score(paths, self.visits(), &self.past.gone, &self.truth)
     }
 }
 

@@ -6,10 +6,9 @@ use tolman_geom::Point;
 use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
 use tolman_maze::{Direction, MazeError, MazeFile};
 
-use super::office::{Office, OfficeConfig, OfficeError};
-use super::score::Visit;
-use super::survey::{Past, RunError, Survey, SurveyConfig};
-use super::surveyor_config::SurveyorConfig;
+use super::{
+    Office, OfficeConfig, OfficeError, Past, RunError, Survey, SurveyConfig, SurveyorConfig, Visit,
+};
 use tolman_systems::{FileError, MapSystem, Origin};
 
 /// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
@@ -63,7 +62,7 @@ struct Body {
     start: [f64; 2],
     at: [f64; 2],
     /// The true site of every visit and the place on the map it was taken for, from the start on.
-    visits: Vec<(u32, u32)>,
+    visits: Vec<(u32, PlaceId)>,
     /// The true ways gone: from which site in which direction.
     gone: Vec<(u32, Direction)>,
     map: MapFile,
@@ -91,24 +90,17 @@ impl SurveyFile {
     /// # Errors
     /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it cannot be written.
     pub fn to_json(&self) -> Result<String, SurveyFileError> {
-        let Past {
-            start,
-            at,
-            visits,
-            gone,
-        } = &self.past;
+        let past = &self.past;
+        let visits = past.visits.iter().map(|visit| (visit.site, visit.place));
         let body = Body {
             maze: self.office.maze().to_string(),
             office: *self.office.config(),
             surveyor: self.config.robot.clone(),
             heed: self.config.heed,
-            start: [start.x, start.y],
-            at: [at.x, at.y],
-            visits: visits
-                .iter()
-                .map(|visit| (visit.site, visit.place.0))
-                .collect(),
-            gone: gone.clone(),
+            start: past.start.into(),
+            at: past.at.into(),
+            visits: visits.collect(),
+            gone: past.gone.clone(),
             map: MapFile::of(&self.observer)?,
         };
         Ok(MapSystem::Diktiometry.write(&self.origin, &body)?)
@@ -126,10 +118,8 @@ impl SurveyFile {
         // Nobody need have a goal in it.
         let MazeFile { maze, .. } = tolman_maze::parse(&body.maze)?;
         let observer = body.map.observer()?;
-        let visits = body.visits.into_iter().map(|(site, place)| Visit {
-            site,
-            place: PlaceId(place),
-        });
+        let visits = body.visits.into_iter();
+        let visits = visits.map(|(site, place)| Visit { site, place });
         Ok(Self {
             origin,
             office: Arc::new(Office::new(&maze, &body.office)?),

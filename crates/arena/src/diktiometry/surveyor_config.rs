@@ -103,12 +103,10 @@ impl SurveyorConfig {
             steps: self.hold_steps,
         };
         let mut pioneer = self.pioneer.clone();
-        pioneer
-            .faults
-            .compass
-            .push(bounded(0.0, self.compass_bound));
-        let distance = &mut pioneer.faults.odometry_distance;
-        distance.push(bounded(self.odometry_share, 0.0));
+        let faults = &mut pioneer.faults;
+        faults.compass.push(bounded(0.0, self.compass_bound));
+        let distance = bounded(self.odometry_share, 0.0);
+        faults.odometry_distance.push(distance);
         pioneer
     }
 

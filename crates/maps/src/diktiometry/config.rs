@@ -1,8 +1,10 @@
 use alloc::vec::Vec;
+use core::ops::Bound::{self, Excluded, Included, Unbounded};
+use core::ops::{RangeBounds, RangeInclusive};
 
 use thiserror::Error;
 
-use super::ids::Action;
+use super::Action;
 
 /// What the observer is told of the robot and the world, and which parts of it are at work.
 ///
@@ -93,14 +95,6 @@ pub struct SignatureKind {
     pub views: usize,
 }
 
-impl SignatureKind {
-    /// How many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
-    pub(super) fn enough(&self) -> usize {
-        let enough = libm::ceil(self.share * self.columns as f64 - 1e-9) as usize;
-        enough.max(1)
-    }
-}
-
 /// Whether views of one place may be turned against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -121,6 +115,15 @@ pub struct SearchLimits {
     pub frames: usize,
     /// Relations followed at most, one after the other.
     pub depth: u32,
+}
+
+impl SearchLimits {
+    /// None: all that is related is reached.
+    pub(super) const UNLIMITED: Self = Self {
+        width: f64::INFINITY,
+        frames: usize::MAX,
+        depth: u32::MAX,
+    };
 }
 
 /// Which modules propose candidates.
@@ -306,9 +309,6 @@ pub enum JournalLength {
     All,
 }
 
-/// Some hundreds of merges are weighed in a run; the bounds behind it are wide.
-const LOOK_ERROR: f64 = 1e-4;
-
 impl Config {
     /// The values proposed here, for places at least `separation` metres apart, that all look the same.
     #[must_use]
@@ -368,7 +368,8 @@ impl Config {
                 visits: 5,
                 histories: 2,
                 look_merge: Use::Off,
-                look_error: LOOK_ERROR,
+                // Some hundreds of merges are weighed in a run; the bounds behind it are wide.
+                look_error: 1e-4,
             },
             opportunities: Opportunities {
                 unknown: Use::On,
@@ -386,11 +387,13 @@ impl Config {
     /// [`Direction::ALL`](tolman_maze::Direction::ALL).
     #[must_use]
     pub fn compass_actions() -> Vec<ActionKind> {
-        [2, 3, 0, 1]
-            .map(|reverse| ActionKind {
-                reverse: Some(Action(reverse)),
-            })
-            .to_vec()
+        let reverses = [2, 3, 0, 1].map(|reverse| Some(Action(reverse)));
+        reverses.map(|reverse| ActionKind { reverse }).into()
+    }
+
+    /// The action that usually leads back, if one does.
+    pub(super) fn reverse(&self, action: Action) -> Option<Action> {
+        self.actions.get(action.0 as usize)?.reverse
     }
 
     /// Metres of odometry that two places are apart at the least.
@@ -408,130 +411,84 @@ impl Config {
     /// # Errors
     /// [`ConfigError`] names the first field that is not.
     pub fn check(&self) -> Result<(), ConfigError> {
-        let unknown = |action: &&Action| action.0 as usize >= self.actions.len();
-        let mut reverses = self.actions.iter().filter_map(|kind| kind.reverse.as_ref());
-        if let Some(&reverse) = reverses.find(unknown) {
-            return Err(ConfigError::NoSuchReverse {
-                reverse,
-                actions: self.actions.len(),
-            });
+        let actions = self.actions.len();
+        let mut reverses = self.actions.iter().filter_map(|kind| kind.reverse);
+        if let Some(reverse) = reverses.find(|action| action.0 as usize >= actions) {
+            return Err(ConfigError::NoSuchReverse { reverse, actions });
         }
-        let share = 0.0..=1.0;
-        let mut fields = Vec::from([
-            ("separation", self.separation, self.separation > 0.0),
-            (
-                "alike_separation",
-                self.alike_separation,
-                self.alike_separation >= self.separation,
-            ),
-            ("place_radius", self.place_radius, self.place_radius >= 0.0),
-            (
-                "shared_scale",
-                self.shared_scale,
-                (0.0..1.0).contains(&self.shared_scale),
-            ),
-            (
-                "frame_half_width",
-                self.frame_half_width,
-                self.frame_half_width >= 0.0,
-            ),
-            ("search.width", self.search.width, self.search.width > 0.0),
-            (
-                "matching.beta_reach",
-                self.matching.beta_reach,
-                self.matching.beta_reach >= 0.0,
-            ),
-            (
-                "tracks.least_confidence",
-                self.tracks.least_confidence,
-                share.contains(&self.tracks.least_confidence),
-            ),
-            (
-                "tracks.high",
-                self.tracks.high,
-                share.contains(&self.tracks.high),
-            ),
-            (
-                "tracks.low",
-                self.tracks.low,
-                (0.0..=self.tracks.high).contains(&self.tracks.low),
-            ),
-            (
-                "transients.rate",
-                self.transients.rate,
-                share.contains(&self.transients.rate),
-            ),
-            (
-                "transients.fading",
-                self.transients.fading,
-                self.transients.fading > 0.0 && self.transients.fading <= 1.0,
-            ),
-            (
-                "restructuring.weight",
-                self.restructuring.weight,
-                self.restructuring.weight > 0.0,
-            ),
-            (
-                "restructuring.ratio",
-                self.restructuring.ratio,
-                self.restructuring.ratio >= 1.0,
-            ),
-            (
-                "restructuring.minority",
-                self.restructuring.minority,
-                share.contains(&self.restructuring.minority),
-            ),
-            (
-                "restructuring.look_error",
-                self.restructuring.look_error,
-                self.restructuring.look_error > 0.0 && self.restructuring.look_error < 1.0,
-            ),
-            (
-                "restructuring.links[0]",
-                self.restructuring.links[0],
-                share.contains(&self.restructuring.links[0]),
-            ),
-            (
-                "restructuring.links[1]",
-                self.restructuring.links[1],
-                (0.0..=self.restructuring.links[0]).contains(&self.restructuring.links[1]),
-            ),
-        ]);
-        if let Percepts::Signatures(kind) = self.percepts {
-            fields.push(("tolerance", kind.tolerance, kind.tolerance >= 0.0));
-            fields.push(("share", kind.share, kind.share > 0.0 && kind.share <= 1.0));
+        self.check_numbers()?;
+        match self.percepts {
+            Percepts::None => Ok(()),
+            Percepts::Signatures(kind) => kind.check(self.indexing.perceptual),
         }
-        let finite = fields
-            .iter()
-            .find(|(_, value, right)| !right || !value.is_finite());
-        if let Some(&(field, value, _)) = finite {
-            return Err(ConfigError::OutOfRange { field, value });
+    }
+
+    fn check_numbers(&self) -> Result<(), ConfigError> {
+        let (tracks, limits, transients) = (&self.tracks, &self.restructuring, &self.transients);
+        let [most_links, least_links] = limits.links;
+        within("separation", self.separation, POSITIVE)?;
+        within("alike_separation", self.alike_separation, self.separation..)?;
+        within("place_radius", self.place_radius, 0.0..)?;
+        within("shared_scale", self.shared_scale, 0.0..1.0)?;
+        within("frame_half_width", self.frame_half_width, 0.0..)?;
+        within("search.width", self.search.width, POSITIVE)?;
+        within("matching.beta_reach", self.matching.beta_reach, 0.0..)?;
+        within("tracks.least_confidence", tracks.least_confidence, SHARE)?;
+        within("tracks.high", tracks.high, SHARE)?;
+        within("tracks.low", tracks.low, 0.0..=tracks.high)?;
+        within("transients.rate", transients.rate, SHARE)?;
+        within("transients.fading", transients.fading, POSITIVE_SHARE)?;
+        within("restructuring.weight", limits.weight, POSITIVE)?;
+        within("restructuring.ratio", limits.ratio, 1.0..)?;
+        within("restructuring.minority", limits.minority, SHARE)?;
+        let chance = (Excluded(0.0), Excluded(1.0));
+        within("restructuring.look_error", limits.look_error, chance)?;
+        within("restructuring.links[0]", most_links, SHARE)?;
+        within("restructuring.links[1]", least_links, 0.0..=most_links)?;
+        not_zero("search.frames", self.search.frames)?;
+        not_zero("tracks.cap", tracks.cap)
+    }
+}
+
+impl SignatureKind {
+    /// How many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
+    pub(super) fn enough(&self) -> usize {
+        let enough = libm::ceil(self.share * self.columns as f64 - 1e-9) as usize;
+        enough.max(1)
+    }
+
+    fn check(&self, indexing: PerceptualIndexing) -> Result<(), ConfigError> {
+        let columns = self.columns;
+        within("tolerance", self.tolerance, 0.0..)?;
+        within("share", self.share, POSITIVE_SHARE)?;
+        if indexing == PerceptualIndexing::Triangles && columns < 3 {
+            return Err(ConfigError::NoTriangles { columns });
         }
-        if let Percepts::Signatures(kind) = self.percepts
-            && self.indexing.perceptual == PerceptualIndexing::Triangles
-            && kind.columns < 3
-        {
-            return Err(ConfigError::NoTriangles {
-                columns: kind.columns,
-            });
-        }
-        let counts = [
-            ("search.frames", self.search.frames),
-            ("tracks.cap", self.tracks.cap),
-        ];
-        let shape = match self.percepts {
-            Percepts::None => [("rows", 1), ("columns", 1), ("views", 1)],
-            Percepts::Signatures(kind) => [
-                ("rows", kind.rows),
-                ("columns", kind.columns),
-                ("views", kind.views),
-            ],
-        };
-        let mut all = counts.into_iter().chain(shape);
-        match all.find(|(_, count)| *count == 0) {
-            Some((field, _)) => Err(ConfigError::Zero { field }),
-            None => Ok(()),
-        }
+        not_zero("rows", self.rows)?;
+        not_zero("columns", columns)?;
+        not_zero("views", self.views)
+    }
+}
+
+const POSITIVE: (Bound<f64>, Bound<f64>) = (Excluded(0.0), Unbounded);
+const SHARE: RangeInclusive<f64> = 0.0..=1.0;
+const POSITIVE_SHARE: (Bound<f64>, Bound<f64>) = (Excluded(0.0), Included(1.0));
+
+fn within(
+    field: &'static str,
+    value: f64,
+    range: impl RangeBounds<f64>,
+) -> Result<(), ConfigError> {
+    if range.contains(&value) && value.is_finite() {
+        return Ok(());
+    }
+    Err(ConfigError::OutOfRange { field, value })
+}
+
+const fn not_zero(field: &'static str, count: usize) -> Result<(), ConfigError> {
+    match count {
+        0 => Err(ConfigError::Zero { field }),
+        _ => Ok(()),
     }
 }
 

@@ -1,4 +1,4 @@
-use super::counts::Expected;
+use super::Expected;
 
 /// How constant something is that may come and go, as a door that is shut and opened: when it was last looked for, whether it was
 /// there, and how often that had changed.
@@ -45,9 +45,8 @@ impl Constancy {
             changes: 0,
         };
         let seen = self.seen.get_or_insert(first);
-        seen.changes = seen
-            .changes
-            .saturating_add(u32::from(seen.outcome != outcome));
+        let changed = u32::from(seen.outcome != outcome);
+        seen.changes = seen.changes.saturating_add(changed);
         seen.outcome = outcome;
         seen.last = now;
     }

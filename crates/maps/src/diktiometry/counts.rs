@@ -79,7 +79,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::diktiometry::config::{Config, Transients};
+    use crate::diktiometry::{Config, Transients};
 
     fn transients() -> Transients {
         Config::new(Config::compass_actions(), 1.0).transients

@@ -1,8 +1,7 @@
 use thiserror::Error;
 use tolman_geom::PoseBox;
 
-use super::config::ConfigError;
-use super::ids::Action;
+use super::{Action, ConfigError};
 
 /// Why a move is none. The observer is as it was before.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

@@ -4,18 +4,12 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::config::{GeometricIndexing, Use};
-use super::ids::{PlaceId, TrackId};
-use super::indexing::{ActiveFrame, Candidate, expected, moved, plies};
-use super::matching::{Choice, Look, Matcher, Situation, Traversal, choose};
-use super::observation::Move;
-use super::observer::Observer;
-use super::path_graph::Standing;
-use super::projector::{Projection, project};
-use super::reference_graph::search;
-use super::report::{Contradiction, Culprit, StepReport, TrackReport};
-use super::restructuring::Hints;
-use super::track::{Match, Track};
+use super::{
+    Action, ActiveFrame, Candidate, Choice, Contradiction, Culprit, GeometricIndexing, Hints,
+    LinkId, Match, Matcher, Move, Observer, PlaceId, Predicted, Projection, Similarity, Situation,
+    Standing, StepReport, Track, TrackId, TrackReport, Traversal, Use, choose, expected, moved,
+    plies, project, search,
+};
 
 /// Whether a track may change the map. Only the best may, lest a dying hypothesis damage it; in the paper all do.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -36,83 +30,34 @@ impl Observer {
         hints: &mut Hints,
         next: &mut Vec<(Track, TrackReport)>,
     ) {
-        let from = track.place;
         let projection = project(&self.map, track, step, &self.config);
         let choice = self.matches(track, step, &projection);
-        let predicted = self
-            .map
-            .paths
-            .likeliest(from, step.action)
-            .and_then(|best| {
-                let to = self.map.paths.links[best.index()].to;
-                let all = self.predict(from, step.action);
-                all.into_iter().find(|one| one.place == to)
-            });
-        if let (Rank::Best, Some(excluded)) = (rank, choice.excluded)
-            && let Some(link) = self.map.paths.between(from, step.action, excluded.place)
-        {
-            let known = self.motion(from, excluded.place);
-            report.contradictions.push(Contradiction {
-                track: track.id,
-                culprit: if excluded.is_possible() {
-                    Culprit::Look(link)
-                } else {
-                    Culprit::Link(link)
-                },
-                known: known.unwrap_or(PointBox::UNBOUNDED),
-                estimate: projection.displacement,
-            });
+        let predicted = self.likeliest(track.place, step.action);
+        if rank == Rank::Best {
+            let contradictions = self.contradictions(track.id, &projection, &choice);
+            report.contradictions.extend(contradictions);
         }
-        if choice.look == Look::Strange
-            && rank == Rank::Best
-            && let Some(there) = choice.matches.first().and_then(|best| best.candidate)
-            && let Some(link) = self.map.paths.between(from, step.action, there.place)
-        {
-            report.contradictions.push(Contradiction {
-                track: track.id,
-                culprit: Culprit::Look(link),
-                known: there.offset + projection.displacement,
-                estimate: projection.displacement,
-            });
-        }
-        let surprise = if choice.look == Look::Strange {
-            Surprise::Look
-        } else if choice.excluded.is_some() {
-            Surprise::Excluded
-        } else if self.rivals {
-            Surprise::Rivals
-        } else {
-            Surprise::None
-        };
         for (number, chosen) in choice.matches.iter().enumerate() {
-            let writes = rank == Rank::Best && number == 0;
-            let landed = if writes {
+            let landed = if rank == Rank::Best && number == 0 {
                 let contradictions = &mut report.contradictions;
                 Some(self.write(track, step, &projection, &choice, contradictions, hints))
             } else {
-                let there = chosen.candidate.map(|candidate| candidate.place);
-                let paths = &self.map.paths;
-                there.map(|place| (place, paths.between(from, step.action, place)))
+                let link = |place| self.map.paths.between(track.place, step.action, place);
+                chosen.place().map(|place| (place, link(place)))
             };
             let Some((place, link)) = landed else {
                 continue; // Only the best track may make places.
             };
-            let id = if number == 0 {
-                track.id
-            } else {
-                self.born += 1;
-                TrackId(self.born - 1)
-            };
-            let mut child = Track {
-                id,
-                place,
-                link,
-                confidence: confidence_after(track.confidence, chosen.matcher, surprise),
-                ..track.clone()
-            };
+            let mut child = track.clone();
+            (child.place, child.link) = (place, link);
+            child.confidence =
+                confidence_after(track.confidence, chosen.matcher, &choice, self.rivals);
+            if number > 0 {
+                child.id = self.next_id();
+            }
             child.astray = match chosen.matcher {
                 Matcher::Continue => 0.0,
-                _ => track.astray + projection.displacement.norm().middle(),
+                _ => projection.astray,
             };
             let entry = Match {
                 place,
@@ -123,21 +68,61 @@ impl Observer {
             let moved = trusted_odometry(step, &choice, chosen.matcher);
             child.remember(entry, moved, self.config.tracks.history);
             self.carry_active(&mut child, &projection);
-            let line = TrackReport {
-                track: id,
-                from,
-                matcher: Some(chosen.matcher),
-                place,
-                confidence: child.confidence,
-                predicted,
-                motion: None,
-            };
+            let line = child.report(track.place, Some(chosen.matcher), predicted);
             next.push((child, line));
         }
-        let lost = choice.excluded.is_some() || choice.look == Look::Strange;
+        let lost = choice.excluded.is_some() || choice.look == Similarity::Unlike;
         if rank == Rank::Best && lost {
             self.suppose(track, step, next);
         }
+    }
+
+    /// What is expected most of an action.
+    fn likeliest(&self, from: PlaceId, action: Action) -> Option<Predicted> {
+        let best = self.map.paths.likeliest(from, action)?;
+        let mut all = self.predict(from, action).into_iter();
+        all.find(|one| one.place == self.map.link(best).to)
+    }
+
+    /// What a track expected and did not meet.
+    fn contradictions(
+        &self,
+        track: TrackId,
+        projection: &Projection,
+        choice: &Choice,
+    ) -> impl Iterator<Item = Contradiction> {
+        let from = projection.from;
+        let contradiction = |to: PlaceId, culprit: fn(LinkId) -> Culprit, known: PointBox| {
+            let link = self.map.paths.between(from, projection.action, to)?;
+            Some(Contradiction {
+                track,
+                culprit: culprit(link),
+                known,
+                estimate: projection.displacement,
+            })
+        };
+        let excluded = choice.excluded.and_then(|excluded| {
+            let culprit = if excluded.is_possible() {
+                Culprit::Look
+            } else {
+                Culprit::Link
+            };
+            let known = self.motion(from, excluded.place);
+            let known = known.unwrap_or(PointBox::UNBOUNDED);
+            contradiction(excluded.place, culprit, known)
+        });
+        let best = choice.matches.first().and_then(|best| best.candidate);
+        let strange = best.filter(|_| choice.look == Similarity::Unlike);
+        let strange = strange.and_then(|there| {
+            let known = there.offset + projection.displacement;
+            contradiction(there.place, Culprit::Look, known)
+        });
+        excluded.into_iter().chain(strange)
+    }
+
+    fn next_id(&mut self) -> TrackId {
+        self.born += 1;
+        TrackId(self.born - 1)
     }
 
     /// The robot is not where it was expected to be: it may be wherever it looks like here, however far away. "Good candidate
@@ -146,82 +131,56 @@ impl Observer {
         let Some(percept) = &step.percept else {
             return;
         };
-        let alike = self
-            .views
-            .most_alike(percept, &self.config, &self.map.paths);
-        for place in alike {
+        let views = &self.views;
+        for place in views.most_alike(percept, &self.config, &self.map.paths) {
             let taken = next.iter().any(|(other, _)| other.place == place);
             if taken || next.len() >= self.config.tracks.cap {
                 continue;
             }
-            let id = TrackId(self.born);
-            self.born += 1;
-            let there = &self.map.paths.places[place.index()];
-            let at = ActiveFrame {
-                frame: there.frame,
-                robot: there.position,
-            };
-            let supposed = Track::begun(id, place, SUPPOSED, at);
-            let line = TrackReport {
-                track: id,
-                from: track.place,
-                matcher: None,
-                place,
-                confidence: SUPPOSED,
-                predicted: None,
-                motion: None,
-            };
+            let id = self.next_id();
+            let supposed = Track::begun(&self.map, id, place, SUPPOSED);
+            let line = supposed.report(track.place, None, None);
             next.push((supposed, line));
         }
     }
 
     /// The indexer and the matching engine for one track.
     fn matches(&self, track: &Track, step: &Move, projection: &Projection) -> Choice {
-        let map = &self.map;
         let situation = Situation {
-            map,
+            map: &self.map,
             config: &self.config,
             percept: step.percept.as_ref(),
-            astray: track.astray + projection.displacement.norm().middle(),
+            astray: projection.astray,
+            traversed: self.traversal(track.place, projection),
+            confidence: track.confidence,
         };
         let expected = match self.config.indexing.expectational {
-            Use::On => expected(map, track.place, step.action, projection),
+            Use::On => expected(&self.map, projection),
             Use::Off => Vec::new(),
         };
-        choose(
-            &situation,
-            self.traversal(track.place, projection),
-            track.confidence,
-            &expected,
-            || self.geometric(track, projection),
-        )
+        choose(&situation, &expected, || self.geometric(track, projection))
     }
 
     fn geometric(&self, track: &Track, projection: &Projection) -> Vec<Vec<Candidate>> {
-        match self.config.indexing.geometric {
+        let reached = match self.config.indexing.geometric {
             GeometricIndexing::Off => Vec::new(),
             GeometricIndexing::Search => {
-                let limits = &self.config.search;
-                let reached = search(&self.map.reference, projection.frame, limits);
-                plies(&self.map, &reached, projection)
+                search(&self.map.reference, projection.frame, &self.config.search)
             }
             GeometricIndexing::ActiveFrames => {
-                let here = projection.position;
-                let reached: Vec<_> = track
-                    .active
-                    .iter()
-                    .map(|active| active.seen_from(here - projection.displacement))
-                    .collect();
-                plies(&self.map, &reached, projection)
+                let before = projection.position - projection.displacement;
+                let active = track.active.iter();
+                active.map(|active| active.seen_from(before)).collect()
             }
-        }
+        };
+        plies(&self.map, &reached, projection)
     }
 
     /// Whether the way just gone was gone often before.
     fn traversal(&self, place: PlaceId, projection: &Projection) -> Traversal {
-        let place = &self.map.paths.places[place.index()];
-        let grid = &self.map.reference.frames[place.frame.index()].grid;
-        let [from, to] = [place.position, projection.position].map(PointBox::middle);
+        let (frame, position) = self.map.site(place);
+        let [from, to] = [position, projection.position].map(PointBox::middle);
+        let grid = &self.map.frame(frame).grid;
         if grid.traversals(from, to, self.config.separation) >= self.config.matching.well_traversed
         {
             Traversal::Well
@@ -231,21 +190,11 @@ impl Observer {
     }
 
     fn carry_active(&self, track: &mut Track, projection: &Projection) {
-        if self.config.indexing.geometric != GeometricIndexing::ActiveFrames {
-            return;
+        if self.config.indexing.geometric == GeometricIndexing::ActiveFrames {
+            let here = ActiveFrame::at(&self.map, track.place);
+            let cap = self.config.search.frames;
+            track.active = moved(&self.map, &track.active, projection.displacement, here, cap);
         }
-        let place = &self.map.paths.places[track.place.index()];
-        let here = ActiveFrame {
-            frame: place.frame,
-            robot: place.position,
-        };
-        track.active = moved(
-            &self.map,
-            &track.active,
-            projection.displacement,
-            Some(here),
-            self.config.search.frames,
-        );
     }
 
     /// The tracks that live on: of those at one place the most trusted, none that is trusted too little, at most as many as
@@ -288,9 +237,8 @@ impl Observer {
 
     /// After a split, tracks that came along a link which now leads to the new place are there.
     pub(super) fn take_sides(&mut self, kept: PlaceId, new: PlaceId) {
-        let links = &self.map.paths.links;
         for track in self.tracks.iter_mut().filter(|track| track.place == kept) {
-            let came = track.link.map(|link| &links[link.index()]);
+            let came = track.link.map(|link| self.map.link(link));
             let moved = came.filter(|link| link.standing == Standing::Removed);
             if let Some(link) = moved
                 && let Some(id) = self.map.paths.between(link.from, link.action, new)
@@ -304,20 +252,14 @@ impl Observer {
     /// After places were merged, split or elided: tracks are called by the places' new names.
     pub(super) fn rename_tracks(&mut self) {
         let best = self.tracks.first().map(|track| track.id);
-        let paths = &self.map.paths;
-        self.tracks
-            .retain_mut(|track| match paths.resolve(track.place) {
-                Some(place) => {
-                    track.place = place;
-                    track.link = track
-                        .link
-                        .filter(|link| paths.links[link.index()].to == place);
-                    true
-                }
-                None => Some(track.id) == best,
-            });
         let mut seen: Vec<PlaceId> = Vec::new();
-        self.tracks.retain(|track| {
+        self.tracks.retain_mut(|track| {
+            if let Some(place) = self.map.paths.resolve(track.place) {
+                track.place = place;
+                track.link = track.link.filter(|link| self.map.link(*link).to == place);
+            } else if Some(track.id) != best {
+                return false;
+            }
             let new = !seen.contains(&track.place);
             seen.push(track.place);
             new
@@ -331,7 +273,7 @@ pub(super) fn trusted_odometry(step: &Move, choice: &Choice, matcher: Matcher) -
         matcher,
         Matcher::Continue | Matcher::Link | Matcher::NewPlace
     );
-    if plain && choice.excluded.is_none() && choice.look == Look::Known {
+    if plain && choice.excluded.is_none() && choice.look == Similarity::Alike {
         step.odometry.position
     } else {
         PointBox::UNBOUNDED
@@ -341,29 +283,17 @@ pub(super) fn trusted_odometry(step: &Move, choice: &Choice, matcher: Matcher) -
 /// The confidence of a track that begins because a place looks like what the robot sees.
 const SUPPOSED: f64 = 0.5;
 
-/// What else speaks against a track.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Surprise {
-    None,
-    /// The place looks different.
-    Look,
-    /// It expected another place.
-    Excluded,
-    /// Other tracks explain the same moves.
-    Rivals,
-}
-
 /// How far a track is trusted after a match: a CONTINUE wins confidence, whatever posits an error or looks
 /// strange loses it. A new place
 /// posits one where another place was expected, or where another track needs none.
-fn confidence_after(confidence: f64, matcher: Matcher, surprise: Surprise) -> f64 {
-    match (matcher, surprise) {
-        (_, Surprise::Look) => 0.7 * confidence,
-        (Matcher::Continue, _) => confidence + 0.2 * (1.0 - confidence),
-        (Matcher::NewPlace, Surprise::Excluded) => 0.9 * confidence,
-        (Matcher::NewPlace, Surprise::Rivals) => 0.7 * confidence,
-        (Matcher::Link, _) | (Matcher::NewPlace, Surprise::None) => confidence,
-        (Matcher::Alpha, _) => 0.7 * confidence,
-        (Matcher::Beta, _) => 0.5 * confidence,
+fn confidence_after(confidence: f64, matcher: Matcher, choice: &Choice, rivals: bool) -> f64 {
+    match matcher {
+        _ if choice.look == Similarity::Unlike => 0.7 * confidence,
+        Matcher::Continue => confidence + 0.2 * (1.0 - confidence),
+        Matcher::NewPlace if choice.excluded.is_some() => 0.9 * confidence,
+        Matcher::NewPlace if rivals => 0.7 * confidence,
+        Matcher::Link | Matcher::NewPlace => confidence,
+        Matcher::Alpha => 0.7 * confidence,
+        Matcher::Beta => 0.5 * confidence,
     }
 }

@@ -1,7 +1,7 @@
 //! "Local grid-based methods to maintain estimates of how well areas have been visited or traversed": traversed is all that
 //! the matchers' order asks for.
 
-use alloc::vec::Vec;
+use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, Vector};
 
@@ -9,7 +9,7 @@ use tolman_geom::{Point, Vector};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Grid {
     /// Cells that the robot was in, by their number.
-    cells: Vec<(CellNumber, Traversals)>,
+    cells: BTreeMap<CellNumber, Traversals>,
 }
 
 /// Column and row.
@@ -23,7 +23,7 @@ impl Grid {
     pub(super) fn traverse(&mut self, from: Point, to: Point, cell: f64) {
         let heading = quadrant(to - from);
         crossed(from, to, cell, |number| {
-            let count = &mut self.entry(number)[heading];
+            let count = &mut self.cells.entry(number).or_default()[heading];
             *count = count.saturating_add(1);
         });
     }
@@ -34,25 +34,9 @@ impl Grid {
         let heading = quadrant(to - from);
         let mut least = u32::MAX;
         crossed(from, to, cell, |number| {
-            least = least.min(self.traversals_of(number)[heading]);
+            least = least.min(self.cells.get(&number).map_or(0, |cell| cell[heading]));
         });
         least
-    }
-
-    fn traversals_of(&self, number: CellNumber) -> Traversals {
-        let at = self.cells.binary_search_by_key(&number, |(key, _)| *key);
-        at.map_or_else(|_| Traversals::default(), |at| self.cells[at].1)
-    }
-
-    fn entry(&mut self, number: CellNumber) -> &mut Traversals {
-        let at = match self.cells.binary_search_by_key(&number, |(key, _)| *key) {
-            Ok(at) => at,
-            Err(at) => {
-                self.cells.insert(at, (number, Traversals::default()));
-                at
-            }
-        };
-        &mut self.cells[at].1
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) use expectational::expected;
 pub(super) use geometric::plies;
 pub(super) use perceptual::ViewIndex;
 
-use super::ids::PlaceId;
+use super::{Diktiometry, PlaceId};
 
 /// A place that the robot may be at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,16 @@ pub(super) enum Expectation {
 }
 
 impl Candidate {
+    /// A place, with the robot projected to be at `robot` in its frame, m.
+    fn new(map: &Diktiometry, place: PlaceId, robot: PointBox, expectation: Expectation) -> Self {
+        Self {
+            place,
+            robot,
+            offset: map.place(place).position - robot,
+            expectation,
+        }
+    }
+
     /// Whether the robot may be at the place.
     pub(super) fn is_possible(&self) -> bool {
         self.offset.contains(Point::origin())

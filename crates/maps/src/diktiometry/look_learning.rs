@@ -2,15 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::config::{Config, Use};
-use super::ids::PlaceId;
-use super::looks::Similarity;
-use super::map::Diktiometry;
-use super::observer::Observer;
-use super::path_graph::{Fate, Ground};
-use super::reference_graph::search;
-use super::restructuring::{Hints, learn_of_two, wanted_anywhere};
-use super::signature::Signature;
+use super::{
+    Config, Diktiometry, Fate, Ground, Hints, Observer, PlaceId, Signature, Similarity, Use,
+    learn_of_two, search, wanted_anywhere,
+};
 
 impl Observer {
     /// A place is new: which of those around it are different for certain, and whether they look like it.
@@ -41,18 +36,14 @@ impl Observer {
             self.map.looks.noted += 1;
             if id == place {
                 self.note_alike(place, &alike, &apart);
-            } else if self.map.paths.places[id.index()].fate == Fate::Standing {
+            } else if self.map.place(id).fate == Fate::Standing {
                 self.note_all_alike(id);
             }
         }
         // Looks tell more than ever, of places where the robot may never come again, too.
-        if self
-            .map
-            .looks
-            .least_wanted
-            .is_none_or(|least| wanted < least)
-        {
-            self.map.looks.least_wanted = Some(wanted);
+        let least = &mut self.map.looks.least_wanted;
+        if least.is_none_or(|least| wanted < least) {
+            *least = Some(wanted);
             let places = self.map.paths.places();
             let waiting = places.filter(|(_, place)| !place.notes.is_empty());
             hints.near.extend(waiting.map(|(id, _)| id));
@@ -60,7 +51,7 @@ impl Observer {
     }
 
     fn note_all_alike(&mut self, place: PlaceId) {
-        let Some(view) = self.map.paths.places[place.index()].views.first() else {
+        let Some(view) = self.map.place(place).views.first() else {
             return;
         };
         let alike = self.views.alike(view, &self.config, &self.map.paths);
@@ -82,14 +73,14 @@ impl Observer {
 
 /// The places around a place that are different from it for certain, by id.
 fn apart(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<PlaceId> {
-    let here = &map.paths.places[place.index()];
+    let here = map.place(place);
     let reached = search(&map.reference, here.frame, &config.search);
     let all = reached.iter().flat_map(|around| {
-        let places = &map.reference.frames[around.frame.index()].places;
+        let places = &map.frame(around.frame).places;
         places.iter().map(|other| (*other, around.position))
     });
     let excluded = all.filter(|(other, frame)| {
-        let there = *frame + map.paths.places[other.index()].position;
+        let there = *frame + map.place(*other).position;
         *other != place && !there.meets(here.position)
     });
     let mut apart: Vec<PlaceId> = excluded.map(|(other, _)| other).collect();

@@ -1,4 +1,4 @@
-use super::counts::wilson_upper;
+use super::wilson_upper;
 
 /// What the map itself has learned of how well looks tell places apart.
 ///
@@ -59,10 +59,18 @@ impl Looks {
 }
 
 /// Whether two places may be taken for each other by their looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Similarity {
+    /// They do, or nothing is known of their look.
+    #[default]
     Alike,
     Unlike,
+}
+
+impl Similarity {
+    pub(super) const fn of(alike: bool) -> Self {
+        if alike { Self::Alike } else { Self::Unlike }
+    }
 }
 
 #[cfg(test)]

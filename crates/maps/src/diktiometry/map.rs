@@ -2,11 +2,10 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::config::SearchLimits;
-use super::ids::{FrameId, LinkId, PlaceId};
-use super::looks::Looks;
-use super::path_graph::{Fate, PathGraph, Standing};
-use super::reference_graph::{ReferenceGraph, search};
+use super::{
+    Fate, Frame, FrameId, Link, LinkId, Looks, PathGraph, Place, PlaceId, ReferenceGraph,
+    SearchLimits, Standing, search,
+};
 
 /// "A diktiometric representation (a *diktiometry*) consists of two graphs, a path graph and a reference graph …
 /// connected by reference links, giving the positions of places with respect to particular local reference frames."
@@ -58,71 +57,86 @@ impl Diktiometry {
         to: PlaceId,
         limits: &SearchLimits,
     ) -> Option<PointBox> {
-        let start = self.paths.place(self.paths.resolve(from)?)?;
-        let end = self.paths.place(self.paths.resolve(to)?)?;
-        if start.frame == end.frame {
-            return Some(end.position - start.position);
+        let (start, from) = self.site(self.paths.resolve(from)?);
+        let (end, to) = self.site(self.paths.resolve(to)?);
+        if start == end {
+            return Some(to - from);
         }
-        let reached = search(&self.reference, start.frame, limits);
-        let there = reached.iter().find(|reached| reached.frame == end.frame)?;
-        Some(there.position + end.position - start.position)
+        let reached = search(&self.reference, start, limits);
+        let there = reached.iter().find(|reached| reached.frame == end)?;
+        Some(there.position + to - from)
     }
 
     /// Where `to` lies as seen from `from` by the relation between their frames alone, m; none if they are not related.
     pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
-        let [start, end] = [from, to].map(|place| &self.paths.places[place.index()]);
-        let frames = self.reference.known(start.frame, end.frame)?;
-        Some(frames + end.position - start.position)
+        let [(start, from), (end, to)] = [from, to].map(|place| self.site(place));
+        Some(self.reference.known(start, end)? + to - from)
     }
 
     /// All places that can be reached from `origin` in the reference graph, where they are for the eye: as seen from
     /// `origin`, which is at (0, 0). By id. O(frames · degree · log frames + places · log places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<Drawn> {
-        let Some(start) = self
-            .paths
-            .resolve(origin)
-            .and_then(|origin| self.paths.place(origin))
-        else {
+        let Some(origin) = self.paths.resolve(origin) else {
             return Vec::new();
         };
-        let everything = SearchLimits {
-            width: f64::INFINITY,
-            frames: usize::MAX,
-            depth: u32::MAX,
-        };
-        let mut drawn: Vec<Drawn> = search(&self.reference, start.frame, &everything)
-            .into_iter()
-            .flat_map(|reached| {
-                let places = &self.reference.frames[reached.frame.index()].places;
-                places.iter().map(move |&place| {
-                    let position = self.paths.places[place.index()].position;
-                    Drawn {
-                        place,
-                        bounds: reached.position + position - start.position,
-                    }
-                })
+        let (start, here) = self.site(origin);
+        let reached = search(&self.reference, start, &SearchLimits::UNLIMITED);
+        let places = reached.iter().flat_map(|frame| {
+            let places = self.frame(frame.frame).places.iter();
+            places.map(|&place| Drawn {
+                place,
+                bounds: frame.position + self.place(place).position - here,
             })
-            .collect();
+        });
+        let mut drawn: Vec<Drawn> = places.collect();
         drawn.sort_by_key(|drawn| drawn.place);
         drawn
     }
 
-    /// Opens a frame with a place at its origin, or adds the place to a frame.
-    pub(super) fn new_place(&mut self, site: Site) -> PlaceId {
-        match site {
-            Site::InFrame { frame, position } => {
-                let place = self.paths.add_place(frame, position);
-                self.reference.frames[frame.index()].places.push(place);
-                place
-            }
-            Site::OwnFrame => {
-                let frame = self.reference.add_frame();
-                let place = self.paths.add_place(frame, PointBox::ORIGIN);
-                self.reference.frames[frame.index()].places.push(place);
-                place
-            }
-        }
+    /// A place of the map, whether it still stands or not.
+    pub(super) fn place(&self, id: PlaceId) -> &Place {
+        &self.paths.places[id.index()]
+    }
+
+    pub(super) fn place_mut(&mut self, id: PlaceId) -> &mut Place {
+        &mut self.paths.places[id.index()]
+    }
+
+    /// A link of the map, whether it still stands or not.
+    pub(super) fn link(&self, id: LinkId) -> &Link {
+        &self.paths.links[id.index()]
+    }
+
+    pub(super) fn link_mut(&mut self, id: LinkId) -> &mut Link {
+        &mut self.paths.links[id.index()]
+    }
+
+    pub(super) fn frame(&self, id: FrameId) -> &Frame {
+        &self.reference.frames[id.index()]
+    }
+
+    pub(super) fn frame_mut(&mut self, id: FrameId) -> &mut Frame {
+        &mut self.reference.frames[id.index()]
+    }
+
+    /// The reference link of a place: its frame, and where it is there, m.
+    pub(super) fn site(&self, place: PlaceId) -> (FrameId, PointBox) {
+        let place = self.place(place);
+        (place.frame, place.position)
+    }
+
+    /// Adds a place to a frame.
+    pub(super) fn add_place(&mut self, frame: FrameId, position: PointBox) -> PlaceId {
+        let place = self.paths.add_place(frame, position);
+        self.frame_mut(frame).places.push(place);
+        place
+    }
+
+    /// Opens a frame with a place at its origin.
+    pub(super) fn found_place(&mut self) -> PlaceId {
+        let frame = self.reference.add_frame();
+        self.add_place(frame, PointBox::ORIGIN)
     }
 
     /// What the two graphs promise and do not keep; none if all is well. O(places + links · degree + relations · log degree).
@@ -135,7 +149,7 @@ impl Diktiometry {
 
     fn flawed_link(&self, actions: usize) -> Option<Flaw> {
         self.paths.links().find_map(|(id, link)| {
-            let ends = [link.from, link.to].map(|end| &self.paths.places[end.index()]);
+            let ends = [link.from, link.to].map(|end| self.place(end));
             let [from, to] = ends;
             let listed = from.outgoing.contains(&id) && to.incoming.contains(&id);
             if !listed || ends.iter().any(|end| end.fate != Fate::Standing) {
@@ -151,21 +165,21 @@ impl Diktiometry {
     }
 
     fn flawed_place(&self) -> Option<Flaw> {
-        let all = (0..).map(PlaceId).zip(&self.paths.places);
-        all.into_iter().find_map(|(id, place)| {
-            let frame = &self.reference.frames[place.frame.index()];
+        let mut all = (0..).map(PlaceId).zip(&self.paths.places);
+        all.find_map(|(id, place)| {
             let stands = place.fate == Fate::Standing;
-            if frame.places.contains(&id) != stands {
+            if self.frame(place.frame).places.contains(&id) != stands {
                 return Some(Flaw::LostPlace(id));
             }
-            let link = |id: &LinkId| &self.paths.links[id.index()];
-            let leaves = |out: &LinkId| {
-                link(out).standing == Standing::Standing && link(out).from == id && stands
+            let belongs = |link: &LinkId, end: fn(&Link) -> PlaceId| {
+                let link = self.link(*link);
+                stands && link.standing == Standing::Standing && end(link) == id
             };
-            let leads = |into: &LinkId| {
-                link(into).standing == Standing::Standing && link(into).to == id && stands
-            };
-            if !place.outgoing.iter().all(leaves) || !place.incoming.iter().all(leads) {
+            let mut outgoing = place.outgoing.iter();
+            let mut incoming = place.incoming.iter();
+            if !outgoing.all(|link| belongs(link, |link| link.from))
+                || !incoming.all(|link| belongs(link, |link| link.to))
+            {
                 return Some(Flaw::StrangeLink(id));
             }
             let bounded = place.position.is_bounded() && place.envelope.is_bounded();
@@ -175,8 +189,8 @@ impl Diktiometry {
     }
 
     fn flawed_frame(&self) -> Option<Flaw> {
-        let all = (0..).map(FrameId).zip(&self.reference.frames);
-        all.into_iter().find_map(|(id, frame)| {
+        let mut all = (0..).map(FrameId).zip(&self.reference.frames);
+        all.find_map(|(id, frame)| {
             let sorted = frame.relations.is_sorted_by(|a, b| a.to < b.to);
             let mutual = frame.relations.iter().all(|relation| {
                 let back = self.reference.relation(relation.to, id);
@@ -188,13 +202,4 @@ impl Diktiometry {
             (!(sorted && mutual && used)).then_some(Flaw::OneSided(id))
         })
     }
-}
-
-/// Where a new place is put.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Site {
-    /// Into a frame that there is.
-    InFrame { frame: FrameId, position: PointBox },
-    /// At the origin of a frame of its own.
-    OwnFrame,
 }

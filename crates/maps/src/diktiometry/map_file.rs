@@ -1,8 +1,6 @@
 use thiserror::Error;
 
-use super::config::Config;
-use super::journal::{Journal, ReplayError};
-use super::observer::Observer;
+use super::{Config, Journal, Observer, ReplayError};
 
 /// An observer as it lies in a file: the journal, from which everything follows to the bit. Any format of serde's will do.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

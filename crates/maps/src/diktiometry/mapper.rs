@@ -1,14 +1,10 @@
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use tolman_geom::Point;
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 
-use super::error::StepError;
-use super::ids::PlaceId;
-use super::map::Diktiometry;
-use super::observation::Move;
-use super::observer::Observer;
-use super::track::Track;
+use super::{Diktiometry, Move, Observer, PlaceId, StepError, Track};
 
 /// An observer works on a log as on a robot: its observation is a [`Move`].
 ///
@@ -77,11 +73,9 @@ fn view(map: &Diktiometry) -> MapView {
         from: link.from.0,
         to: link.to.0,
     });
-    let mut links: Vec<MapLink> = links.collect();
-    links.sort_unstable();
-    links.dedup();
+    let links: BTreeSet<MapLink> = links.collect();
     MapView {
         places: map.paths.places().map(|(id, _)| place(id)).collect(),
-        links,
+        links: links.into_iter().collect(),
     }
 }

@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::PoseBox;
 
-use super::ids::Action;
-use super::signature::Signature;
+use super::{Action, Signature};
 
 /// One move: "a sequence of actions ending with the robot in a distinguished place", told after it ended.
 #[derive(Clone, Debug, PartialEq)]

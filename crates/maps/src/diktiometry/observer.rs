@@ -3,22 +3,12 @@ use alloc::vec::Vec;
 use tolman_geom::PointBox;
 use tolman_planners::a_star;
 
-use super::config::{Config, Percepts};
-use super::error::{StartError, StepError};
-use super::estimator::Rank;
-use super::ids::{Action, PlaceId, TrackId};
-use super::indexing::{ActiveFrame, ViewIndex};
-use super::journal::{Distinction, Recorder};
-use super::map::{Diktiometry, Site};
-use super::matching::remember;
-use super::observation::{Exits, Move, Outcome, Start};
-use super::opportunities::{Opportunity, actions_along, opportunities, untried};
-use super::path_graph::Link;
-use super::report::{Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport};
-use super::restructuring::{Hints, deposit, restructure};
-use super::signature::Signature;
-use super::track::Track;
-use super::updater::block;
+use super::{
+    Action, Config, Diktiometry, Exits, Hints, Journal, JournalLength, Link, Move, Outcome,
+    Percepts, PlaceId, Plan, Predicted, Rank, Restructured, Signature, Start, StartError,
+    StepError, StepReport, Track, TrackId, TrackReport, ViewIndex, block, deposit, remember,
+    restructure, steps_along,
+};
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
 ///
@@ -38,8 +28,8 @@ pub struct Observer {
     /// Tracks so far.
     pub(super) born: u32,
     moves: u64,
-    distinctions: Vec<Distinction>,
-    pub(super) recorder: Option<Recorder>,
+    /// Its moves are kept if the configuration says so.
+    pub(super) journal: Journal,
 }
 
 impl Observer {
@@ -51,23 +41,19 @@ impl Observer {
         config.check()?;
         check_percept(&config, start.percept.as_ref())?;
         check_exits(&config, &start.exits)?;
-        let recorder = Recorder::new(&config, &start);
+        let journal = Journal::begun(start.clone());
         let mut map = Diktiometry::default();
-        let place = map.new_place(Site::OwnFrame);
-        let first = &mut map.paths.places[place.index()];
+        let place = map.found_place();
+        let first = map.place_mut(place);
         let mut views = ViewIndex::default();
         remember(first, start.percept.as_ref(), &config.percepts);
+        first.exits = start.exits;
+        first.visits = 1;
         if let Some(view) = &start.percept {
             views.insert(place, view, &config);
             map.looks.kinds = 1;
         }
-        first.exits = start.exits;
-        first.visits = 1;
-        let at = ActiveFrame {
-            frame: first.frame,
-            robot: PointBox::ORIGIN,
-        };
-        let track = Track::begun(TrackId(0), place, 1.0, at);
+        let track = Track::begun(&map, TrackId(0), place, 1.0);
         Ok(Self {
             config,
             map,
@@ -76,8 +62,7 @@ impl Observer {
             tracks: Vec::from([track]),
             born: 1,
             moves: 0,
-            distinctions: Vec::new(),
-            recorder,
+            journal,
         })
     }
 
@@ -111,14 +96,6 @@ impl Observer {
         self.tracks[0].place
     }
 
-    /// Takes in that places are different.
-    pub(super) fn distinguish(&mut self, distinctions: &[Distinction]) {
-        self.distinctions = distinctions.to_vec();
-        if let Some(recorder) = &mut self.recorder {
-            recorder.journal.distinctions = distinctions.to_vec();
-        }
-    }
-
     /// Where an action leads from a place, as far as is known, by the link's id. Empty if it was never done there or the
     /// place is not known.
     #[must_use]
@@ -147,33 +124,9 @@ impl Observer {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
         let way = a_star(&self.map.paths, from.0, |place| place == to.0, |_| 0)?.path;
-        let links = |place| {
-            let likely = self.map.paths.likely(place);
-            likely.map(|(_, link)| (link.action, link.to))
-        };
-        let actions = actions_along(&way, links)?;
-        let ends = way.iter().skip(1).map(|&place| PlaceId(place));
-        let steps = actions
-            .into_iter()
-            .zip(ends)
-            .map(|(action, to)| PlanStep { action, to })
-            .collect();
+        let ways = |place| self.map.paths.likely(place).map(|(_, link)| link.step());
+        let steps = steps_along(&way, ways)?;
         Some(Plan { steps })
-    }
-
-    /// What would help the map, the most worthwhile first: scripts from where the best track is. Nothing depends on whether they are
-    /// done. O(places + links · degree).
-    #[must_use]
-    pub fn opportunities(&self) -> Vec<Opportunity> {
-        opportunities(&self.map, &self.tracks[0], &self.config)
-    }
-
-    /// Returns the actions that were never tried at `place` and may lead somewhere, by number; none
-    /// if `place` is not on the map. O(actions · degree).
-    #[must_use]
-    pub fn untried(&self, place: PlaceId) -> Vec<Action> {
-        let place = self.map.paths.resolve(place);
-        place.map_or_else(Vec::new, |place| untried(&self.map, place, &self.config))
     }
 
     /// Takes in a move that has ended.
@@ -194,22 +147,22 @@ impl Observer {
             Outcome::Blocked => self.blocked(step, &mut report),
             Outcome::Arrived => self.arrived(step, &mut report),
         }
-        self.record(step);
+        if self.config.journal == JournalLength::All {
+            self.journal.moves.push(step.clone());
+        }
         Ok(report)
     }
 
     fn admit(&self, step: &Move) -> Result<(), StepError> {
         let actions = self.config.actions.len();
-        if step.action.0 as usize >= actions {
-            return Err(StepError::UnknownAction {
-                action: step.action,
-                actions,
-            });
+        let Move {
+            action, odometry, ..
+        } = *step;
+        if action.0 as usize >= actions {
+            return Err(StepError::UnknownAction { action, actions });
         }
-        if !step.odometry.position.is_bounded() {
-            return Err(StepError::Unbounded {
-                odometry: step.odometry,
-            });
+        if !odometry.position.is_bounded() {
+            return Err(StepError::Unbounded { odometry });
         }
         check_percept(&self.config, step.percept.as_ref())?;
         check_exits(&self.config, &step.exits)
@@ -217,25 +170,13 @@ impl Observer {
 
     /// The robot is where it was, and now knows that the action leads nowhere.
     fn blocked(&mut self, step: &Move, report: &mut StepReport) {
-        block(
-            &mut self.map,
-            self.tracks[0].place,
-            step.action,
-            &self.config,
-        );
-        report.tracks = self
-            .tracks
-            .iter()
-            .map(|track| TrackReport {
-                track: track.id,
-                from: track.place,
-                matcher: None,
-                place: track.place,
-                confidence: track.confidence,
-                predicted: None,
-                motion: Some(PointBox::ORIGIN),
-            })
-            .collect();
+        let here = self.place();
+        block(&mut self.map, here, step.action, &self.config);
+        let lines = self.tracks.iter().map(|track| TrackReport {
+            motion: Some(PointBox::ORIGIN),
+            ..track.report(track.place, None, None)
+        });
+        report.tracks = lines.collect();
     }
 
     fn arrived(&mut self, step: &Move, report: &mut StepReport) {
@@ -250,13 +191,8 @@ impl Observer {
         let (children, lines): (Vec<Track>, Vec<TrackReport>) = next.into_iter().unzip();
         self.tracks = self.select(children);
         let occupied: Vec<PlaceId> = self.tracks.iter().map(|track| track.place).collect();
-        report.restructured = restructure(
-            &mut self.map,
-            &self.config,
-            hints,
-            &occupied,
-            &self.distinctions,
-        );
+        let apart = &self.journal.distinctions;
+        report.restructured = restructure(&mut self.map, &self.config, hints, &occupied, apart);
         for change in &report.restructured {
             if let Restructured::Split { kept, new } = *change {
                 self.take_sides(kept, new);
@@ -266,23 +202,15 @@ impl Observer {
         if let Some(best) = self.tracks.first() {
             deposit(&mut self.map, best.place, &best.history, &self.config);
         }
-        for mut line in lines {
-            let Some(now) = self.tracks.iter().find(|track| track.id == line.track) else {
-                continue;
-            };
-            line.confidence = now.confidence;
-            line.place = now.place;
-            line.motion = self
-                .map
-                .paths
-                .resolve(line.from)
-                .and_then(|from| self.motion(from, now.place));
-            report.tracks.push(line);
-        }
-        report.tracks.sort_by_key(|line| {
-            let at = self.tracks.iter().position(|track| track.id == line.track);
-            at.unwrap_or(usize::MAX)
+        let lines = self.tracks.iter().filter_map(|track| {
+            let line = lines.iter().find(|line| line.track == track.id)?;
+            let from = self.map.paths.resolve(line.from);
+            Some(TrackReport {
+                motion: from.and_then(|from| self.motion(from, track.place)),
+                ..track.report(line.from, line.matcher, line.predicted)
+            })
         });
+        report.tracks = lines.collect();
     }
 
     /// Where one place lies as seen from another by what is known of their two frames, m; by a search only if they
@@ -295,28 +223,22 @@ impl Observer {
 }
 
 fn check_percept(config: &Config, percept: Option<&Signature>) -> Result<(), StepError> {
-    let size = |percept: &Signature| (percept.rows(), percept.columns());
-    match (&config.percepts, percept) {
-        (Percepts::None, None) => Ok(()),
-        (Percepts::None, Some(percept)) => Err(StepError::PerceptSize {
-            rows: percept.rows(),
-            columns: percept.columns(),
-            expected_rows: 0,
-            expected_columns: 0,
-        }),
-        (Percepts::Signatures(_), None) => Err(StepError::PerceptMissing),
-        (Percepts::Signatures(kind), Some(percept)) => {
-            if size(percept) == (kind.rows, kind.columns) {
-                return Ok(());
-            }
-            Err(StepError::PerceptSize {
-                rows: percept.rows(),
-                columns: percept.columns(),
-                expected_rows: kind.rows,
-                expected_columns: kind.columns,
-            })
-        }
+    let expected = match config.percepts {
+        Percepts::None => None,
+        Percepts::Signatures(kind) => Some((kind.rows, kind.columns)),
+    };
+    let given = percept.map(|percept| (percept.rows(), percept.columns()));
+    if given == expected {
+        return Ok(());
     }
+    let (rows, columns) = given.ok_or(StepError::PerceptMissing)?;
+    let (expected_rows, expected_columns) = expected.unwrap_or_default();
+    Err(StepError::PerceptSize {
+        rows,
+        columns,
+        expected_rows,
+        expected_columns,
+    })
 }
 
 fn check_exits(config: &Config, exits: &Exits) -> Result<(), StepError> {

@@ -5,12 +5,9 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 use tolman_planners::Graph;
 
-use super::constancy::Constancy;
-use super::counts::Counts;
-use super::ids::{Action, FrameId, LinkId, PlaceId};
-use super::observation::Exits;
-use super::signature::Signature;
-use super::track::Match;
+use super::{
+    Action, Constancy, Counts, Exits, FrameId, LinkId, Match, PlaceId, PlanStep, Signature,
+};
 
 /// A place, with its reference link: where it lies in its canonical frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,6 +70,11 @@ impl Place {
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)
     }
+
+    /// The links that lead to it, then those that leave it.
+    pub(super) fn links(&self) -> Vec<LinkId> {
+        [self.incoming.as_slice(), &self.outgoing].concat()
+    }
 }
 
 /// What became of a place.
@@ -93,6 +95,16 @@ pub struct Estim {
     pub position: Point,
     /// How many estimates it stands for.
     pub weight: f64,
+}
+
+impl Estim {
+    /// The same in a frame whose origin lies at `-shift`, m.
+    pub(super) fn shifted(self, shift: Point) -> Self {
+        Self {
+            position: self.position + shift.coords,
+            ..self
+        }
+    }
 }
 
 /// "A note is made of the operation to be performed": a merge that waits for a narrower box or for more looks.
@@ -132,6 +144,23 @@ pub struct Link {
     pub then: Vec<Successor>,
     /// Whether it is still part of the map.
     pub standing: Standing,
+}
+
+impl Link {
+    pub(super) const fn step(&self) -> PlanStep {
+        PlanStep {
+            action: self.action,
+            to: self.to,
+        }
+    }
+
+    /// Counts that another link was taken after it.
+    pub(super) fn follow(&mut self, next: Successor) {
+        match self.then.iter_mut().find(|one| one.link == next.link) {
+            Some(one) => one.count = one.count.saturating_add(next.count),
+            None => self.then.push(next),
+        }
+    }
 }
 
 /// How often a link was followed by another.
@@ -190,8 +219,7 @@ impl PathGraph {
 
     /// What a place is called now, after all merges; none if it was elided or never was.
     #[must_use]
-    pub fn resolve(&self, id: PlaceId) -> Option<PlaceId> {
-        let mut id = id;
+    pub fn resolve(&self, mut id: PlaceId) -> Option<PlaceId> {
         loop {
             match self.place(id)?.fate {
                 Fate::Standing => return Some(id),
@@ -259,13 +287,12 @@ impl PathGraph {
     /// lately, then the older.
     pub fn likely(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
-            let best = self
-                .along(place, link.action)
-                .max_by(|(a, one), (b, other)| {
-                    let chance = self.chance(*a).total_cmp(&self.chance(*b));
-                    let met = one.counts.met().total_cmp(&other.counts.met());
-                    chance.then(met).then(b.cmp(a))
-                });
+            let along = self.along(place, link.action);
+            let best = along.max_by(|(a, one), (b, other)| {
+                let chance = self.chance(*a).total_cmp(&self.chance(*b));
+                let met = one.counts.met().total_cmp(&other.counts.met());
+                chance.then(met).then(b.cmp(a))
+            });
             best.is_some_and(|(best, _)| best == *id)
         })
     }

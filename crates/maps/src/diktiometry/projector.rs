@@ -1,21 +1,22 @@
 use tolman_geom::{Interval, PointBox};
 
-use super::config::Config;
-use super::ids::FrameId;
-use super::map::Diktiometry;
-use super::observation::Move;
-use super::track::Track;
+use super::{Action, Config, Diktiometry, FrameId, Move, PlaceId, Track};
 
 /// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
 /// estimates and control inputs".
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
+    /// The place that was left.
+    pub(super) from: PlaceId,
+    pub(super) action: Action,
     /// The frame of the place that was left.
     pub(super) frame: FrameId,
     /// The displacement between the points of the two places, m.
     pub(super) displacement: PointBox,
     /// The point of the place arrived at, in the frame, m.
     pub(super) position: PointBox,
+    /// Distance since the last CONTINUE, m.
+    pub(super) astray: f64,
 }
 
 pub(super) fn project(
@@ -24,12 +25,15 @@ pub(super) fn project(
     step: &Move,
     config: &Config,
 ) -> Projection {
-    let place = &map.paths.places[track.place.index()];
+    let (frame, position) = map.site(track.place);
     let displacement = between_places(step.odometry.position, config);
     Projection {
-        frame: place.frame,
+        from: track.place,
+        action: step.action,
+        frame,
         displacement,
-        position: place.position + displacement,
+        position: position + displacement,
+        astray: track.astray + displacement.norm().middle(),
     }
 }
 

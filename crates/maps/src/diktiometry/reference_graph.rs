@@ -6,8 +6,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::grid::Grid;
-use super::ids::{FrameId, PlaceId};
+use super::{FrameId, Grid, PlaceId};
 pub(super) use search::{Reached, search};
 
 /// A local frame. All frames lie along the axes of the compass, so that a relation is a displacement.
@@ -19,6 +18,14 @@ pub struct Frame {
     pub relations: Vec<Relation>,
     /// How well its area is known.
     pub grid: Grid,
+}
+
+impl Frame {
+    /// The number of the relation to a frame, or the one that it would have.
+    fn find(&self, to: FrameId) -> Result<usize, usize> {
+        self.relations
+            .binary_search_by_key(&to, |relation| relation.to)
+    }
 }
 
 /// What is known of where another frame lies.
@@ -59,9 +66,8 @@ impl ReferenceGraph {
     /// What is known of `to` from `from`.
     #[must_use]
     pub fn relation(&self, from: FrameId, to: FrameId) -> Option<&Relation> {
-        let relations = &self.frames.get(from.index())?.relations;
-        let at = relations.binary_search_by_key(&to, |relation| relation.to);
-        at.ok().map(|at| &relations[at])
+        let frame = self.frames.get(from.index())?;
+        frame.find(to).ok().map(|at| &frame.relations[at])
     }
 
     /// Where the origin of `to` lies in `from` by the relation between the two, m; none if they are not related.
@@ -108,34 +114,31 @@ impl ReferenceGraph {
     }
 
     fn relate_one_way(&mut self, from: FrameId, to: FrameId, estimate: PointBox) {
-        let relations = &mut self.frames[from.index()].relations;
-        match relations.binary_search_by_key(&to, |relation| relation.to) {
-            Ok(at) => {
-                let relation = &mut relations[at];
-                if let Some(both) = relation.position.intersection(estimate) {
-                    relation.position = both;
-                }
-                relation.envelope = relation.envelope.hull(estimate);
-                relation.estimates = relation.estimates.saturating_add(1);
-            }
-            Err(at) => relations.insert(
-                at,
-                Relation {
-                    to,
-                    position: estimate,
-                    envelope: estimate,
-                    estimates: 1,
-                },
-            ),
+        let frame = &mut self.frames[from.index()];
+        let at = frame.find(to).unwrap_or_else(|at| {
+            let new = Relation {
+                to,
+                position: estimate,
+                envelope: estimate,
+                estimates: 0,
+            };
+            frame.relations.insert(at, new);
+            at
+        });
+        let relation = &mut frame.relations[at];
+        if let Some(both) = relation.position.intersection(estimate) {
+            relation.position = both;
         }
+        relation.envelope = relation.envelope.hull(estimate);
+        relation.estimates = relation.estimates.saturating_add(1);
     }
 
     /// Opens a relation to all that it was ever estimated to be: one of the estimates was wrong.
     pub(super) fn open(&mut self, from: FrameId, to: FrameId) {
         for (from, to) in [(from, to), (to, from)] {
-            let relations = &mut self.frames[from.index()].relations;
-            if let Ok(at) = relations.binary_search_by_key(&to, |relation| relation.to) {
-                relations[at].position = relations[at].envelope;
+            let frame = &mut self.frames[from.index()];
+            if let Ok(at) = frame.find(to) {
+                frame.relations[at].position = frame.relations[at].envelope;
             }
         }
     }

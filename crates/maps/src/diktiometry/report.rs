@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::ids::{Action, LinkId, PlaceId, TrackId};
-use super::matching::Matcher;
+use super::{Action, LinkId, Matcher, PlaceId, TrackId};
 
 /// What became of a move.
 #[derive(Clone, Debug, PartialEq)]

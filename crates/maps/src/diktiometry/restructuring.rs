@@ -11,13 +11,10 @@ mod transients;
 use alloc::vec::Vec;
 use core::iter;
 
-use super::config::{Config, GeometricMerge};
-use super::ids::{LinkId, PlaceId};
-use super::journal::Distinction;
-use super::map::Diktiometry;
-use super::matching::share_a_view;
-use super::path_graph::{Estim, Fate};
-use super::report::Restructured;
+use super::{
+    Config, Diktiometry, Distinction, Estim, Fate, GeometricMerge, LinkId, PlaceId, Restructured,
+    share_a_view,
+};
 pub(super) use look_agreement::{learn_of_two, wanted_anywhere};
 pub(super) use non_local_path::deposit;
 pub(super) use transients::elide_place;
@@ -31,6 +28,16 @@ enum Verdict {
     Propose,
     Abstain,
     Reject,
+}
+
+impl Verdict {
+    const fn propose_if(grounds: bool) -> Self {
+        if grounds {
+            Self::Propose
+        } else {
+            Self::Abstain
+        }
+    }
 }
 
 /// Polytopy: one place that is two in the world.
@@ -72,6 +79,14 @@ pub(super) struct Hints {
     pub(super) near: Vec<PlaceId>,
 }
 
+impl Hints {
+    /// The next place, and whether it changed itself; those that did come first.
+    fn next(&mut self) -> Option<(PlaceId, bool)> {
+        let changed = self.changed.pop().map(|place| (place, true));
+        changed.or_else(|| Some((self.near.pop()?, false)))
+    }
+}
+
 /// Restructures the map where the updater hints at, and where this in turn changes something: "it can be advantageous for
 /// the updater to inform the restructuring module when it performs an update". Places that tracks are at (`occupied`) are
 /// never elided.
@@ -86,14 +101,7 @@ pub(super) fn restructure(
     // What was just split is not merged in the same breath, so that this ends: every round but the first takes a merge, and
     // merges use up the places that there were.
     let mut born: Vec<PlaceId> = Vec::new();
-    loop {
-        let (hint, changed) = if let Some(hint) = hints.changed.pop() {
-            (hint, true)
-        } else if let Some(hint) = hints.near.pop() {
-            (hint, false)
-        } else {
-            return done;
-        };
+    while let Some((hint, changed)) = hints.next() {
         let Some(place) = map.paths.resolve(hint) else {
             continue;
         };
@@ -108,14 +116,13 @@ pub(super) fn restructure(
             near = geometric::around(map, place);
         }
         for pair in noted.into_iter().chain(geometric::meeting(&near)) {
-            let stand = [pair.a, pair.b].map(|place| map.paths.places[place.index()].fate);
-            if stand != [Fate::Standing; 2] || !accepted(merge_verdicts(map, &pair, config)) {
-                continue;
-            }
-            if born.contains(&pair.a) || born.contains(&pair.b) {
-                continue;
-            }
-            if distinctions.iter().any(|one| separates(map, one, &pair)) {
+            let may_merge =
+                |place| map.place(place).fate == Fate::Standing && !born.contains(&place);
+            if !may_merge(pair.a)
+                || !may_merge(pair.b)
+                || distinctions.iter().any(|one| separates(map, one, &pair))
+                || !accepted(merge_verdicts(map, &pair, config))
+            {
                 continue;
             }
             if let Some(kept) = merge::merge(map, pair.a, pair.b, config) {
@@ -124,7 +131,7 @@ pub(super) fn restructure(
                 hints.changed.push(kept);
             }
         }
-        let stands = map.paths.places[place.index()].fate == Fate::Standing;
+        let stands = map.place(place).fate == Fate::Standing;
         if changed
             && stands
             && let Some(diagnosis) = split_diagnosis(map, place, config)
@@ -134,6 +141,7 @@ pub(super) fn restructure(
             born.push(new);
         }
     }
+    done
 }
 
 /// Whether the two places of a pair are those that are known to be different.
@@ -153,7 +161,7 @@ fn merge_verdicts(
     let settled = config.restructuring.geometric_merge == GeometricMerge::Narrow
         && geometry == Verdict::Propose;
     let views = move || {
-        let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+        let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
         if settled || share_a_view(a, b, &config.percepts) {
             Verdict::Abstain
         } else {

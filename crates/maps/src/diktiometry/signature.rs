@@ -71,18 +71,7 @@ impl Signature {
     /// # Errors
     /// [`SignatureError`] if there are no values, the last column is not full, or a value is not finite.
     pub fn new(rows: usize, values: Vec<f64>) -> Result<Self, SignatureError> {
-        if rows == 0 || values.is_empty() {
-            return Err(SignatureError::Empty {
-                rows,
-                values: values.len(),
-            });
-        }
-        if !values.len().is_multiple_of(rows) {
-            return Err(SignatureError::Ragged {
-                rows,
-                values: values.len(),
-            });
-        }
+        check_shape(rows, values.len())?;
         if let Some(at) = values.iter().position(|value| !value.is_finite()) {
             return Err(SignatureError::NotFinite {
                 column: at / rows,
@@ -124,4 +113,14 @@ impl Signature {
             })
             .count()
     }
+}
+
+const fn check_shape(rows: usize, values: usize) -> Result<(), SignatureError> {
+    if rows == 0 || values == 0 {
+        return Err(SignatureError::Empty { rows, values });
+    }
+    if !values.is_multiple_of(rows) {
+        return Err(SignatureError::Ragged { rows, values });
+    }
+    Ok(())
 }

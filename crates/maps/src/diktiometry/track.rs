@@ -2,8 +2,9 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::ids::{Action, LinkId, PlaceId, TrackId};
-use super::indexing::ActiveFrame;
+use super::{
+    Action, ActiveFrame, Diktiometry, LinkId, Matcher, PlaceId, Predicted, TrackId, TrackReport,
+};
 
 /// A track: one state estimate ("each tracks a possible true state").
 ///
@@ -40,8 +41,8 @@ pub struct Match {
 }
 
 impl Track {
-    /// A track that begins at a place, with the robot there in the place's frame.
-    pub(super) fn begun(id: TrackId, place: PlaceId, confidence: f64, at: ActiveFrame) -> Self {
+    /// A track that begins at a place of a map.
+    pub(super) fn begun(map: &Diktiometry, id: TrackId, place: PlaceId, confidence: f64) -> Self {
         Self {
             id,
             place,
@@ -54,7 +55,25 @@ impl Track {
                 doubts: Vec::new(),
                 since: PointBox::ORIGIN,
             }]),
-            active: Vec::from([at]),
+            active: Vec::from([ActiveFrame::at(map, place)]),
+        }
+    }
+
+    /// What became of it as far as it knows: not how the map has the move.
+    pub(super) const fn report(
+        &self,
+        from: PlaceId,
+        matcher: Option<Matcher>,
+        predicted: Option<Predicted>,
+    ) -> TrackReport {
+        TrackReport {
+            track: self.id,
+            from,
+            matcher,
+            place: self.place,
+            confidence: self.confidence,
+            predicted,
+            motion: None,
         }
     }
 

@@ -4,14 +4,10 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use super::config::Config;
-use super::counts::Expected;
-use super::ids::{Action, LinkId, PlaceId};
-use super::map::Diktiometry;
-use super::observation::Exits;
-use super::path_graph::{Estim, Place};
-use super::projector::Projection;
-use super::reference_graph::Excluded;
+use super::{
+    Action, Config, Diktiometry, Estim, Excluded, Exits, Expected, Link, LinkId, Place, PlaceId,
+    Projection,
+};
 
 /// The track went from one place to another: the link between them is counted, and the boxes at both its ends are narrowed,
 /// that of the place arrived at by the one it left (as in the paper) and back.
@@ -22,27 +18,24 @@ use super::reference_graph::Excluded;
 /// [`Excluded`] if the displacement contradicts what is known of the two frames; the boxes then stay as they were.
 pub(super) fn arrive(
     map: &mut Diktiometry,
-    from: PlaceId,
-    action: Action,
-    to: PlaceId,
     projection: &Projection,
+    to: PlaceId,
     robot: PointBox,
     config: &Config,
 ) -> (LinkId, Result<(), Excluded>) {
+    let Projection { from, action, .. } = *projection;
     let link = map.paths.link_to(from, action, to);
-    map.paths.places[from.index()]
-        .blocked
-        .retain(|blocked| *blocked != action);
+    let blocked = &mut map.place_mut(from).blocked;
+    blocked.retain(|blocked| *blocked != action);
     let taken = Taken {
         link,
         length: length(projection.displacement),
     };
     expect(map, from, action, Some(taken), config);
-    let taken = &mut map.paths.links[link.index()];
+    let taken = map.link_mut(link);
     taken.traversed = taken.traversed.saturating_add(1);
-    let visits = &mut map.paths.places[to.index()].visits;
-    *visits = visits.saturating_add(1);
-    let place = &mut map.paths.places[to.index()];
+    let place = map.place_mut(to);
+    place.visits = place.visits.saturating_add(1);
     estimate(place, robot, config.separation);
     (link, narrow(map, from, to, projection.displacement))
 }
@@ -50,7 +43,7 @@ pub(super) fn arrive(
 /// An action led nowhere: no plan uses it until it leads somewhere again, and the links it should have gone along were expected
 /// in vain.
 pub(super) fn block(map: &mut Diktiometry, from: PlaceId, action: Action, config: &Config) {
-    let blocked = &mut map.paths.places[from.index()].blocked;
+    let blocked = &mut map.place_mut(from).blocked;
     if !blocked.contains(&action) {
         blocked.push(action);
     }
@@ -58,24 +51,19 @@ pub(super) fn block(map: &mut Diktiometry, from: PlaceId, action: Action, config
 }
 
 /// Narrows what is known of two places by an estimate of the displacement between them.
-pub(super) fn narrow(
+fn narrow(
     map: &mut Diktiometry,
     from: PlaceId,
     to: PlaceId,
     displacement: PointBox,
 ) -> Result<(), Excluded> {
-    let [start, end] = [from, to].map(|place| {
-        let place = &map.paths.places[place.index()];
-        (place.frame, place.position)
-    });
-    let frames = start.1 + displacement - end.1;
-    map.reference.relate(start.0, end.0, frames)?;
-    let end_from_start = map.reference.known(start.0, end.0).unwrap_or(frames);
+    let [(start, begins), (end, ends)] = [from, to].map(|place| map.site(place));
+    let frames = begins + displacement - ends;
+    map.reference.relate(start, end, frames)?;
+    let end_from_start = map.reference.known(start, end).unwrap_or(frames);
     // Forward, as the paper does, and backward.
-    let arrived = start.1 + displacement - end_from_start;
-    contract(&mut map.paths.places[to.index()], arrived);
-    let left = end.1 + end_from_start - displacement;
-    contract(&mut map.paths.places[from.index()], left);
+    contract(map.place_mut(to), begins + displacement - end_from_start);
+    contract(map.place_mut(from), ends + end_from_start - displacement);
     Ok(())
 }
 
@@ -106,18 +94,15 @@ fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
 /// equal pairs the older.
 pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
     loop {
-        let mut closest: Option<(f64, usize, usize)> = None;
-        for (second, b) in estims.iter().enumerate() {
-            for (first, a) in estims[..second].iter().enumerate() {
-                let distance = (a.position - b.position).norm();
-                if distance < 0.5 * separation
-                    && closest.is_none_or(|(least, _, _)| distance < least)
-                {
-                    closest = Some((distance, first, second));
-                }
-            }
-        }
-        let Some((_, first, second)) = closest else {
+        let pairs =
+            (0..estims.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
+        let distance = |first: usize, second: usize| {
+            let between = estims[first].position - estims[second].position;
+            between.norm()
+        };
+        let near = pairs.map(|(first, second)| (distance(first, second), first, second));
+        let near = near.filter(|(distance, ..)| *distance < 0.5 * separation);
+        let Some((_, first, second)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return;
         };
         let b = estims.remove(second);
@@ -142,22 +127,20 @@ pub(super) fn see_exits(map: &mut Diktiometry, place: PlaceId, exits: &Exits, co
         expect(map, place, action, None, config);
     }
     // What is open leads where it always led, or, if it was shut, where it mostly led.
-    let here = &map.paths.places[place.index()];
-    let open = map
-        .paths
-        .outgoing(place)
-        .filter(|(_, link)| exits.allow(link.action));
+    let here = map.place(place);
+    let outgoing = map.paths.outgoing(place);
+    let open = outgoing.filter(|(_, link)| exits.allow(link.action));
     let told = open.filter(|(id, link)| {
         let alone = map.paths.along(place, link.action).count() == 1;
         let again = !here.exits.allow(link.action);
         alone || (again && map.paths.likeliest(place, link.action) == Some(*id))
     });
     let told: Vec<LinkId> = told.map(|(id, _)| id).collect();
+    let now = map.paths.now;
     for id in told {
-        let link = &mut map.paths.links[id.index()];
-        link.constancy.look(Expected::Met, map.paths.now);
+        map.link_mut(id).constancy.look(Expected::Met, now);
     }
-    map.paths.places[place.index()].exits = exits.clone();
+    map.place_mut(place).exits = exits.clone();
 }
 
 /// The link along which an action led.
@@ -177,25 +160,26 @@ fn expect(
     config: &Config,
 ) {
     let (fading, now) = (config.transients.fading, map.paths.now);
-    for at in 0..map.paths.places[from.index()].outgoing.len() {
-        let id = map.paths.places[from.index()].outgoing[at];
-        let one = &map.paths.links[id.index()];
-        if one.action != action {
+    for id in map.place(from).outgoing.clone() {
+        let Link {
+            action: led, to, ..
+        } = *map.link(id);
+        if led != action {
             continue;
         }
-        let to = one.to;
-        let looked_for = taken.is_some_and(|taken| {
-            taken.link == id || !ends_before(map, from, to, taken.length, config.separation)
-        });
-        let one = &mut map.paths.links[id.index()];
-        let outcome = if taken.is_some_and(|taken| taken.link == id) {
+        let is_met = taken.is_some_and(|taken| taken.link == id);
+        let ends_there =
+            |taken: Taken| !ends_before(map, from, to, taken.length, config.separation);
+        let looked_for = is_met || taken.is_some_and(ends_there);
+        let outcome = if is_met {
             Expected::Met
         } else {
             Expected::InVain
         };
-        one.counts.expect(outcome, fading);
-        one.constancy.look(outcome, now);
-        let place = &mut map.paths.places[to.index()];
+        let link = map.link_mut(id);
+        link.counts.expect(outcome, fading);
+        link.constancy.look(outcome, now);
+        let place = map.place_mut(to);
         place.counts.expect(outcome, fading);
         // Behind a shut door the place is still there, and so it is behind a new one.
         if looked_for {

@@ -1,9 +1,8 @@
 //! A learned map over the world it was learned in, as the paper's figures 3(a) and 4.
 
-use tolman_geom::Point;
 use tolman_sim::Bounds;
 
-use tolman_arena::diktiometry::{Drawn, Office, Survey};
+use tolman_arena::diktiometry::{Office, Survey};
 use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, Plan, Region, Series};
 
 /// Width of a plan, user units.
@@ -18,26 +17,16 @@ const MOST_BOXES: usize = 100;
 pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
     let mut plan = Plan::of_world(office.world(), WIDTH);
     let drawn = survey.drawn();
-    let boxes = if drawn.len() > MOST_BOXES {
-        &[]
-    } else {
-        drawn.as_slice()
-    };
-    for Drawn { low, high, .. } in boxes {
-        let bounds = Bounds {
-            min: *low,
-            max: *high,
-        };
-        plan.region(&Region::within(&bounds), Series(1));
+    for place in drawn.iter().filter(|_| drawn.len() <= MOST_BOXES) {
+        plan.region(&Region::within(&place.bounds), Series(1));
     }
     let mut graph = Graph::new();
-    let nodes: Vec<(u32, usize)> = drawn
-        .iter()
-        .map(|place| {
-            let node = GraphNode::at(middle(place)).note(&place.label);
-            (place.id, graph.node(node))
-        })
-        .collect();
+    let nodes = drawn.iter().map(|place| {
+        let Bounds { min, max } = place.bounds;
+        let node = GraphNode::at(min + 0.5 * (max - min)).note(&place.label);
+        (place.id, graph.node(node))
+    });
+    let nodes: Vec<(u32, usize)> = nodes.collect();
     // By id, as the layout is.
     let node = |id: u32| {
         let at = nodes.binary_search_by_key(&id, |(id, _)| *id).ok()?;
@@ -49,12 +38,6 @@ pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
         }
     }
     plan.graph(&graph);
-    plan.drawing(format!(
-        "A learned map over its world: {} places.",
-        drawn.len()
-    ))
-}
-
-fn middle(place: &Drawn) -> Point {
-    place.low + 0.5 * (place.high - place.low)
+    let places = drawn.len();
+    plan.drawing(format!("A learned map over its world: {places} places."))
 }

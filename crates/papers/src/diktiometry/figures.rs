@@ -43,10 +43,8 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
         let curves: Vec<Vec<f64>> = of_row.into_iter().map(|run| run.curve).collect();
         let windows = curves.iter().map(Vec::len).max().unwrap_or(0);
         let points = (0..windows).filter_map(|window| {
-            let values: Vec<f64> = curves
-                .iter()
-                .filter_map(|curve| curve.get(window).copied())
-                .collect();
+            let values = curves.iter().filter_map(|curve| curve.get(window));
+            let values: Vec<f64> = values.copied().collect();
             let spread = Interval {
                 low: tolman_stats::quantile(&values, 0.25).ok()?,
                 high: tolman_stats::quantile(&values, 0.75).ok()?,

@@ -1,5 +1,6 @@
 //! The figures of "Maps Considered as Adaptive Planning Resources" as tables: how a robot that walks an office learns its map.
 
+mod ablations;
 pub mod drawing;
 mod figures;
 mod replay;
@@ -15,6 +16,7 @@ use tolman_experiment::{
 };
 use tolman_replay::Replay;
 
+pub use ablations::{ABLATIONS, Change};
 use settings::{Rows, Setting, Subject, Trial};
 
 /// What the catalogue says of it.
@@ -108,35 +110,6 @@ const SHARES: [&str; 10] = [
     SurveyRun::plans_to_gone,
 ];
 
-/// What became of the plans of a run.
-#[derive(Debug, Default)]
-struct Plans {
-    /// Those to places that were there.
-    there: u32,
-    /// Of these, those that work.
-    work: u32,
-    /// Of these, those by ways as they were last seen that work.
-    remembered_work: u32,
-    /// Those to places that were gone.
-    gone: u32,
-}
-
-impl Plans {
-    fn count(&mut self, trial: PlanTrial) {
-        match trial {
-            PlanTrial::Gone => self.gone += 1,
-            PlanTrial::There {
-                works,
-                remembered_works,
-            } => {
-                self.there += 1;
-                self.work += u32::from(works);
-                self.remembered_work += u32::from(remembered_works);
-            }
-        }
-    }
-}
-
 fn table(trial: &Trial) -> Table {
     let reference = trial.settings.first().map_or("", |setting| setting.row);
     let mut table = Table::of::<SurveyRun>(trial.name, trial.title)
@@ -181,8 +154,8 @@ fn table(trial: &Trial) -> Table {
 }
 
 /// A part of a whole; `None` of nothing.
-fn share(part: u32, whole: u32) -> Option<f64> {
-    (whole > 0).then(|| f64::from(part) / f64::from(whole))
+fn share(part: usize, whole: usize) -> Option<f64> {
+    (whole > 0).then(|| part as f64 / whole as f64)
 }
 
 impl Diktiometry {
@@ -198,17 +171,13 @@ impl Procedure for Diktiometry {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
-        let mut plans = Plans::default();
+        let mut plans = Vec::new();
         for number in 1..=setting.config.moves {
             survey.step()?;
             // Plans are tried where the asymptote is measured.
             let late = f64::from(number) > (1.0 - TAIL) * f64::from(setting.config.moves);
-            if late
-                && setting.subject == Subject::Map
-                && number.is_multiple_of(5)
-                && let Some(trial) = survey.try_plan()
-            {
-                plans.count(trial);
+            if late && setting.subject == Subject::Map && number.is_multiple_of(5) {
+                plans.extend(survey.try_plan());
             }
         }
         let summary = ErrorSummary::of(survey.errors()).ok_or("no move was made")?;
@@ -221,6 +190,11 @@ impl Procedure for Diktiometry {
             return Ok(run.fields()?);
         }
         let score = survey.score();
+        let count = |is: fn(&&PlanTrial) -> bool| plans.iter().filter(is).count();
+        let gone = count(|plan| **plan == PlanTrial::Gone);
+        let there = plans.len() - gone;
+        let work = count(|plan| matches!(plan, PlanTrial::There { works: true, .. }));
+        let remembered = |plan: &&PlanTrial| matches!(plan, PlanTrial::There { remembered_works, .. } if *remembered_works);
         let run = SurveyRun {
             ssd_asymptote: summary.asymptote,
             odometry: Some(summary.odometry),
@@ -232,9 +206,9 @@ impl Procedure for Diktiometry {
             link_recall: Some(score.link_recall),
             share_once: Some(score.share_once),
             coverage: Some(summary.coverage),
-            plans: share(plans.work, plans.there),
-            remembered_plans: share(plans.remembered_work, plans.there),
-            plans_to_gone: share(plans.gone, plans.there + plans.gone),
+            plans: share(work, there),
+            remembered_plans: share(count(remembered), there),
+            plans_to_gone: share(gone, plans.len()),
             places: Some(score.places),
             visited: Some(score.visited),
             isomorphic: Some(score.isomorphism == Isomorphism::Yes),

@@ -33,13 +33,8 @@ pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
     let body = Body::Circle {
         radius: robot.radius,
     };
-    let poses = survey
-        .robot()
-        .path()
-        .iter()
-        .step_by(COARSE)
-        .copied()
-        .collect();
+    let path = survey.robot().path().iter();
+    let poses = path.step_by(COARSE).copied().collect();
     let mut track = Track::new("robot", body, poses);
     track.maps = vec![watch.growth()];
     track.beliefs = vec![watch.belief];
@@ -87,7 +82,7 @@ impl Watch {
             samples: Vec::new(),
         };
         let mut watch = Self {
-            start: survey.start(),
+            start: survey.past().start,
             home: survey.observer().place(),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
@@ -106,25 +101,16 @@ impl Watch {
 
     fn see(&mut self, survey: &Survey<'_>, surveyed: &Surveyed) {
         let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
-        let before = surveyed
-            .report
-            .tracks
-            .first()
-            .and_then(|track| self.nodes.get(&track.from));
-        let before = before.map(|node| {
-            node.moves
-                .last()
-                .map_or(node.position, |last| last.position)
-        });
+        let best = surveyed.report.tracks.first();
+        let before = best.and_then(|track| self.nodes.get(&track.from));
+        let before = before.map(latest);
         self.map(survey, step);
-        let tracks = survey.observer().tracks();
-        let mut shapes: Vec<Shape> = tracks
-            .iter()
-            .map(|track| Shape::Node {
-                id: track.place.0,
-                weight: track.confidence.clamp(0.0, 1.0),
-            })
-            .collect();
+        let tracks = survey.observer().tracks().iter();
+        let shapes = tracks.map(|track| Shape::Node {
+            id: track.place.0,
+            weight: track.confidence.clamp(0.0, 1.0),
+        });
+        let mut shapes: Vec<Shape> = shapes.collect();
         if let Some(before) = before {
             let PointBox { x, y } = surveyed.arrival.moved;
             shapes.push(Shape::Box {
@@ -140,27 +126,20 @@ impl Watch {
             series.samples.pop_if(|sample| sample.step >= step);
             series.samples.push(Sample { step, value });
         };
-        sample(
-            &mut self.places,
-            survey.observer().map().paths.places().count() as f64,
-        );
+        let places = survey.observer().map().paths.places().count();
+        sample(&mut self.places, places as f64);
         if let Some(error) = survey.errors().last() {
             sample(&mut self.error, error.map);
         }
-        let best = surveyed.report.tracks.first();
         let matcher = best.and_then(|track| track.matcher);
-        self.matcher.say(
-            step,
-            matcher.map_or("blocked".to_owned(), |matcher| format!("{matcher:?}")),
-        );
-        self.reason.say(
-            step,
-            match &surveyed.decision.reason {
-                Reason::Walk => "random walk".to_owned(),
-                Reason::Advice(advice) => format!("advice: {:?}", advice.kind),
-                Reason::Script => "script".to_owned(),
-            },
-        );
+        let matcher = matcher.map_or("blocked".to_owned(), |matcher| format!("{matcher:?}"));
+        self.matcher.say(step, matcher);
+        let reason = match &surveyed.decision.reason {
+            Reason::Walk => "random walk".to_owned(),
+            Reason::Advice(advice) => format!("advice: {:?}", advice.kind),
+            Reason::Script => "script".to_owned(),
+        };
+        self.reason.say(step, reason);
     }
 
     /// What has changed on the map.
@@ -169,15 +148,9 @@ impl Watch {
         for drawn in map.layout(self.home) {
             let position = self.start + drawn.bounds.middle().coords;
             let id = drawn.place;
-            let node = self
-                .nodes
-                .entry(id)
-                .or_insert_with(|| Node::new(id.0, position, step));
-            let last = node
-                .moves
-                .last()
-                .map_or(node.position, |last| last.position);
-            if (last - position).norm() > STILL {
+            let node = self.nodes.entry(id);
+            let node = node.or_insert_with(|| Node::new(id.0, position, step));
+            if (latest(node) - position).norm() > STILL {
                 node.moves.pop_if(|moved| moved.step >= step);
                 node.moves.push(NodeMove { step, position });
             }
@@ -220,4 +193,10 @@ impl Watch {
             edges: self.edges.values().cloned().collect(),
         }
     }
+}
+
+/// Where a node was last seen to be.
+fn latest(node: &Node) -> Point {
+    let last = node.moves.last();
+    last.map_or(node.position, |last| last.position)
 }

@@ -5,8 +5,8 @@ use alloc::sync::Arc;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
-use tolman_maps::diktiometry::{Ablation, Config};
 
+use super::ablations::{ABLATIONS, Change};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
@@ -43,24 +43,30 @@ pub(super) struct Setting {
 }
 
 impl Setting {
+    /// A row that measures the map of a survey that heeds scripts.
+    fn scripted(row: &'static str, office: &Arc<Office>, config: SurveyConfig) -> Self {
+        Self {
+            row,
+            office: Arc::clone(office),
+            config: SurveyConfig {
+                heed: HEED,
+                ..config
+            },
+            subject: Subject::Map,
+        }
+    }
+
     /// What the runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Row<'a> {
-            robot: &'a SurveyorConfig,
-            mapper: &'a Config,
-            heed: f64,
-            moves: u32,
-            door_period: u32,
+            #[serde(flatten)]
+            survey: &'a SurveyConfig,
             maze: String,
             furniture: &'a OfficeConfig,
         }
         Row {
-            robot: &self.config.robot,
-            mapper: &self.config.mapper,
-            heed: self.config.heed,
-            moves: self.config.moves,
-            door_period: self.config.door_period,
+            survey: &self.config,
             maze: self.office.maze().to_string(),
             furniture: self.office.config(),
         }
@@ -149,21 +155,17 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
 }
 
 fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
-    let passive = SurveyConfig::paper(office, moves);
-    let setting = |row, config: &SurveyConfig, subject| Setting {
+    let config = SurveyConfig::paper(office, moves);
+    let passive = |row, subject| Setting {
         row,
         office: Arc::clone(office),
         config: config.clone(),
         subject,
     };
-    let scripted = SurveyConfig {
-        heed: HEED,
-        ..passive.clone()
-    };
     vec![
-        setting("passive", &passive, Subject::Map),
-        setting("with scripts", &scripted, Subject::Map),
-        setting("odometry", &passive, Subject::Odometry),
+        passive("passive", Subject::Map),
+        Setting::scripted("with scripts", office, config.clone()),
+        passive("odometry", Subject::Odometry),
     ]
 }
 
@@ -171,18 +173,12 @@ fn compared(office: &Arc<Office>, moves: u32) -> Vec<Setting> {
 pub(super) const ABLATION: &str = "ablation";
 
 fn ablations(office: &Arc<Office>) -> Vec<Setting> {
-    let setting = |ablation: Ablation| {
+    let setting = |(row, change): (&'static str, Change)| {
         let mut config = SurveyConfig::paper(office, 1000);
-        config.heed = HEED;
-        (ablation.change)(&mut config.mapper);
-        Setting {
-            row: ablation.name,
-            office: Arc::clone(office),
-            config,
-            subject: Subject::Map,
-        }
+        change(&mut config.mapper);
+        Setting::scripted(row, office, config)
     };
-    Ablation::ALL.into_iter().map(setting).collect()
+    ABLATIONS.map(setting).into()
 }
 
 /// A maze of MSLST as that paper has it, with that paper's robot.
@@ -193,31 +189,17 @@ fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
         wall_thickness: 0.0,
         ..OfficeConfig::bare()
     };
-    let office = Office::new(&file.maze, &furniture)?;
-    let config = SurveyConfig {
-        heed: HEED,
-        ..SurveyConfig::of(&office, SurveyorConfig::mslst(), 300)
-    };
-    Ok(Setting {
-        row,
-        office: Arc::new(office),
-        config,
-        subject: Subject::Map,
-    })
+    let office = Arc::new(Office::new(&file.maze, &furniture)?);
+    let config = SurveyConfig::of(&office, SurveyorConfig::mslst(), 300);
+    Ok(Setting::scripted(row, &office, config))
 }
 
 fn changing(office: &Arc<Office>) -> Vec<Setting> {
-    let setting = |row, door_period: u32, change: fn(&mut Config)| {
+    let setting = |row, door_period: u32, change: Change| {
         let mut config = SurveyConfig::paper(office, 3000);
-        config.heed = HEED;
         config.door_period = door_period;
         change(&mut config.mapper);
-        Setting {
-            row,
-            office: Arc::clone(office),
-            config,
-            subject: Subject::Map,
-        }
+        Setting::scripted(row, office, config)
     };
     vec![
         setting("doors stand open", 0, |_| {}),

@@ -5,55 +5,39 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use tolman_geom::Heading;
 use tolman_robot::{Compass, Ranges, Scan};
 
-use super::errors::SenseError;
-use super::routine_config::RoutineConfig;
+use super::{RoutineConfig, SenseError};
 
-/// What the robot knows of the corridors, m.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gauge {
-    /// From wall to wall of a corridor.
-    corridor: f64,
-    /// From jamb to jamb of a doorway.
-    doorway: Option<f64>,
-}
-
-impl Gauge {
-    pub(super) const fn of(config: &RoutineConfig) -> Self {
-        Self {
-            corridor: config.corridor_width,
-            doorway: config.doorway_width,
-        }
-    }
-
+impl RoutineConfig {
     /// Returns half a corridor: how far from a wall ahead a robot in the middle of a cell stands.
-    pub(super) const fn half(self) -> f64 {
-        0.5 * self.corridor
+    pub(super) const fn half(&self) -> f64 {
+        0.5 * self.corridor_width
     }
 
     /// Returns whether a side with this range is open.
-    pub(super) const fn is_open(self, range: f64) -> bool {
-        range > 0.75 * self.corridor
+    pub(super) const fn is_open(&self, range: f64) -> bool {
+        range > 0.75 * self.corridor_width
     }
 
     /// Returns whether a wall stands at this range.
-    pub(super) const fn is_closed(self, range: f64) -> bool {
-        range < 0.75 * self.corridor
+    pub(super) const fn is_closed(&self, range: f64) -> bool {
+        range < 0.75 * self.corridor_width
     }
 
     /// Returns whether the walls on both sides are as near to each other as a doorway's jambs.
-    pub(super) fn is_narrow(self, view: View) -> bool {
-        self.doorway
-            .is_some_and(|doorway| view.left + view.right < 0.5 * (self.corridor + doorway))
+    pub(super) fn is_narrow(&self, view: View) -> bool {
+        let width = view.left + view.right;
+        self.doorway_width
+            .is_some_and(|doorway| width < 0.5 * (self.corridor_width + doorway))
     }
 
     /// Returns a length that no opening and no doorway falls short of.
-    pub(super) const fn shortest(self) -> f64 {
-        0.25 * self.corridor
+    pub(super) const fn shortest(&self) -> f64 {
+        0.25 * self.corridor_width
     }
 
     /// Returns the way covered in one time step, and the most that a jamb may be taken for.
-    pub(super) const fn stride(self) -> f64 {
-        0.05 * self.corridor
+    pub(super) const fn stride(&self) -> f64 {
+        0.05 * self.corridor_width
     }
 }
 
@@ -147,7 +131,7 @@ pub(super) struct Beside {
 
 impl Beside {
     /// Returns what is beside the robot at the start: it belongs to the place just left.
-    pub(super) fn at_start(view: View, gauge: Gauge) -> Self {
+    pub(super) fn at_start(view: View, gauge: &RoutineConfig) -> Self {
         Self {
             left: Span::at_start(gauge.is_open(view.left)),
             right: Span::at_start(gauge.is_open(view.right)),
@@ -157,7 +141,7 @@ impl Beside {
 
     /// Takes in `view` from `along` the way, m. Returns how far along the middle of a place lies,
     /// m, when what makes the place has ended.
-    pub(super) fn see(&mut self, view: View, along: f64, gauge: Gauge) -> Option<f64> {
+    pub(super) fn see(&mut self, view: View, along: f64, gauge: &RoutineConfig) -> Option<f64> {
         let shortest = gauge.shortest();
         let middles = [
             self.left.see(gauge.is_open(view.left), along, shortest),

@@ -7,12 +7,9 @@ use tolman_robot::{
     TurnTranslate,
 };
 
-use super::errors::RoutineError;
-use super::eye::Eye;
-use super::guide::{Guide, Next};
-use super::mapping::MapError;
-use super::routine_config::{RoutineConfig, RoutineConfigError};
-use super::surveyor::Surveyor;
+use super::{
+    Eye, Guide, MapError, Next, RoutineConfig, RoutineConfigError, RoutineError, Surveyor,
+};
 
 /// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
 /// where it is sent.
@@ -63,13 +60,6 @@ impl DiktiometerConfig {
             mapper,
             heed: 0.3,
         }
-    }
-
-    /// Sets the probability that a script is begun when one is applicable, 0 … 1.
-    #[must_use]
-    pub const fn with_heed(mut self, heed: f64) -> Self {
-        self.heed = heed;
-        self
     }
 }
 
@@ -175,9 +165,8 @@ where
         let here = rover.robot().landmark();
         self.guide.recognize(here);
         let direction = match self.guide.next(task, here) {
-            Next::Go(direction) => direction,
-            Next::Done => return Ok(Standing::Done),
-            Next::GiveUp { why } => return Ok(Standing::GaveUp { why }),
+            Next::Continue(direction) => direction,
+            Next::Break(standing) => return Ok(standing),
         };
         self.guide.go(&mut rover, direction)?;
         let here = rover.robot().landmark();

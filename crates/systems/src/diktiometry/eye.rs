@@ -1,8 +1,7 @@
 use tolman_maps::diktiometry::{Percepts, Rotation, SignatureKind};
 use tolman_robot::{Ranges, Sees};
 
-use super::corridor::round_scan;
-use super::errors::SenseError;
+use super::{SenseError, round_scan};
 
 /// Makes columns of what a robot senses, by which it tells places apart.
 pub trait Eye<S> {

@@ -1,16 +1,15 @@
 use alloc::collections::BTreeMap;
 use alloc::format;
+use core::ops::ControlFlow;
 
-use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{Action, Config, Observer, PlaceId};
 use tolman_maze::Direction;
 use tolman_planners::path_to;
-use tolman_robot::{Goal, Landmark, Task};
+use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::mapping::{MapError, Mapping};
-use super::planner::Planner;
-use super::rover::Rover;
+use super::{MapError, Mapping, Planner, Rover};
+use crate::stream;
 
 /// Chooses the next move of a task by the map of a rover. It knows no robot.
 #[derive(Clone, Debug)]
@@ -54,33 +53,20 @@ impl Whereabouts {
     }
 }
 
-/// What is to be done next.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Next {
-    /// Going in this direction to the next place.
-    Go(Direction),
-    /// Nothing: the task is done.
-    Done,
-    /// Nothing: the task cannot be done.
-    GiveUp {
-        /// Reason, in a sentence without a full stop.
-        why: String,
-    },
-}
+/// The direction to go in to the next place, or how the task stands if there is nothing left to do.
+pub(super) type Next = ControlFlow<Standing, Direction>;
 
 /// Stream of the random walk; the same that a survey uses.
 const WALK_STREAM: u64 = 1;
 
 impl Guide {
     pub(super) fn new(observer: Option<Observer>, heed: f64, seed: u64) -> Self {
-        let mut walk = ChaCha8Rng::seed_from_u64(seed);
-        walk.set_stream(WALK_STREAM);
         Self {
             mapping: observer.map(Mapping::of),
             whereabouts: Whereabouts::Unknown,
             under_way: None,
             planner: Planner::new(heed),
-            walk,
+            walk: stream(seed, WALK_STREAM),
             landmarks: BTreeMap::new(),
         }
     }
@@ -157,7 +143,7 @@ impl Guide {
     /// Returns what to do next for `task`, if the rover senses the landmark `here`.
     pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
         if self.is_done(task, here) {
-            return Next::Done;
+            return Next::Break(Standing::Done);
         }
         match task {
             Task::Explore | Task::Localize => self.wander(),
@@ -188,10 +174,10 @@ impl Guide {
             let (observer, exits) = (mapping.observer(), mapping.exits());
             self.planner.choose(observer, exits, &mut self.walk)
         });
-        match decision {
-            Some(decision) => Next::Go(decision.direction),
-            None => give_up("no way leads on from where it stands"),
-        }
+        decision.map_or_else(
+            || give_up("no way leads on from where it stands"),
+            |decision| Next::Continue(decision.direction),
+        )
     }
 
     /// Follows the plan to a place of the map.
@@ -208,36 +194,24 @@ impl Guide {
             // It was set down and takes itself to be there: a move will tell.
             return self.wander();
         }
-        match first_step(observer, to) {
-            Some(direction) => {
-                self.planner.drop_script();
-                Next::Go(direction)
-            }
-            None => give_up(&format!(
-                "no way is known from place {} to place {}",
-                from.0, to.0
-            )),
-        }
+        let Some(direction) = first_step(observer, to) else {
+            let (from, to) = (from.0, to.0);
+            return give_up(&format!("no way is known from place {from} to place {to}"));
+        };
+        self.planner.drop_script();
+        Next::Continue(direction)
     }
 
     /// Follows the plan to where a landmark was sensed, and explores where that is not known.
     fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
-        let place = self.place_of(landmark);
-        let observer = self.observer();
-        match (place, observer) {
-            // It is not where it was.
-            (Some(place), Some(observer))
-                if place == observer.place() && here != Some(landmark) =>
-            {
+        if let (Some(place), Some(observer)) = (self.place_of(landmark), self.observer()) {
+            if place == observer.place() && here != Some(landmark) {
+                // It is not where it was.
                 self.landmarks.remove(&landmark);
+            } else if let Some(direction) = first_step(observer, place) {
+                self.planner.drop_script();
+                return Next::Continue(direction);
             }
-            (Some(place), Some(observer)) => {
-                if let Some(direction) = first_step(observer, place) {
-                    self.planner.drop_script();
-                    return Next::Go(direction);
-                }
-            }
-            _ => {}
         }
         if self.observer().is_some_and(is_explored) {
             return give_up("the landmark is at no place that it can reach");
@@ -285,7 +259,7 @@ fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<()
 
 fn give_up(why: &str) -> Next {
     let why = why.to_owned();
-    Next::GiveUp { why }
+    Next::Break(Standing::GaveUp { why })
 }
 
 /// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·

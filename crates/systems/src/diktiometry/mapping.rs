@@ -3,12 +3,12 @@ use core::error::Error;
 use thiserror::Error as ThisError;
 use tolman_geom::{Interval, PoseBox};
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Outcome, Percepts, Signature, Start, StartError,
-    StepError, StepReport,
+    Action, Config, Exits, Move, Observer, Percepts, Signature, Start, StartError, StepError,
+    StepReport,
 };
 use tolman_maze::Direction;
 
-use super::rover::{Arrival, RoutineOutcome, Rover};
+use super::{Arrival, Rover};
 
 /// The map of a rover: makes the observer's moves of the rover's arrivals.
 ///
@@ -98,10 +98,7 @@ impl Mapping {
             odometry: PoseBox::new(arrival.moved, Interval::ZERO),
             percept: percept(self.observer.config(), &arrival),
             exits: exits(&arrival),
-            outcome: match arrival.outcome {
-                RoutineOutcome::Completed => Outcome::Arrived,
-                RoutineOutcome::Blocked => Outcome::Blocked,
-            },
+            outcome: arrival.outcome,
         })?;
         self.exits = arrival.exits;
         Ok(MappedMove { arrival, report })
@@ -127,10 +124,8 @@ impl Mapping {
 
 /// Returns what the rover saw, if the map wants to know.
 fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
-    match config.percepts {
-        Percepts::None => None,
-        Percepts::Signatures(_) => arrival.look.clone(),
-    }
+    let look = arrival.look.as_ref();
+    look.filter(|_| config.percepts != Percepts::None).cloned()
 }
 
 fn exits(arrival: &Arrival) -> Exits {

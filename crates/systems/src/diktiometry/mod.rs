@@ -37,5 +37,9 @@ pub use mapping::{MapError, MappedMove, Mapping};
 pub use odometer::Odometer;
 pub use planner::{Decision, Planner, Reason};
 pub use routine_config::{RoutineConfig, RoutineConfigError};
-pub use rover::{Arrival, RoutineOutcome, Rover};
+pub use rover::{Arrival, Rover};
 pub use surveyor::Surveyor;
+
+use corridor::{Around, Beside, View, compass, round_scan};
+use guide::{Guide, Next};
+use place_middle::{Offset, offset};

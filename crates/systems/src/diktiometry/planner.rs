@@ -60,20 +60,16 @@ impl Planner {
     ) -> Option<Decision> {
         // As many draws in any case, so that runs that heed and runs that do not walk alike.
         let heeds = rng.random_range(0.0..1.0) < self.heed;
-        let open: Vec<Direction> = Direction::ALL
-            .into_iter()
-            .filter(|direction| exits[direction.index()])
-            .collect();
+        let mut open = Vec::from(Direction::ALL);
+        open.retain(|direction| exits[direction.index()]);
         let chosen = rng.random_range(0..open.len().max(1) as u32) as usize;
         let mut reason = Reason::Script;
         if self.script.is_empty()
             && heeds
             && let Some(best) = observer.opportunities().into_iter().next()
         {
-            let known = best
-                .script
-                .iter()
-                .filter_map(|action| Direction::ALL.get(action.0 as usize));
+            let known = best.script.iter();
+            let known = known.filter_map(|action| Direction::ALL.get(action.0 as usize));
             self.script = known.copied().collect();
             reason = Reason::Advice(best);
         }
@@ -83,10 +79,8 @@ impl Planner {
             _ => {
                 self.script.clear();
                 let direction = *open.get(chosen)?;
-                Some(Decision {
-                    direction,
-                    reason: Reason::Walk,
-                })
+                let reason = Reason::Walk;
+                Some(Decision { direction, reason })
             }
         }
     }

@@ -1,7 +1,7 @@
 use core::error::Error;
 
 use tolman_geom::PointBox;
-use tolman_maps::diktiometry::Signature;
+use tolman_maps::diktiometry::{Outcome, Signature};
 use tolman_maze::Direction;
 
 /// A robot whose control routines end at distinctive places.
@@ -30,7 +30,7 @@ pub trait Rover {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrival {
     /// Whether the robot came to the next place or there was no way.
-    pub outcome: RoutineOutcome,
+    pub outcome: Outcome,
     /// Displacement of the robot, east and north, m. The true one lies inside.
     pub moved: PointBox,
     /// What the place looks like, turned by the compass: column 0 looks east, the others follow
@@ -38,13 +38,4 @@ pub struct Arrival {
     pub look: Option<Signature>,
     /// Which ways lead on, by [`Direction::index`].
     pub exits: [bool; 4],
-}
-
-/// How a control routine ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RoutineOutcome {
-    /// At the next place.
-    Completed,
-    /// Where it began, before a wall.
-    Blocked,
 }

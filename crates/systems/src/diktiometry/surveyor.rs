@@ -3,17 +3,14 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use tolman_control::heading_of;
 use tolman_geom::Heading;
-use tolman_maps::diktiometry::Signature;
+use tolman_maps::diktiometry::{Outcome, Signature};
 use tolman_maze::Direction;
 use tolman_robot::{Compass, Odometry, Ranges, Robot, Rolls, TurnTranslate};
 
-use super::corridor::{Around, Beside, Gauge, View, compass};
-use super::errors::{RoutineError, SenseError};
-use super::eye::Eye;
-use super::odometer::Odometer;
-use super::place_middle::{Offset, offset};
-use super::routine_config::{RoutineConfig, RoutineConfigError};
-use super::rover::{Arrival, RoutineOutcome, Rover};
+use super::{
+    Around, Arrival, Beside, Eye, Odometer, Offset, RoutineConfig, RoutineConfigError,
+    RoutineError, Rover, SenseError, View, compass, offset,
+};
 
 /// A robot with the paper's control routines: they follow corridors and end at corners and
 /// doorways, and measure the way.
@@ -62,10 +59,6 @@ impl<R, E> Surveyor<R, E> {
     pub const fn robot_mut(&mut self) -> &mut R {
         &mut self.robot
     }
-
-    const fn gauge(&self) -> Gauge {
-        Gauge::of(&self.config)
-    }
 }
 
 impl<R, E> Surveyor<R, E>
@@ -89,13 +82,13 @@ where
     /// Follows the corridor `direction` to the middle of whatever opens or narrows beside the way,
     /// or to a wall.
     fn follow(&mut self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
-        let (gauge, ahead) = (self.gauge(), heading_of(direction));
-        let mut beside = Beside::at_start(self.view(ahead)?, gauge);
+        let (gauge, ahead) = (self.config, heading_of(direction));
+        let mut beside = Beside::at_start(self.view(ahead)?, &gauge);
         let mut along = 0.0;
         self.steps = 0;
         loop {
             let view = self.view(ahead)?;
-            if let Some(middle) = beside.see(view, along, gauge) {
+            if let Some(middle) = beside.see(view, along, &gauge) {
                 // Beginning and end are noticed half a stride late.
                 let middle = middle - 0.5 * gauge.stride();
                 return self.back_up(direction, along, middle);
@@ -116,7 +109,7 @@ where
         mut along: f64,
         middle: f64,
     ) -> Result<(), RoutineError<R::Error>> {
-        let (stride, ahead) = (self.gauge().stride(), heading_of(direction));
+        let (stride, ahead) = (self.config.stride(), heading_of(direction));
         while along - middle > 0.2 * stride {
             let view = self.view(ahead)?;
             along += self.drive(ahead, view, -stride.min(along - middle))?;
@@ -141,7 +134,7 @@ where
         view: View,
         distance: f64,
     ) -> Result<f64, RoutineError<R::Error>> {
-        let gauge = self.gauge();
+        let gauge = self.config;
         // Metres to the right of the middle.
         let aside = match (gauge.is_closed(view.left), gauge.is_closed(view.right)) {
             (true, true) => 0.5 * (view.left - view.right),
@@ -189,7 +182,7 @@ where
     }
 
     /// Ends a routine: what the place looks like is taken in standing still.
-    fn arrive(&mut self, outcome: RoutineOutcome) -> Result<Arrival, RoutineError<R::Error>> {
+    fn arrive(&mut self, outcome: Outcome) -> Result<Arrival, RoutineError<R::Error>> {
         self.robot.stop().map_err(RoutineError::Robot)?;
         Ok(Arrival {
             outcome,
@@ -216,12 +209,8 @@ where
 
     fn exits(&self) -> Result<[bool; 4], SenseError> {
         let around = Around::of(self.robot.sensing())?;
-        let mut exits = [false; 4];
-        for direction in Direction::ALL {
-            let view = around.view(heading_of(direction));
-            exits[direction.index()] = self.gauge().is_open(view.ahead);
-        }
-        Ok(exits)
+        let views = Direction::ALL.map(|direction| around.view(heading_of(direction)));
+        Ok(views.map(|view| self.config.is_open(view.ahead)))
     }
 
     fn view(&self, ahead: Heading) -> Result<View, SenseError> {
@@ -230,7 +219,7 @@ where
 
     fn offset(&self, ahead: Heading) -> Result<Offset, SenseError> {
         let around = Around::of(self.robot.sensing())?;
-        Ok(offset(around, ahead, self.gauge()))
+        Ok(offset(around, ahead, &self.config))
     }
 }
 
@@ -244,7 +233,7 @@ where
 
     fn look(&mut self) -> Result<Arrival, Self::Error> {
         self.odometer.begin();
-        self.arrive(RoutineOutcome::Completed)
+        self.arrive(Outcome::Arrived)
     }
 
     /// Follows the corridor in `direction` to the next corner or doorway: turns there, drives
@@ -254,11 +243,11 @@ where
         self.odometer.begin();
         let ahead = heading_of(direction);
         self.turn_to(ahead)?;
-        if self.gauge().is_closed(self.view(ahead)?.ahead) {
-            return self.arrive(RoutineOutcome::Blocked);
+        if self.config.is_closed(self.view(ahead)?.ahead) {
+            return self.arrive(Outcome::Blocked);
         }
         self.follow(direction)?;
         self.settle(ahead)?;
-        self.arrive(RoutineOutcome::Completed)
+        self.arrive(Outcome::Arrived)
     }
 }

@@ -2,9 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use crate::diktiometry::ids::FrameId;
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::reference_graph::Reached;
+use crate::diktiometry::{Diktiometry, FrameId, PlaceId, Reached};
 
 /// A frame whose relation to the robot's position is informative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +14,14 @@ pub struct ActiveFrame {
 }
 
 impl ActiveFrame {
+    /// The frame of a place where the robot is.
+    pub(crate) fn at(map: &Diktiometry, place: PlaceId) -> Self {
+        let (frame, robot) = map.site(place);
+        Self { frame, robot }
+    }
+
     /// The frame as a search from the frame that the robot is in at `here` would have reached it.
-    pub(in crate::diktiometry) fn seen_from(&self, here: PointBox) -> Reached {
+    pub(crate) fn seen_from(&self, here: PointBox) -> Reached {
         Reached {
             frame: self.frame,
             position: here - self.robot,
@@ -29,35 +33,31 @@ impl ActiveFrame {
 /// The active frames after a displacement: "dropping frames which are not informative, and adding neighbors of active
 /// frames which appear both informative and relevant".
 ///
-/// `here` is the frame of the robot's place with the robot in it, if it was recognized: always active, and where it says
+/// `here` is the frame of the robot's place with the robot in it: always active, and where it says
 /// more of a neighbour than was carried along, that holds too. At most `cap` frames are kept, those with the narrowest box.
 /// O(active frames · degree · log).
-pub(in crate::diktiometry) fn moved(
+pub(crate) fn moved(
     map: &Diktiometry,
     active: &[ActiveFrame],
     displacement: PointBox,
-    here: Option<ActiveFrame>,
+    here: ActiveFrame,
     cap: usize,
 ) -> Vec<ActiveFrame> {
-    let mut next: Vec<ActiveFrame> = active
-        .iter()
-        .map(|frame| ActiveFrame {
-            frame: frame.frame,
-            robot: frame.robot + displacement,
+    let carried = active.iter().map(|frame| ActiveFrame {
+        robot: frame.robot + displacement,
+        ..*frame
+    });
+    let mut next: Vec<ActiveFrame> = carried.collect();
+    next.push(here);
+    let around = next.iter().flat_map(|frame| {
+        let relations = map.frame(frame.frame).relations.iter();
+        relations.map(|relation| ActiveFrame {
+            frame: relation.to,
+            robot: frame.robot - relation.position,
         })
-        .collect();
-    next.extend(here);
-    let neighbours: Vec<ActiveFrame> = next
-        .iter()
-        .flat_map(|frame| {
-            let relations = &map.reference.frames[frame.frame.index()].relations;
-            relations.iter().map(|relation| ActiveFrame {
-                frame: relation.to,
-                robot: frame.robot - relation.position,
-            })
-        })
-        .filter(|frame| is_relevant(map, frame))
-        .collect();
+    });
+    let neighbours = around.filter(|frame| is_relevant(map, frame));
+    let neighbours: Vec<ActiveFrame> = neighbours.collect();
     next.extend(neighbours);
     next.sort_by_key(|frame| frame.frame);
     // What several ways say of one frame holds together; where they exclude each other, the narrower counts.
@@ -88,18 +88,17 @@ pub(in crate::diktiometry) fn moved(
 /// The envelope of a frame, "the bounding interval of the position intervals of F's places"; of their nominal envelopes,
 /// since a frame that one place alone defines is a point otherwise. None without places.
 fn envelope(map: &Diktiometry, frame: FrameId) -> Option<PointBox> {
-    let places = map.reference.frames[frame.index()].places.iter();
-    let boxes = places.map(|place| map.paths.places[place.index()].envelope);
+    let places = map.frame(frame).places.iter();
+    let boxes = places.map(|place| map.place(*place).envelope);
     boxes.reduce(PointBox::hull)
 }
 
 /// "(a) the robot's estimated position interval with respect to F contains the origin (ie, F), and (b) the center of the
 /// interval … is not within F's envelope": then it is not.
 fn is_informative(map: &Diktiometry, frame: &ActiveFrame) -> bool {
-    let Some(envelope) = envelope(map, frame.frame) else {
-        return false;
-    };
-    !frame.robot.contains(Point::origin()) || envelope.contains(frame.robot.middle())
+    envelope(map, frame.frame).is_some_and(|envelope| {
+        !frame.robot.contains(Point::origin()) || envelope.contains(frame.robot.middle())
+    })
 }
 
 /// "The current position estimate intersects the frame's envelope."

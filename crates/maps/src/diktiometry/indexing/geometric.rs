@@ -1,13 +1,11 @@
 use alloc::vec::Vec;
 
 use super::{Candidate, Expectation};
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::projector::Projection;
-use crate::diktiometry::reference_graph::Reached;
+use crate::diktiometry::{Diktiometry, Projection, Reached};
 
 /// Places of the frames that a search reached whose position may be the robot's, one set for each number of relations on
 /// the way: "each ply of the search is less plausible". O(places in these frames).
-pub(in crate::diktiometry) fn plies(
+pub(crate) fn plies(
     map: &Diktiometry,
     reached: &[Reached],
     projection: &Projection,
@@ -15,15 +13,9 @@ pub(in crate::diktiometry) fn plies(
     let mut plies: Vec<Vec<Candidate>> = Vec::new();
     for frame in reached {
         let robot = projection.position - frame.position;
-        for &place in &map.reference.frames[frame.frame.index()].places {
-            let there = &map.paths.places[place.index()];
-            let candidate = Candidate {
-                place,
-                robot,
-                offset: there.position - robot,
-                expectation: Expectation::Unexpected,
-            };
-            if candidate.is_possible() || there.envelope.meets(robot) {
+        for &place in &map.frame(frame.frame).places {
+            let candidate = Candidate::new(map, place, robot, Expectation::Unexpected);
+            if candidate.is_possible() || map.place(place).envelope.meets(robot) {
                 let ply = frame.hops as usize;
                 if plies.len() <= ply {
                     plies.resize_with(ply + 1, Vec::new);

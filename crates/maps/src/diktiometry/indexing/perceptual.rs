@@ -5,34 +5,27 @@ mod feature_tree;
 mod triangles;
 
 use alloc::vec::Vec;
+use core::cell::LazyCell;
 
 use columns::ColumnIndex;
 use feature_tree::Feature;
 use triangles::{Seen, TriangleIndex};
 
-use crate::diktiometry::config::{Config, Percepts, PerceptualIndexing, Rotation};
-use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::path_graph::PathGraph;
-use crate::diktiometry::signature::Signature;
+use crate::diktiometry::{Config, PathGraph, Percepts, PerceptualIndexing, PlaceId, Signature};
 
 /// How often the hypercube's size is doubled at most: from the tolerance to eight times it.
 const DOUBLINGS: u32 = 3;
 
 /// All views of all places, by their columns and, if that is asked for, by triangles of their edges.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::diktiometry) struct ViewIndex {
+pub(crate) struct ViewIndex {
     columns: ColumnIndex,
     triangles: TriangleIndex,
 }
 
 impl ViewIndex {
     /// Takes in a view of a place. O(features of the view · log² views), amortized.
-    pub(in crate::diktiometry) fn insert(
-        &mut self,
-        place: PlaceId,
-        view: &Signature,
-        config: &Config,
-    ) {
+    pub(crate) fn insert(&mut self, place: PlaceId, view: &Signature, config: &Config) {
         let Percepts::Signatures(kind) = &config.percepts else {
             return;
         };
@@ -44,7 +37,7 @@ impl ViewIndex {
 
     /// The places that look most like a percept: of the sets that are found within more and more, the first that is not empty.
     /// Nobody asks for the sets after it. The places are those that stand now, by id.
-    pub(in crate::diktiometry) fn most_alike(
+    pub(crate) fn most_alike(
         &self,
         percept: &Signature,
         config: &Config,
@@ -53,24 +46,19 @@ impl ViewIndex {
         let Percepts::Signatures(kind) = &config.percepts else {
             return Vec::new();
         };
-        let first = |set: &Vec<PlaceId>| !set.is_empty();
-        let set = match config.indexing.perceptual {
-            PerceptualIndexing::Off => None,
-            PerceptualIndexing::Columns => sizes()
-                .map(|size| self.columns.within(percept, kind, paths, size))
-                .find(first),
-            PerceptualIndexing::Triangles => {
-                let seen = Seen::of(percept);
-                sizes()
-                    .map(|size| self.triangles.within(&seen, kind, paths, size))
-                    .find(first)
-            }
-        };
-        set.unwrap_or_default()
+        let seen = LazyCell::new(|| Seen::of(percept));
+        // The half sizes of the growing hypercube, in those of the first.
+        let sizes = (0..=DOUBLINGS).map(|doubling| f64::from(1_u32 << doubling));
+        let mut sets = sizes.map(|size| match config.indexing.perceptual {
+            PerceptualIndexing::Off => Vec::new(),
+            PerceptualIndexing::Columns => self.columns.within(percept, kind, paths, size),
+            PerceptualIndexing::Triangles => self.triangles.within(&seen, kind, paths, size),
+        });
+        sets.find(|set| !set.is_empty()).unwrap_or_default()
     }
 
     /// The places that look like a percept, by the measure that matchers use. By id.
-    pub(in crate::diktiometry) fn alike(
+    pub(crate) fn alike(
         &self,
         percept: &Signature,
         config: &Config,
@@ -81,11 +69,6 @@ impl ViewIndex {
             Percepts::Signatures(kind) => self.columns.within(percept, kind, paths, 1.0),
         }
     }
-}
-
-/// The half sizes of the growing hypercube, in those of the first.
-fn sizes() -> impl Iterator<Item = f64> {
-    (0..=DOUBLINGS).map(|doubling| f64::from(1_u32 << doubling))
 }
 
 /// A feature of a view is near one of the percept.
@@ -105,24 +88,4 @@ impl Vote {
             offset: (known.column + columns - column) % columns,
         }
     }
-}
-
-/// The places of the views that have enough votes at one offset. By id.
-fn elected(
-    mut votes: Vec<Vote>,
-    rotation: Rotation,
-    enough: impl Fn(u32) -> usize,
-    place: impl Fn(u32) -> PlaceId,
-    paths: &PathGraph,
-) -> Vec<PlaceId> {
-    votes.retain(|vote| vote.offset == 0 || rotation == Rotation::Free);
-    votes.sort_unstable();
-    let mut set: Vec<PlaceId> = votes
-        .chunk_by(|a, b| a == b)
-        .filter(|alike| alike.len() >= enough(alike[0].view))
-        .filter_map(|alike| paths.resolve(place(alike[0].view)))
-        .collect();
-    set.sort_unstable();
-    set.dedup();
-    set
 }

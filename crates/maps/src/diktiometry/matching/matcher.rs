@@ -1,11 +1,11 @@
-use tolman_geom::PointBox;
+use alloc::vec::Vec;
 
-use crate::diktiometry::config::{Config, Identity, Use};
-use crate::diktiometry::indexing::{Candidate, Expectation};
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::signature::Signature;
-
+use super::engine::Chosen;
 use super::view::agrees;
+use crate::diktiometry::{
+    Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Signature, Similarity,
+    Traversal, Use,
+};
 
 /// How a track came to its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,17 +24,20 @@ pub enum Matcher {
 
 /// What matchers look at beside the candidate.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::diktiometry) struct Situation<'a> {
-    pub(in crate::diktiometry) map: &'a Diktiometry,
-    pub(in crate::diktiometry) config: &'a Config,
-    pub(in crate::diktiometry) percept: Option<&'a Signature>,
+pub(crate) struct Situation<'a> {
+    pub(crate) map: &'a Diktiometry,
+    pub(crate) config: &'a Config,
+    pub(crate) percept: Option<&'a Signature>,
     /// Distance since the last CONTINUE, m.
-    pub(in crate::diktiometry) astray: f64,
+    pub(crate) astray: f64,
+    /// How often the region just traversed was traversed before.
+    pub(crate) traversed: Traversal,
+    /// The track's confidence.
+    pub(crate) confidence: f64,
 }
 
 /// What a candidate turned out to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::diktiometry) enum Applicable {
+enum Applicable {
     /// A matcher applies.
     Matcher(Matcher),
     /// None does, but the robot may be there: the box is too wide to tell.
@@ -43,52 +46,46 @@ pub(in crate::diktiometry) enum Applicable {
     None,
 }
 
-/// What there is to say of a candidate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::diktiometry) struct Finding {
-    pub(in crate::diktiometry) applicable: Applicable,
-    pub(in crate::diktiometry) look: Look,
-    pub(in crate::diktiometry) certainty: Certainty,
-}
-
-/// Whether a place looks like what the robot sees.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::diktiometry) enum Look {
-    /// It does, or nothing is known of its look.
-    #[default]
-    Known,
-    /// It does not.
-    Strange,
-}
-
 /// Whether the robot can be at no other place than the candidate: no other is near enough to it, or none that looks
 /// like what the robot sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::diktiometry) enum Certainty {
+pub(crate) enum Certainty {
     /// It cannot.
     Certain,
     /// It may.
     Uncertain,
 }
 
-/// Holds a candidate against the matchers. Its views are compared with the percept once.
-pub(in crate::diktiometry) fn find(candidate: &Candidate, situation: &Situation<'_>) -> Finding {
-    let Situation { map, config, .. } = *situation;
-    let place = &map.paths.places[candidate.place.index()];
-    let (look, least_distance) = if agrees(place, situation.percept, &config.percepts) {
-        (Look::Known, config.least_alike_distance())
-    } else {
-        (Look::Strange, config.least_distance())
+/// The matcher that applies to a candidate; one that none can tell goes to `doubts`. Its views are compared with the percept once.
+pub(super) fn find(
+    candidate: &Candidate,
+    situation: &Situation<'_>,
+    doubts: &mut Vec<PlaceId>,
+) -> Option<Chosen> {
+    let config = situation.config;
+    let place = situation.map.place(candidate.place);
+    let look = Similarity::of(agrees(place, situation.percept, &config.percepts));
+    let least_distance = match look {
+        Similarity::Alike => config.least_alike_distance(),
+        Similarity::Unlike => config.least_distance(),
     };
     let certainty = if candidate.is_certain(least_distance) {
         Certainty::Certain
     } else {
         Certainty::Uncertain
     };
-    Finding {
-        applicable: applicable(candidate, situation, look, certainty),
-        look,
-        certainty,
+    match applicable(candidate, situation, look, certainty) {
+        Applicable::Matcher(matcher) => Some(Chosen {
+            matcher,
+            candidate: Some(*candidate),
+            look,
+            certainty,
+        }),
+        Applicable::Doubtful => {
+            doubts.push(candidate.place);
+            None
+        }
+        Applicable::None => None,
     }
 }
 
@@ -99,18 +96,18 @@ pub(in crate::diktiometry) fn find(candidate: &Candidate, situation: &Situation<
 fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,
-    look: Look,
+    look: Similarity,
     certainty: Certainty,
 ) -> Applicable {
     let Situation { map, config, .. } = *situation;
-    let place = &map.paths.places[candidate.place.index()];
+    let place = map.place(candidate.place);
     let continues =
         candidate.expectation == Expectation::Expected && config.matching.continuation == Use::On;
     let certain = certainty == Certainty::Certain;
     // What stands where nothing else can looks new, but is the same.
     let settled = config.matching.identity == Identity::Certain
         && ((continues && candidate.is_possible()) || certain);
-    if look == Look::Strange && !settled {
+    if look == Similarity::Unlike && !settled {
         return Applicable::None;
     }
     if candidate.is_possible() {
@@ -130,10 +127,9 @@ fn applicable(
             return Applicable::Matcher(Matcher::Alpha);
         }
     }
-    let reach = config
-        .separation
-        .min(config.matching.beta_reach * situation.astray);
-    if config.matching.beta == Use::On && gap(candidate.offset) <= reach {
+    let reach = config.matching.beta_reach * situation.astray;
+    let near = candidate.offset.norm().low() <= config.separation.min(reach);
+    if config.matching.beta == Use::On && near {
         // Near it, but nowhere near another.
         let lone = candidate.offset.norm().high() < config.least_distance();
         if config.matching.identity == Identity::Meets || lone {
@@ -141,9 +137,4 @@ fn applicable(
         }
     }
     Applicable::None
-}
-
-/// The least length of a displacement, m.
-fn gap(offset: PointBox) -> f64 {
-    offset.norm().low()
 }

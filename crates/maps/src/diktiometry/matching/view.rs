@@ -1,14 +1,7 @@
-use crate::diktiometry::config::{Percepts, Rotation, SignatureKind};
-use crate::diktiometry::looks::Similarity;
-use crate::diktiometry::path_graph::Place;
-use crate::diktiometry::signature::Signature;
+use crate::diktiometry::{Percepts, Place, Rotation, Signature, SignatureKind, Similarity};
 
 /// Whether a place may look like this: one of its views does, or none is known.
-pub(in crate::diktiometry) fn agrees(
-    place: &Place,
-    percept: Option<&Signature>,
-    percepts: &Percepts,
-) -> bool {
+pub(crate) fn agrees(place: &Place, percept: Option<&Signature>, percepts: &Percepts) -> bool {
     let (Percepts::Signatures(kind), Some(percept)) = (percepts, percept) else {
         return true;
     };
@@ -16,25 +9,17 @@ pub(in crate::diktiometry) fn agrees(
 }
 
 /// Whether two places may look alike: a view of one does as one of the other, or one has none.
-pub(in crate::diktiometry) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
+pub(crate) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
     a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
 }
 
 /// The same, as what the map learns from.
-pub(in crate::diktiometry) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarity {
-    if share_a_view(a, b, percepts) {
-        Similarity::Alike
-    } else {
-        Similarity::Unlike
-    }
+pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarity {
+    Similarity::of(share_a_view(a, b, percepts))
 }
 
 /// Whether two signatures may be views of one place.
-pub(in crate::diktiometry) fn alike(
-    view: &Signature,
-    other: &Signature,
-    kind: &SignatureKind,
-) -> bool {
+fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -> bool {
     let offsets = match kind.rotation {
         Rotation::Aligned => 1,
         Rotation::Free => kind.columns,
@@ -43,7 +28,7 @@ pub(in crate::diktiometry) fn alike(
 }
 
 /// Adds a percept to a place's view set, if it has none like it and room is left; returns whether it did.
-pub(in crate::diktiometry) fn remember(
+pub(crate) fn remember(
     place: &mut Place,
     percept: Option<&Signature>,
     percepts: &Percepts,

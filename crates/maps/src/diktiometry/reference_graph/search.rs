@@ -1,22 +1,21 @@
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;
-use core::cmp::{Ordering, Reverse};
+use core::cmp::Reverse;
 
 use tolman_geom::PointBox;
 
 use super::ReferenceGraph;
-use crate::diktiometry::config::SearchLimits;
-use crate::diktiometry::ids::FrameId;
+use crate::diktiometry::{FrameId, SearchLimits};
 
 /// A frame that a search reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::diktiometry) struct Reached {
-    pub(in crate::diktiometry) frame: FrameId,
+pub(crate) struct Reached {
+    pub(crate) frame: FrameId,
     /// Its origin in the frame where the search began, m.
-    pub(in crate::diktiometry) position: PointBox,
+    pub(crate) position: PointBox,
     /// Relations followed on the way.
-    pub(in crate::diktiometry) hops: u32,
+    pub(crate) hops: u32,
 }
 
 /// The frames around `start`, those of best known position first, `start` itself before all.
@@ -26,24 +25,19 @@ pub(in crate::diktiometry) struct Reached {
 ///
 /// The paper searches the graph by plies and says that "the farther a frame is in the reference graph, the less useful
 /// information (in general) it gives"; width is that information itself.
-pub(in crate::diktiometry) fn search(
+pub(crate) fn search(
     graph: &ReferenceGraph,
     start: FrameId,
     limits: &SearchLimits,
 ) -> Vec<Reached> {
     let mut reached: Vec<Reached> = Vec::new();
     let mut ways = vec![Way::Unknown; graph.frames.len()];
-    let mut frontier = BinaryHeap::new();
-    frontier.push(Reverse(Entry {
-        width: 0.0,
-        frame: start,
-        hops: 0,
-    }));
-    while let Some(Reverse(entry)) = frontier.pop() {
-        if matches!(ways[entry.frame.index()], Way::Reached(_)) {
+    let mut frontier = BinaryHeap::from([Reverse((Width::of(0.0), start, 0))]);
+    while let Some(Reverse((_, frame, hops))) = frontier.pop() {
+        if matches!(ways[frame.index()], Way::Reached(_)) {
             continue; // It was reached by a narrower way.
         }
-        let relations = &graph.frames[entry.frame.index()].relations;
+        let relations = &graph.frames[frame.index()].relations;
         let positions = relations
             .iter()
             .filter_map(|relation| match ways[relation.to.index()] {
@@ -53,16 +47,16 @@ pub(in crate::diktiometry) fn search(
         // Ways that exclude each other are told apart elsewhere; here the first counts.
         let both = |a: PointBox, b: PointBox| a.intersection(b).unwrap_or(a);
         let position = positions.reduce(both).unwrap_or(PointBox::ORIGIN);
-        ways[entry.frame.index()] = Way::Reached(reached.len() as u32);
+        ways[frame.index()] = Way::Reached(reached.len() as u32);
         reached.push(Reached {
-            frame: entry.frame,
+            frame,
             position,
-            hops: entry.hops,
+            hops,
         });
         if reached.len() >= limits.frames {
             break;
         }
-        if entry.hops >= limits.depth {
+        if hops >= limits.depth {
             continue;
         }
         let (wide, high) = (position.x.width(), position.y.width());
@@ -78,11 +72,7 @@ pub(in crate::diktiometry) fn search(
             };
             if narrower && width <= limits.width {
                 *way = Way::Seen(width);
-                frontier.push(Reverse(Entry {
-                    width,
-                    frame: relation.to,
-                    hops: entry.hops + 1,
-                }));
+                frontier.push(Reverse((Width::of(width), relation.to, hops + 1)));
             }
         }
     }
@@ -99,32 +89,12 @@ enum Way {
     Reached(u32),
 }
 
-/// A frame to be reached, ordered by the width of its box, then by id.
-struct Entry {
-    width: f64,
-    frame: FrameId,
-    hops: u32,
-}
+/// A width as a number of the same order: no width is negative.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Width(u64);
 
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let width = self.width.total_cmp(&other.width);
-        width
-            .then(self.frame.cmp(&other.frame))
-            .then(self.hops.cmp(&other.hops))
+impl Width {
+    const fn of(width: f64) -> Self {
+        Self(width.abs().to_bits())
     }
 }
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}

@@ -4,15 +4,12 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use super::look_agreement::{self, Sight};
+use super::look_agreement::{Agreement, agreement, offset_anywhere};
 use super::{Diagnosis, Verdict};
-use crate::diktiometry::config::{Config, GeometricMerge, Use};
-use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::matching::{share_a_view, similarity};
-use crate::diktiometry::path_graph::{Estim, Ground, Note};
-use crate::diktiometry::reference_graph::search;
-use crate::diktiometry::updater::merge_estims;
+use crate::diktiometry::{
+    Config, Diktiometry, Estim, GeometricMerge, Ground, Note, PlaceId, Use, learn_of_two,
+    merge_estims, search, share_a_view, similarity, wanted_anywhere,
+};
 
 /// Two places that may be one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,15 +22,10 @@ pub(super) struct Pair {
 
 /// Places of the frames around that of `place`, with where they are as seen from its frame, m.
 pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBox)> {
-    let frame = map.paths.places[place.index()].frame;
-    let frames = &map.reference.frames;
-    let relations = frames[frame.index()].relations.iter();
-    let places = relations.flat_map(|relation| {
-        let places = &frames[relation.to.index()].places;
-        places.iter().map(move |&place| {
-            let there = map.paths.places[place.index()].position;
-            (place, relation.position + there)
-        })
+    let relations = &map.frame(map.place(place).frame).relations;
+    let places = relations.iter().flat_map(|relation| {
+        let places = map.frame(relation.to).places.iter();
+        places.map(|&place| (place, relation.position + map.place(place).position))
     });
     places.collect()
 }
@@ -54,13 +46,13 @@ pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair
 
 /// Whether it is noted at a place that another may be one with it by its position.
 pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
-    let notes = &map.paths.places[place.index()].notes;
+    let notes = &map.place(place).notes;
     notes.iter().any(|note| note.ground == Ground::Position)
 }
 
 /// The notes at `place`, taken from it, with the places they mean by their names now; those that were settled elsewhere are left out.
 pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<Note> {
-    let mut notes = core::mem::take(&mut map.paths.places[place.index()].notes);
+    let mut notes = core::mem::take(&mut map.place_mut(place).notes);
     let mut seen: Vec<PlaceId> = Vec::new();
     notes.retain_mut(|note| {
         let other = map.paths.resolve(note.other);
@@ -80,68 +72,52 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
     if notes.is_empty() {
         return Vec::new();
     }
-    let here = &map.paths.places[place.index()];
-    let (frame, position) = (here.frame, here.position);
+    let (frame, position) = map.site(place);
     let reached = search(&map.reference, frame, &config.search);
-    let wanted = look_agreement::wanted_anywhere(map, config);
+    let wanted = wanted_anywhere(map, config);
     let mut pairs: Vec<Pair> = Vec::new();
     for note in notes {
-        let other = note.other;
-        let there = &map.paths.places[other.index()];
-        let way = reached.iter().find(|reached| reached.frame == there.frame);
-        let mut offset = way.map(|way| way.position + there.position - position);
+        let (a, b) = (place, note.other);
+        let (frame, there) = map.site(b);
+        let way = reached.iter().find(|reached| reached.frame == frame);
+        let mut offset = way.map(|way| way.position + there - position);
         if let (None, Some(wanted)) = (offset, wanted) {
-            match look_agreement::out_of_reach(map, place, other, wanted, config) {
-                Sight::Same(there) => offset = Some(there),
-                Sight::Different if note.ground == Ground::Look => continue,
-                Sight::Different | Sight::Open => {}
+            match agreement(map, a, b, wanted, config) {
+                Agreement::Enough => offset = Some(offset_anywhere(map, a, b)),
+                Agreement::Broken if note.ground == Ground::Look => continue,
+                Agreement::Broken | Agreement::TooLittle => {}
             }
         }
         // What cannot be one is settled, too. It was noted at both.
         let apart = offset.is_some_and(|offset| !offset.contains(Point::origin()));
-        if apart && place < other {
-            let [a, b] = [place, other].map(|place| &map.paths.places[place.index()]);
-            let look = similarity(a, b, &config.percepts);
-            look_agreement::learn_of_two(map, [place, other], look, config);
+        if apart && a < b {
+            let look = similarity(map.place(a), map.place(b), &config.percepts);
+            learn_of_two(map, [a, b], look, config);
         }
         if !apart {
-            map.paths.places[place.index()].notes.push(note);
+            map.place_mut(place).notes.push(note);
         }
-        if let Some(offset) = offset {
-            pairs.push(Pair {
-                a: place,
-                b: other,
-                offset,
-            });
-        }
+        pairs.extend(offset.map(|offset| Pair { a, b, offset }));
     }
     pairs
 }
 
 /// Whether two places may be merged by where they are.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
-    let limits = &config.restructuring;
-    if limits.geometric_merge == GeometricMerge::Off {
-        return Verdict::Abstain;
-    }
-    if !pair.offset.contains(Point::origin()) {
-        return Verdict::Reject;
-    }
-    let proposed = match limits.geometric_merge {
-        GeometricMerge::Narrow => pair.offset.norm().high() < least_distance(map, pair, config),
-        GeometricMerge::Estims => have_one_mode(map, pair, config),
-        GeometricMerge::Off => false,
-    };
-    if proposed {
-        Verdict::Propose
-    } else {
-        Verdict::Abstain
+    match config.restructuring.geometric_merge {
+        GeometricMerge::Off => Verdict::Abstain,
+        _ if !pair.offset.contains(Point::origin()) => Verdict::Reject,
+        GeometricMerge::Narrow => {
+            let most = pair.offset.norm().high();
+            Verdict::propose_if(most < least_distance(map, pair, config))
+        }
+        GeometricMerge::Estims => Verdict::propose_if(have_one_mode(map, pair, config)),
     }
 }
 
 /// How far apart the two are at the least if they are two.
 fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
-    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+    let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     if share_a_view(a, b, &config.percepts) {
         config.least_alike_distance()
     } else {
@@ -152,26 +128,20 @@ fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
 /// "When two places have estim sets that can be merged such that the resultant set has one estim with weight greater than
 /// a threshold and no other estim's weight is greater than a threshold fraction of the first, a merge is indicated."
 fn have_one_mode(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
-    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+    let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     let shift = pair.offset.middle() + (a.position.middle() - b.position.middle());
     let mut union = a.estims.clone();
-    union.extend(b.estims.iter().map(|estim| Estim {
-        position: estim.position + shift.coords,
-        weight: estim.weight,
-    }));
+    union.extend(b.estims.iter().map(|estim| estim.shifted(shift)));
     merge_estims(&mut union, config.separation);
-    let weights = sorted_weights(&union);
-    let (first, second) = (weights.first(), weights.get(1));
+    let union = heaviest_first(union);
+    let weight = |number: usize| union.get(number).map_or(0.0, |estim| estim.weight);
     let limits = &config.restructuring;
-    first.is_some_and(|first| {
-        *first > limits.weight && second.is_none_or(|second| *second <= limits.minority * first)
-    })
+    weight(0) > limits.weight && weight(1) <= limits.minority * weight(0)
 }
 
-fn sorted_weights(estims: &[Estim]) -> Vec<f64> {
-    let mut weights: Vec<f64> = estims.iter().map(|estim| estim.weight).collect();
-    weights.sort_by(|a, b| b.total_cmp(a));
-    weights
+fn heaviest_first(mut estims: Vec<Estim>) -> Vec<Estim> {
+    estims.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    estims
 }
 
 /// "Eventually the estim set will contain two estims with weight greater than a threshold, and with weight ratio
@@ -181,8 +151,7 @@ pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Optio
     if limits.geometric_split == Use::Off {
         return None;
     }
-    let mut estims = map.paths.places[place.index()].estims.clone();
-    estims.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    let estims = heaviest_first(map.place(place).estims.clone());
     let &[stays, leaves, ..] = estims.as_slice() else {
         return None;
     };

@@ -7,10 +7,7 @@ use tolman_geom::Point;
 
 use super::geometric::Pair;
 use super::{Diagnosis, Verdict};
-use crate::diktiometry::config::{Config, Use};
-use crate::diktiometry::ids::{LinkId, PlaceId};
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::path_graph::Link;
+use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use};
 
 /// "If two places have nearly identical incoming and outgoing action link sets (greater than a large fraction go to the
 /// same place via equivalent actions), then the places should be merged. The places also should have been visited often
@@ -20,15 +17,15 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     if limits.local_merge == Use::Off {
         return Verdict::Abstain;
     }
-    let [a, b] = [pair.a, pair.b].map(|place| &map.paths.places[place.index()]);
+    let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     if a.visits.min(b.visits) < limits.visits {
         return Verdict::Abstain;
     }
-    let ends = |place: PlaceId| -> Vec<(u32, bool, PlaceId)> {
+    let ends = |place: PlaceId| -> Vec<(Action, bool, PlaceId)> {
         let out = map.paths.outgoing(place);
-        let out = out.map(|(_, link)| (link.action.0, true, link.to));
+        let out = out.map(|(_, link)| (link.action, true, link.to));
         let into = map.paths.incoming(place);
-        let into = into.map(|(_, link)| (link.action.0, false, link.from));
+        let into = into.map(|(_, link)| (link.action, false, link.from));
         out.chain(into).collect()
     };
     let (of_a, of_b) = (ends(pair.a), ends(pair.b));
@@ -54,13 +51,10 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
 
 /// Whether the ends of a link of each place may be one place, if the two places are.
 fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bool {
-    if of_a.to == of_b.to {
-        return true;
-    }
-    match (map.related(pair.a, of_a.to), map.related(pair.b, of_b.to)) {
-        (Some(a), Some(b)) => (a - b).contains(Point::origin()),
-        _ => true,
-    }
+    let (a, b) = (map.related(pair.a, of_a.to), map.related(pair.b, of_b.to));
+    of_a.to == of_b.to
+        || a.zip(b)
+            .is_none_or(|(a, b)| (a - b).contains(Point::origin()))
 }
 
 /// "If the incoming links can be partitioned into two sets such that the sets' 'images' (the sets of outgoing links taken
@@ -72,94 +66,86 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
 /// know the action. O(degree²).
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
-    let here = &map.paths.places[place.index()];
+    let here = map.place(place);
     if limits.local_split == Use::Off || here.visits < limits.visits {
         return None;
     }
     // Only an action with two ends can tell, so that almost every place is done here.
-    let several = here.outgoing.iter().any(|id| {
-        let link = &map.paths.links[id.index()];
-        map.paths.along(place, link.action).count() > 1
-    });
+    let mut outgoing = map.paths.outgoing(place);
+    let several = outgoing.any(|(_, link)| map.paths.along(place, link.action).count() > 1);
     if !several {
         return None;
     }
-    let images: Vec<Image> = here
-        .incoming
-        .iter()
-        .map(|&id| Image::of(map, id, config))
-        .filter(|image| !image.taken.is_empty())
-        .collect();
-    // The first image and all that agrees with it, directly or through others, against the rest.
-    let mut side: Vec<bool> = images.iter().enumerate().map(|(at, _)| at == 0).collect();
-    let mut grows = true;
-    while grows {
-        grows = false;
-        for at in 0..images.len() {
-            let joins = |(other, on): (&Image, &bool)| *on && images[at].agrees(other);
-            if !side[at] && images.iter().zip(&side).any(joins) {
-                side[at] = true;
-                grows = true;
-            }
-        }
+    let images = here.incoming.iter().map(|&id| Image::of(map, id, config));
+    let mut rest: Vec<Image> = images.filter(|image| !image.taken.is_empty()).collect();
+    if rest.is_empty() {
+        return None;
     }
-    let of = |wanted: bool| {
-        images
-            .iter()
-            .zip(&side)
-            .filter(move |(_, on)| **on == wanted)
-    };
-    let weight =
-        |wanted: bool| of(wanted).fold(0_u32, |sum, (image, _)| sum.saturating_add(image.weight()));
-    let differ = of(true).any(|(one, _)| of(false).any(|(other, _)| one.contradicts(other)));
-    let enough = weight(true).min(weight(false)) >= limits.visits;
-    (differ && enough).then(|| Diagnosis::Links {
-        incoming: of(false).map(|(image, _)| image.link).collect(),
+    // The first image and all that agrees with it, directly or through others, against the rest.
+    let mut side = Vec::from([rest.remove(0)]);
+    let agrees = |side: &[Image], image: &Image| side.iter().any(|other| image.agrees(other));
+    while let Some(at) = rest.iter().position(|image| agrees(&side, image)) {
+        side.push(rest.remove(at));
+    }
+    let contradicted = |one: &Image| rest.iter().any(|other| one.contradicts(other));
+    let differ = side.iter().any(contradicted);
+    let [weight, others] = [&side, &rest].map(|images| {
+        let weights = images.iter().map(Image::weight);
+        weights.fold(0, u32::saturating_add)
+    });
+    (differ && weight.min(others) >= limits.visits).then(|| Diagnosis::Links {
+        incoming: rest.iter().map(|image| image.link).collect(),
     })
 }
 
 /// The links taken after one.
 struct Image {
     link: LinkId,
-    /// Action, place it led to, how often.
-    taken: Vec<(u32, PlaceId, u32)>,
+    taken: Vec<Taken>,
+}
+
+/// A link that was taken after another.
+struct Taken {
+    action: Action,
+    to: PlaceId,
+    /// How often.
+    count: u32,
 }
 
 impl Image {
-    fn of(map: &Diktiometry, id: LinkId, config: &Config) -> Self {
-        let link = &map.paths.links[id.index()];
-        let least = f64::from(link.then.iter().map(|one| one.count).max().unwrap_or(0))
-            * config.restructuring.minority;
-        let taken = link
-            .then
-            .iter()
-            .filter(|one| f64::from(one.count) >= least)
-            .map(|one| {
-                let next = &map.paths.links[one.link.index()];
-                (next.action.0, next.to, one.count)
-            })
-            .collect();
-        Self { link: id, taken }
+    fn of(map: &Diktiometry, link: LinkId, config: &Config) -> Self {
+        let then = &map.link(link).then;
+        let most = then.iter().map(|one| one.count).max().unwrap_or(0);
+        let least = f64::from(most) * config.restructuring.minority;
+        let often = then.iter().filter(|one| f64::from(one.count) >= least);
+        let taken = often.map(|one| {
+            let Link { action, to, .. } = *map.link(one.link);
+            let count = one.count;
+            Taken { action, to, count }
+        });
+        let taken = taken.collect();
+        Self { link, taken }
     }
 
     fn weight(&self) -> u32 {
-        let counts = self.taken.iter().map(|(_, _, count)| *count);
+        let counts = self.taken.iter().map(|one| one.count);
         counts.fold(0, u32::saturating_add)
     }
 
     fn agrees(&self, other: &Self) -> bool {
-        let same = |one: &(u32, PlaceId, u32)| {
-            let alike = |two: &(u32, PlaceId, u32)| (one.0, one.1) == (two.0, two.1);
-            other.taken.iter().any(alike)
-        };
-        self.taken.iter().any(same)
+        self.any(other, |one, two| {
+            one.action == two.action && one.to == two.to
+        })
     }
 
     fn contradicts(&self, other: &Self) -> bool {
-        let apart = |one: &(u32, PlaceId, u32)| {
-            let differs = |two: &(u32, PlaceId, u32)| one.0 == two.0 && one.1 != two.1;
-            other.taken.iter().any(differs)
-        };
-        self.taken.iter().any(apart)
+        self.any(other, |one, two| {
+            one.action == two.action && one.to != two.to
+        })
+    }
+
+    fn any(&self, other: &Self, holds: fn(&Taken, &Taken) -> bool) -> bool {
+        let mut all = self.taken.iter();
+        all.any(|one| other.taken.iter().any(|two| holds(one, two)))
     }
 }

@@ -9,11 +9,9 @@ use tolman_geom::{Point, PointBox};
 
 use super::Verdict;
 use super::geometric::{Pair, take_notes};
-use crate::diktiometry::config::{Config, SearchLimits, Use};
-use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::looks::Similarity;
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::matching::{share_a_view, similarity};
+use crate::diktiometry::{
+    Config, Diktiometry, PlaceId, SearchLimits, Similarity, Use, share_a_view, similarity,
+};
 
 /// Pairs of places that are compared at most.
 const COMPARED: usize = 64;
@@ -44,71 +42,29 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     } else {
         sides[0] * sides[1]
     };
-    match enough(map, others, config) {
-        Some(wanted) if agreement(map, pair, config, wanted) == Agreement::Enough => {
-            Verdict::Propose
-        }
-        _ => Verdict::Abstain,
-    }
+    let enough = enough(map, others, config)
+        .is_some_and(|wanted| agreement(map, pair.a, pair.b, wanted, config) == Agreement::Enough);
+    Verdict::propose_if(enough)
 }
 
 /// Whether one action led to both from one place, or from both to one from where the action back leads to either.
 fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let Pair { a, b, .. } = *pair;
     let paths = &map.paths;
-    let one_origin = paths.incoming(a).any(|(_, link)| {
-        let mut others = paths.along(link.from, link.action);
-        others.any(|(_, other)| other.to == b)
-    });
-    one_origin
+    let leads = |from, action, to| paths.between(from, action, to).is_some();
+    let mut incoming = paths.incoming(a);
+    incoming.any(|(_, link)| leads(link.from, link.action, b))
         || paths.outgoing(a).any(|(_, link)| {
-            let kind = config.actions.get(link.action.0 as usize);
-            let Some(back) = kind.and_then(|kind| kind.reverse) else {
-                return false;
-            };
-            let leads_back = |place| paths.between(link.to, back, place).is_some();
-            paths.between(b, link.action, link.to).is_some() && (leads_back(a) || leads_back(b))
+            let back = config.reverse(link.action);
+            let leads_back = |place| back.is_some_and(|back| leads(link.to, back, place));
+            leads(b, link.action, link.to) && (leads_back(a) || leads_back(b))
         })
 }
 
-/// What looks say of two places that may be one, wherever they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Sight {
-    /// As many kinds of looks agree as have to. Where b lies as seen from a by all that is known, m: geometry has its say before a merge.
-    Same(PointBox),
-    /// The two are not one: what the same actions lead to does not agree.
-    Different,
-    /// Not enough was seen.
-    Open,
-}
-
-/// What looks say of two places that the search of the neighbourhood does not relate. `wanted` kinds of looks have to agree
-/// ([`wanted_anywhere`]). O(frames · degree · log frames) if they do.
-pub(super) fn out_of_reach(
-    map: &Diktiometry,
-    a: PlaceId,
-    b: PlaceId,
-    wanted: usize,
-    config: &Config,
-) -> Sight {
-    let anywhere = PointBox::UNBOUNDED;
-    let pair = Pair {
-        a,
-        b,
-        offset: anywhere,
-    };
-    match agreement(map, &pair, config, wanted) {
-        Agreement::Enough => {
-            let everywhere = SearchLimits {
-                width: f64::INFINITY,
-                frames: usize::MAX,
-                depth: u32::MAX,
-            };
-            Sight::Same(map.displacement(a, b, &everywhere).unwrap_or(anywhere))
-        }
-        Agreement::Broken => Sight::Different,
-        Agreement::TooLittle => Sight::Open,
-    }
+/// Where b lies as seen from a by all that is known, m: geometry has its say before a merge. O(frames · degree · log frames).
+pub(super) fn offset_anywhere(map: &Diktiometry, a: PlaceId, b: PlaceId) -> PointBox {
+    let known = map.displacement(a, b, &SearchLimits::UNLIMITED);
+    known.unwrap_or(PointBox::UNBOUNDED)
 }
 
 /// The pairs noted at `place` that are one by their looks, without a search of the neighbourhood. Notes that looks settle are taken away.
@@ -120,19 +76,19 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
     let mut notes = take_notes(map, place);
     notes.retain(|note| {
         let (a, b) = (place, note.other);
-        match out_of_reach(map, a, b, wanted, config) {
-            Sight::Same(offset) => pairs.push(Pair { a, b, offset }),
-            Sight::Different => return false,
-            Sight::Open => {}
+        let agreement = agreement(map, a, b, wanted, config);
+        if agreement == Agreement::Enough {
+            let offset = offset_anywhere(map, a, b);
+            pairs.push(Pair { a, b, offset });
         }
-        true
+        agreement != Agreement::Broken
     });
-    map.paths.places[place.index()].notes = notes;
+    map.place_mut(place).notes = notes;
     pairs
 }
 
 /// Geometry has told two places apart: what that says of looks.
-pub(in crate::diktiometry) fn learn_of_two(
+pub(crate) fn learn_of_two(
     map: &mut Diktiometry,
     pair: [PlaceId; 2],
     look: Similarity,
@@ -161,12 +117,12 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
         })
     };
     let (one, other) = before.or_else(after)?;
-    let [one, other] = [one, other].map(|end| &paths.places[end.index()]);
+    let [one, other] = [one, other].map(|end| map.place(end));
     Some(similarity(one, other, &config.percepts))
 }
 
 /// How many kinds of looks have to agree where geometry knows nothing; none if looks tell nothing there.
-pub(in crate::diktiometry) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
+pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),
         Use::Off => None,
@@ -185,36 +141,36 @@ fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
 
 /// How far looks agree along the same actions from two places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Agreement {
+pub(super) enum Agreement {
     /// As many kinds of looks agree as have to.
     Enough,
     /// Fewer do, as far as is known.
     TooLittle,
-    /// A look differs, or geometry tells two places apart that would be one.
+    /// The two are not one: a look differs, or geometry tells two places apart that would be one.
     Broken,
 }
 
-/// Whether so many kinds of looks agree along the same actions from two places, and nothing speaks against it that
+/// Whether `wanted` kinds of looks agree along the same actions from two places, wherever they are, and nothing speaks against it that
 /// the two are one.
-fn agreement(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> Agreement {
+pub(super) fn agreement(
+    map: &Diktiometry,
+    a: PlaceId,
+    b: PlaceId,
+    wanted: usize,
+    config: &Config,
+) -> Agreement {
     let paths = &map.paths;
-    let mut pairs = Vec::from([(pair.a, pair.b)]);
+    let alike = |a, b| share_a_view(map.place(a), map.place(b), &config.percepts);
+    let unseen = |place| map.place(place).views.is_empty();
+    let mut pairs = Vec::from([(a, b)]);
     let mut kinds: Vec<PlaceId> = Vec::new();
     let mut next = 0;
     while let Some(&(a, b)) = pairs.get(next) {
         next += 1;
-        let [here, there] = [a, b].map(|place| &paths.places[place.index()]);
-        if here.views.is_empty()
-            || there.views.is_empty()
-            || !share_a_view(here, there, &config.percepts)
-        {
+        if unseen(a) || unseen(b) || !alike(a, b) {
             return Agreement::Broken;
         }
-        let is_new = kinds.iter().all(|&kind| {
-            let kind = &paths.places[kind.index()];
-            !share_a_view(kind, here, &config.percepts)
-        });
-        if is_new {
+        if kinds.iter().all(|&kind| !alike(kind, a)) {
             kinds.push(a);
             if kinds.len() >= wanted {
                 return Agreement::Enough;
@@ -231,10 +187,10 @@ fn agreement(map: &Diktiometry, pair: &Pair, config: &Config, wanted: usize) -> 
             }
             // The two ways are one if the places are.
             let ways = map.related(a, link.to).zip(map.related(b, other.to));
-            let apart = map
-                .related(ends.0, ends.1)
-                .is_some_and(|offset| !offset.contains(Point::origin()));
-            if apart || ways.is_some_and(|(one, other)| !one.meets(other)) {
+            let offset = map.related(ends.0, ends.1);
+            if offset.is_some_and(|offset| !offset.contains(Point::origin()))
+                || ways.is_some_and(|(one, other)| !one.meets(other))
+            {
                 return Agreement::Broken;
             }
             pairs.push(ends);

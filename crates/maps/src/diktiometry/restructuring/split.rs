@@ -3,10 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Interval, PointBox};
 
 use super::Diagnosis;
-use crate::diktiometry::counts::Counts;
-use crate::diktiometry::ids::{LinkId, PlaceId};
-use crate::diktiometry::map::{Diktiometry, Site};
-use crate::diktiometry::path_graph::{Estim, Link, Standing};
+use crate::diktiometry::{Counts, Diktiometry, Estim, Link, LinkId, PlaceId, Standing};
 
 /// Makes two places of one: the new one, in the same frame.
 ///
@@ -14,19 +11,13 @@ use crate::diktiometry::path_graph::{Estim, Link, Standing};
 /// their respective estims. Action link sets are pruned eventually by the transient elision mechanism": both have all
 /// links. By links, each takes the incoming links of its side and what was taken after them.
 pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis) -> PlaceId {
-    let here = map.paths.places[place.index()].clone();
-    let new = map.new_place(Site::InFrame {
-        frame: here.frame,
-        position: here.position,
-    });
+    let here = map.place(place).clone();
+    let new = map.add_place(here.frame, here.position);
     let (incoming, outgoing) = match diagnosis {
         Diagnosis::Estims { stays, leaves } => {
-            let halves = halves(here.envelope, stays, leaves);
-            for (place, (half, estim)) in [place, new]
-                .into_iter()
-                .zip(halves.into_iter().zip([stays, leaves]))
-            {
-                let place = &mut map.paths.places[place.index()];
+            let [kept, left] = halves(here.envelope, stays, leaves);
+            for (place, half, estim) in [(place, kept, stays), (new, left, leaves)] {
+                let place = map.place_mut(place);
                 place.position = half;
                 place.envelope = half;
                 place.estims = Vec::from([*estim]);
@@ -34,34 +25,30 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
             (here.incoming.clone(), here.outgoing.clone())
         }
         Diagnosis::Links { incoming } => {
-            let after = |id: &LinkId| {
-                let then = &map.paths.links[id.index()].then;
-                then.iter().map(|one| one.link).collect::<Vec<LinkId>>()
-            };
-            let mut outgoing: Vec<LinkId> = incoming.iter().flat_map(after).collect();
+            let after = incoming.iter().flat_map(|id| &map.link(*id).then);
+            let mut outgoing: Vec<LinkId> = after.map(|one| one.link).collect();
             outgoing.sort_unstable();
             outgoing.dedup();
-            map.paths.places[new.index()].envelope = here.envelope;
+            map.place_mut(new).envelope = here.envelope;
             (incoming.clone(), outgoing)
         }
     };
     let moved = matches!(diagnosis, Diagnosis::Links { .. });
-    let visits = incoming.iter().fold(0_u32, |sum, id| {
-        sum.saturating_add(map.paths.links[id.index()].traversed)
-    });
-    let twin = &mut map.paths.places[new.index()];
+    let traversed = incoming.iter().map(|id| map.link(*id).traversed);
+    let visits = traversed.fold(0, u32::saturating_add);
+    let twin = map.place_mut(new);
     twin.views = here.views;
     twin.exits = here.exits;
     twin.blocked = here.blocked;
     twin.visits = visits.min(here.visits);
     for id in incoming {
-        let link = map.paths.links[id.index()].clone();
+        let link = map.link(id).clone();
         if link.from == place {
             continue; // A link from the place to itself stays with it.
         }
         let copied = copy(map, &link, link.from, new);
         if moved {
-            let new = &mut map.paths.links[copied.index()];
+            let new = map.link_mut(copied);
             new.traversed = link.traversed;
             new.counts = link.counts;
             new.constancy = link.constancy;
@@ -69,7 +56,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
         }
     }
     for id in outgoing {
-        let link = map.paths.links[id.index()].clone();
+        let link = map.link(id).clone();
         if link.to != place && link.standing == Standing::Standing && link.from == place {
             copy(map, &link, new, link.to);
         }
@@ -80,7 +67,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
 /// A link of the same action as another. It counts as gone once: what it is worth has to show.
 fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) -> LinkId {
     let id = map.paths.link_to(from, link.action, to);
-    let new = &mut map.paths.links[id.index()];
+    let new = map.link_mut(id);
     if new.traversed == 0 {
         new.traversed = 1;
         new.counts = Counts::ONCE;

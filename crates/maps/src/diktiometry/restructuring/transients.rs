@@ -2,12 +2,9 @@
 
 use alloc::vec::Vec;
 
-use crate::diktiometry::config::{Config, Transients, Use};
-use crate::diktiometry::counts::Counts;
-use crate::diktiometry::ids::{LinkId, PlaceId};
-use crate::diktiometry::map::Diktiometry;
-use crate::diktiometry::path_graph::{Fate, Standing};
-use crate::diktiometry::report::Restructured;
+use crate::diktiometry::{
+    Config, Counts, Diktiometry, Fate, PlaceId, Restructured, Standing, Transients, Use,
+};
 
 /// Elides the links from `place`'s neighbours to it and from it, and the places they lead to, that are met far less often than
 /// they are expected. A place that tracks are at (`occupied`) stays. O(degree).
@@ -21,16 +18,9 @@ pub(super) fn elide(
     if config.transients.elision == Use::Off {
         return done;
     }
-    let here = &map.paths.places[place.index()];
-    let links: Vec<LinkId> = here
-        .incoming
-        .iter()
-        .chain(&here.outgoing)
-        .copied()
-        .collect();
     let mut ends = Vec::new();
-    for id in links {
-        let link = &map.paths.links[id.index()];
+    for id in map.place(place).links() {
+        let link = map.link(id);
         if link.standing == Standing::Standing && is_transient(&link.counts, &config.transients) {
             ends.push(link.to);
             map.paths.remove_link(id);
@@ -38,7 +28,7 @@ pub(super) fn elide(
         }
     }
     for end in ends {
-        let there = &map.paths.places[end.index()];
+        let there = map.place(end);
         let unheard = there.incoming.is_empty() && is_transient(&there.counts, &config.transients);
         if there.fate == Fate::Standing && unheard && !occupied.contains(&end) {
             elide_place(map, end);
@@ -49,19 +39,12 @@ pub(super) fn elide(
 }
 
 /// Takes a place out of the map, with its links.
-pub(in crate::diktiometry) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
-    let place = &map.paths.places[id.index()];
-    let links: Vec<LinkId> = place
-        .outgoing
-        .iter()
-        .chain(&place.incoming)
-        .copied()
-        .collect();
-    for link in links {
+pub(crate) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
+    for link in map.place(id).links() {
         map.paths.remove_link(link);
     }
     let frame = map.paths.bury(id, Fate::Elided).frame;
-    let places = &mut map.reference.frames[frame.index()].places;
+    let places = &mut map.frame_mut(frame).places;
     places.retain(|other| *other != id);
     if places.is_empty() {
         map.reference.clear(frame);

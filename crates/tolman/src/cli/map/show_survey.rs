@@ -8,6 +8,7 @@ use tolman_arena::diktiometry::SurveyFile;
 use tolman_draw::Figure;
 use tolman_maps::diktiometry::{Link, PlaceId};
 use tolman_papers::diktiometry::drawing::map_over_world;
+use tolman_sim::Bounds;
 
 use super::show::Arguments;
 use crate::cli::{Failure, OrBadInput, file};
@@ -41,12 +42,13 @@ pub(super) fn carry_out(
         let places: Vec<serde_json::Value> = drawn
             .iter()
             .map(|place| {
+                let Bounds { min, max } = place.bounds;
                 let links: Vec<serde_json::Value> = links_of(place.id)
                     .map(|link| json!({ "action": direction(link), "to": link.to.0, "traversed": link.traversed }))
                     .collect();
                 json!({
                     "id": place.id,
-                    "box": { "west": place.low.x, "south": place.low.y, "east": place.high.x, "north": place.high.y },
+                    "box": { "west": min.x, "south": min.y, "east": max.x, "north": max.y },
                     "visits": paths.place(PlaceId(place.id)).map(|place| place.visits),
                     "links": links,
                 })

@@ -3,10 +3,7 @@ use alloc::vec::Vec;
 
 use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use crate::diktiometry::config::{Rotation, SignatureKind};
-use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::path_graph::PathGraph;
-use crate::diktiometry::signature::Signature;
+use crate::diktiometry::{PathGraph, PlaceId, Rotation, Signature, SignatureKind};
 
 /// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
 /// marking each signature found at the offset implied by the column match. When enough of a database signature's
@@ -46,9 +43,9 @@ impl ColumnIndex {
         } else {
             groups.starts().collect()
         };
+        let trees = self.trees.len();
         for (at, start) in starts.into_iter().enumerate() {
-            let tree = if turned { 0 } else { at };
-            self.trees[tree].insert(Feature {
+            self.trees[at % trees].insert(Feature {
                 values: groups.values(view, start),
                 view: number,
                 column: start as u32,
@@ -83,9 +80,8 @@ impl ColumnIndex {
             percept.agreement(view, vote.offset as usize, tolerance) >= kind.enough()
         };
         let elected = votes.iter().filter(|vote| agrees(vote));
-        let mut places: Vec<PlaceId> = elected
-            .filter_map(|vote| paths.resolve(self.views[vote.view as usize].place))
-            .collect();
+        let places = elected.map(|vote| self.views[vote.view as usize].place);
+        let mut places: Vec<PlaceId> = places.filter_map(|place| paths.resolve(place)).collect();
         places.sort_unstable();
         places.dedup();
         places
@@ -115,10 +111,8 @@ impl Groups {
     /// The values of the columns from one on, round the circle.
     fn values(&self, view: &Signature, start: usize) -> Vec<f64> {
         let columns = (start..start + self.size).map(|column| column % view.columns());
-        columns
-            .flat_map(|column| view.column(column))
-            .copied()
-            .collect()
+        let values = columns.flat_map(|column| view.column(column));
+        values.copied().collect()
     }
 }
 
@@ -127,7 +121,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::diktiometry::map::{Diktiometry, Site};
+    use crate::diktiometry::Diktiometry;
 
     const ROWS: usize = 2;
     const COLUMNS: usize = 7;
@@ -160,7 +154,7 @@ mod tests {
                 })
             };
             for view in views.iter().map(signature) {
-                let place = map.new_place(Site::OwnFrame);
+                let place = map.found_place();
                 index.insert(place, &view, &kind);
                 if alike(&view) {
                     expected.push(place);

@@ -6,12 +6,9 @@
 
 use alloc::vec::Vec;
 
+use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use super::{Vote, elected};
-use crate::diktiometry::config::SignatureKind;
-use crate::diktiometry::ids::PlaceId;
-use crate::diktiometry::path_graph::PathGraph;
-use crate::diktiometry::signature::Signature;
+use crate::diktiometry::{PathGraph, PlaceId, Rotation, Signature, SignatureKind};
 
 /// How many edges of a view are kept, the clearest: 56 triangles.
 const EDGES: usize = 8;
@@ -119,9 +116,16 @@ impl TriangleIndex {
                 votes.push(Vote::of(known, seen.column, percept.columns));
             });
         }
-        let enough = |view: u32| self.views[view as usize].enough;
-        let place = |view: u32| self.views[view as usize].place;
-        elected(votes, kind.rotation, enough, place, paths)
+        votes.retain(|vote| vote.offset == 0 || kind.rotation == Rotation::Free);
+        votes.sort_unstable();
+        let views = votes.chunk_by(|a, b| a == b).filter_map(|alike| {
+            let view = &self.views[alike[0].view as usize];
+            (alike.len() >= view.enough).then_some(view.place)
+        });
+        let mut places: Vec<PlaceId> = views.filter_map(|place| paths.resolve(place)).collect();
+        places.sort_unstable();
+        places.dedup();
+        places
     }
 }
 
@@ -180,12 +184,11 @@ fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
     let turns = [[a, b, c], [b, c, a], [c, a, b]];
-    let longest = turns
-        .iter()
-        .map(|[from, to, _]| side(from, to, columns))
-        .max();
-    let is_longest = move |turn: &Triangle<'_>| Some(side(turn[0], turn[1], columns)) == longest;
-    let told = turns.into_iter().filter(is_longest);
+    let first = move |turn: &Triangle<'_>| side(turn[0], turn[1], columns);
+    let longest = turns.iter().map(first).max();
+    let told = turns
+        .into_iter()
+        .filter(move |turn| Some(first(turn)) == longest);
     told.map(move |turn| feature(turn, columns))
 }
 
@@ -209,8 +212,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::diktiometry::config::Rotation;
-    use crate::diktiometry::map::{Diktiometry, Site};
+    use crate::diktiometry::Diktiometry;
+    use crate::diktiometry::Rotation;
 
     const ROWS: usize = 2;
     const COLUMNS: usize = 12;
@@ -238,7 +241,7 @@ mod tests {
     fn places(count: usize) -> Diktiometry {
         let mut map = Diktiometry::default();
         for _ in 0..count {
-            map.new_place(Site::OwnFrame);
+            map.found_place();
         }
         map
     }

@@ -1,6 +1,6 @@
 //! How the diktiometry learns abstract worlds: the tables of docs/diktiometry.md that need no simulator.
 //!
-//! `cargo run --release -p tolman-maps --example diktiometry_worlds -- TABLE [RUNS]`, TABLE one of those in `TABLES`.
+//! `cargo run --release -p tolman-papers --example diktiometry_worlds -- TABLE [RUNS]`, TABLE one of those in `TABLES`.
 #![expect(
     clippy::unwrap_used,
     clippy::print_stdout,
@@ -11,15 +11,16 @@ extern crate alloc;
 
 use core::num::NonZeroU64;
 
-#[path = "../tests/diktiometry/walk.rs"]
+#[path = "../../maps/tests/diktiometry/walk.rs"]
 mod walk;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Ablation, Config, GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
+    GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
 };
 use tolman_maze::Direction;
+use tolman_papers::diktiometry::{ABLATIONS, Change};
 use tolman_sim::abstract_world::{AbstractWorld, MoveError};
 use walk::{
     COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
@@ -151,9 +152,6 @@ fn growth(runs: u64) {
     }
 }
 
-/// What a world does to the mapper.
-type Change = fn(&mut Config);
-
 /// What becomes of the map without each part of the mapper, where everything is as the mapper is told and where it is not.
 fn parts(runs: u64) {
     let outliers = |share: f64, factor: f64| MoveError {
@@ -201,14 +199,14 @@ fn parts(runs: u64) {
         print!(" {name} |");
     }
     println!("\n| --- | --- | --- | --- | --- | --- |");
-    for ablation in Ablation::ALL {
-        print!("| {} |", ablation.name);
+    for (name, ablate) in ABLATIONS {
+        print!("| {name} |");
         for &(_, side, heed, moves, errors, adapt) in &worlds {
             let (mut purity, mut places) = (0.0, 0.0);
             for seed in 0..runs {
                 let mut config = alike();
                 adapt(&mut config);
-                (ablation.change)(&mut config);
+                ablate(&mut config);
                 let world = open(side).painted(5, seed);
                 let mut walk = Walk::new(world, errors, config, seed);
                 let mut planner = Scripted::new(heed, seed);

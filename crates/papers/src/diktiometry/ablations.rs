@@ -1,0 +1,81 @@
+//! The mapper without each of its parts.
+
+use tolman_maps::diktiometry::{
+    Config, GeometricIndexing, GeometricMerge, Identity, Order, PerceptualIndexing, Use,
+};
+
+/// A change to the mapper.
+pub type Change = fn(&mut Config);
+
+/// Changes that leave a part out, or put another in its place: what a part is worth shows in what becomes of the map without it. The
+/// first changes nothing. The last is the paper's rule of identity with the merge that goes with it.
+pub const ABLATIONS: [(&str, Change); 20] = [
+    ("all", |_| {}),
+    ("no CONTINUE", |config| {
+        config.matching.continuation = Use::Off;
+    }),
+    ("no LINK", |config| config.matching.link = Use::Off),
+    ("no α-MATCH", |config| config.matching.alpha = Use::Off),
+    ("no β-MATCH", |config| config.matching.beta = Use::Off),
+    ("no expectational indexing", |config| {
+        config.indexing.expectational = Use::Off;
+    }),
+    ("no geometric indexing", |config| {
+        config.indexing.geometric = GeometricIndexing::Off;
+    }),
+    ("active frames", |config| {
+        config.indexing.geometric = GeometricIndexing::ActiveFrames;
+    }),
+    ("no perceptual indexing", |config| {
+        config.indexing.perceptual = PerceptualIndexing::Off;
+    }),
+    ("triangles", |config| {
+        config.indexing.perceptual = PerceptualIndexing::Triangles;
+    }),
+    ("no geometric merge", |config| {
+        config.restructuring.geometric_merge = GeometricMerge::Off;
+    }),
+    ("no geometric split", |config| {
+        config.restructuring.geometric_split = Use::Off;
+    }),
+    ("no local merge", |config| {
+        config.restructuring.local_merge = Use::Off;
+    }),
+    ("no local split", |config| {
+        config.restructuring.local_split = Use::Off;
+    }),
+    ("no non-local merge", |config| {
+        config.restructuring.non_local_merge = Use::Off;
+    }),
+    ("merges by looks", |config| {
+        config.restructuring.look_merge = Use::On;
+    }),
+    ("no transients", |config| {
+        config.transients.elision = Use::Off;
+    }),
+    ("one track", |config| config.tracks.cap = 1),
+    ("static priorities", |config| {
+        config.matching.order = Order::Static;
+    }),
+    ("boxes that meet are the same", |config| {
+        config.matching.identity = Identity::Meets;
+        config.restructuring.geometric_merge = GeometricMerge::Estims;
+    }),
+];
+
+#[cfg(test)]
+mod tests {
+    use alloc::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_one_makes_another_mapper() {
+        let mappers = ABLATIONS.map(|(_, change)| {
+            let mut config = Config::new(Config::compass_actions(), 1.0);
+            change(&mut config);
+            format!("{config:?}")
+        });
+        assert_eq!(BTreeSet::from(mappers).len(), ABLATIONS.len());
+    }
+}
