@@ -87,7 +87,8 @@ fn mslst_does() {
 fn cpm_does() {
     let measures = ring_measures(&calibrated(), CORRIDOR_WIDTH);
     let mut cpm = Cpm::unlearned(measures.walker_config(), CpmConfig::robust(), SEED).unwrap();
-    let (explored, reached) = explore_and_reach(RingAsEpuck::new(pioneer(), measures), &mut cpm);
+    let (explored, reached) =
+        explore_and_reach(RingAsEpuck::new(pioneer(), measures).unwrap(), &mut cpm);
     assert!(is_whole_map_right(
         cpm.explorer().unwrap().mapper.map(),
         &maze()

@@ -49,7 +49,7 @@ pub enum EpisodeError {
         /// Which one, from 0.
         step: u32,
         /// Why.
-        source: WatchedError<StepError>,
+        source: ActorError<WatchedError<StepError>, Infallible>,
     },
 }
 
@@ -164,18 +164,15 @@ pub fn run(
 
 /// Returns that the simulator refused the command of time step `step`.
 pub(crate) const fn step_failed(step: u32, source: StepError) -> EpisodeError {
-    let source = WatchedError::Robot(source);
+    let source = ActorError::Robot(WatchedError::Robot(source));
     EpisodeError::Step { step, source }
 }
 
 /// Returns why a run broke off at the robot's next step.
 pub(crate) fn broken<R: Robot, F: FnMut(&R, &R::Command)>(
     robot: &Watched<R, F>,
-    error: ActorError<WatchedError<StepError>, Infallible>,
+    source: ActorError<WatchedError<StepError>, Infallible>,
 ) -> EpisodeError {
     let step = robot.steps();
-    match error {
-        ActorError::Robot(source) => EpisodeError::Step { step, source },
-        ActorError::Brain(never) => match never {},
-    }
+    EpisodeError::Step { step, source }
 }

@@ -106,6 +106,12 @@ impl CorridorDetector {
         })
     }
 
+    /// Returns the ring whose scans it reads.
+    #[must_use]
+    pub const fn ring(&self) -> Ring {
+        self.ring
+    }
+
     /// Whether a view can be read: a scan of the detector's ring with a number for every beam (infinity
     /// is one: nothing met), and a heading.
     #[must_use]

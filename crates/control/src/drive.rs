@@ -2,7 +2,7 @@ use core::ops::ControlFlow;
 
 use rand::Rng;
 use tolman_maze::Direction;
-use tolman_robot::{Compass, Ranges, Robot, TurnTranslate};
+use tolman_robot::{Compass, Ranges, Ring, Robot, TurnTranslate};
 
 use crate::{Outcome, Proposal, Stack, View};
 
@@ -84,6 +84,12 @@ impl<G: Rng> Drive<G> {
     pub const fn longest_action(mut self, steps: u32) -> Self {
         self.longest_action = steps;
         self
+    }
+
+    /// Returns the ring whose scans its layers read.
+    #[must_use]
+    pub const fn ring(&self) -> Ring {
+        self.stack.ring()
     }
 
     /// Carries out `action` with `robot` and returns how it ended, or `None` where `see` broke it off. `see` is

@@ -45,6 +45,12 @@ impl Stack {
         ))
     }
 
+    /// Returns the ring whose scans the layers read.
+    #[must_use]
+    pub const fn ring(&self) -> Ring {
+        self.detector.ring()
+    }
+
     /// Starts a high-level action. Without it the stack goes north; an action that has ended and is not
     /// followed by another starts anew.
     pub fn begin(&mut self, action: Direction) {

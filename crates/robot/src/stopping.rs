@@ -41,6 +41,11 @@ impl<R: Robot> Stopping<R> {
     pub const fn new(robot: R) -> Self {
         Self(robot)
     }
+
+    /// Returns the robot, to be lifted.
+    pub const fn robot_mut(&mut self) -> &mut R {
+        &mut self.0
+    }
 }
 
 impl<R: Robot> Deref for Stopping<R> {

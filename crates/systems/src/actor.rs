@@ -4,8 +4,8 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::{Drive, Driven, Stack};
 use tolman_robot::{
-    Compass, Goal, Guess, MapView, Mapper, Ranges, Robot, SensesLandmarks, Standing, System, Task,
-    TurnTranslate,
+    Compass, Goal, Guess, MapView, Mapper, Ranges, Ring, Robot, SensesLandmarks, Standing, System,
+    Task, TurnTranslate,
 };
 
 use crate::{Brain, Doing, TimeStep, stream};
@@ -33,7 +33,7 @@ enum Before {
 }
 
 /// Why an actor cannot go on.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum ActorError<R, B> {
     /// The robot failed.
     #[error("the robot failed")]
@@ -41,6 +41,17 @@ pub enum ActorError<R, B> {
     /// The brain refuses what it observed.
     #[error("the brain cannot use what the robot sensed")]
     Brain(#[source] B),
+    /// The layers cannot read the robot's scans.
+    #[error(
+        "the robot scans by {} beams up to {} m, its layers read {} up to {} m: make the layers for the robot's ring",
+        robot.beams, robot.max_range, layers.beams, layers.max_range
+    )]
+    Ring {
+        /// The ring of the robot's scans.
+        robot: Ring,
+        /// The ring that the layers are made for.
+        layers: Ring,
+    },
 }
 
 /// The streams that the seed of an actor is split into.
@@ -99,6 +110,13 @@ impl<B: Brain> Actor<B> {
         R::Sensing: Ranges + Compass,
     {
         if self.before == Before::PutDown {
+            let layers = self.drive.ring();
+            if let Some(scan) = robot.sensing().scan()
+                && scan.ring != layers
+            {
+                let robot = scan.ring;
+                return Err(ActorError::Ring { robot, layers });
+            }
             let observed = self.brain.observe(&TimeStep::of(robot, Doing::PutDown));
             observed.map_err(ActorError::Brain)?;
             self.before = Before::Action;

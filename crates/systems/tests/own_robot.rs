@@ -13,7 +13,9 @@ use tolman_robot::{
     Goal, Landmark, LaserSensing, Mapper, Ring, Robot, Scan, SensesLandmarks, Standing, System,
     Task, TurnTranslate,
 };
-use tolman_systems::mslst::{Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, Survey};
+use tolman_systems::mslst::{
+    Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, States, Survey,
+};
 use tolman_systems::{Actor, Brain, Doing, Origin, TimeStep, baselines};
 
 const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
@@ -262,6 +264,26 @@ fn without_a_map_mslst_says_what_it_needs() {
         assert!(why.contains("let it explore first"), "{why}");
     }
     assert_eq!(robot.steps, 0);
+}
+
+/// Layers for other beams would leave the robot where it is.
+#[test]
+fn layers_for_another_ring_are_refused() {
+    let layers = Stack::paper(Ring::full(36, 2.5 * ROBOT_UNIT), ROBOT_UNIT, WIDTH).unwrap();
+    let mut mslst = Actor::seeded(Mslst::new(config()), layers, 5);
+    let mut robot = Digger::new(cells('.')[0], 5);
+    let error = mslst.act(&mut robot, Task::Explore).unwrap_err();
+    let told = error.to_string();
+    assert!(
+        told.contains("72 beams") && told.contains("read 36"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_compass_that_never_tells_is_named() {
+    let told = States::learn(&[], 100.0).unwrap_err().to_string();
+    assert!(told.contains("check ranges and compass"), "{told}");
 }
 
 /// Nobody watched a real robot learn: its map is kept without the survey.

@@ -46,7 +46,7 @@ fn placed(venue: &Venue, robot: LaserPioneerConfig, seed: u64) -> (Epuck, Walker
     let start = venue.start().unwrap();
     let solo = Solo::new(Arc::clone(&venue.world), model, start, seed).unwrap();
     let tells: Tells = Box::new(move |solo| landmarks.at(solo.truth().pose.position));
-    let epuck = RingAsEpuck::new(Landmarked::new(solo, tells), measures);
+    let epuck = RingAsEpuck::new(Landmarked::new(solo, tells), measures).unwrap();
     (epuck, config)
 }
 

@@ -95,7 +95,7 @@ pub use layer3::{Experience, Layer3, Step, Walked};
 pub use map_file::{MapFile, MapFileError};
 pub use mode::Mode;
 pub use preset::Preset;
-pub use ring_as_epuck::{RingAsEpuck, RingMeasures};
+pub use ring_as_epuck::{RingAsEpuck, RingMeasures, UnfitRing};
 pub use robot::CpmRobot;
 pub use search::Search;
 pub use system::{Cpm, ObserveError};

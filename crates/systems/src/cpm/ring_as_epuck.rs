@@ -1,5 +1,6 @@
 use core::f64::consts::TAU;
 
+use thiserror::Error;
 use tolman_control::epuck::RangeCurve;
 use tolman_geom::Twist;
 use tolman_robot::epuck::{
@@ -7,7 +8,7 @@ use tolman_robot::epuck::{
     WheelSpeeds, WheelTurns, proximity_mounts,
 };
 use tolman_robot::{
-    Clock, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks, TurnTranslate,
+    Clock, Landmark, Odometry, Ranges, Ring, Robot, Rolls, Scan, SensesLandmarks, TurnTranslate,
 };
 
 use super::walker_config::{EpuckMeasures, WalkerConfig};
@@ -54,6 +55,21 @@ const SLOW_ROOM: f64 = 0.02;
 
 /// Neighbouring beams whose ranges have at most this ratio meet one wall.
 const ONE_WALL: f64 = 1.25;
+
+/// A ring that cannot stand for an e-puck's sensors.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "the ring looks {round:.3} rad round and {reach} m far: CPM needs one that looks all round and reaches further than a corridor is wide, \
+     {corridor_width} m"
+)]
+pub struct UnfitRing {
+    /// Angle that the beams cover, rad.
+    pub round: f64,
+    /// Largest range, m.
+    pub reach: f64,
+    /// Width of the corridors as it was told, m.
+    pub corridor_width: f64,
+}
 
 impl RingMeasures {
     /// Returns how many metres of this robot are one of the e-puck.
@@ -112,8 +128,7 @@ impl RingMeasures {
 
     /// Returns what the e-puck's sensors would read by `curve`; `None` where the ring does not go all round.
     fn proximity(&self, scan: &Scan, curve: &RangeCurve) -> Option<[f64; PROXIMITY_SENSORS]> {
-        let all_round = f64::from(scan.ring.beams) * scan.ring.spacing;
-        if (all_round - TAU).abs() > 1e-6 || scan.ranges.len() != scan.ring.beams as usize {
+        if !goes_round(&scan.ring) || scan.ranges.len() != scan.ring.beams as usize {
             return None;
         }
         // The e-puck's sensors look nearly away from its middle, where the ring's beams come from.
@@ -124,6 +139,11 @@ impl RingMeasures {
             curve.value(seen)
         }))
     }
+}
+
+/// Returns whether a ring looks all round.
+fn goes_round(ring: &Ring) -> bool {
+    (f64::from(ring.beams) * ring.spacing - TAU).abs() < 1e-6
 }
 
 /// Returns how far the wall is that a full ring has at a bearing, rad, m; `None` where it meets nothing.
@@ -151,7 +171,19 @@ where
     R::Sensing: Ranges + Rolls + Clock,
 {
     /// Returns `robot` as an e-puck.
-    pub fn new(robot: R, measures: RingMeasures) -> Self {
+    ///
+    /// # Errors
+    /// [`UnfitRing`] if its scan does not go all round, or reaches no further than a corridor is wide.
+    pub fn new(robot: R, measures: RingMeasures) -> Result<Self, UnfitRing> {
+        if let Some(Scan { ring, .. }) = robot.sensing().scan()
+            && !(goes_round(ring) && ring.max_range > measures.corridor_width)
+        {
+            return Err(UnfitRing {
+                round: f64::from(ring.beams) * ring.spacing,
+                reach: ring.max_range,
+                corridor_width: measures.corridor_width,
+            });
+        }
         let mut epuck = Self {
             robot,
             measures,
@@ -159,7 +191,7 @@ where
             sensing: EpuckSensing::default(),
         };
         epuck.sense();
-        epuck
+        Ok(epuck)
     }
 
     /// Returns the robot.
@@ -219,8 +251,6 @@ where
 
 #[cfg(test)]
 mod tests {
-    use tolman_robot::Ring;
-
     use super::*;
 
     fn measures() -> RingMeasures {
@@ -288,6 +318,31 @@ mod tests {
                 };
                 assert!((value - expected).abs() < 8.0, "{value} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn a_ring_that_is_too_short_or_has_a_gap_is_refused() {
+        struct Still(tolman_robot::LaserSensing);
+        impl Robot for Still {
+            type Command = TurnTranslate;
+            type Sensing = tolman_robot::LaserSensing;
+            type Error = core::convert::Infallible;
+            fn sensing(&self) -> &tolman_robot::LaserSensing {
+                &self.0
+            }
+            fn step(&mut self, _command: &TurnTranslate) -> Result<(), Self::Error> {
+                Ok(())
+            }
+        }
+        for (ring, is_fit) in [
+            (Ring::full(72, 1.1), true),
+            (Ring::full(72, 0.9), false),
+            (Ring::fan(181, core::f64::consts::PI, 8.0), false),
+        ] {
+            let still = Still(tolman_robot::LaserSensing::silent(ring));
+            let epuck = RingAsEpuck::new(still, measures());
+            assert_eq!(epuck.is_ok(), is_fit, "{ring:?}");
         }
     }
 

@@ -5,6 +5,9 @@ use tolman_quantizers::{ConfigError, Gng, GngConfig, InputError, Quantizer};
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StatesError {
+    /// There are no scans.
+    #[error("no time step had both a scan and a heading: check ranges and compass")]
+    NoScans,
     /// The quantizer cannot begin.
     #[error("no states can be made")]
     Config(#[from] ConfigError),
@@ -33,7 +36,7 @@ impl States {
     /// # Errors
     /// If there are none, or they differ in length or hold what is no number.
     pub fn learn(scans: &[Vec<f64>], threshold: f64) -> Result<Self, StatesError> {
-        let beams = scans.first().map_or(0, Vec::len);
+        let beams = scans.first().ok_or(StatesError::NoScans)?.len();
         let mut gng = Gng::new(beams, GngConfig::mslst(threshold))?;
         for (index, scan) in scans.iter().enumerate() {
             gng.observe(scan).map_err(|source| StatesError::Scan {
