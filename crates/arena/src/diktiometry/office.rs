@@ -112,10 +112,9 @@ impl Office {
             let ahead = [Direction::North, Direction::East];
             ahead.map(|direction| (cell, direction))
         });
-        let doorways: Vec<(Cell, Direction)> = passages
-            .filter(|(cell, direction)| maze.is_open(*cell, *direction))
-            .filter(|_| rng.random_range(0.0..1.0) < share)
-            .collect();
+        let open = passages.filter(|(cell, direction)| maze.is_open(*cell, *direction));
+        let doorways = open.filter(|_| rng.random_range(0.0..1.0) < share);
+        let doorways: Vec<(Cell, Direction)> = doorways.collect();
         let palette: Vec<[u8; 3]> = match config.colours {
             1 => vec![Material::default().colour],
             colours => (0..colours)

@@ -208,12 +208,12 @@ impl Observer {
         if tracks[0].confidence <= tracking.low {
             let confident = tracks
                 .iter()
-                .filter(|track| track.confidence >= tracking.high)
-                .max_by(|a, b| {
-                    let confidence = a.confidence.total_cmp(&b.confidence);
-                    confidence.then(b.id.cmp(&a.id))
-                });
-            if let Some(winner) = confident {
+                .filter(|track| track.confidence >= tracking.high);
+            let winner = confident.max_by(|a, b| {
+                let confidence = a.confidence.total_cmp(&b.confidence);
+                confidence.then(b.id.cmp(&a.id))
+            });
+            if let Some(winner) = winner {
                 best = winner.id;
                 let (loser, winner) = (tracks[0].clone(), winner.place);
                 self.abandon(&loser, winner);

@@ -36,10 +36,9 @@ pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair
     near.iter().enumerate().flat_map(|(number, &(a, at))| {
         let others = near.iter().skip(number + 1);
         let meet = others.filter(move |(_, there)| at.meets(*there));
-        meet.map(move |&(b, there)| Pair {
-            a,
-            b,
-            offset: there - at,
+        meet.map(move |&(b, there)| {
+            let offset = there - at;
+            Pair { a, b, offset }
         })
     })
 }
