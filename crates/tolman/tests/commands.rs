@@ -1,7 +1,8 @@
 //! Every command that README, the pages and the help texts show is one that works: it is run as it stands, in a folder
 //! that holds nothing but `mazes`, and ends with the exit code that a comment behind it names, else 0.
 //!
-//! Minutes in a debug build: `cargo test --release -p tolman --test commands -- --ignored`.
+//! A debug build takes many minutes. `TOLMAN` may name another one: `cargo build --release -p tolman`, then
+//! `TOLMAN=target/release/tolman cargo test -p tolman --test commands -- --ignored`, as `cargo xtask ci` does.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![cfg(unix)]
 
@@ -10,7 +11,11 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-const TOLMAN: &str = env!("CARGO_BIN_EXE_tolman");
+/// The command: what `TOLMAN` names, else the one built with this test.
+fn tolman() -> PathBuf {
+    let named = std::env::var_os("TOLMAN").map(|path| root().join(path));
+    named.unwrap_or_else(|| env!("CARGO_BIN_EXE_tolman").into())
+}
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -18,7 +23,8 @@ fn root() -> PathBuf {
 
 /// Runs a line as a shell does in `folder`.
 fn sh(folder: &Path, line: &str) -> Output {
-    let bin = Path::new(TOLMAN).parent().unwrap();
+    let bin = tolman();
+    let bin = bin.parent().unwrap();
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
     let mut command = Command::new("sh");
     command.args(["-c", line]).current_dir(folder);
@@ -82,7 +88,7 @@ fn commands_of_page(text: &str) -> Vec<String> {
 
 /// The examples of a verb's help.
 fn commands_of_help(verb: &[String]) -> Vec<String> {
-    let help = Command::new(TOLMAN)
+    let help = Command::new(tolman())
         .args(verb)
         .arg("--help")
         .output()
@@ -97,7 +103,7 @@ fn commands_of_help(verb: &[String]) -> Vec<String> {
 
 /// The verbs below `verb`, by the list that its help begins with.
 fn verbs(verb: &[String]) -> Vec<Vec<String>> {
-    let help = Command::new(TOLMAN)
+    let help = Command::new(tolman())
         .args(verb)
         .arg("--help")
         .output()
@@ -117,7 +123,7 @@ fn verbs(verb: &[String]) -> Vec<Vec<String>> {
 }
 
 #[test]
-#[ignore = "takes minutes in a debug build"]
+#[ignore = "takes many minutes in a debug build"]
 fn every_command_that_is_shown_works() {
     let mut pages = vec![root().join("README.md")];
     let docs = fs::read_dir(root().join("docs")).unwrap();

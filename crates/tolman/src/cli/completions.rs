@@ -11,7 +11,7 @@ use super::Failure;
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  tolman completions bash > ~/.local/share/bash-completion/completions/tolman")]
+  tolman completions bash > tolman.bash")]
 pub(super) struct Arguments {
     /// The shell that is to complete
     shell: Shell,

@@ -19,8 +19,8 @@ is the best run's turns and effective distance and a tenth of all turns and effe
 better, 2000 is a maze unsolved. The code of mms measures in half-steps, its README in cells; both are told.
 
 Examples:
-  tolman mms-host --mouse 'python3 mouse.py' --maze mazes/grid/braided-2.txt
-  tolman mms-host --mouse './mouse --fast' --maze mazes/ --jobs 1 --json")]
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid --jobs 1 --json")]
 pub(super) struct Arguments {
     /// The mouse's command, split into words as a shell does, and run without one
     #[arg(long, value_name = "CMD")]

@@ -28,7 +28,7 @@ mouse: it speaks with it on stdin and stdout, and logs to stderr.
 Examples:
   tolman mouse mazes/grid/braided-2.txt
   tolman mouse mazes/grid --worst 3
-  tolman mouse test_maze_02.txt --steps steps.jsonl
+  tolman mouse mazes/grid/perfect-1.txt --steps steps.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
 pub(super) struct Arguments {
     /// A maze file of any format, or a folder of them

@@ -18,8 +18,9 @@ Traces are written by `tolman run --trace`. Several of the same world play side 
 it is told at which step each first differs from the first trace, and that step is marked.
 
 Examples:
-  tolman replay run.jsonl
-  tolman replay before.jsonl after.jsonl --out compared.html")]
+  tolman run wall-follow --maze mazes/j.maze --trace one.jsonl
+  tolman run avoid --maze mazes/j.maze --trace two.jsonl
+  tolman replay one.jsonl two.jsonl --out compared.html")]
 pub(super) struct Arguments {
     /// The traces; - reads standard input
     #[arg(required = true, value_name = "TRACE")]

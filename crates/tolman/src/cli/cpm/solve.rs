@@ -24,7 +24,7 @@ use crate::cli::{Failure, OrBadInput, file, map};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  tolman cpm learn --maze mazes/cpm-3.maze --out map.json
+  tolman cpm learn --maze mazes/cpm-3.maze --until explored --out map.json
   tolman cpm solve --map map.json --maze mazes/cpm-3.maze --seed 7 --svg drive.svg
   tolman cpm learn --maze mazes/cpm-2.maze --until explored --out other.json
   tolman cpm solve --map map.json --map other.json --maze mazes/cpm-3.maze --start random")]

@@ -12,7 +12,9 @@ use super::{Failure, show_cpm, show_mslst, show_survey};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
+  tolman learn --maze mazes/j.maze --out j-map.json
   tolman map show j-map.json --maze mazes/j.maze --svg j-map.svg
+  tolman survey --maze mazes/j.maze --out j-survey.json
   tolman map show j-survey.json --svg j-survey.svg")]
 pub(crate) struct Arguments {
     /// The map, made by `tolman learn`, `tolman cpm learn` or `tolman survey`

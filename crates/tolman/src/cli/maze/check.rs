@@ -10,7 +10,7 @@ use super::{Failure, input, summary::Summary};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  tolman maze check mazes/*")]
+  tolman maze check mazes/*.maze mazes/grid/*.txt")]
 pub(crate) struct Arguments {
     /// The maze files, of any format; - reads standard input
     #[arg(required = true)]
