@@ -38,7 +38,7 @@ pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) ->
 /// Our value: a mean with its spread, anything else alone; what was not reached as `> 2000`.
 pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     let sd = match metric.statistic {
-        Statistic::Mean { .. } => measured.sd,
+        Statistic::Mean(_) => measured.sd,
         _ => None,
     };
     let value = value_with_spread(metric, measured.value, sd);
