@@ -7,7 +7,7 @@ use tolman_sim::robots::EpuckConfig;
 
 use super::venue;
 use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, Venue, learn_by, slow_epuck, walker_config};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::cpm::{
     CommonPatterns, CpmConfig, Done, Episode, Layer3, Lesson, Step, Walker, WalkerConfig,
 };
@@ -163,16 +163,7 @@ impl RoundTripRun {
 
 fn table(venue: &Venue) -> Table {
     Table::of::<RoundTripRun>(FIGURE_11, "The maze of the real robot")
-        .metric(Metric::percent("solved_percent", RoundTripRun::solved))
-        .metric(Metric::mean(RoundTripRun::observations_1))
-        .metric(Metric::mean(RoundTripRun::seconds_1))
-        .metric(Metric::mean(RoundTripRun::observations_both_ways))
-        .metric(Metric::mean(RoundTripRun::observations_2))
-        .metric(Metric::mean(RoundTripRun::seconds_2))
-        .metric(Metric::mean(RoundTripRun::steps_reduction))
-        .metric(Metric::mean(RoundTripRun::time_reduction))
-        .metric(Metric::mean(RoundTripRun::tried))
-        .metric(Metric::mean(RoundTripRun::given_up))
+        .metrics_from(RoundTripRun::solved)
         .row(
             Row::new(&venue.name)
                 .paper("solved_percent", 100.0)

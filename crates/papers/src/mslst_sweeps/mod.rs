@@ -17,8 +17,8 @@ use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::learn;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
-    record, run_seed,
+    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Run, Table, record,
+    run_seed,
 };
 use tolman_robot::Body;
 use tolman_systems::mslst::Navigator;
@@ -82,12 +82,7 @@ record! {
 fn table(sweep: &Sweep) -> Table {
     let rows = sweep.settings.iter();
     Table::of::<SweepRun>(sweep.name, sweep.title)
-        .metric(Metric::mean(SweepRun::states))
-        .metric(Metric::mean(SweepRun::nodes))
-        .metric(Metric::mean(SweepRun::success_percent))
-        .metric(Metric::mean(SweepRun::steps))
-        .metric(Metric::mean(SweepRun::wall_follow_steps))
-        .metric(Metric::mean(SweepRun::oracle_steps))
+        .metrics_from(SweepRun::states)
         .rows(rows.map(|setting| Row::new(&setting.row)))
         .note(format!(
             "{} A run is a map with {STARTS} starts; ± is the spread between maps. Runs that time out count with their limit.",
