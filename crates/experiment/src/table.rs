@@ -220,23 +220,18 @@ impl Row {
 
     /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.
     #[must_use]
-    pub fn paper(mut self, metric: impl Into<String>, value: f64) -> Self {
-        self.paper.push(PaperValue {
-            metric: metric.into(),
-            value,
-            sd: None,
-        });
-        self
+    pub fn paper(self, metric: impl Into<String>, value: f64) -> Self {
+        self.said(metric.into(), value, None)
     }
 
     /// Adds a value of the paper given as mean ± standard deviation.
     #[must_use]
-    pub fn paper_mean(mut self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
-        self.paper.push(PaperValue {
-            metric: metric.into(),
-            value: mean,
-            sd: Some(sd),
-        });
+    pub fn paper_mean(self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
+        self.said(metric.into(), mean, Some(sd))
+    }
+
+    fn said(mut self, metric: String, value: f64, sd: Option<f64>) -> Self {
+        self.paper.push(PaperValue { metric, value, sd });
         self
     }
 

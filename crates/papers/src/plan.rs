@@ -1,7 +1,7 @@
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_draw::{Drawing, Plan, PolarPlot, Series, Zone};
-use tolman_geom::{Point, Vector};
+use tolman_geom::Point;
 use tolman_sim::{Area, Bounds};
 use tolman_systems::mslst::ROBOT_UNIT;
 
@@ -23,10 +23,7 @@ pub fn plan_of_course(course: &Course, width: f64) -> Plan {
     for cell in course.maze.grid().cells() {
         let centre = world.cell_centre(cell);
         if !course.leads_on(centre) {
-            let half = 0.5 * course.corridor_width;
-            let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
-            let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
-            plan.zone(&corners, Zone::Solid);
+            plan.square(centre, course.corridor_width, Zone::Solid);
         }
     }
     let destination = world.zone("destination");

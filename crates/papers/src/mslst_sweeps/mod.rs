@@ -122,28 +122,26 @@ impl Procedure for Sweeps {
             };
             Ok(episode::run(&trial, mind, |_| {})?)
         };
-        let (mut reached, mut steps) = (0_u32, 0_u32);
-        for start in 0..STARTS {
-            let mslst = Navigator::new(Arc::clone(&map), &setting.config);
-            let episode = play(&mut Mind::Brain(Box::new(mslst)), start)?;
-            reached += u32::from(episode.reached);
-            steps += episode.steps;
-        }
-        let mean = |sum: u32| f64::from(sum) / f64::from(STARTS);
-        let others = |agent: Agent| -> Result<f64, BoxError> {
-            let mut steps = 0;
+        // The share of the starts from which a mind arrives, and its mean time steps.
+        let played = |mind: &dyn Fn() -> Result<Mind, BoxError>| -> Result<[f64; 2], BoxError> {
+            let (mut reached, mut steps) = (0_u32, 0_u32);
             for start in 0..STARTS {
-                steps += play(&mut cast.mind(agent, &course, robot)?, start)?.steps;
+                let episode = play(&mut mind()?, start)?;
+                reached += u32::from(episode.reached);
+                steps += episode.steps;
             }
-            Ok(mean(steps))
+            Ok([reached, steps].map(|sum| f64::from(sum) / f64::from(STARTS)))
         };
+        let mslst = || Navigator::new(Arc::clone(&map), &setting.config);
+        let [reached, steps] = played(&|| Ok(Mind::Brain(Box::new(mslst()))))?;
+        let other = |agent| played(&|| Ok(cast.mind(agent, &course, robot)?));
         let run = SweepRun {
             states,
             nodes,
-            success_percent: 100.0 * mean(reached),
-            steps: mean(steps),
-            wall_follow_steps: others(Agent::WallFollow)?,
-            oracle_steps: others(Agent::Oracle)?,
+            success_percent: 100.0 * reached,
+            steps,
+            wall_follow_steps: other(Agent::WallFollow)?[1],
+            oracle_steps: other(Agent::Oracle)?[1],
         };
         Ok(run.fields()?)
     }
