@@ -65,7 +65,7 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     let _ = writeln!(
         text,
         "{}",
-        bold(&format!("Table {}  {}", table.name, table.title), ink)
+        painted(&format!("Table {}  {}", table.name, table.title), "1", ink)
     );
     let names = table
         .rows
@@ -173,10 +173,6 @@ fn mark(measured: Option<&Measured>, ink: Ink) -> String {
         Some(false) => ("!", "31"),
     };
     painted(mark, colour, ink)
-}
-
-fn bold(text: &str, ink: Ink) -> String {
-    painted(text, "1", ink)
 }
 
 fn painted(text: &str, code: &str, ink: Ink) -> String {
