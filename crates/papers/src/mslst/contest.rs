@@ -134,10 +134,8 @@ impl Contest {
         let apprentices = self.apprentices.iter().map(|one| one.row.clone());
         let competitors: Vec<String> = names(baselines).into_iter().chain(apprentices).collect();
         let rows = [competitors.clone(), names(yardsticks)].concat();
-        let own = PAPER_P.iter();
-        let own = own.filter(|(row, ..)| competitors.iter().any(|name| name == row));
-        let paper = own.map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
-        let paper = paper.collect();
+        // Of rows that do not compete nobody asks.
+        let paper = PAPER_P.map(|(row, other, p)| (row.to_owned(), other.to_owned(), p));
         let note = format!(
             "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
              after another such.",
@@ -149,7 +147,7 @@ impl Contest {
                 field: MazeRun::steps.to_owned(),
                 rows: competitors,
                 correction: Correction::Bonferroni,
-                paper,
+                paper: paper.into(),
             })
             .note(note)
     }
