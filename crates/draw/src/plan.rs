@@ -1,7 +1,7 @@
 //! The plan of a world, seen from above.
 
 use maud::{Markup, html};
-use tolman_geom::Point;
+use tolman_geom::{Point, Vector};
 use tolman_sim::{Bounds, World};
 
 use super::number::{line, short_line, tenths};
@@ -118,26 +118,31 @@ impl Plan {
 
     /// Adds a thin trajectory without ends, for many in one plan.
     pub fn faint_trajectory(&mut self, positions: &[Point], series: Series) {
-        let path = self.path(positions);
-        self.layers.push(html! {
-            path class={ "trajectory faint " (series.class()) } d=(path) {}
-        });
+        self.stroke("trajectory faint", None, positions, series);
     }
 
     /// Adds a broad band along positions, without ends: a way of a map, above which other things can be seen.
     pub fn way(&mut self, positions: &[Point], series: Series) {
-        let path = self.path(positions);
-        self.layers.push(html! {
-            path class={ "way " (series.class()) } d=(path) {}
-        });
+        self.stroke("way", None, positions, series);
     }
 
     /// Adds a dashed line, for a way that is doubtful.
     pub fn doubtful_way(&mut self, positions: &[Point], series: Series) {
+        self.stroke("trajectory", Some("4 3"), positions, series);
+    }
+
+    fn stroke(&mut self, class: &str, dashes: Option<&str>, positions: &[Point], series: Series) {
         let path = self.path(positions);
         self.layers.push(html! {
-            path class={ "trajectory " (series.class()) } stroke-dasharray="4 3" d=(path) {}
+            path class={ (class) " " (series.class()) } stroke-dasharray=[dashes] d=(path) {}
         });
+    }
+
+    /// Adds a square zone around its middle, `side` metres wide.
+    pub fn square(&mut self, middle: Point, side: f64, zone: Zone) {
+        let half = 0.5 * side;
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        self.zone(&corners.map(|(x, y)| middle + Vector::new(x, y)), zone);
     }
 
     /// Adds a graph, each node at its coordinates.

@@ -13,14 +13,9 @@ impl Series {
 
     /// The CSS class that gives an element its colour.
     pub const fn class(self) -> &'static str {
-        match self.0 % Self::COLOURS {
-            0 => "series-0",
-            1 => "series-1",
-            2 => "series-2",
-            3 => "series-3",
-            4 => "series-4",
-            5 => "series-5",
-            _ => "series-6",
-        }
+        const CLASSES: [&str; Series::COLOURS as usize] = [
+            "series-0", "series-1", "series-2", "series-3", "series-4", "series-5", "series-6",
+        ];
+        CLASSES[(self.0 % Self::COLOURS) as usize]
     }
 }

@@ -93,14 +93,7 @@ impl Tiles {
 fn cut(caption: &str, room: f64) -> String {
     // Small text is ten user units high and not twelve.
     let most = (room / words::width("x") * 1.2) as usize;
-    if caption.chars().count() <= most {
-        return caption.to_owned();
-    }
-    caption
-        .chars()
-        .take(most.saturating_sub(1))
-        .chain(['…'])
-        .collect()
+    words::cut(caption, most)
 }
 
 #[cfg(test)]

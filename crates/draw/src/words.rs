@@ -30,11 +30,18 @@ pub(super) fn lines(text: &str, most: usize) -> Vec<String> {
         lines[2].push('…');
     }
     for line in &mut lines {
-        if line.chars().count() > most + 4 {
-            *line = line.chars().take(most + 3).chain(['…']).collect();
-        }
+        *line = cut(line, most + 4);
     }
     lines
+}
+
+/// As much of a text as `most` characters hold, which ends in `…` where more would follow.
+pub(super) fn cut(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    let kept = text.chars().take(most.saturating_sub(1));
+    kept.chain(['…']).collect()
 }
 
 /// Lines centred below each other, the first with its base at `y`.

@@ -67,23 +67,6 @@ pub struct Contrast {
     pub a12: f64,
 }
 
-/// A value that does not match the paper's.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Disagreement {
-    /// The table.
-    pub table: String,
-    /// The row.
-    pub row: String,
-    /// The metric.
-    pub metric: String,
-    /// Our value.
-    pub ours: f64,
-    /// The paper's value.
-    pub paper: f64,
-    /// What would have matched.
-    pub accepted: Interval,
-}
-
 impl Contrast {
     /// How two samples differ, not corrected; `None` if one has no numbers.
     pub(super) fn of(a: &[f64], b: &[f64]) -> Option<Self> {
@@ -116,20 +99,10 @@ impl Analysis {
         Self { tables }
     }
 
-    /// The values that do not match the paper's, for `--check`.
-    pub fn disagreements(&self) -> Vec<Disagreement> {
-        let disagreement = |(table, metric, measured): (&Table, &Metric, &Measured)| {
-            let (paper, verdict) = (measured.paper.as_ref()?, measured.verdict?);
-            (!verdict.matches).then(|| Disagreement {
-                table: table.name.clone(),
-                row: measured.row.clone(),
-                metric: metric.name.clone(),
-                ours: measured.value,
-                paper: paper.value,
-                accepted: verdict.accepted,
-            })
-        };
-        self.values().filter_map(disagreement).collect()
+    /// The values that do not match the paper's, each with its table and metric, for `--check`.
+    pub fn disagreements(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
+        self.values()
+            .filter(|(_, _, measured)| measured.verdict.is_some_and(|verdict| !verdict.matches))
     }
 
     /// Every measured value with its table and metric.

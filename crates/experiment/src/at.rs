@@ -20,6 +20,18 @@ pub(super) fn at<T>(action: &'static str, path: &Path, result: io::Result<T>) ->
     })
 }
 
+/// The same of a path that need not be there: `None` where nothing is.
+pub(super) fn if_there<T>(
+    action: &'static str,
+    path: &Path,
+    result: io::Result<T>,
+) -> Result<Option<T>, Error> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        result => at(action, path, result).map(Some),
+    }
+}
+
 /// Makes a folder and those above it.
 pub(super) fn make_folder(path: &Path) -> Result<(), Error> {
     at("make the folder", path, fs::create_dir_all(path))

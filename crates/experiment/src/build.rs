@@ -4,7 +4,7 @@ use std::fs;
 
 use serde::{Deserialize, Serialize};
 
-use super::hash::Fnv64;
+use super::hash::fnv64;
 
 /// The build that plays the runs. Results of different builds are never mixed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ impl Build {
             compiler: compiler.to_owned(),
             executable: executable.map_or_else(
                 |_| "unknown".to_owned(),
-                |bytes| Fnv64::new().write(&bytes).hex(),
+                |bytes| format!("{:016x}", fnv64(&bytes)),
             ),
         }
     }

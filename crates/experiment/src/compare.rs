@@ -97,29 +97,21 @@ impl fmt::Display for Differences {
 /// What differs between a run of the first folder and its fellow of the second: the name of the field,
 /// or `the run`, and how.
 fn changes(a: Option<&Run>, b: Option<&Run>) -> Vec<(String, String)> {
-    let whole = |what: &str| vec![("the run".to_owned(), what.to_owned())];
-    let (a, b) = match (a, b) {
-        (Some(a), Some(b)) => (a, b),
-        (Some(_), None) => return whole("stands only in the first"),
-        (None, _) => return whole("stands only in the second"),
+    let (Some(a), Some(b)) = (a, b) else {
+        let what = told(a.map(|_| ""), b.map(|_| ""));
+        return vec![("the run".to_owned(), what)];
     };
     if a.seed != b.seed {
         return vec![("seed".to_owned(), format!("is {} and {}", a.seed, b.seed))];
     }
-    let names = |fields: &Fields| -> Vec<String> {
-        let names = fields.iter().map(|(name, _)| name.to_owned());
-        names.collect()
-    };
-    let all: BTreeSet<String> = names(&a.fields)
-        .into_iter()
-        .chain(names(&b.fields))
-        .collect();
-    all.into_iter()
-        .filter_map(|name| {
-            let (one, other) = (written(&a.fields, &name), written(&b.fields, &name));
-            (one != other).then(|| (name, told(one.as_deref(), other.as_deref())))
-        })
-        .collect()
+    let fields = a.fields.iter().chain(b.fields.iter());
+    let names: BTreeSet<&str> = fields.map(|(name, _)| name).collect();
+    let changed = names.into_iter().filter_map(|name| {
+        let (one, other) = (written(&a.fields, name), written(&b.fields, name));
+        let is_changed = one != other;
+        is_changed.then(|| (name.to_owned(), told(one.as_deref(), other.as_deref())))
+    });
+    changed.collect()
 }
 
 /// A field as it stands in the file, which has every bit of it.

@@ -154,6 +154,12 @@ impl Experiment {
         Ok((place, &self.tables[place]))
     }
 
+    /// Plays a run again and records it; `None` of one of which there is nothing to see.
+    pub(super) fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, Error> {
+        let replay = self.procedure.replay(job);
+        replay.map_err(|source| Error::run(job, source))
+    }
+
     /// The pictures of the procedure. Of an experiment in part those of its tables; figures of several
     /// tables are left out then.
     pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {

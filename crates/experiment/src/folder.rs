@@ -2,10 +2,9 @@
 //! if it is another.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
 use std::path::{Path, PathBuf};
 
-use super::at::{at, make_folder, write_whole};
+use super::at::{at, if_there, make_folder, write_whole};
 use super::config_file::ConfigFile;
 use super::runs_file::{self, Appender, Runs};
 use super::{Error, Event, Experiment, Progress};
@@ -121,10 +120,8 @@ impl Folder {
     /// Removes a file of the folder, if it is there.
     pub(super) fn discard(&self, name: &str) -> Result<(), Error> {
         let path = self.path.join(name);
-        match fs::remove_file(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            result => at("remove", &path, result),
-        }
+        if_there("remove", &path, fs::remove_file(&path))?;
+        Ok(())
     }
 
     /// Writes a file of the folder.
@@ -136,9 +133,8 @@ impl Folder {
 /// Refuses a path that is a file, and a folder with files but without a `config.toml` of ours:
 /// nobody's files are moved or overwritten.
 fn refuse_foreign(path: &Path) -> Result<(), Error> {
-    let entries = match fs::read_dir(path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-        result => at("read the folder", path, result)?,
+    let Some(entries) = if_there("read the folder", path, fs::read_dir(path))? else {
+        return Ok(());
     };
     let config = path.join(CONFIG);
     if config.is_file() {
@@ -191,14 +187,11 @@ fn lock(path: &Path) -> Result<File, Error> {
 /// What keeps the contents of the folder from being part of the new results.
 fn conflict(path: &Path, config: &ConfigFile) -> Result<Option<String>, Error> {
     let file = path.join(CONFIG);
-    let text = match fs::read_to_string(&file) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        result => at("read", &file, result)?,
-    };
-    Ok(match ConfigFile::parse(&text) {
+    let text = if_there("read", &file, fs::read_to_string(&file))?;
+    Ok(text.and_then(|text| match ConfigFile::parse(&text) {
         Some(former) => config.conflict_with(&former),
         None => Some("a config.toml that cannot be read".to_owned()),
-    })
+    }))
 }
 
 /// The first of `PATH.1`, `PATH.2`, … that is free.

@@ -49,7 +49,7 @@ mod terminal;
 mod text;
 mod verdict;
 
-pub use analysis::{Analysis, Contrast, Disagreement, Measured, MetricAnalysis, TableAnalysis};
+pub use analysis::{Analysis, Contrast, Measured, MetricAnalysis, TableAnalysis};
 pub use build::Build;
 pub use catalogue::{Entry, open};
 pub use column::{Better, Column, Kind, Presence, Value};
@@ -70,7 +70,7 @@ pub use summary::{P_TABLE, Summary, SummaryRow};
 pub use table::{Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance};
 pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text};
-pub use verdict::{Basis, Verdict};
+pub use verdict::Verdict;
 
 pub(crate) use sample::RESAMPLES;
 pub(crate) use terminal::duration;

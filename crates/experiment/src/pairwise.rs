@@ -41,9 +41,7 @@ impl Pair {
 impl Pairwise {
     /// Every pair of rows that were measured, in the order of the rows.
     pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<Pair> {
-        let statistic = Statistic::Mean {
-            field: self.field.clone(),
-        };
+        let statistic = Statistic::Mean(self.field.clone());
         let samples: Vec<(&String, Vec<f64>)> = self
             .rows
             .iter()

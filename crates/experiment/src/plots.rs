@@ -25,8 +25,7 @@ fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Me
         .flat_map(|(number, table)| {
             let mut seen: Vec<&str> = Vec::new();
             table.metrics.iter().filter_map(move |metric| {
-                let (Statistic::Mean { field } | Statistic::Median { field }) = &metric.statistic
-                else {
+                let (Statistic::Mean(field) | Statistic::Median(field)) = &metric.statistic else {
                     return None;
                 };
                 // The mean and the median of one field share a plot.

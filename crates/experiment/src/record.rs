@@ -1,6 +1,5 @@
 //! Records: what a run measures, as a struct whose columns are declared beside its fields.
 
-use alloc::collections::BTreeSet;
 use core::any::type_name;
 
 use serde::Serialize;
@@ -166,22 +165,6 @@ pub enum RecordError {
         /// What serde says.
         source: toml::de::Error,
     },
-    /// A struct with a field that no column describes.
-    #[error("the record {record} has a field {field:?} without a column; add it to `columns`")]
-    NoColumn {
-        /// Name of the type.
-        record: &'static str,
-        /// Name of the field.
-        field: String,
-    },
-    /// A column of a field that the struct has not, or has with another type.
-    #[error("the record {record} has no field {field:?} of the kind that its column tells")]
-    NoSuchField {
-        /// Name of the type.
-        record: &'static str,
-        /// Name of the field.
-        field: String,
-    },
 }
 
 /// The record of a table, without its type.
@@ -190,7 +173,6 @@ pub struct RecordType {
     name: &'static str,
     columns: Vec<Column>,
     check: fn(&Fields) -> Result<(), BoxError>,
-    compare: fn(&[Column]) -> Result<(), RecordError>,
 }
 
 impl RecordType {
@@ -199,7 +181,6 @@ impl RecordType {
             name: type_name::<T>(),
             columns: T::columns(),
             check: |fields| Ok(fields.record::<T>()?.check()?),
-            compare: compare::<T>,
         }
     }
 
@@ -222,45 +203,11 @@ impl RecordType {
     pub(super) fn check(&self, fields: &Fields) -> Result<(), BoxError> {
         (self.check)(fields)
     }
-
-    /// Refuses columns that are not those of the struct.
-    pub(super) fn compare(&self) -> Result<(), RecordError> {
-        (self.compare)(&self.columns)
-    }
 }
 
 impl PartialEq for RecordType {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name && self.columns == other.columns
-    }
-}
-
-/// Compares columns with what serde reads and writes of a struct: a sample that has every column must
-/// come back from it with the same fields of the same kinds, and no other.
-fn compare<T: Record>(columns: &[Column]) -> Result<(), RecordError> {
-    let record = type_name::<T>();
-    let sample = Fields::sample(columns);
-    let read = sample.record::<T>()?;
-    let written = read.fields()?;
-    // What is absent is written as null here, and not at all in fields.
-    let named = serde_json::to_value(&read).unwrap_or_default();
-    let named: BTreeSet<String> = match named {
-        serde_json::Value::Object(fields) => fields.into_iter().map(|(name, _)| name).collect(),
-        _ => BTreeSet::new(),
-    };
-    if let Some(field) = named.into_iter().find(|name| sample.get(name).is_none()) {
-        return Err(RecordError::NoColumn { record, field });
-    }
-    let strange = |column: &&Column| {
-        let written = written.get(&column.field);
-        written.map(super::run::Field::kind) != Some(column.kind)
-    };
-    match columns.iter().find(strange) {
-        Some(column) => Err(RecordError::NoSuchField {
-            record,
-            field: column.field.clone(),
-        }),
-        None => Ok(()),
     }
 }
 
@@ -365,7 +312,6 @@ mod tests {
         );
         assert_eq!((before.kind, way.kind), (Kind::Count, Kind::Curve));
         assert_eq!(said.presence, Presence::Sometimes);
-        RecordType::of::<Throw>().compare().unwrap();
     }
 
     #[test]
@@ -378,64 +324,6 @@ mod tests {
         kind.check(&throw().fields().unwrap()).unwrap();
         let refused = kind.check(&wide.fields().unwrap()).unwrap_err();
         assert_eq!(refused.to_string(), "it is counted beside the board");
-    }
-
-    /// A record whose columns are what a test says.
-    fn compared<T: Record>() -> String {
-        RecordType::of::<T>().compare().unwrap_err().to_string()
-    }
-
-    #[test]
-    fn a_field_without_a_column_is_refused() {
-        #[derive(Serialize, Deserialize)]
-        struct Lacking {
-            here: f64,
-            missed: Option<f64>,
-        }
-        impl Record for Lacking {
-            fn columns() -> Vec<Column> {
-                vec![Column::of::<f64>("here", "")]
-            }
-        }
-        assert!(compared::<Lacking>().contains("a field \"missed\" without a column"));
-
-        #[derive(Serialize, Deserialize)]
-        struct Needing {
-            here: f64,
-            missed: f64,
-        }
-        impl Record for Needing {
-            fn columns() -> Vec<Column> {
-                vec![Column::of::<f64>("here", "")]
-            }
-        }
-        assert!(compared::<Needing>().contains("are no record"));
-    }
-
-    #[test]
-    fn a_column_without_a_field_is_refused_and_one_of_another_kind() {
-        #[derive(Serialize, Deserialize)]
-        struct Short {
-            here: f64,
-        }
-        impl Record for Short {
-            fn columns() -> Vec<Column> {
-                let gone = Column::of::<Option<f64>>("gone", "");
-                vec![Column::of::<f64>("here", ""), gone]
-            }
-        }
-        assert!(compared::<Short>().contains("no field \"gone\""));
-
-        #[derive(Serialize, Deserialize)]
-        struct Strange {
-            here: f64,
-        }
-        impl Record for Strange {
-            fn columns() -> Vec<Column> {
-                vec![Column::of::<u64>("here", "")]
-            }
-        }
-        assert!(compared::<Strange>().contains("no field \"here\" of the kind"));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::at::{make_folder, write_whole};
-use super::{Error, Experiment, Job, Options, check, run_seed};
+use super::{Error, Experiment, Job, Options, check};
 
 /// Plays one run again from its seed and writes its replay to `replays/TABLE-ROW-RUN.html` in the
 /// folder of results, where TABLE and ROW are counted from 1. Runs beyond those that an experiment
@@ -22,18 +22,8 @@ pub fn write_replay(
     let (t, one) = experiment.table(table)?;
     let rows = one.rows.iter().map(|row| row.name.as_str());
     let r = Error::place_of("row", row, rows)?;
-    let seed = run_seed(options.seed, table, run);
-    let job = Job {
-        table,
-        row,
-        run,
-        seed,
-    };
-    let replay = experiment
-        .procedure
-        .replay(&job)
-        .map_err(|source| Error::run(&job, source))?;
-    let replay = replay.ok_or_else(|| Error::NoReplay {
+    let job = Job::of(options.seed, table, row, run);
+    let replay = experiment.replay(&job)?.ok_or_else(|| Error::NoReplay {
         table: table.to_owned(),
     })?;
     let page = tolman_replay::page(&replay).map_err(|source| Error::run(&job, source.into()))?;

@@ -106,20 +106,14 @@ fn room(done: u32, bytes: usize) -> u32 {
 fn jobs_of(experiment: &Experiment, master_seed: u64, run: u32) -> impl Iterator<Item = Job<'_>> {
     experiment.tables.iter().flat_map(move |table| {
         // A row with a number of its own may have fewer.
-        let rows = table
-            .rows
-            .iter()
-            .filter(move |row| row.runs_of(run + 1) > run);
+        let rows = table.rows.iter();
+        let rows = rows.filter(move |row| row.runs_of(run + 1) > run);
         rows.map(move |row| Job::of(master_seed, &table.name, &row.name, run))
     })
 }
 
 fn record_one(experiment: &Experiment, job: &Job<'_>) -> Result<Option<Recorded>, Error> {
-    let replay = experiment
-        .procedure
-        .replay(job)
-        .map_err(|source| Error::run(job, source))?;
-    let Some(replay) = replay else {
+    let Some(replay) = experiment.replay(job)? else {
         return Ok(None);
     };
     let json = tolman_replay::json(&replay).map_err(|source| Error::run(job, source.into()))?;

@@ -5,7 +5,7 @@ use core::any::type_name;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Column, Kind, Record, RecordError, run_seed};
+use super::{Kind, Record, RecordError, run_seed};
 
 /// A run to be played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,16 +112,6 @@ impl Fields {
         })
     }
 
-    /// Returns one field for each column.
-    pub(super) fn sample(columns: &[Column]) -> Self {
-        let columns = columns.iter();
-        Self(
-            columns
-                .map(|column| (column.field.clone(), Field::sample(column.kind)))
-                .collect(),
-        )
-    }
-
     /// Returns the field of a name.
     pub(super) fn get(&self, name: &str) -> Option<&Field> {
         self.0.get(name)
@@ -208,17 +198,6 @@ impl Field {
             Self::Number(number) => vec![*number],
             Self::Curve(values) => values.clone(),
             Self::Flag(_) | Self::Text(_) => Vec::new(),
-        }
-    }
-
-    /// Returns any field of a kind.
-    fn sample(kind: Kind) -> Self {
-        match kind {
-            Kind::Flag => Self::Flag(false),
-            Kind::Count => Self::Count(1),
-            Kind::Number => Self::Number(0.5),
-            Kind::Text => Self::Text(String::new()),
-            Kind::Curve => Self::Curve(vec![0.5]),
         }
     }
 

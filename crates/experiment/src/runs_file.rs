@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::at::{at, write_whole};
+use super::at::{at, if_there, write_whole};
 use super::{Error, Event, Experiment, Progress, Remedy, Run, check, run_seed};
 
 /// The places of a run's table and row, and its index: the order of the finished file.
@@ -40,9 +40,8 @@ pub(super) fn read<'a>(
     let mut disputed = BTreeSet::new();
     let mut broken = Vec::new();
     for file in files {
-        let bytes = match fs::read(file) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-            result => at("read", file, result)?,
+        let Some(bytes) = if_there("read", file, fs::read(file))? else {
+            continue;
         };
         for (line, text) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
             if text.is_empty() {

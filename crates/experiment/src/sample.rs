@@ -65,11 +65,11 @@ impl<'a> Sample<'a> {
             Some((run.fields.number(over)?, other.fields.number(under)?))
         };
         let sample = match statistic {
-            Statistic::Percent { field } => flags(field, 100.0),
+            Statistic::Percent(field) => flags(field, 100.0),
             Statistic::Count { field, whole } => flags(field, f64::from(*whole)),
-            Statistic::Mean { field } => numbers(field, Centre::Mean),
-            Statistic::Median { field } => numbers(field, Centre::Median),
-            Statistic::Least { field } => numbers(field, Centre::Least),
+            Statistic::Mean(field) => numbers(field, Centre::Mean),
+            Statistic::Median(field) => numbers(field, Centre::Median),
+            Statistic::Least(field) => numbers(field, Centre::Least),
             Statistic::Ratio { over, under } => {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
                 Self::Pairs(pairs.collect())

@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::hash::Fnv64;
+use super::hash::fnv64;
 
 /// The seed of run `run` of a table: word `run` of the table's own `ChaCha8` stream under the master
 /// seed.
@@ -20,7 +20,7 @@ use super::hash::Fnv64;
 /// ```
 pub fn run_seed(master: u64, table: &str, run: u32) -> u64 {
     let mut rng = ChaCha8Rng::seed_from_u64(master);
-    rng.set_stream(Fnv64::of(table.as_bytes()));
+    rng.set_stream(fnv64(table.as_bytes()));
     rng.set_word_pos(2 * u128::from(run));
     rng.next_u64() >> 11
 }

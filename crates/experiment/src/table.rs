@@ -89,6 +89,40 @@ impl Table {
         self
     }
 
+    /// Adds a metric for each field from this one on, in the order of the record: of a flag the percentage of runs, named
+    /// `FIELD_percent`, of a number the mean. Words and curves have none.
+    ///
+    /// ```
+    /// use tolman_experiment::{Table, record};
+    ///
+    /// record! {
+    ///     /// One throw.
+    ///     struct Throw {
+    ///         /// Throws before.
+    ///         before: u32 => neither("throws before"),
+    ///         /// Whether the dart hit the board.
+    ///         hit: bool => higher("hits"),
+    ///         /// Distance from the middle, where it hit.
+    ///         miss: Option<f64> => lower("miss").unit("cm"),
+    ///     }
+    /// }
+    ///
+    /// let table = Table::of::<Throw>("1", "Throws").metrics_from(Throw::hit);
+    /// let names: Vec<&str> = table.metrics.iter().map(|metric| metric.name.as_str()).collect();
+    /// assert_eq!(names, ["hit_percent", "miss"]);
+    /// ```
+    #[must_use]
+    pub fn metrics_from(self, field: &str) -> Self {
+        let columns = self.record.columns().to_vec();
+        let shown = columns.iter().skip_while(|column| column.field != field);
+        let metrics = shown.filter_map(|Column { field, kind, .. }| match kind {
+            Kind::Flag => Some(Metric::percent(format!("{field}_percent"), field)),
+            Kind::Count | Kind::Number => Some(Metric::mean(field)),
+            Kind::Text | Kind::Curve => None,
+        });
+        metrics.fold(self, Self::metric)
+    }
+
     /// Says how many runs each of the paper's rows has.
     #[must_use]
     pub fn paper_runs(mut self, runs: u32) -> Self {
@@ -186,23 +220,18 @@ impl Row {
 
     /// Adds a value of the paper that stands without a spread: a percentage, a median, a count.
     #[must_use]
-    pub fn paper(mut self, metric: impl Into<String>, value: f64) -> Self {
-        self.paper.push(PaperValue {
-            metric: metric.into(),
-            value,
-            sd: None,
-        });
-        self
+    pub fn paper(self, metric: impl Into<String>, value: f64) -> Self {
+        self.said(metric.into(), value, None)
     }
 
     /// Adds a value of the paper given as mean ± standard deviation.
     #[must_use]
-    pub fn paper_mean(mut self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
-        self.paper.push(PaperValue {
-            metric: metric.into(),
-            value: mean,
-            sd: Some(sd),
-        });
+    pub fn paper_mean(self, metric: impl Into<String>, mean: f64, sd: f64) -> Self {
+        self.said(metric.into(), mean, Some(sd))
+    }
+
+    fn said(mut self, metric: String, value: f64, sd: Option<f64>) -> Self {
+        self.paper.push(PaperValue { metric, value, sd });
         self
     }
 
@@ -307,25 +336,22 @@ impl Metric {
     /// The mean of the numeric field that bears the metric's name.
     pub fn mean(name: impl Into<String>) -> Self {
         let field = name.into();
-        Self::new(field.clone(), Statistic::Mean { field })
+        Self::new(field.clone(), Statistic::Mean(field))
     }
 
     /// The median of a numeric field, by definition R-7; its interval is that of order statistics.
     pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
-        let field = field.into();
-        Self::new(name, Statistic::Median { field })
+        Self::new(name, Statistic::Median(field.into()))
     }
 
     /// The least of a numeric field.
     pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
-        let field = field.into();
-        Self::new(name, Statistic::Least { field })
+        Self::new(name, Statistic::Least(field.into()))
     }
 
     /// The percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
-        let field = field.into();
-        let metric = Self::new(name, Statistic::Percent { field });
+        let metric = Self::new(name, Statistic::Percent(field.into()));
         metric.unit("%").decimals(1)
     }
 
@@ -427,26 +453,14 @@ impl Metric {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Statistic {
-    /// 100 × the share of runs whose flag is set.
-    Percent {
-        /// A field of [`Kind::Flag`](crate::Kind::Flag).
-        field: String,
-    },
-    /// The mean of a field.
-    Mean {
-        /// A numeric field.
-        field: String,
-    },
-    /// The median of a field.
-    Median {
-        /// A numeric field.
-        field: String,
-    },
-    /// The least of a field, of which no interval is told.
-    Least {
-        /// A numeric field.
-        field: String,
-    },
+    /// 100 × the share of runs whose flag is set, a field of [`Kind::Flag`](crate::Kind::Flag).
+    Percent(String),
+    /// The mean of a numeric field.
+    Mean(String),
+    /// The median of a numeric field.
+    Median(String),
+    /// The least of a numeric field, of which no interval is told.
+    Least(String),
     /// `whole` × the share of runs whose flag is set.
     Count {
         /// A field of [`Kind::Flag`](crate::Kind::Flag).
@@ -478,10 +492,10 @@ impl Statistic {
         const FLAG: &[Kind] = &[Kind::Flag];
         const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
         match self {
-            Self::Percent { field } | Self::Count { field, .. } => vec![(field, FLAG)],
-            Self::Mean { field }
-            | Self::Median { field }
-            | Self::Least { field }
+            Self::Percent(field) | Self::Count { field, .. } => vec![(field, FLAG)],
+            Self::Mean(field)
+            | Self::Median(field)
+            | Self::Least(field)
             | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
             Self::Ratio { over, under } => vec![(over, NUMERIC), (under, NUMERIC)],
             Self::Settling(Settling {

@@ -38,7 +38,7 @@ pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) ->
 /// Our value: a mean with its spread, anything else alone; what was not reached as `> 2000`.
 pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     let sd = match metric.statistic {
-        Statistic::Mean { .. } => measured.sd,
+        Statistic::Mean(_) => measured.sd,
         _ => None,
     };
     let value = value_with_spread(metric, measured.value, sd);
@@ -65,7 +65,7 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     let _ = writeln!(
         text,
         "{}",
-        bold(&format!("Table {}  {}", table.name, table.title), ink)
+        painted(&format!("Table {}  {}", table.name, table.title), "1", ink)
     );
     let names = table
         .rows
@@ -173,10 +173,6 @@ fn mark(measured: Option<&Measured>, ink: Ink) -> String {
         Some(false) => ("!", "31"),
     };
     painted(mark, colour, ink)
-}
-
-fn bold(text: &str, ink: Ink) -> String {
-    painted(text, "1", ink)
 }
 
 fn painted(text: &str, code: &str, ink: Ink) -> String {

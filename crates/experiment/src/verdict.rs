@@ -11,22 +11,11 @@ pub struct Verdict {
     pub matches: bool,
     /// The values that are accepted, ends included.
     pub accepted: Interval,
-    /// Why these.
-    pub basis: Basis,
-}
-
-/// What makes a value match the paper's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Basis {
-    /// It lies within the metric's stated tolerance.
-    Tolerance,
-    /// It lies within the paper's own 95 % interval: exact binomial for a percentage or a count, mean
-    /// ± 1.96 standard errors for a mean.
-    PaperInterval,
 }
 
 impl Verdict {
-    /// Judges `ours`; `None` if neither a tolerance nor the size and spread of the paper's sample is
+    /// Judges `ours` by the metric's stated tolerance, or else by the paper's own 95 % interval: exact binomial for a
+    /// percentage or a count, mean ± 1.96 standard errors for a mean; `None` if neither a tolerance nor the size and spread of the paper's sample is
     /// known.
     pub(super) fn of(
         ours: f64,
@@ -35,46 +24,35 @@ impl Verdict {
         metric: &Metric,
     ) -> Option<Self> {
         let around = |half: f64| Interval::new(paper.value - half, paper.value + half);
-        let (accepted, basis) = match metric.tolerance {
-            Some(Tolerance::Absolute(half)) => (around(half), Basis::Tolerance),
-            Some(Tolerance::Relative(share)) => {
-                (around(share * paper.value.abs()), Basis::Tolerance)
-            }
-            Some(Tolerance::Spread) => (around(paper.sd?), Basis::Tolerance),
-            Some(Tolerance::Factor(factor)) => {
+        let accepted = match (metric.tolerance, &metric.statistic) {
+            (Some(Tolerance::Absolute(half)), _) => around(half),
+            (Some(Tolerance::Relative(share)), _) => around(share * paper.value.abs()),
+            (Some(Tolerance::Spread), _) => around(paper.sd?),
+            (Some(Tolerance::Factor(factor)), _) => {
                 let (one, other) = (paper.value / factor, paper.value * factor);
-                let accepted = Interval::new(one.min(other), one.max(other));
-                (accepted, Basis::Tolerance)
+                Interval::new(one.min(other), one.max(other))
             }
-            None => {
-                let own = match metric.statistic {
-                    Statistic::Percent { .. } => own_binomial(paper.value, 100.0, paper_runs?)?,
-                    Statistic::Count { whole, .. } => {
-                        own_binomial(paper.value, f64::from(whole), whole)?
-                    }
-                    Statistic::Mean { .. }
-                    | Statistic::Ratio { .. }
-                    | Statistic::Multiple { .. } => {
-                        around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
-                    }
-                    // A spread says nothing of a median's error, nor of a minimum's.
-                    Statistic::Median { .. } | Statistic::Least { .. } | Statistic::Settling(_) => {
-                        return None;
-                    }
-                };
-                (own, Basis::PaperInterval)
+            (None, Statistic::Percent(_)) => own_binomial(paper.value, 100.0, paper_runs?)?,
+            (None, Statistic::Count { whole, .. }) => {
+                own_binomial(paper.value, f64::from(*whole), *whole)?
+            }
+            (None, Statistic::Mean(_) | Statistic::Ratio { .. } | Statistic::Multiple { .. }) => {
+                around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
+            }
+            // A spread says nothing of a median's error, nor of a minimum's.
+            (None, Statistic::Median(_) | Statistic::Least(_) | Statistic::Settling(_)) => {
+                return None;
             }
         };
         // Of a whole there is no less than none and no more than all.
         let accepted = match metric.statistic {
-            Statistic::Percent { .. } => within(accepted, 100.0),
+            Statistic::Percent(_) => within(accepted, 100.0),
             Statistic::Count { whole, .. } => within(accepted, f64::from(whole)),
             _ => accepted,
         };
         Some(Self {
             matches: accepted.contains(ours),
             accepted,
-            basis,
         })
     }
 }

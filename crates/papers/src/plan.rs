@@ -1,8 +1,9 @@
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
-use tolman_draw::{Drawing, Plan, PolarPlot, Series, Zone};
-use tolman_geom::{Point, Vector};
+use tolman_draw::{Drawing, LinePoint, Plan, PolarPlot, Series, Zone};
+use tolman_geom::Point;
 use tolman_sim::{Area, Bounds};
+use tolman_stats::{Interval, mean, quantile};
 use tolman_systems::mslst::ROBOT_UNIT;
 
 /// A scan that MSLST has learned, in robot units, as seen from the robot; `size` user units wide.
@@ -14,6 +15,13 @@ pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: Stri
     plot.drawing(what)
 }
 
+/// The mean of values on a line, with their quartiles; `None` of no values.
+pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
+    let at = |share| quantile(values, share).ok();
+    let quartiles = Interval::new(at(0.25)?, at(0.75)?);
+    Some(LinePoint::new(x, mean(values).ok()?).spread(quartiles))
+}
+
 /// A plan of a course that is `width` user units wide, with its walls and its destination; what is
 /// walled off is solid.
 #[must_use]
@@ -23,10 +31,7 @@ pub fn plan_of_course(course: &Course, width: f64) -> Plan {
     for cell in course.maze.grid().cells() {
         let centre = world.cell_centre(cell);
         if !course.leads_on(centre) {
-            let half = 0.5 * course.corridor_width;
-            let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
-            let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
-            plan.zone(&corners, Zone::Solid);
+            plan.square(centre, course.corridor_width, Zone::Solid);
         }
     }
     let destination = world.zone("destination");

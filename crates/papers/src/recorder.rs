@@ -5,9 +5,7 @@ use tolman_geom::Point;
 use tolman_robot::{Body, Guess, Position, Robot};
 
 use tolman_arena::episode::{Episode, Step, Trial};
-use tolman_replay::{
-    Belief, BeliefAt, Fact, Floor, Mark, Marks, Notes, Replay, Scenery, Shape, Track,
-};
+use tolman_replay::{Belief, BeliefAt, Floor, Mark, Marks, Notes, Replay, Scenery, Shape, Track};
 
 /// Watches an episode and makes its replay: the robot's way, the action under way and how the last one
 /// ended, whether it is in a corridor, what it thinks and where it believes to be, how much of the maze it has seen, and
@@ -69,13 +67,10 @@ impl<'a> Recorder<'a> {
             ended: Notes::new("last action"),
             corridor: Notes::new("corridor"),
             thoughts: Notes::new("thinks"),
-            belief: Belief {
-                name: "belief".to_owned(),
-                entries: Vec::new(),
-            },
+            belief: Belief::new("belief"),
             nodes: &[],
-            bumps: Marks::new(Mark::Bump, "bump"),
-            failures: Marks::new(Mark::Failure, "failed action"),
+            bumps: Marks::new(Mark::Bump, "bump", []),
+            failures: Marks::new(Mark::Failure, "failed action", []),
         }
     }
 
@@ -170,18 +165,13 @@ impl<'a> Recorder<'a> {
         if !self.belief.entries.is_empty() {
             track.beliefs.push(self.belief);
         }
-        let mut arrival = Marks::new(Mark::Arrival, "arrived");
-        if episode.reached {
-            arrival.steps.push(episode.steps);
-        }
+        let arrived = episode.reached.then_some(episode.steps);
+        let arrival = Marks::new(Mark::Arrival, "arrived", arrived);
         track.marks = vec![self.bumps, self.failures, arrival];
-        let mut replay = Replay::new(title, robot.step_us as f64 * 1e-6, scenery, vec![track]);
-        replay.facts = vec![
-            Fact::new("maze", &course.name),
-            Fact::new("seed", self.trial.seed.to_string()),
-            Fact::new("outcome", outcome(episode)),
-        ];
-        replay
+        Replay::new(title, robot.step_us as f64 * 1e-6, scenery, vec![track])
+            .fact("maze", &course.name)
+            .fact("seed", self.trial.seed.to_string())
+            .fact("outcome", outcome(episode))
     }
 }
 

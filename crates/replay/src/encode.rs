@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 use thiserror::Error;
 use tolman_geom::Point;
 use tolman_robot::{Body, Ring};
-use tolman_sim::DoorState;
+use tolman_sim::{Bounds, DoorState};
 
-use super::rounding::{Rounding, bounds_of};
+use super::rounding::{bounds_of, rounded};
 use super::{
     Belief, Door, Edge, Exemplar, Fact, Field, MapGrowth, Marks, Node, Notes, Replay, Scans,
     Series, Shape, Track, Zone, blob,
@@ -118,9 +118,8 @@ fn value(replay: &Replay) -> Result<Value, EncodeError> {
     let ends = scenery.walls.iter().flatten().copied();
     let positions = replay.tracks.iter().flat_map(|track| &track.poses);
     let bounds = bounds_of(ends.chain(positions.map(|pose| pose.position)));
-    let rounding = Rounding { bounds };
     let tracks = replay.tracks.iter();
-    let tracks = tracks.map(|track| self::track(track, &rounding));
+    let tracks = tracks.map(|track| self::track(track, &bounds));
     Ok(json!({
         "format": FORMAT,
         "version": VERSION,
@@ -150,9 +149,9 @@ fn door(door: &Door) -> Result<Value, EncodeError> {
     Ok(json!({ "name": door.name, "ends": ends, "shut": changes.collect::<Value>() }))
 }
 
-fn track(track: &Track, rounding: &Rounding) -> Result<Value, EncodeError> {
+fn track(track: &Track, bounds: &Bounds) -> Result<Value, EncodeError> {
     ascend("lift", track.lifts.iter().copied())?;
-    let poses = track.poses.iter().map(|pose| rounding.encode(*pose));
+    let poses = track.poses.iter().map(|pose| rounded(bounds, *pose));
     let along = |axis: usize| blob::changes(poses.clone().map(|pose| i32::from(pose[axis])));
     // A turn past the seam is a small change too.
     let headings = poses.clone().scan(0_i32, |before, [_, _, heading]| {

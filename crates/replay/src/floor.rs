@@ -2,9 +2,10 @@
 
 use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Grid};
-use tolman_sim::World;
+use tolman_sim::{Bounds, World};
 
-use super::{Sample, Series, Zone, ZoneKind};
+use super::scenery::rectangle;
+use super::{Series, Zone, ZoneKind};
 
 /// The cells of a world made from a maze that a robot can get to from where it starts.
 #[derive(Clone, Debug)]
@@ -98,7 +99,7 @@ impl<'a> Floor<'a> {
         Zone {
             kind: ZoneKind::Solid,
             name: String::new(),
-            corners: vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)],
+            corners: rectangle(&Bounds { min, max }),
         }
     }
 
@@ -107,7 +108,7 @@ impl<'a> Floor<'a> {
         let all = self.reachable.iter().filter(|cell| **cell).count();
         let mut seen = vec![false; self.reachable.len()];
         let mut count = 0_u32;
-        let mut samples = Vec::new();
+        let mut series = Series::new("coverage", "%");
         for (step, position) in (0_u32..).zip(path) {
             let Some(cell) = self.world.cell_at(position) else {
                 continue;
@@ -116,15 +117,10 @@ impl<'a> Floor<'a> {
             if self.reachable[index] && !seen[index] {
                 seen[index] = true;
                 count += 1;
-                let value = f64::from(count) / all as f64;
-                samples.push(Sample { step, value });
+                series.sample(step, f64::from(count) / all as f64);
             }
         }
-        Series {
-            name: "coverage".to_owned(),
-            unit: "%".to_owned(),
-            samples,
-        }
+        series
     }
 }
 
@@ -133,6 +129,7 @@ mod tests {
     use tolman_sim::CorridorSize;
 
     use super::*;
+    use crate::Sample;
 
     #[test]
     fn what_is_walled_off_is_solid_and_the_rest_can_be_covered() {

@@ -56,6 +56,22 @@ impl Node {
             exemplar: None,
         }
     }
+
+    /// Where it was drawn last.
+    #[must_use]
+    pub fn latest(&self) -> Point {
+        let last = self.moves.last();
+        last.map_or(self.position, |last| last.position)
+    }
+
+    /// Draws it elsewhere from `step` on, if that is farther off than `still`, m. Of several places at one step the last
+    /// counts.
+    pub fn move_to(&mut self, step: u32, position: Point, still: f64) {
+        if (self.latest() - position).norm() > still {
+            self.moves.pop_if(|moved| moved.step >= step);
+            self.moves.push(NodeMove { step, position });
+        }
+    }
 }
 
 /// A node's new place.
@@ -127,6 +143,16 @@ pub struct Belief {
     pub name: String,
     /// What it believed and from when on, ascending; each holds until the next.
     pub entries: Vec<BeliefAt>,
+}
+
+impl Belief {
+    /// Nothing believed yet.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            entries: Vec::new(),
+        }
+    }
 }
 
 /// One state of a [`Belief`].
@@ -224,6 +250,23 @@ pub struct Series {
     pub samples: Vec<Sample>,
 }
 
+impl Series {
+    /// No values yet.
+    pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.into(),
+            samples: Vec::new(),
+        }
+    }
+
+    /// Adds a value that holds from `step` on; of several at one step the last counts.
+    pub fn sample(&mut self, step: u32, value: f64) {
+        self.samples.pop_if(|sample| sample.step >= step);
+        self.samples.push(Sample { step, value });
+    }
+}
+
 /// One value of a [`Series`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -281,12 +324,12 @@ pub struct Marks {
 }
 
 impl Marks {
-    /// No marks yet.
-    pub fn new(kind: Mark, name: impl Into<String>) -> Self {
+    /// Marks at these steps.
+    pub fn new(kind: Mark, name: impl Into<String>, steps: impl IntoIterator<Item = u32>) -> Self {
         Self {
             kind,
             name: name.into(),
-            steps: Vec::new(),
+            steps: steps.into_iter().collect(),
         }
     }
 }

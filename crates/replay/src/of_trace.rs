@@ -12,7 +12,7 @@ use tolman_sim::{DoorEvent, DoorState, World};
 
 use super::difference::{Difference, first_difference};
 use super::floor::Floor;
-use super::{Door, DoorChange, Fact, Mark, Marks, Replay, Sample, Scenery, Series, Track};
+use super::{Door, DoorChange, Fact, Mark, Marks, Replay, Scenery, Series, Track};
 
 /// What a replay shows of a kind of robot beyond its body.
 pub trait Portrait: Recordable {
@@ -241,26 +241,19 @@ impl<M: Portrait> RobotTrace<M> {
         let mut track = Track::new(name, body, self.poses.clone());
         track.ring = M::ring(&self.config);
         track.lifts.clone_from(&self.lifts);
-        let mut bumps = Marks::new(Mark::Bump, "bump");
-        bumps.steps = (1..)
-            .zip(&self.bumps)
-            .filter_map(|(step, bump)| bump.then_some(step))
-            .collect();
-        let mut kidnapped = Marks::new(Mark::Kidnapping, "kidnapped");
-        kidnapped.steps.clone_from(&self.lifts);
-        track.marks = vec![bumps, kidnapped];
+        let bumps = (1..).zip(&self.bumps);
+        let bumps = bumps.filter_map(|(step, bump)| bump.then_some(step));
+        track.marks = vec![
+            Marks::new(Mark::Bump, "bump", bumps),
+            Marks::new(Mark::Kidnapping, "kidnapped", self.lifts.clone()),
+        ];
         for (step, command) in (1..).zip(&self.commands) {
             for (i, (name, share)) in M::parts(command).into_iter().enumerate() {
                 if track.series.len() <= i {
-                    track.series.push(Series {
-                        name: format!("{name}, %"),
-                        unit: String::new(),
-                        samples: Vec::new(),
-                    });
+                    track.series.push(Series::new(format!("{name}, %"), ""));
                 }
                 // Whole per cent: what a reader takes in, in few bytes.
-                let value = libm::round(100.0 * share);
-                track.series[i].samples.push(Sample { step, value });
+                track.series[i].sample(step, libm::round(100.0 * share));
             }
         }
         track
@@ -269,10 +262,8 @@ impl<M: Portrait> RobotTrace<M> {
 
 /// The first step at which a robot is where it was to go.
 fn arrival(poses: &[Pose], there: impl Fn(&Pose) -> bool) -> Marks {
-    let mut arrival = Marks::new(Mark::Arrival, "arrived");
     let first = poses.iter().position(there);
-    arrival.steps.extend(first.map(|step| step as u32));
-    arrival
+    Marks::new(Mark::Arrival, "arrived", first.map(|step| step as u32))
 }
 
 impl Replay {
@@ -287,7 +278,6 @@ impl Replay {
         traces: &[Trace<M>],
     ) -> Result<(Self, Vec<Verdict>), CompareError> {
         let (first, others) = traces.split_first().ok_or(CompareError::None)?;
-        let mut differences = Marks::new(Mark::Difference, "first difference");
         let mut verdicts = Vec::new();
         for second in others {
             if first.world_text != second.world_text {
@@ -305,16 +295,12 @@ impl Replay {
                 });
             }
             let difference = first_difference(first, second);
-            differences
-                .steps
-                .extend(difference.map(|difference| difference.step));
             verdicts.push(Verdict {
                 first: first.name.clone(),
                 second: second.name.clone(),
                 difference,
             });
         }
-        differences.steps.sort_unstable();
         let mut tracks = Vec::new();
         for trace in traces {
             tracks.extend(trace.tracks(traces.len() > 1)?);
@@ -327,7 +313,10 @@ impl Replay {
             tracks,
         );
         replay.facts = facts(traces, &verdicts);
-        replay.marks = vec![differences];
+        let differences = verdicts.iter().filter_map(|verdict| verdict.difference);
+        let mut steps: Vec<u32> = differences.map(|difference| difference.step).collect();
+        steps.sort_unstable();
+        replay.marks = vec![Marks::new(Mark::Difference, "first difference", steps)];
         Ok((replay, verdicts))
     }
 }

@@ -5,40 +5,31 @@ use core::f64::consts::{PI, TAU};
 use tolman_geom::{Point, Pose};
 use tolman_sim::Bounds;
 
-/// Rounds poses inside a rectangle to 16 bits each for x, y and heading.
-///
-/// A coordinate is off by at most half of 1/65535 of the rectangle's side (0.13 mm in a maze of 17 m), a
-/// heading by at most π/65536 (0.003°).
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rounding {
-    pub(super) bounds: Bounds,
-}
-
 /// The largest value of a coordinate: the far edge of the rectangle.
 const FAR: f64 = 65535.0;
 
 /// A full turn; it is the same as none.
 const TURN: f64 = 65536.0;
 
-impl Rounding {
-    /// A pose inside the rectangle as x, y and heading.
-    pub(super) fn encode(&self, pose: Pose) -> [u16; 3] {
-        let Bounds { min, max } = self.bounds;
-        let share = |value: f64, min: f64, max: f64| {
-            let extent = max - min;
-            if extent > 0.0 {
-                libm::round((value - min) / extent * FAR) as u16
-            } else {
-                0
-            }
-        };
-        let turn = libm::round((pose.heading.radians() + PI) / TAU * TURN);
-        [
-            share(pose.position.x, min.x, max.x),
-            share(pose.position.y, min.y, max.y),
-            (turn as u32 & 0xffff) as u16,
-        ]
-    }
+/// A pose inside a rectangle as x, y and heading, rounded to 16 bits each.
+///
+/// A coordinate is off by at most half of 1/65535 of the rectangle's side (0.13 mm in a maze of 17 m), a
+/// heading by at most π/65536 (0.003°).
+pub(super) fn rounded(&Bounds { min, max }: &Bounds, pose: Pose) -> [u16; 3] {
+    let share = |value: f64, min: f64, max: f64| {
+        let extent = max - min;
+        if extent > 0.0 {
+            libm::round((value - min) / extent * FAR) as u16
+        } else {
+            0
+        }
+    };
+    let turn = libm::round((pose.heading.radians() + PI) / TAU * TURN);
+    [
+        share(pose.position.x, min.x, max.x),
+        share(pose.position.y, min.y, max.y),
+        (turn as u32 & 0xffff) as u16,
+    ]
 }
 
 /// The smallest rectangle that holds all of these, one metre wide and high if it is a point or nothing.
@@ -90,7 +81,7 @@ mod tests {
                 (min.y + size.1 * share.1).min(bounds.max.y),
             );
             let pose = Pose::new(position, Heading::from_radians(heading));
-            let again = decode(bounds, Rounding { bounds }.encode(pose));
+            let again = decode(bounds, rounded(&bounds, pose));
             let off = again.position - pose.position;
             let slack = 1.0 + 1e-6;
             prop_assert!(off.x.abs() <= 0.5 * bounds.width() / FAR * slack);
@@ -105,8 +96,7 @@ mod tests {
             min: Point::new(-1.0, 2.0),
             max: Point::new(3.0, 2.0),
         };
-        let rounding = Rounding { bounds };
-        let west = rounding.encode(Pose::new(bounds.max, Heading::WEST));
+        let west = rounded(&bounds, Pose::new(bounds.max, Heading::WEST));
         assert_eq!(west, [0xffff, 0, 0]);
         assert!((decode(bounds, west).position - bounds.max).norm() < 1e-12);
     }

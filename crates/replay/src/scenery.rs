@@ -100,11 +100,14 @@ impl Scenery {
     }
 }
 
+/// The corners of a rectangle, counter-clockwise from the south-west.
+pub(super) fn rectangle(&Bounds { min, max }: &Bounds) -> Vec<Point> {
+    vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
+}
+
 fn corners(area: &Area) -> Vec<Point> {
     match *area {
-        Area::Rectangle(Bounds { min, max }) => {
-            vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
-        }
+        Area::Rectangle(bounds) => rectangle(&bounds),
         Area::Disc { centre, radius } => (0..DISC_CORNERS)
             .map(|corner| {
                 let angle = TAU * f64::from(corner) / f64::from(DISC_CORNERS);

@@ -46,25 +46,15 @@ pub fn five_numbers(sample: &[f64]) -> Result<FiveNumbers, SampleError> {
     let sorted = sorted(sample);
     let [lower_quartile, median, upper_quartile] = [0.25, 0.5, 0.75].map(|p| of_sorted(&sorted, p));
     let reach = 1.5 * (upper_quartile - lower_quartile);
-    let within = |value: &&f64| (lower_quartile - reach..=upper_quartile + reach).contains(*value);
+    let within = |value: &f64| (lower_quartile - reach..=upper_quartile + reach).contains(value);
+    let inside = sorted.iter().copied().filter(within);
     // A quartile may lie between data, so a whisker could end inside the box; it ends at its edge.
-    let lower_whisker = sorted
-        .iter()
-        .find(within)
-        .copied()
-        .unwrap_or(lower_quartile);
-    let upper_whisker = sorted
-        .iter()
-        .rev()
-        .find(within)
-        .copied()
-        .unwrap_or(upper_quartile);
     Ok(FiveNumbers {
-        lower_whisker: lower_whisker.min(lower_quartile),
+        lower_whisker: inside.clone().fold(lower_quartile, f64::min),
         lower_quartile,
         median,
         upper_quartile,
-        upper_whisker: upper_whisker.max(upper_quartile),
+        upper_whisker: inside.fold(upper_quartile, f64::max),
     })
 }
 

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::replays;
 
-use crate::{Basis, Metric, Outcome, RESAMPLES, Statistic, Tolerance, Verdict, heading};
+use crate::{Metric, Outcome, RESAMPLES, Statistic, Tolerance, heading};
 
 /// The notes below everything, only about what the page shows.
 pub(super) fn notes(outcome: &Outcome) -> Markup {
@@ -15,32 +15,31 @@ pub(super) fn notes(outcome: &Outcome) -> Markup {
         .flat_map(|table| table.metrics.iter().map(|metric| &metric.metric))
         .collect();
     let has = |wanted: fn(&Statistic) -> bool| metrics.iter().any(|m| wanted(&m.statistic));
-    let percent = has(|of| matches!(of, Statistic::Percent { .. }));
+    let percent = has(|of| matches!(of, Statistic::Percent(_)));
     let count = has(|of| matches!(of, Statistic::Count { .. }));
-    let median = has(|of| matches!(of, Statistic::Median { .. }));
-    let mean = has(|of| matches!(of, Statistic::Mean { .. }));
+    let median = has(|of| matches!(of, Statistic::Median(_)));
+    let mean = has(|of| matches!(of, Statistic::Mean(_)));
     let ratio = has(|of| matches!(of, Statistic::Ratio { .. } | Statistic::Multiple { .. }));
     let settling = has(|of| matches!(of, Statistic::Settling(_)));
     let compared = analysis
         .tables
         .iter()
         .any(|table| table.table.comparison.is_some());
-    let verdicts: Vec<Verdict> = analysis
+    // Of each value that is judged, whether a tolerance is stated for it.
+    let judged: Vec<bool> = analysis
         .values()
-        .filter_map(|(_, _, measured)| measured.verdict)
+        .filter(|(_, _, measured)| measured.verdict.is_some())
+        .map(|(_, metric, _)| metric.tolerance.is_some())
         .collect();
-    let by_interval = verdicts
-        .iter()
-        .any(|verdict| verdict.basis == Basis::PaperInterval);
     let carried = replays::carried(outcome);
     let partly = outcome.replays.of_each_row < outcome.runs_per_row;
     html! {
         section.notes {
             h2 { "How to read this" }
             ul {
-                @if !verdicts.is_empty() {
+                @if !judged.is_empty() {
                     li { b { "Verdict. " } (tolerances(&metrics))
-                        @if by_interval {
+                        @if judged.contains(&false) {
                             "Where no tolerance is stated, our value matches if it lies within the 95 % \
                              interval of the paper's own sample: exact binomial for a share, mean \
                              ± 1.96 standard errors for a mean. "
@@ -100,7 +99,7 @@ fn tolerances(metrics: &[&Metric]) -> String {
         };
         let decimals = metric.places();
         let text = match (tolerance, &metric.statistic) {
-            (Tolerance::Absolute(points), Statistic::Percent { .. }) => {
+            (Tolerance::Absolute(points), Statistic::Percent(_)) => {
                 format!("{} within ± {points:.0} percentage points", metric.title)
             }
             (Tolerance::Absolute(by), _) => format!("{} within ± {by:.decimals$}", heading(metric)),

@@ -63,7 +63,7 @@ impl<'a> Columns<'a> {
             .map(|metric| &metric.metric.statistic);
         Self {
             paper: rows.any(|row| row.paper.is_some()),
-            also: metrics.any(|s| matches!(s, Statistic::Mean { .. } | Statistic::Median { .. })),
+            also: metrics.any(|s| matches!(s, Statistic::Mean(_) | Statistic::Median(_))),
             comparison: analysis.table.comparison.as_ref(),
         }
     }
@@ -190,10 +190,10 @@ fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
 fn also(metric: &Metric, measured: &Measured) -> Option<String> {
     let decimals = metric.places();
     match metric.statistic {
-        Statistic::Mean { .. } => measured
+        Statistic::Mean(_) => measured
             .median
             .map(|value| format!("median {value:.decimals$}")),
-        Statistic::Median { .. } => {
+        Statistic::Median(_) => {
             let mean = value_with_spread(metric, measured.mean?, measured.sd);
             Some(format!("mean {mean}"))
         }

@@ -311,22 +311,19 @@ fn disagreements_are_the_values_outside_their_tolerance() {
         agreeing
             .analysis
             .disagreements()
-            .iter()
-            .all(|d| d.metric != "throws" || d.row != "Novice" || d.table != "1 (near)")
+            .all(|(table, metric, measured)| {
+                metric.name != "throws" || measured.row != "Novice" || table.name != "1 (near)"
+            })
     );
 
     darts.tables[0].rows[0].paper[1].value = 2.0 * steps;
-    let disagreements = run(&darts, &options(&out))
-        .0
-        .unwrap()
-        .analysis
-        .disagreements();
-    let found = disagreements
-        .iter()
-        .find(|d| d.table == "1 (near)" && d.row == "Novice")
+    let analysis = run(&darts, &options(&out)).0.unwrap().analysis;
+    let (_, metric, found) = analysis
+        .disagreements()
+        .find(|(table, _, measured)| table.name == "1 (near)" && measured.row == "Novice")
         .unwrap();
-    assert_eq!(found.metric, "throws");
-    assert!((found.accepted.low - 0.65 * 2.0 * steps).abs() < 1e-9);
+    assert_eq!(metric.name, "throws");
+    assert!((found.verdict.unwrap().accepted.low - 0.65 * 2.0 * steps).abs() < 1e-9);
 }
 
 #[test]

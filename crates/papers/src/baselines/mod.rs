@@ -8,16 +8,10 @@ mod detector;
 mod figures;
 mod worlds;
 
-use alloc::collections::BTreeMap;
-
-use serde::Serialize;
-use tolman_sim::robots::LaserPioneerConfig;
-
-use crate::venue::{self, MazeRun, Venue, World};
+use crate::venue::{self, MazeRun, Venue};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
-use tolman_arena::pioneer;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Run,
@@ -49,13 +43,6 @@ struct Baselines {
     venues: Vec<Venue>,
 }
 
-/// What the runs depend on.
-#[derive(Serialize)]
-struct Config<'a> {
-    robot: LaserPioneerConfig,
-    worlds: BTreeMap<&'a str, World>,
-}
-
 /// Reads the worlds and sets the tables up.
 ///
 /// # Errors
@@ -65,10 +52,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let mut tables: Vec<Table> = venues.iter().map(table).collect();
     tables.push(detector::table());
     let worlds = venues.iter();
-    let config = toml::Table::try_from(Config {
-        robot: pioneer::calibrated(),
-        worlds: worlds.map(|venue| (&*venue.table, venue.world())).collect(),
-    })?;
+    let config = venue::config(worlds.map(|venue| (&*venue.table, venue.world())))?;
     Ok(Experiment::new(ENTRY, tables, config, Baselines { venues }).skipped(skipped))
 }
 

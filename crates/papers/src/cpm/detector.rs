@@ -66,16 +66,16 @@ record! {
         junctions_told: u32 => neither("junctions told"),
         /// Junctions to be told.
         junctions_there: u32 => neither("junctions there"),
-        /// Share of the junctions told that are junctions.
-        junction_precision: Option<f64> => higher("junctions: precision").share(),
-        /// Share of the junctions there that are told.
-        junction_recall: Option<f64> => higher("junctions: recall").share(),
         /// Looks that took a dead end for one.
         dead_ends_right: u32 => higher("dead ends told rightly"),
         /// Looks that took a place for a dead end.
         dead_ends_told: u32 => neither("dead ends told"),
         /// Dead ends to be told.
         dead_ends_there: u32 => neither("dead ends there"),
+        /// Share of the junctions told that are junctions.
+        junction_precision: Option<f64> => higher("junctions: precision").share(),
+        /// Share of the junctions there that are told.
+        junction_recall: Option<f64> => higher("junctions: recall").share(),
         /// Share of the dead ends told that are dead ends.
         dead_end_precision: Option<f64> => higher("dead ends: precision").share(),
         /// Share of the dead ends there that are told.
@@ -166,20 +166,16 @@ fn row(setting: &Setting, width: Option<f64>) -> String {
 
 pub(super) fn table() -> Table {
     let right = Metric::ratio("openings_right", DetectorRun::counted, DetectorRun::looks);
-    let mut table = Table::of::<DetectorRun>(DETECTOR, "Junctions and dead ends told by one sweep")
+    let rows = settings().map(|(setting, width)| row(setting, width));
+    let rows = rows.chain([ON_THE_WAY.to_owned()]);
+    let table = Table::of::<DetectorRun>(DETECTOR, "Junctions and dead ends told by one sweep")
         .metric(
             right
                 .titled("openings counted rightly")
                 .better(Better::Higher),
         )
-        .metric(Metric::mean(DetectorRun::junction_precision))
-        .metric(Metric::mean(DetectorRun::junction_recall))
-        .metric(Metric::mean(DetectorRun::dead_end_precision))
-        .metric(Metric::mean(DetectorRun::dead_end_recall));
-    for (setting, width) in settings() {
-        table = table.row(Row::new(row(setting, width)));
-    }
-    table = table.row(Row::new(ON_THE_WAY));
+        .metrics_from(DetectorRun::junction_precision)
+        .rows(rows.map(Row::new));
     table.note(format!(
         "One sweep in every cell that the robot can come to, up to {:.0} cm off its middle and {ASKEW} rad askew. Literal: the eight vectors are averaged as they come, aligned: each turned by its sensor's mounting angle \
          first; both cut by the paper's rule. Ours: values above 60 are cut before steps are taken. On the way: every \

@@ -1,9 +1,7 @@
 //! How many common patterns the robot learns: section 5, "31 clusters are obtained with 102 nodes".
 
 use tolman_arena::cpm::{Venue, learn};
-use tolman_experiment::{
-    BoxError, Fields, Job, Metric, Record, Row, Table, Tolerance, record, require,
-};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, Tolerance, record, require};
 use tolman_systems::cpm::CommonPatterns;
 
 /// The name of the table.
@@ -38,8 +36,7 @@ impl DictionaryRun {
 
 pub(super) fn table(learning: &Venue) -> Table {
     Table::of::<DictionaryRun>(DICTIONARY, "The dictionary of common patterns")
-        .metric(Metric::mean(DictionaryRun::units))
-        .metric(Metric::mean(DictionaryRun::clusters))
+        .metrics_from(DictionaryRun::units)
         .row(
             Row::new(&learning.name)
                 .paper(DictionaryRun::units, 102.0)

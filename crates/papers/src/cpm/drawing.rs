@@ -79,11 +79,7 @@ fn plan_with(map: &CpMap, venue: &Venue) -> Plan {
             Fit::Agrees => plan.way(&centres, series(id)),
             Fit::Astray => plan.doubtful_way(&centres, series(id)),
         }
-        let node = GraphNode::at(middle(&centres))
-            .mark(NodeMark::Disc)
-            .series(series(id))
-            .label(fragment_name(id))
-            .note(fragment_note(map, id, fragment));
+        let node = fragment_node(map, id, fragment, point_along(&centres, 0.5));
         add(&mut graph, node);
         if let ([at, towards, ..], [.., before, last]) = (&centres[..], &centres[..]) {
             signs.push((beside(*at, *towards, unit), Sign::Minus));
@@ -112,12 +108,9 @@ pub fn plan_of(venue: &Venue) -> Plan {
     let world = &venue.world;
     let mut plan = Plan::of_world(world, WIDTH);
     // Cell (0, 0) begins at the origin.
-    let half = world.cell_centre(Cell::new(0, 0)).x;
+    let side = 2.0 * world.cell_centre(Cell::new(0, 0)).x;
     for cell in venue.maze.sealed() {
-        let centre = world.cell_centre(cell);
-        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
-        let corners = corners.map(|(x, y)| centre + Vector::new(x, y));
-        plan.zone(&corners, Zone::Solid);
+        plan.square(world.cell_centre(cell), side, Zone::Solid);
     }
     plan
 }
@@ -160,13 +153,9 @@ pub fn graph(map: &CpMap, venue: &Venue) -> Drawing {
             continue;
         };
         let centres = centres(&course.cells, world);
-        let node = graph.node(
-            GraphNode::at(free(&centres, &graph))
-                .mark(NodeMark::Disc)
-                .series(series(id))
-                .label(format!("{} · {}", fragment_name(id), fragment.length()))
-                .note(fragment_note(map, id, fragment)),
-        );
+        let name = format!("{} · {}", fragment_name(id), fragment.length());
+        let node = fragment_node(map, id, fragment, free(&centres, &graph)).label(name);
+        let node = graph.node(node);
         for sign in Sign::BOTH {
             let port = fragment.port(sign);
             let place = junctions.iter().find(|(other, _)| *other == port.junction);
@@ -194,6 +183,14 @@ pub fn graph(map: &CpMap, venue: &Venue) -> Drawing {
         map.fragments().len(),
         map.junctions().len()
     ))
+}
+
+fn fragment_node(map: &CpMap, id: FragmentId, fragment: &Fragment, at: Point) -> GraphNode {
+    GraphNode::at(at)
+        .mark(NodeMark::Disc)
+        .series(series(id))
+        .label(fragment_name(id))
+        .note(fragment_note(map, id, fragment))
 }
 
 fn junction_node(map: &CpMap, id: JunctionId, junction: &Junction, at: Point) -> GraphNode {
@@ -286,7 +283,7 @@ fn centres(cells: &[Cell], world: &World) -> Vec<Point> {
 /// The point half way along cells, where a fragment's name stands.
 #[must_use]
 pub fn middle_of(cells: &[Cell], world: &World) -> Point {
-    middle(&centres(cells, world))
+    point_along(&centres(cells, world), 0.5)
 }
 
 /// A point along a way from which straight lines to both its ends pass no node: the middle, or as near to it as may be.
@@ -320,11 +317,6 @@ fn distance_to(point: Point, from: Point, to: Point) -> f64 {
     let along = to - from;
     let share = (point - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
     (point - (from + share.clamp(0.0, 1.0) * along)).norm()
-}
-
-/// The point half way along.
-fn middle(points: &[Point]) -> Point {
-    point_along(points, 0.5)
 }
 
 /// The point at this share of the length, 0 … 1.

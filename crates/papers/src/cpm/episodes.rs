@@ -9,7 +9,7 @@ use tolman_maze::{Cell, Maze};
 
 use super::trials;
 use tolman_arena::cpm::{TrueFragments, Venue, Way};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 use tolman_systems::cpm::CommonPatterns;
 
@@ -65,18 +65,9 @@ impl EpisodesRun {
 
 /// `venues` one row each.
 pub(super) fn table(venues: &[Venue]) -> Table {
-    let mut table = Table::of::<EpisodesRun>(EPISODES, "Episodes until the way is known")
-        .metric(Metric::mean(EpisodesRun::cells))
-        .metric(Metric::mean(EpisodesRun::shortest_cells))
-        .metric(Metric::mean(EpisodesRun::cpm_episodes))
-        .metric(Metric::mean(EpisodesRun::cpm_metres))
-        .metric(Metric::mean(EpisodesRun::q_learning_episodes))
-        .metric(Metric::mean(EpisodesRun::q_learning_metres))
-        .metric(Metric::mean(EpisodesRun::random_walk_episodes))
-        .metric(Metric::mean(EpisodesRun::random_walk_metres));
-    for venue in venues {
-        table = table.row(Row::new(&venue.name));
-    }
+    let table = Table::of::<EpisodesRun>(EPISODES, "Episodes until the way is known")
+        .metrics_from(EpisodesRun::cells)
+        .rows(venues.iter().map(|venue| Row::new(&venue.name)));
     let QLearningConfig {
         learning_rate,
         discount,

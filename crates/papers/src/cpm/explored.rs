@@ -4,7 +4,7 @@ use tolman_systems::cpm::Done;
 
 use super::trials::{Setting, Trials, better, in_both_modes};
 use tolman_arena::cpm::{Trial, Venue};
-use tolman_experiment::{BoxError, Fields, Metric, Record, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Record, Table, record, require};
 
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
@@ -19,14 +19,16 @@ record! {
     /// A maze explored until no port of its map is unknown.
     #[check(ExploredRun::relations)]
     struct ExploredRun {
+        /// Time steps in which the robot touched a wall.
+        bumps: u32 => lower("steps at a wall"),
         /// Whether the robot came to the end of its exploration.
         finished: bool => higher("finished"),
         /// Whether every junction and fragment is on the map once, all joined as they truly are.
         map_right: bool => higher("map right"),
-        /// Fragments walked, each as often as it was.
-        traversals: u32 => lower("fragments walked"),
         /// Fragments on the map.
         fragments: u32 => neither("fragments"),
+        /// Fragments walked, each as often as it was.
+        traversals: u32 => lower("fragments walked"),
         /// Fragments of the shortest walk from the start through all of them.
         best: Option<u32> => neither("best covering walk"),
         /// Fragments walked for each of the best covering walk.
@@ -37,8 +39,6 @@ record! {
         bound: f64 => neither("Theorem 1").unit("s"),
         /// Whether the last fragment was walked by then.
         within_bound: bool => higher("within Theorem 1"),
-        /// Time steps in which the robot touched a wall.
-        bumps: u32 => lower("steps at a wall"),
         /// What ended the exploration early.
         trouble: Option<String> => neither("trouble"),
     }
@@ -69,15 +69,7 @@ pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Trials {
         settings.push(Setting::aliased("Aliased better", better()));
     }
     let table = Table::of::<ExploredRun>(EXPLORED, "Mazes explored to their end")
-        .metric(Metric::percent("finished_percent", ExploredRun::finished))
-        .metric(Metric::percent("map_right_percent", ExploredRun::map_right))
-        .metric(Metric::mean(ExploredRun::fragments))
-        .metric(Metric::mean(ExploredRun::traversals))
-        .metric(Metric::mean(ExploredRun::best))
-        .metric(Metric::mean(ExploredRun::traversals_to_best))
-        .metric(Metric::mean(ExploredRun::seconds))
-        .metric(Metric::mean(ExploredRun::bound))
-        .metric(Metric::percent("within_bound_percent", ExploredRun::within_bound))
+        .metrics_from(ExploredRun::finished)
         .note(
             "The robot walks until no port of its map is unknown. The best covering walk is the shortest from the start through all fragments, \
              for who knows the maze. Theorem 1 bounds the time until the last fragment is walked, whether the robot knows it or not: \

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use super::{trials, venue};
 use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck};
 use tolman_experiment::Record as _;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require, run_seed};
+use tolman_experiment::{BoxError, Fields, Job, Row, Table, record, require, run_seed};
 use tolman_systems::cpm::{Approach, CommonPatterns};
 
 /// The name of the table.
@@ -36,10 +36,6 @@ record! {
     /// A robot put down in mid-fragment.
     #[check(LocalizationRun::relations)]
     struct LocalizationRun {
-        /// Places that the robot came to until it was sure.
-        places: usize => lower("places come to").at_least(1).at_most(MOST_PLACES),
-        /// Time that it took.
-        seconds: f64 => lower("time").unit("s").at_least(0),
         /// Chance that the best guess is right of an observer that sees every bend of the corridor.
         bends_percent: f64 => neither("could be known by bends").percent().decimals(1),
         /// The same of an observer that sees the places at the ends too.
@@ -56,6 +52,10 @@ record! {
         last_place: bool => higher("right at the last"),
         /// Whether SOINN-AM recalled the maze by the first fragment walked whole.
         recalled: Option<bool> => higher("maze recalled by SOINN-AM"),
+        /// Places that the robot came to until it was sure.
+        places: usize => lower("places come to").at_least(1).at_most(MOST_PLACES),
+        /// Time that it took.
+        seconds: f64 => lower("time").unit("s").at_least(0),
     }
 }
 
@@ -94,16 +94,6 @@ impl LocalizationRun {
     }
 }
 
-/// The yes or no of a run, in the order they are shown.
-const FLAGS: [&str; 6] = [
-    LocalizationRun::turned_round,
-    LocalizationRun::under_way,
-    LocalizationRun::first_place,
-    LocalizationRun::one_further,
-    LocalizationRun::last_place,
-    LocalizationRun::recalled,
-];
-
 /// What the robot learned of each maze, several times, by whoever asks first.
 #[derive(Debug, Default)]
 pub(super) struct Known([OnceLock<Vec<Record>>; MAPS]);
@@ -119,23 +109,15 @@ fn cast(row: &str) -> (&str, Approach) {
 /// `quick`: for a first look.
 pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
     let title = "Put down in mid-fragment of one of the mazes";
-    let mut table = Table::of::<LocalizationRun>(LOCALIZATION, title)
-        .metric(Metric::mean(LocalizationRun::bends_percent))
-        .metric(Metric::mean(LocalizationRun::places_percent));
-    for flag in FLAGS {
-        table = table.metric(Metric::percent(format!("{flag}_percent"), flag));
-    }
-    table = table
-        .metric(Metric::mean(LocalizationRun::places))
-        .metric(Metric::mean(LocalizationRun::seconds));
     let runs = if quick { QUICK_RUNS } else { RUNS };
     let mazes = venues.iter().map(|venue| venue.name.as_str());
-    for maze in mazes.chain([ALIASED]) {
-        for suffix in ["", TO_AND_FRO] {
-            table = table.row(Row::new(format!("{maze}{suffix}")).runs(runs));
-        }
-    }
-    table.note(format!(
+    let rows = mazes.chain([ALIASED]).flat_map(|maze| {
+        ["", TO_AND_FRO].map(|suffix| Row::new(format!("{maze}{suffix}")).runs(runs))
+    });
+    Table::of::<LocalizationRun>(LOCALIZATION, title)
+        .metrics_from(LocalizationRun::bends_percent)
+        .rows(rows)
+        .note(format!(
         "The robot knows all these mazes by maps of one dictionary, each that of a solved trial, twenty in turn, and is put down in the \
          middle of a cell amid a fragment of the row's that its map has; of mazes with fragments that look alike, another one each run, it knows that one. It drives straight on to \
          the place ahead, or to and fro: if it is not sure when that place comes into sight, it turns round and goes to the other end. Right: maze, fragment and direction, when the place that it \
@@ -158,22 +140,20 @@ impl Known {
         if let Some(records) = self.0[number].get() {
             return Ok(records);
         }
-        let mut records = Vec::new();
-        for venue in venues {
-            let mut found = None;
+        let solved = |venue: &Venue| {
             for attempt in 0..ATTEMPTS {
                 // Not the chance of any run of the table.
                 let attempt = number as u32 * ATTEMPTS + attempt;
                 let seed = run_seed(master_seed, "localization maps", attempt);
                 let record = trials::trial(venue, patterns, trials::better(), seed).play()?;
                 if record.is_solved() {
-                    found = Some(record);
-                    break;
+                    return Ok(record);
                 }
             }
-            let name = &venue.name;
-            records.push(found.ok_or_else(|| format!("no trial of {name} was solved"))?);
-        }
+            Err(format!("no trial of {} was solved", venue.name).into())
+        };
+        let records: Result<_, BoxError> = venues.iter().map(solved).collect();
+        let records = records?;
         // Two threads may learn them at once; they learn the same.
         Ok(self.0[number].get_or_init(|| records))
     }
@@ -198,19 +178,28 @@ impl Known {
             .collect();
         let here = venues.iter().position(|venue| venue.name == maze);
         let here = here.ok_or("there is no such row")?;
-        let put_down = PutDown {
-            known: &known,
-            here,
-            patterns,
-            robot: epuck(),
-            approach,
-            most_places: MOST_PLACES,
-            seed: job.seed,
-        };
-        let record = put_down
-            .play()?
-            .ok_or("no fragment is long enough to stand amid")?;
+        let record = put_down(&known, here, patterns, approach, job.seed).play()?;
+        let record = record.ok_or("no fragment is long enough to stand amid")?;
         Ok(LocalizationRun::of(&record).fields()?)
+    }
+}
+
+/// The paper's robot, put down in the maze at the place `here` among those that it knows.
+fn put_down<'a>(
+    known: &'a [KnownMaze<'a>],
+    here: usize,
+    patterns: &'a CommonPatterns,
+    approach: Approach,
+    seed: u64,
+) -> PutDown<'a> {
+    PutDown {
+        known,
+        here,
+        patterns,
+        robot: epuck(),
+        approach,
+        most_places: MOST_PLACES,
+        seed,
     }
 }
 
@@ -224,18 +213,11 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
         if !learned.is_solved() {
             continue;
         }
-        let put_down = PutDown {
-            known: &[KnownMaze {
-                venue: &venue,
-                learned: &learned,
-            }],
-            here: 0,
-            patterns,
-            robot: epuck(),
-            approach,
-            most_places: MOST_PLACES,
-            seed: seed("localization"),
-        };
+        let known = [KnownMaze {
+            venue: &venue,
+            learned: &learned,
+        }];
+        let put_down = put_down(&known, 0, patterns, approach, seed("localization"));
         if let Some(record) = put_down.play()? {
             return Ok(LocalizationRun::of(&record).fields()?);
         }

@@ -101,7 +101,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         let aliased = trials::aliased(options.quick);
         tables.push(aliased.table.clone());
         trials.push(aliased);
-        tables.push(real.table());
+        tables.push(real::table(&real.venue));
         tables.push(localization::table(&venues, options.quick));
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
@@ -116,6 +116,19 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         master_seed: options.seed,
     };
     Ok(Experiment::new(ENTRY, tables, cpm.config()?, cpm))
+}
+
+/// By how many percent of the first the second is less.
+fn less([first, second]: [f64; 2]) -> f64 {
+    100.0 * (1.0 - second / first)
+}
+
+/// Whether a value is there where it is expected, and is that but for rounding.
+fn agree(found: Option<f64>, expected: Option<f64>) -> bool {
+    match (found, expected) {
+        (Some(found), Some(expected)) => (found - expected).abs() < 1e-9,
+        (found, expected) => found.or(expected).is_none(),
+    }
 }
 
 impl Cpm {

@@ -2,7 +2,7 @@
 
 use tolman_arena::cpm::Venue;
 use tolman_arena::diktiometry::{EpuckSurveyConfig, survey_maze};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 
 /// The name of the table.
 pub(super) const PLACES: &str = "places";
@@ -16,10 +16,6 @@ record! {
     struct PlacesRun {
         /// Moves from one place to the next.
         moves: u32 => neither("moves").at_most(MOVES),
-        /// Places on the map.
-        places: usize => neither("places on the map").decimals(1),
-        /// True places where the robot was.
-        visited: usize => neither("true places visited").decimals(1),
         /// Share of the visits that were to the true place for which their place on the map stands.
         purity: f64 => higher("purity").share(),
         /// Share of the true places visited for which exactly one place on the map stands.
@@ -30,6 +26,10 @@ record! {
         link_recall: f64 => higher("links: recall").share(),
         /// Share of the moves at whose end odometry was within its bounds.
         bounded: f64 => higher("odometry within its bounds").share(),
+        /// Places on the map.
+        places: usize => neither("places on the map").decimals(1),
+        /// True places where the robot was.
+        visited: usize => neither("true places visited").decimals(1),
         /// What ended the survey early.
         trouble: Option<String> => neither("trouble"),
     }
@@ -43,18 +43,10 @@ impl PlacesRun {
 }
 
 pub(super) fn table(venues: &[Venue]) -> Table {
-    let mut table = Table::of::<PlacesRun>(PLACES, "The diktiometry on the e-puck")
-        .metric(Metric::mean(PlacesRun::purity))
-        .metric(Metric::mean(PlacesRun::share_once))
-        .metric(Metric::mean(PlacesRun::link_precision))
-        .metric(Metric::mean(PlacesRun::link_recall))
-        .metric(Metric::mean(PlacesRun::bounded))
-        .metric(Metric::mean(PlacesRun::places))
-        .metric(Metric::mean(PlacesRun::visited));
-    for venue in venues {
-        table = table.row(Row::new(&venue.name));
-    }
-    table.note(format!(
+    Table::of::<PlacesRun>(PLACES, "The diktiometry on the e-puck")
+        .metrics_from(PlacesRun::purity)
+    .rows(venues.iter().map(|venue| Row::new(&venue.name)))
+    .note(format!(
         "{MOVES} moves from one junction or dead end to the next by layers 0 and 1, a random walk that heeds the map's advice 30 % of the \
          time. Odometry is the encoders' with headings trued up by the walls, a place looks as one sweep there does. Recall is of all ways of \
          the maze, each in both directions."

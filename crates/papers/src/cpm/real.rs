@@ -5,9 +5,9 @@ use std::sync::OnceLock;
 use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
-use super::venue;
+use super::{agree, less, venue};
 use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, Venue, learn_by, slow_epuck, walker_config};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::cpm::{
     CommonPatterns, CpmConfig, Done, Episode, Layer3, Lesson, Step, Walker, WalkerConfig,
 };
@@ -95,10 +95,6 @@ impl Real {
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         measured(&self.play(job, |_, _, _| {})?)
     }
-
-    pub(super) fn table(&self) -> Table {
-        table(&self.venue)
-    }
 }
 
 record! {
@@ -137,20 +133,11 @@ impl RoundTripRun {
             (Self::steps_reduction, observations, self.steps_reduction),
             (Self::time_reduction, seconds, self.time_reduction),
         ] {
-            let expected = first
-                .zip(second)
-                .map(|(first, second)| less([first, second]));
-            let off = found
-                .zip(expected)
-                .map(|(found, expected)| (found - expected).abs());
-            let is_right = match self.solved {
-                true => off.is_some_and(|off| off < 1e-9),
-                false => found.or(expected).is_none(),
-            };
-            require(
-                is_right,
-                &format!("{name} is {found:?}, expected {expected:?}"),
-            )?;
+            let both = first.zip(second);
+            let expected = both.map(|(first, second)| less([first, second]));
+            let is_right = agree(found, expected) && found.is_some() == self.solved;
+            let told = format!("{name} is {found:?}, expected {expected:?}");
+            require(is_right, &told)?;
         }
         let farther = !self.solved || self.observations_both_ways >= self.observations_1;
         require(farther, "there and back is farther than there")?;
@@ -161,18 +148,9 @@ impl RoundTripRun {
     }
 }
 
-fn table(venue: &Venue) -> Table {
+pub(super) fn table(venue: &Venue) -> Table {
     Table::of::<RoundTripRun>(FIGURE_11, "The maze of the real robot")
-        .metric(Metric::percent("solved_percent", RoundTripRun::solved))
-        .metric(Metric::mean(RoundTripRun::observations_1))
-        .metric(Metric::mean(RoundTripRun::seconds_1))
-        .metric(Metric::mean(RoundTripRun::observations_both_ways))
-        .metric(Metric::mean(RoundTripRun::observations_2))
-        .metric(Metric::mean(RoundTripRun::seconds_2))
-        .metric(Metric::mean(RoundTripRun::steps_reduction))
-        .metric(Metric::mean(RoundTripRun::time_reduction))
-        .metric(Metric::mean(RoundTripRun::tried))
-        .metric(Metric::mean(RoundTripRun::given_up))
+        .metrics_from(RoundTripRun::solved)
         .row(
             Row::new(&venue.name)
                 .paper("solved_percent", 100.0)
@@ -217,11 +195,6 @@ fn measured(trip: &RoundTrip) -> Result<Fields, BoxError> {
         given_up: trip.given_up,
     };
     Ok(run.fields()?)
-}
-
-/// By how many percent of the first the second is less.
-fn less([first, second]: [f64; 2]) -> f64 {
-    100.0 * (1.0 - second / first)
 }
 
 #[cfg(test)]

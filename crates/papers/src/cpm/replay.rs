@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_geom::{Point, Pose};
+use tolman_geom::Pose;
 use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Sign};
 use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
@@ -12,8 +12,7 @@ use super::real::Real;
 use tolman_arena::cpm::{Layout, SimulatedEpuck, Trial, Venue, slow_epuck};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
-    Edge, Fact, MapGrowth, Mark, Marks, Node, NodeMove, Notes, Replay, Sample, Scenery, Series,
-    Track,
+    Edge, Fact, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series, Track,
 };
 use tolman_systems::cpm::{Layer3, Step, Walker};
 
@@ -23,13 +22,12 @@ pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
     let record = trial.watch(|layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&record.path);
     let begun = record.second_from as u32;
-    let mut second = Marks::new(Mark::Arrival, "second episode");
     if record.second.is_some() {
         track.lifts = vec![begun];
-        second.steps.push(begun);
         watch.arrivals.say(begun, "drives by the map");
     }
-    track.marks = vec![second];
+    let second = track.lifts.clone();
+    track.marks = vec![Marks::new(Mark::Arrival, "second episode", second)];
     let outcome = if record.is_solved() {
         "solved"
     } else {
@@ -51,8 +49,7 @@ pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxErr
         (trip.again, trip.again_from, "to the goal again"),
     ] {
         if episode.is_some() {
-            let mut mark = Marks::new(Mark::Arrival, name);
-            mark.steps.push(begun as u32);
+            let mark = Marks::new(Mark::Arrival, name, [begun as u32]);
             track.marks.push(mark);
         }
     }
@@ -69,6 +66,9 @@ fn track(path: &[Pose]) -> Track {
     };
     Track::new("e-puck", body, path.to_vec())
 }
+
+/// Nodes that moved less than this are left where they are, m.
+const STILL: f64 = 1e-6;
 
 /// What is noted at the end of each fragment.
 struct Watch<'a> {
@@ -98,11 +98,7 @@ impl<'a> Watch<'a> {
             edges: Vec::new(),
             joints: BTreeMap::new(),
             arrivals: Notes::new("last fragment"),
-            fragments: Series {
-                name: "fragments on the map".to_owned(),
-                unit: String::new(),
-                samples: Vec::new(),
-            },
+            fragments: Series::new("fragments on the map", ""),
         }
     }
 
@@ -131,10 +127,8 @@ impl<'a> Watch<'a> {
         };
         self.arrivals.say(now, word);
         let map = layer.map();
-        self.fragments.samples.push(Sample {
-            step: now,
-            value: map.fragments().len() as f64,
-        });
+        let fragments = map.fragments().len() as f64;
+        self.fragments.sample(now, fragments);
         self.update(map, now);
         let here = Part::Junction(layer.explorer().mapper.at().junction);
         if let Some(index) = self.live.get(&here) {
@@ -175,7 +169,7 @@ impl<'a> Watch<'a> {
         });
         for (part, at, label, facts) in parts {
             match self.live.get(&part) {
-                Some(index) => moved(&mut self.nodes[*index], at, now),
+                Some(index) => self.nodes[*index].move_to(now, at, STILL),
                 None => {
                     let id = self.nodes.len() as u32;
                     self.live.insert(part, self.nodes.len());
@@ -222,15 +216,6 @@ impl<'a> Watch<'a> {
                 self.edges.push(edge);
             }
         }
-    }
-}
-
-/// A node's place as it is now.
-fn moved(node: &mut Node, position: Point, step: u32) {
-    let last = node.moves.last();
-    let last = last.map_or(node.position, |last| last.position);
-    if (last - position).norm() > 1e-6 {
-        node.moves.push(NodeMove { step, position });
     }
 }
 

@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
-use super::venue;
+use super::{agree, less, venue};
 use tolman_arena::cpm::{Likeness, Record, Trial, Venue, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require};
@@ -39,7 +39,8 @@ pub(super) struct Trials {
 #[derive(Debug)]
 pub(super) struct Setting {
     row: String,
-    place: Place,
+    /// The maze that the robot runs in; `None`: another one with fragments that look alike each run.
+    venue: Option<Venue>,
     mode: Mode,
 }
 
@@ -48,7 +49,7 @@ impl Setting {
     pub(super) fn aliased(row: &str, mode: Mode) -> Self {
         Self {
             row: row.into(),
-            place: Place::Aliased,
+            venue: None,
             mode,
         }
     }
@@ -56,15 +57,6 @@ impl Setting {
     pub(super) fn row(&self) -> Row {
         Row::new(&self.row)
     }
-}
-
-/// Where a row's robot runs.
-#[derive(Debug)]
-enum Place {
-    /// In one maze.
-    Maze(Venue),
-    /// In another maze each run.
-    Aliased,
 }
 
 /// Online, as in section 6 of the paper.
@@ -125,7 +117,7 @@ pub(super) fn in_both_modes(venues: &[Venue]) -> Vec<Setting> {
 fn in_modes<const N: usize>(venues: &[Venue], modes: [(&str, Mode); N]) -> Vec<Setting> {
     let setting = |venue: &Venue, suffix: &str, mode| Setting {
         row: format!("{}{suffix}", venue.name),
-        place: Place::Maze(venue.clone()),
+        venue: Some(venue.clone()),
         mode,
     };
     let each = |venue| modes.map(|(suffix, mode)| setting(venue, suffix, mode));
@@ -313,9 +305,8 @@ impl Trials {
         row: impl Fn(&Setting) -> Row,
         measure: fn(&Trial<'_>) -> Result<Fields, BoxError>,
     ) -> Self {
-        let rows = settings.iter().map(row);
         Self {
-            table: rows.fold(table, Table::row),
+            table: table.rows(settings.iter().map(row)),
             settings,
             measure,
         }
@@ -334,9 +325,9 @@ impl Trials {
         let mut settings = self.settings.iter();
         let setting = settings.find(|setting| setting.row == job.row);
         let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-        let venue = match &setting.place {
-            Place::Maze(venue) => venue.clone(),
-            Place::Aliased => venue::aliased(job.seed)?,
+        let venue = match &setting.venue {
+            Some(venue) => venue.clone(),
+            None => venue::aliased(job.seed)?,
         };
         Ok((venue, setting.mode))
     }
@@ -408,21 +399,17 @@ impl TrialRun {
         let both = !self.solved || second.is_some();
         require(both, "a run that is solved has two episodes")?;
         let expected = first.zip(second).filter(|_| self.solved);
-        let expected = expected.map(|(first, second)| 100.0 * (1.0 - second / first));
-        let is_that = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
-            (Some(found), Some(expected)) => (found - expected).abs() < 1e-9,
-            (found, expected) => found.or(expected).is_none(),
-        };
+        let expected = expected.map(|(first, second)| less([first, second]));
         let reduction = self.reduction;
         let told = format!("reduction is {reduction:?}, expected {expected:?}");
-        require(is_that(reduction, expected), &told)?;
+        require(agree(reduction, expected), &told)?;
         require(
             !self.long || self.solved,
             "a long run is one that is solved",
         )?;
         let of_long = expected.filter(|_| self.long);
         let told = "the reduction of a long run, and of no other, is its reduction";
-        require(is_that(self.reduction_long, of_long), told)?;
+        require(agree(self.reduction_long, of_long), told)?;
         let sound = !self.solved || self.trouble.is_none();
         require(sound, "a run in trouble is not solved")?;
         let most = [self.fragments, self.true_fragments, self.contradictions];

@@ -3,10 +3,10 @@
 use super::SurveyRun;
 use super::drawing::map_over_world;
 use super::settings::{Setting, Subject, Trial};
+use crate::plan::mean_with_quartiles;
 use tolman_arena::diktiometry::{Survey, WINDOW};
-use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
+use tolman_draw::{Axis, Chart, Figure, Line, Series};
 use tolman_experiment::{BoxError, Record, Run};
-use tolman_stats::Interval;
 
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
@@ -45,12 +45,8 @@ fn errors(trial: &Trial, runs: &[Run]) -> Result<Figure, BoxError> {
         let points = (0..windows).filter_map(|window| {
             let values = curves.iter().filter_map(|curve| curve.get(window));
             let values: Vec<f64> = values.copied().collect();
-            let spread = Interval {
-                low: tolman_stats::quantile(&values, 0.25).ok()?,
-                high: tolman_stats::quantile(&values, 0.75).ok()?,
-            };
             let moves = (window as f64 + 0.5) * WINDOW as f64;
-            Some(LinePoint::new(moves, tolman_stats::mean(&values).ok()?).spread(spread))
+            mean_with_quartiles(moves, &values)
         });
         chart.line(Line::new(setting.row, series, points.collect()));
     }

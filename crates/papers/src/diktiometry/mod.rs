@@ -96,20 +96,6 @@ record! {
     }
 }
 
-/// The shares that a map is scored by, in the order they are shown.
-const SHARES: [&str; 10] = [
-    SurveyRun::purity,
-    SurveyRun::link_precision,
-    SurveyRun::believed_precision,
-    SurveyRun::remembered_precision,
-    SurveyRun::link_recall,
-    SurveyRun::share_once,
-    SurveyRun::coverage,
-    SurveyRun::plans,
-    SurveyRun::remembered_plans,
-    SurveyRun::plans_to_gone,
-];
-
 fn table(trial: &Trial) -> Table {
     let reference = trial.settings.first().map_or("", |setting| setting.row);
     let mut table = Table::of::<SurveyRun>(trial.name, trial.title)
@@ -127,16 +113,6 @@ fn table(trial: &Trial) -> Table {
             .metric(Metric::settling("moves_to_asymptote", settling).titled("moves to asymptote"))
             .compared_with(reference, Correction::Holm);
     }
-    for share in SHARES {
-        table = table.metric(Metric::mean(share));
-    }
-    table = table
-        .metric(Metric::mean(SurveyRun::places))
-        .metric(Metric::mean(SurveyRun::visited))
-        .metric(Metric::percent("isomorphic_percent", SurveyRun::isomorphic));
-    for setting in &trial.settings {
-        table = table.row(Row::new(setting.row));
-    }
     let tail = format!(
         "A row's error at last is the mean over the last {:.0} % of the moves.",
         100.0 * TAIL
@@ -150,7 +126,11 @@ fn table(trial: &Trial) -> Table {
         ),
         Rows::OwnWorlds => format!("{} {tail}", trial.note),
     };
-    table.note(note)
+    let rows = trial.settings.iter();
+    table
+        .metrics_from(SurveyRun::purity)
+        .rows(rows.map(|setting| Row::new(setting.row)))
+        .note(note)
 }
 
 /// A part of a whole; `None` of nothing.

@@ -11,8 +11,7 @@ use super::settings::Setting;
 use tolman_arena::diktiometry::{Survey, Surveyed};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
-    Belief, BeliefAt, Edge, Fact, MapGrowth, Node, NodeMove, Notes, Replay, Sample, Scenery,
-    Series, Shape, Track,
+    Belief, BeliefAt, Edge, Fact, MapGrowth, Node, Notes, Replay, Scenery, Series, Shape, Track,
 };
 use tolman_systems::diktiometry::Reason;
 
@@ -76,22 +75,14 @@ struct Watch {
 
 impl Watch {
     fn new(survey: &Survey<'_>) -> Self {
-        let series = |name: &str, unit: &str| Series {
-            name: name.to_owned(),
-            unit: unit.to_owned(),
-            samples: Vec::new(),
-        };
         let mut watch = Self {
             start: survey.past().start,
             home: survey.observer().place(),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
-            belief: Belief {
-                name: "where the robot may be".to_owned(),
-                entries: Vec::new(),
-            },
-            places: series("places", ""),
-            error: series("squared error", "m²"),
+            belief: Belief::new("where the robot may be"),
+            places: Series::new("places", ""),
+            error: Series::new("squared error", "m²"),
             matcher: Notes::new("match"),
             reason: Notes::new("why"),
         };
@@ -103,7 +94,7 @@ impl Watch {
         let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
         let best = surveyed.report.tracks.first();
         let before = best.and_then(|track| self.nodes.get(&track.from));
-        let before = before.map(latest);
+        let before = before.map(Node::latest);
         self.map(survey, step);
         let tracks = survey.observer().tracks().iter();
         let shapes = tracks.map(|track| Shape::Node {
@@ -122,14 +113,10 @@ impl Watch {
         // The last of several at one step counts.
         self.belief.entries.pop_if(|entry| entry.step >= step);
         self.belief.entries.push(BeliefAt { step, shapes });
-        let sample = |series: &mut Series, value: f64| {
-            series.samples.pop_if(|sample| sample.step >= step);
-            series.samples.push(Sample { step, value });
-        };
         let places = survey.observer().map().paths.places().count();
-        sample(&mut self.places, places as f64);
+        self.places.sample(step, places as f64);
         if let Some(error) = survey.errors().last() {
-            sample(&mut self.error, error.map);
+            self.error.sample(step, error.map);
         }
         let matcher = best.and_then(|track| track.matcher);
         let matcher = matcher.map_or("blocked".to_owned(), |matcher| format!("{matcher:?}"));
@@ -150,10 +137,7 @@ impl Watch {
             let id = drawn.place;
             let node = self.nodes.entry(id);
             let node = node.or_insert_with(|| Node::new(id.0, position, step));
-            if (latest(node) - position).norm() > STILL {
-                node.moves.pop_if(|moved| moved.step >= step);
-                node.moves.push(NodeMove { step, position });
-            }
+            node.move_to(step, position, STILL);
         }
         for (id, node) in &mut self.nodes {
             if node.died.is_none() && map.paths.resolve(*id) != Some(*id) {
@@ -193,10 +177,4 @@ impl Watch {
             edges: self.edges.values().cloned().collect(),
         }
     }
-}
-
-/// Where a node was last seen to be.
-fn latest(node: &Node) -> Point {
-    let last = node.moves.last();
-    last.map_or(node.position, |last| last.position)
 }

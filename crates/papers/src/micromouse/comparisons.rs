@@ -63,8 +63,7 @@ pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     }
     let of_all = |row| Row::new(row).runs(mazes.len() as u32);
     let planners = Table::of::<PlannerRun>(PLANNERS, "Searches in a known maze, by cells")
-        .metric(Metric::mean(PlannerRun::path_cells))
-        .metric(Metric::mean(PlannerRun::expanded))
+        .metrics_from(PlannerRun::path_cells)
         .rows(ROWS.map(of_all))
         .note(
             "One run on each of the paper's mazes 1 to 3. A* and best-first guess by the Manhattan distance. Expanded \

@@ -5,7 +5,7 @@ use tolman_planners::speed_run::SpeedRunConfig;
 
 use super::sets::MazeSet;
 use tolman_arena::competition;
-use tolman_experiment::{BoxError, Fields, Metric, Record, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Record, Table, record, require};
 use tolman_systems::micromouse::competition::ExploreError;
 
 /// The name of the table.
@@ -43,9 +43,7 @@ impl CompetitionRun {
 /// A run is a maze of the set.
 pub(super) fn table(sets: &[MazeSet]) -> Table {
     Table::of::<CompetitionRun>(COMPETITION, "Explorations for the speed run")
-        .metric(Metric::percent("certified_percent", CompetitionRun::certified))
-        .metric(Metric::mean(CompetitionRun::cells))
-        .metric(Metric::mean(CompetitionRun::run_ms))
+        .metrics_from(CompetitionRun::certified)
         .rows(sets.iter().map(MazeSet::row))
         .note(
             "One run a maze. Cells are all that the mouse drives from the start until it is back there with a speed \

@@ -7,7 +7,7 @@ use tolman_maze::{Braided, Maze};
 use super::check_score;
 use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Run, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table, record, require};
 use tolman_systems::micromouse::noisy::Localization;
 
 /// The name of the table.
@@ -28,6 +28,8 @@ record! {
     /// A maze that the mouse solved, or not, among thick walls.
     #[check(NoiseRun::relations)]
     struct NoiseRun {
+        /// Time steps in which the mouse touched a wall.
+        bumps: u32 => lower("bumps"),
         /// Whether the mouse arrived in both runs.
         arrived: bool => higher("arrived"),
         /// Steps of the first run, where it arrived.
@@ -36,8 +38,6 @@ record! {
         run_2: Option<u32> => lower("second run").unit("steps"),
         /// A thirtieth of the first run's steps and all of the second's.
         score: Option<f64> => lower("score"),
-        /// Time steps in which the mouse touched a wall.
-        bumps: u32 => lower("bumps"),
         /// Mean distance between where the mouse thinks it is and where it is, at stops.
         error_mm: f64 => lower("error at stops").unit("mm").at_least(0),
     }
@@ -58,11 +58,7 @@ impl NoiseRun {
 
 pub(super) fn table() -> Table {
     Table::of::<NoiseRun>(NOISE, "The mouse among thick walls, with noise")
-        .metric(Metric::percent("arrived_percent", NoiseRun::arrived))
-        .metric(Metric::mean(NoiseRun::run_1))
-        .metric(Metric::mean(NoiseRun::run_2))
-        .metric(Metric::mean(NoiseRun::score))
-        .metric(Metric::mean(NoiseRun::error_mm))
+        .metrics_from(NoiseRun::arrived)
         .rows(mice().map(|(name, ..)| Row::new(name).runs(MAZES)))
         .note(
             "One run a maze of 12 × 12 cells, half-braided, on the continuous simulator. Noise 1: wheels slip by up to \

@@ -65,7 +65,7 @@ pub(super) struct Apprentice {
     pub(super) config: MslstConfig,
     /// The seed of each map, the same for every threshold.
     seeds: Vec<u64>,
-    maps: Vec<OnceLock<Arc<Learned>>>,
+    maps: Vec<OnceLock<Learned>>,
 }
 
 /// The agents beside MSLST, the paper's first.
@@ -134,10 +134,8 @@ impl Contest {
         let apprentices = self.apprentices.iter().map(|one| one.row.clone());
         let competitors: Vec<String> = names(baselines).into_iter().chain(apprentices).collect();
         let rows = [competitors.clone(), names(yardsticks)].concat();
-        let own = PAPER_P.iter();
-        let own = own.filter(|(row, ..)| competitors.iter().any(|name| name == row));
-        let paper = own.map(|(row, other, p)| ((*row).to_owned(), (*other).to_owned(), *p));
-        let paper = paper.collect();
+        // Of rows that do not compete nobody asks.
+        let paper = PAPER_P.map(|(row, other, p)| (row.to_owned(), other.to_owned(), p));
         let note = format!(
             "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
              after another such.",
@@ -149,7 +147,7 @@ impl Contest {
                 field: MazeRun::steps.to_owned(),
                 rows: competitors,
                 correction: Correction::Bonferroni,
-                paper,
+                paper: paper.into(),
             })
             .note(note)
     }
@@ -178,27 +176,23 @@ impl Contest {
         Ok(run.fields()?)
     }
 
-    /// Where a run takes place, and who drives.
-    fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind), BoxError> {
+    /// Where a run takes place, who drives, and what MSLST has learned, if it does.
+    fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, Option<&Learned>), BoxError> {
         let trial = self.venue.trial(job.seed);
-        let mind = match self.apprentice(job.row) {
-            Some(apprentice) => {
-                let learned = apprentice.learned(&self.venue, job.run % MAPS)?;
-                let map = Arc::new(learned.map.clone());
-                Mind::Brain(Box::new(Navigator::new(map, &apprentice.config)))
-            }
-            None => {
-                let agent = Agent::named(job.row)
-                    .ok_or_else(|| format!("there is no brain {:?}", job.row))?;
-                self.venue.mind(agent)?
-            }
+        let Some(apprentice) = self.apprentice(job.row) else {
+            let agent = Agent::named(job.row);
+            let agent = agent.ok_or_else(|| format!("there is no brain {:?}", job.row))?;
+            return Ok((trial, self.venue.mind(agent)?, None));
         };
-        Ok((trial, mind))
+        let learned = apprentice.learned(&self.venue, job.run % MAPS)?;
+        let map = Arc::new(learned.map.clone());
+        let navigator = Navigator::new(map, &apprentice.config);
+        Ok((trial, Mind::Brain(Box::new(navigator)), Some(learned)))
     }
 
     /// One run and how often the robot bounced in it.
     pub(super) fn episode(&self, job: &Job<'_>) -> Result<(Episode, u32), BoxError> {
-        let (trial, mut mind) = self.cast(job)?;
+        let (trial, mut mind, _) = self.cast(job)?;
         let mut bounces = Bounces::default();
         let episode = episode::run(&trial, &mut mind, |step| {
             if step.ends.is_some_and(Outcome::moved) {
@@ -210,29 +204,23 @@ impl Contest {
 
     /// One run as it can be watched.
     pub(super) fn replay(&self, job: &Job<'_>) -> Result<Replay, BoxError> {
-        let (trial, mut mind) = self.cast(job)?;
-        let learned = match self.apprentice(job.row) {
-            Some(apprentice) => Some(apprentice.learned(&self.venue, job.run % MAPS)?),
-            None => None,
-        };
-        let nodes = learned
-            .as_ref()
-            .map_or(&[][..], |learned| &learned.survey.positions);
+        let (trial, mut mind, learned) = self.cast(job)?;
+        let nodes = learned.map_or(&[][..], |learned| &learned.survey.positions);
         Ok(venue::replay(job, &trial, &mut mind, nodes)?)
     }
 }
 
 impl Apprentice {
     /// The map of this number, learned by whoever asks first.
-    pub(super) fn learned(&self, venue: &Venue, number: u32) -> Result<Arc<Learned>, LearnError> {
+    pub(super) fn learned(&self, venue: &Venue, number: u32) -> Result<&Learned, LearnError> {
         let cell = &self.maps[number as usize];
         if let Some(learned) = cell.get() {
-            return Ok(Arc::clone(learned));
+            return Ok(learned);
         }
         let seed = self.seeds[number as usize];
         let learned = learn(&venue.course, &venue.robot, &self.config, seed)?;
         // Two threads may learn it at once; they learn the same.
-        Ok(Arc::clone(cell.get_or_init(|| Arc::new(learned))))
+        Ok(cell.get_or_init(|| learned))
     }
 }
 

@@ -28,8 +28,8 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
             let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
             let here = format!("{} in {}", apprentice.row, contest.venue.course.name);
             let own = [
-                states(&learned, &at, &here),
-                graph(contest, &learned, &at, &here),
+                states(learned, &at, &here),
+                graph(contest, learned, &at, &here),
                 ways(contest, &shown, &at, &here)?,
             ];
             figures.extend(own.map(|figure| figure.table(&contest.venue.table)));

@@ -9,20 +9,14 @@ pub mod drawing;
 mod figures;
 mod states;
 
-use alloc::collections::BTreeMap;
-
-use serde::Serialize;
-use tolman_sim::robots::LaserPioneerConfig;
-
 use crate::venue;
-use tolman_arena::pioneer;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run,
 };
 use tolman_replay::Replay;
 
-use contest::{Contest, ContestConfig};
+use contest::Contest;
 
 /// How many maps are learned of each world and threshold.
 const MAPS: u32 = 50;
@@ -41,13 +35,6 @@ pub(super) const ENTRY: Entry = Entry {
 #[derive(Debug)]
 struct Mslst {
     contests: Vec<Contest>,
-}
-
-/// What the runs depend on.
-#[derive(Serialize)]
-struct Config<'a> {
-    robot: LaserPioneerConfig,
-    worlds: BTreeMap<&'a str, ContestConfig<'a>>,
 }
 
 /// Reads the worlds and sets the tables up.
@@ -71,10 +58,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     tables.extend(contests.iter().map(Contest::table));
     let worlds = contests.iter();
     let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
-    let config = toml::Table::try_from(Config {
-        robot: pioneer::calibrated(),
-        worlds: worlds.collect(),
-    })?;
+    let config = venue::config(worlds)?;
     Ok(Experiment::new(ENTRY, tables, config, Mslst { contests }))
 }
 

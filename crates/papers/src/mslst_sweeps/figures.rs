@@ -2,9 +2,9 @@
 
 use super::SweepRun;
 use super::settings::Sweep;
+use crate::plan::mean_with_quartiles;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{Record, Run};
-use tolman_stats::{Interval, mean, quantile};
 
 pub(super) fn of(sweeps: &[Sweep], runs: &[Run]) -> Vec<Figure> {
     let drawn = sweeps
@@ -30,10 +30,7 @@ fn curve(sweep: &Sweep, runs: &[Run]) -> Vec<LinePoint> {
         .filter_map(|setting| {
             let of_row = SweepRun::of_row(runs, sweep.name, &setting.row).ok()?;
             let percents: Vec<f64> = of_row.iter().map(|run| run.success_percent).collect();
-            let at = |share| quantile(&percents, share).ok();
-            let quartiles = Interval::new(at(0.25)?, at(0.75)?);
-            let mean = mean(&percents).ok()?;
-            Some(LinePoint::new(setting.value, mean).spread(quartiles))
+            mean_with_quartiles(setting.value, &percents)
         })
         .collect()
 }

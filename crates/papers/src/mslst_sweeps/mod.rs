@@ -17,8 +17,8 @@ use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::learn;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
-    record, run_seed,
+    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Run, Table, record,
+    run_seed,
 };
 use tolman_robot::Body;
 use tolman_systems::mslst::Navigator;
@@ -82,12 +82,7 @@ record! {
 fn table(sweep: &Sweep) -> Table {
     let rows = sweep.settings.iter();
     Table::of::<SweepRun>(sweep.name, sweep.title)
-        .metric(Metric::mean(SweepRun::states))
-        .metric(Metric::mean(SweepRun::nodes))
-        .metric(Metric::mean(SweepRun::success_percent))
-        .metric(Metric::mean(SweepRun::steps))
-        .metric(Metric::mean(SweepRun::wall_follow_steps))
-        .metric(Metric::mean(SweepRun::oracle_steps))
+        .metrics_from(SweepRun::states)
         .rows(rows.map(|setting| Row::new(&setting.row)))
         .note(format!(
             "{} A run is a map with {STARTS} starts; ± is the spread between maps. Runs that time out count with their limit.",
@@ -127,28 +122,26 @@ impl Procedure for Sweeps {
             };
             Ok(episode::run(&trial, mind, |_| {})?)
         };
-        let (mut reached, mut steps) = (0_u32, 0_u32);
-        for start in 0..STARTS {
-            let mslst = Navigator::new(Arc::clone(&map), &setting.config);
-            let episode = play(&mut Mind::Brain(Box::new(mslst)), start)?;
-            reached += u32::from(episode.reached);
-            steps += episode.steps;
-        }
-        let mean = |sum: u32| f64::from(sum) / f64::from(STARTS);
-        let others = |agent: Agent| -> Result<f64, BoxError> {
-            let mut steps = 0;
+        // The share of the starts from which a mind arrives, and its mean time steps.
+        let played = |mind: &dyn Fn() -> Result<Mind, BoxError>| -> Result<[f64; 2], BoxError> {
+            let (mut reached, mut steps) = (0_u32, 0_u32);
             for start in 0..STARTS {
-                steps += play(&mut cast.mind(agent, &course, robot)?, start)?.steps;
+                let episode = play(&mut mind()?, start)?;
+                reached += u32::from(episode.reached);
+                steps += episode.steps;
             }
-            Ok(mean(steps))
+            Ok([reached, steps].map(|sum| f64::from(sum) / f64::from(STARTS)))
         };
+        let mslst = || Navigator::new(Arc::clone(&map), &setting.config);
+        let [reached, steps] = played(&|| Ok(Mind::Brain(Box::new(mslst()))))?;
+        let other = |agent| played(&|| Ok(cast.mind(agent, &course, robot)?));
         let run = SweepRun {
             states,
             nodes,
-            success_percent: 100.0 * mean(reached),
-            steps: mean(steps),
-            wall_follow_steps: others(Agent::WallFollow)?,
-            oracle_steps: others(Agent::Oracle)?,
+            success_percent: 100.0 * reached,
+            steps,
+            wall_follow_steps: other(Agent::WallFollow)?[1],
+            oracle_steps: other(Agent::Oracle)?[1],
         };
         Ok(run.fields()?)
     }

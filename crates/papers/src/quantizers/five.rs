@@ -21,30 +21,14 @@ pub(super) const CHOSEN: &str = "SOINN";
 const POINTS: u32 = 100_000;
 const NOISE: f64 = 0.1;
 
-/// Another stream than the paper's, as a row.
-struct Stream {
-    row: &'static str,
-    order: Order,
-    noise: f64,
-    points: u32,
-}
-
-const fn stream(row: &'static str, order: Order, noise: f64, points: u32) -> Stream {
-    Stream {
-        row,
-        order,
-        noise,
-        points,
-    }
-}
-
-const STREAMS: [Stream; 6] = [
-    stream("no noise", Order::Stationary, 0.0, POINTS),
-    stream("5 % noise", Order::Stationary, 0.05, POINTS),
-    stream("20 % noise", Order::Stationary, 0.2, POINTS),
-    stream(IN_TURN, Order::OneAfterAnother, 0.2, POINTS),
-    stream("30,000 points", Order::Stationary, NOISE, 30_000),
-    stream("300,000 points", Order::Stationary, NOISE, 300_000),
+/// Other streams than the paper's: the row, the order of the regions, the share of noise, the number of points.
+const STREAMS: [(&str, Order, f64, u32); 6] = [
+    ("no noise", Order::Stationary, 0.0, POINTS),
+    ("5 % noise", Order::Stationary, 0.05, POINTS),
+    ("20 % noise", Order::Stationary, 0.2, POINTS),
+    (IN_TURN, Order::OneAfterAnother, 0.2, POINTS),
+    ("30,000 points", Order::Stationary, NOISE, 30_000),
+    ("300,000 points", Order::Stationary, NOISE, 300_000),
 ];
 
 const IN_TURN: &str = "20 % noise, one region after another";
@@ -69,7 +53,7 @@ pub(super) fn tables() -> Vec<Table> {
         )
         .rows(rows),
         measured(OTHER_STREAMS, "Five clusters in other streams")
-            .rows(STREAMS.map(|stream| Row::new(stream.row)))
+            .rows(STREAMS.map(|(row, ..)| Row::new(row)))
             .note("The same SOINN; the row says what differs from the first table."),
     ]
 }
@@ -131,10 +115,10 @@ pub(super) fn has(table: &str) -> bool {
 
 pub(super) fn learn(job: &Job<'_>) -> Result<Learned, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
-    let other = STREAMS.iter().find(|stream| stream.row == job.row);
+    let other = STREAMS.into_iter().find(|(row, ..)| *row == job.row);
     let (order, noise, points) = match (job.table, other) {
         (ONE_AFTER_ANOTHER, _) => (Order::OneAfterAnother, NOISE, POINTS),
-        (OTHER_STREAMS, Some(stream)) => (stream.order, stream.noise, stream.points),
+        (OTHER_STREAMS, Some((_, order, noise, points))) => (order, noise, points),
         _ => (Order::Stationary, NOISE, POINTS),
     };
     let data = streams::five_clusters(order, noise, points, &mut rng);

@@ -7,7 +7,7 @@ use tolman_quantizers::{Gng, GngConfig, Quantizer, Replay, ReplayConfig};
 
 use super::states::Mazes;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
 /// The table's name.
 pub(super) const NAME: &str = "order of inputs";
@@ -35,9 +35,7 @@ record! {
 pub(super) fn table() -> Table {
     let title = "GNG on the scans of the Large maze, in two orders and with a memory";
     Table::of::<OrderRun>(NAME, title)
-        .metric(Metric::mean(OrderRun::mean_squared_error))
-        .metric(Metric::mean(OrderRun::rms_error))
-        .metric(Metric::mean(OrderRun::units))
+        .metrics_from(OrderRun::mean_squared_error)
         .rows([SHUFFLED, IN_TIME, REPLAYED].map(Row::new))
         .note(format!(
             "The 4000 scans of a run of table 1, {PASSES} times over, to a GNG of at most {UNITS} units; the error is \

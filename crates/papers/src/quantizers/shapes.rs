@@ -6,7 +6,7 @@ use tolman_quantizers::Quantizer;
 
 use super::any::{ROWS, quantizer};
 use super::streams::{Point, rings_and_squares};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
 /// The table's name.
 pub(super) const NAME: &str = "rings and squares";
@@ -61,9 +61,7 @@ impl ShapesRun {
 
 pub(super) fn table() -> Table {
     Table::of::<ShapesRun>(NAME, "Two rings and two squares")
-        .metric(Metric::mean(ShapesRun::rms_30000))
-        .metric(Metric::mean(ShapesRun::units))
-        .metric(Metric::mean(ShapesRun::clusters))
+        .metrics_from(ShapesRun::rms_30000)
         .rows(ROWS.map(Row::new))
         .note(format!(
         "{} points, drawn at random; the error is that of {PROBES} others. GNG and GNG-U have at most {UNITS} units.",

@@ -11,7 +11,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::any::{ROWS, quantizer};
 use crate::data;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
 /// The table's name.
 pub(super) const NAME: &str = "sonar ring";
@@ -121,10 +121,10 @@ impl Log {
 record! {
     /// A quantizer that learned three laps and was asked about the fourth.
     struct SonarRun {
-        /// Units of the network.
-        units: usize => neither("units").decimals(0),
         /// Root of the mean squared distance of an asked scan from the nearest unit.
         rms_error: f64 => lower("RMS error").unit("m").at_least(0),
+        /// Units of the network.
+        units: usize => neither("units").decimals(0),
         /// Asked scans whose nearest unit tells the robot's action.
         right_percent: f64 => higher("action told").percent().decimals(1),
     }
@@ -132,9 +132,7 @@ record! {
 
 pub(super) fn table() -> Table {
     Table::of::<SonarRun>(NAME, "A ring of 24 sonars on a wall-following robot")
-        .metric(Metric::mean(SonarRun::rms_error))
-        .metric(Metric::mean(SonarRun::units))
-        .metric(Metric::mean(SonarRun::right_percent))
+        .metrics_from(SonarRun::rms_error)
         .rows(ROWS.map(Row::new))
         .note(
         "A log of four laps (Freire and Barreto 2010). Three are learnt, in random orders; of each scan of the fourth, the unit \

@@ -4,6 +4,8 @@ mod files;
 mod measured;
 mod paper;
 
+use alloc::collections::BTreeMap;
+
 use serde::Serialize;
 use tolman_geom::Point;
 use tolman_sim::robots::LaserPioneerConfig;
@@ -54,6 +56,21 @@ impl World {
             step_limit,
         }
     }
+}
+
+/// What the runs of the calibrated robot depend on: its worlds, by table.
+pub(super) fn config<'a, W: Serialize>(
+    worlds: impl Iterator<Item = (&'a str, W)>,
+) -> Result<toml::Table, BoxError> {
+    #[derive(Serialize)]
+    struct Config<'a, W> {
+        robot: LaserPioneerConfig,
+        worlds: BTreeMap<&'a str, W>,
+    }
+    Ok(toml::Table::try_from(Config {
+        robot: pioneer::calibrated(),
+        worlds: worlds.collect(),
+    })?)
 }
 
 /// The paper's own worlds.

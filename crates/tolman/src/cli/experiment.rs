@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use tolman::catalogue;
 use tolman_experiment::{
-    Build, Disagreement, Error, Options, Program, Terminal, compare, execute, open, tables_as_text,
-    write_replay,
+    Build, Error, Measured, Metric, Options, Program, Table, Terminal, compare, execute, open,
+    tables_as_text, write_replay,
 };
 
 use super::{Failure, ink, interrupt};
@@ -105,11 +105,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         }
         // The next experiment takes its time: show what there is.
         out.flush()?;
-        disagreements.extend(outcome.analysis.disagreements());
+        disagreements.extend(outcome.analysis.disagreements().filter_map(told));
     }
     if arguments.check && !disagreements.is_empty() {
-        let lines: Vec<String> = disagreements.iter().map(told).collect();
-        return Err(Failure::Disagrees(anyhow!("{}", lines.join("\n"))));
+        return Err(Failure::Disagrees(anyhow!("{}", disagreements.join("\n"))));
     }
     Ok(())
 }
@@ -170,17 +169,17 @@ fn classify(error: Error) -> Failure {
     failure(error.into())
 }
 
-fn told(disagreement: &Disagreement) -> String {
-    let Disagreement {
-        table,
-        row,
-        metric,
-        ours,
-        paper,
-        accepted,
-    } = disagreement;
-    format!(
-        "table {table}, row {row}: {metric} is {ours:.2}, the paper has {paper}; {:.2} to {:.2} agree",
-        accepted.low, accepted.high
-    )
+/// A value that does not match the paper's.
+fn told((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<String> {
+    let (paper, accepted) = (measured.paper.as_ref()?, measured.verdict?.accepted);
+    Some(format!(
+        "table {}, row {}: {} is {:.2}, the paper has {}; {:.2} to {:.2} agree",
+        table.name,
+        measured.row,
+        metric.name,
+        measured.value,
+        paper.value,
+        accepted.low,
+        accepted.high
+    ))
 }
