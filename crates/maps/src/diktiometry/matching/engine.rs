@@ -109,7 +109,7 @@ pub(crate) fn choose(
         let joined = sets.remove(1);
         sets[0].extend(joined);
     }
-    choice.matches = maximal(situation, &applicable(sets));
+    choice.matches = maximal(situation, &applicable(&sets));
     if let Some(best) = choice.matches.first() {
         choice.look = best.look;
         if best.is_certain() {
@@ -131,7 +131,7 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
 }
 
 /// The matches of the first set that has some without an error or, if there is none, some with one; these stand against a new place.
-fn applicable(sets: Vec<Vec<Chosen>>) -> Vec<Chosen> {
+fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
         let all = set.iter().copied();
         all.filter(Chosen::is_normal).collect()
