@@ -93,7 +93,7 @@ pub use opportunities::{Opportunity, OpportunityKind};
 pub use path_graph::{Estim, Fate, Ground, Link, Note, PathGraph, Place, Standing, Successor};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
-    Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport,
+    Contradiction, Culprit, PlanStep, Predicted, Restructured, StepReport, TrackReport,
 };
 pub use signature::{Signature, SignatureError};
 pub use track::{Match, Track};

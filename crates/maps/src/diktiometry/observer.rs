@@ -5,7 +5,7 @@ use tolman_planners::a_star;
 
 use super::{
     Action, Config, Diktiometry, Exits, Hints, Journal, JournalLength, Link, Move, Outcome,
-    Percepts, PlaceId, Plan, Predicted, Rank, Restructured, Signature, Start, StartError,
+    Percepts, PlaceId, PlanStep, Predicted, Rank, Restructured, Signature, Start, StartError,
     StepError, StepReport, Track, TrackId, TrackReport, ViewIndex, deposit, remember, restructure,
     steps_along,
 };
@@ -118,16 +118,15 @@ impl Observer {
     }
 
     /// The actions from one place to another that are the likeliest to lead there and few, along links that probably work now
-    /// ([`PathGraph::likely`](super::PathGraph::likely)); the fewest where the world never changed. None if no way is known.
+    /// ([`PathGraph::likely`](super::PathGraph::likely)); the fewest where the world never changed. Empty if both are one, none if no way is known.
     /// O(places + links · (degree + log links)).
     #[must_use]
-    pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Plan> {
+    pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
         let way = a_star(&self.map.paths, from.0, |place| place == to.0, |_| 0)?.path;
         let ways = |place| self.map.paths.likely(place).map(|(_, link)| link.step());
-        let steps = steps_along(&way, ways)?;
-        Some(Plan { steps })
+        steps_along(&way, ways)
     }
 
     /// Takes in a move that has ended.
