@@ -262,17 +262,14 @@ impl Localizer {
         } = self.config;
         // Not yet on its way, it may be anywhere: that is where it already is.
         let moves = replace(&mut self.is_placed, true);
+        let slips = [(0, slip), (1, 1.0 - 2.0 * slip), (2, slip)];
+        let steps: &[(usize, f64)] = if moves { &slips } else { &[(0, 1.0)] };
         let chance = mistake / self.dictionary.len() as f64;
         let near = NEAR * self.dictionary.greatest_distance();
         for track in &mut self.tracks {
             let count = track.patterns.len();
             let mut next = vec![0.0; count + 1];
             for (passed, belief) in track.passed.iter().enumerate() {
-                if !moves {
-                    next[passed] += belief;
-                    continue;
-                }
-                let steps = [(0, slip), (1, 1.0 - 2.0 * slip), (2, slip)];
                 for (step, probability) in steps {
                     // At the end it stays until the junction is seen.
                     next[(passed + step).min(count)] += belief * probability;

@@ -184,15 +184,17 @@ impl Comparison<'_> {
                     .candidates(self.dictionary, patterns, most as usize + 1)
             }
         };
-        match candidates {
-            None => map.fragments().filter(|(id, _)| *id != one).collect(),
+        let mut others: Vec<(FragmentId, &Fragment)> = match candidates {
+            None => map.fragments().collect(),
             Some(ids) => {
-                let found = ids.into_iter().filter(|id| *id != one);
+                let found = ids.into_iter();
                 found
                     .filter_map(|id| Some((id, map.fragment(id)?)))
                     .collect()
             }
-        }
+        };
+        others.retain(|(id, _)| *id != one);
+        others
     }
 
     /// How an online robot judges a fragment that it knows, entered at an end: it trusts the map unless another fragment fits what it
