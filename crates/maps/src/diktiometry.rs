@@ -93,7 +93,7 @@ pub use opportunities::{Opportunity, OpportunityKind};
 pub use path_graph::{Estim, Fate, Ground, Link, Note, PathGraph, Place, Standing, Successor};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
-    Contradiction, Culprit, Plan, PlanStep, Predicted, Restructured, StepReport, TrackReport,
+    Contradiction, Culprit, PlanStep, Predicted, Restructured, StepReport, TrackReport,
 };
 pub use signature::{Signature, SignatureError};
 pub use track::{Match, Track};
@@ -102,9 +102,9 @@ use counts::{Expected, wilson_upper};
 use estimator::{Rank, trusted_odometry};
 use indexing::{Candidate, Expectation, ViewIndex, expected, moved, plies};
 use looks::Similarity;
-use matching::{Choice, Situation, Traversal, choose, remember, share_a_view, similarity};
+use matching::{Choice, Situation, choose, remember, share_a_view, similarity};
 use opportunities::steps_along;
-use projector::{Projection, between_places, project};
+use projector::Projection;
 use reference_graph::{Reached, search};
 use restructuring::{Hints, deposit, elide_place, learn_of_two, restructure, wanted_anywhere};
-use updater::{arrive, block, merge_estims, see_exits};
+use updater::merge_estims;

@@ -425,7 +425,7 @@ fn plan_works(walk: &Walk, to: u32) -> bool {
     let Some(plan) = walk.observer.plan(walk.observer.place(), *goal) else {
         return false;
     };
-    let end = plan.steps.iter().try_fold(walk.robot.at(), |at, step| {
+    let end = plan.iter().try_fold(walk.robot.at(), |at, step| {
         let direction = Direction::ALL[step.action.0 as usize];
         walk.robot.world().neighbour(at, direction)
     });

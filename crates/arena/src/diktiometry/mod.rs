@@ -24,7 +24,7 @@ pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, EpuckSurveyErro
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
 pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
 pub use office_robot::{OfficeRobot, OfficeSurveyor, surveyor};
-pub use score::{Isomorphism, MapScore, Visit, score};
+pub use score::{MapScore, Visit, score};
 pub use survey::{Drawn, Past, PlanTrial, RunError, Survey, SurveyConfig, Surveyed, mapper};
 pub use survey_file::{SurveyFile, SurveyFileError};
 pub use surveyor_config::{Sight, SurveyorConfig};

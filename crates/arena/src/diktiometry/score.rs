@@ -39,16 +39,7 @@ pub struct MapScore {
     /// Share of the true ways that were gone at least once which are on the map.
     pub gone_recall: f64,
     /// Whether the map is one to one the graph of the true places visited and the ways gone.
-    pub isomorphism: Isomorphism,
-}
-
-/// Whether two graphs are the same but for the names of their nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Isomorphism {
-    /// They are.
-    Yes,
-    /// They are not.
-    No,
+    pub is_isomorphic: bool,
 }
 
 /// A true way: a site and a direction.
@@ -116,7 +107,7 @@ pub fn score(
     let recall = |ways: &BTreeSet<Way>| share(ways.intersection(&found).count(), ways.len());
 
     let places = map.places().count();
-    let same = places == visited.len()
+    let is_isomorphic = places == visited.len()
         && once == visited.len()
         && right == all
         && correct == links
@@ -131,11 +122,7 @@ pub fn score(
         believed_precision: share(believed_rightly, believed),
         link_recall: recall(&open),
         gone_recall: recall(&gone),
-        isomorphism: if same {
-            Isomorphism::Yes
-        } else {
-            Isomorphism::No
-        },
+        is_isomorphic,
     }
 }
 

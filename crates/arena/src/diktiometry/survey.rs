@@ -406,7 +406,7 @@ impl<'a> Survey<'a> {
         };
         let plan = self.observer().plan(here, to);
         let plan = plan.and_then(|plan| {
-            let steps = plan.steps.iter();
+            let steps = plan.iter();
             let directions = steps.map(|step| Direction::ALL.get(step.action.0 as usize).copied());
             directions.collect()
         });

@@ -3,7 +3,7 @@
 use core::ops::{Add, Mul, Neg, Sub};
 
 use super::rounding::{
-    product_down, product_up, quotient_down, quotient_up, root_down, root_up, sum_down, sum_up,
+    product_down, product_up, quotient_down, quotient_up, root, sum_down, sum_up,
 };
 use super::{Interval, IntervalError};
 
@@ -17,20 +17,13 @@ impl Interval {
             return Some(Self::UNBOUNDED);
         }
         if high <= 0.0 {
-            return if low < 0.0 {
-                (-self).checked_div(-divisor)
-            } else {
-                None
-            };
+            let mirrored = (low < 0.0).then(|| (-self).checked_div(-divisor));
+            return mirrored.flatten();
         }
         // The divisor is positive, or all of it but its lower bound.
-        let over = |numerator: f64, quotient: fn(f64, f64) -> f64, towards: [f64; 2]| {
+        let over = |numerator: f64, quotient: fn(f64, f64) -> f64, [below, above]: [f64; 2]| {
             // The larger quotient is over the smaller divisor where the numerator is positive.
-            let divisor = if numerator < 0.0 {
-                towards[0]
-            } else {
-                towards[1]
-            };
+            let divisor = if numerator < 0.0 { below } else { above };
             if divisor == 0.0 && numerator != 0.0 {
                 numerator.signum() * f64::INFINITY
             } else if divisor == 0.0 {
@@ -55,8 +48,12 @@ impl Interval {
     /// The roots of the numbers that have one; none if all are negative.
     #[must_use]
     pub fn sqrt(self) -> Option<Self> {
-        (self.high >= 0.0)
-            .then(|| Self::from_bounds(root_down(self.low.max(0.0)), root_up(self.high)))
+        (self.high >= 0.0).then(|| {
+            Self::from_bounds(
+                root(self.low.max(0.0), f64::next_down),
+                root(self.high, f64::next_up),
+            )
+        })
     }
 
     /// All absolute values.

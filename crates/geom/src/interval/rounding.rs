@@ -67,20 +67,11 @@ pub(super) fn quotient_up(a: f64, b: f64) -> f64 {
     -quotient_down(-a, b)
 }
 
-/// At most √a, for a ≥ 0. libm's root is correctly rounded.
-pub(super) fn root_down(a: f64) -> f64 {
+/// √a for a ≥ 0, to the next double `towards` one side of it, where it need not be 0. libm's root is correctly rounded.
+pub(super) fn root(a: f64, towards: fn(f64) -> f64) -> f64 {
     if a == 0.0 {
         0.0
     } else {
-        libm::sqrt(a).next_down()
-    }
-}
-
-/// At least √a, for a ≥ 0.
-pub(super) fn root_up(a: f64) -> f64 {
-    if a == 0.0 {
-        0.0
-    } else {
-        libm::sqrt(a).next_up()
+        towards(libm::sqrt(a))
     }
 }

@@ -42,6 +42,8 @@ impl Interval {
 
     /// Sine and cosine.
     pub(crate) fn sines(self) -> (Self, Self) {
+        // Sine and cosine of the multiples of half π.
+        const EXTREMES: [(f64, f64); 4] = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
         const ALL: Interval = Interval::from_bounds(-1.0, 1.0);
         let reach = MOST_QUARTERS * FRAC_PI_2;
         if self.width() >= TAU || self.low < -reach || self.high > reach {
@@ -56,12 +58,7 @@ impl Interval {
         let [first, last] = [self.low, self.high].map(|end| libm::floor(end / FRAC_PI_2) as i32);
         for quarter in first..=last + 1 {
             if multiple_of_half_pi(quarter).meets(self) {
-                let (of_sin, of_cos) = match quarter.rem_euclid(4) {
-                    0 => (0.0, 1.0),
-                    1 => (1.0, 0.0),
-                    2 => (0.0, -1.0),
-                    _ => (-1.0, 0.0),
-                };
+                let (of_sin, of_cos) = EXTREMES[quarter.rem_euclid(4) as usize];
                 sin = sin.hull(Interval::point(of_sin));
                 cos = cos.hull(Interval::point(of_cos));
             }
@@ -104,16 +101,11 @@ fn series(x: Interval) -> (Interval, Interval) {
     const ONE: Interval = Interval::point(1.0);
     let square = x.squared();
     let horner = |last: u32| {
-        let mut sum = ONE;
-        let mut n = last;
-        while n >= 2 {
+        (2..=last).rev().step_by(2).fold(ONE, |sum, n| {
             let divisor = Interval::point(f64::from(n * (n - 1)));
             // No divisor is 0.
-            let term = (square * sum).checked_div(divisor).unwrap_or(square);
-            sum = ONE - term;
-            n -= 2;
-        }
-        sum
+            ONE - (square * sum).checked_div(divisor).unwrap_or(square)
+        })
     };
     (x * horner(17) + REMAINDER, horner(18) + REMAINDER)
 }

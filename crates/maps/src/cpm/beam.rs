@@ -1,7 +1,8 @@
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
-use super::hypothesis::{Belief, Hypothesis};
+use super::cp_mapper::Arrival;
+use super::hypothesis::Hypothesis;
 use super::map::CpMap;
 use super::mapper::{Comparison, Mapper};
 use super::traversal::Traversal;
@@ -36,9 +37,9 @@ enum Event {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Understood {
     /// All before is understood as it was.
-    As(Belief),
+    As(Arrival),
     /// What was met before is understood in another way now.
-    Anew(Belief),
+    Anew(Arrival),
     /// No hypothesis explains it.
     Not,
 }
@@ -55,7 +56,7 @@ enum Lost {
 /// What a walk makes of one of the hypotheses before it.
 struct Child {
     hypothesis: Hypothesis,
-    belief: Belief,
+    arrival: Arrival,
     /// Its parent's place in the beam.
     parent: usize,
 }
@@ -114,8 +115,8 @@ impl Beam {
         self.met.push(Event::Walked(turn, walk.clone()));
         if let Some(first) = children.first() {
             let understood = match first.parent {
-                0 => Understood::As(first.belief),
-                _ => Understood::Anew(first.belief),
+                0 => Understood::As(first.arrival),
+                _ => Understood::Anew(first.arrival),
             };
             self.hypotheses = hypotheses(children);
             self.calm_down();
@@ -125,7 +126,7 @@ impl Beam {
         while self.width < self.narrow.saturating_mul(WIDEST) {
             self.width = self.width.saturating_mul(2);
             match self.look_again(judge) {
-                Ok(belief) => return Ok(Understood::Anew(belief)),
+                Ok(arrival) => return Ok(Understood::Anew(arrival)),
                 Err(Lost::InNarrowness) => {}
                 Err(Lost::ForGood) => break,
             }
@@ -150,15 +151,15 @@ impl Beam {
     }
 
     /// Goes through all that was met. Returns what was believed of the last walk. Where nothing explains all, the beam is as before.
-    fn look_again(&mut self, judge: &Comparison<'_>) -> Result<Belief, Lost> {
+    fn look_again(&mut self, judge: &Comparison<'_>) -> Result<Arrival, Lost> {
         let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
-        let (mut belief, mut lost) = (None, Lost::ForGood);
+        let (mut arrival, mut lost) = (None, Lost::ForGood);
         for event in &self.met {
             match event {
                 Event::Walked(turn, walk) => {
                     let children = children(&now, *turn, walk, judge, self.width);
                     let children = children.map_err(|_| lost)?;
-                    belief = Some(children.first().ok_or(lost)?.belief);
+                    arrival = Some(children.first().ok_or(lost)?.arrival);
                     now = hypotheses(children);
                     if now.len() >= self.width {
                         lost = Lost::InNarrowness;
@@ -168,7 +169,7 @@ impl Beam {
             }
         }
         self.hypotheses = now;
-        belief.ok_or(lost)
+        arrival.ok_or(lost)
     }
 
     /// The robot has turned round in an unknown fragment after so many observations.
@@ -204,10 +205,10 @@ fn children(
     let mut all = Vec::new();
     for (parent, hypothesis) in parents.iter().enumerate() {
         // The same place looks the same in all, so the turn is there in all.
-        for (hypothesis, belief) in hypothesis.after(turn, walk, judge)? {
+        for (hypothesis, arrival) in hypothesis.after(turn, walk, judge)? {
             all.push(Child {
                 hypothesis,
-                belief,
+                arrival,
                 parent,
             });
         }
@@ -326,6 +327,6 @@ mod tests {
         // It walks back, and knows that.
         let back = walk(1, 1.0, Sighting::plain(3));
         let understood = beam.walked(Turn::BACK, &back, &judge).unwrap();
-        assert_eq!(understood, Understood::As(Belief::Known));
+        assert_eq!(understood, Understood::As(Arrival::Known));
     }
 }

@@ -3,9 +3,8 @@ use thiserror::Error;
 use super::beam::{Beam, Understood};
 use super::bearings::Bearings;
 use super::config::{CpMapperConfig, Mapping};
-use super::hypothesis::Belief;
 use super::map::{CpMap, Port};
-use super::mapper::{Mapper, Walked, trusts};
+use super::mapper::{Comparison, Mapper};
 use super::pattern::{Dictionary, DictionaryError};
 use super::plan::Plan;
 use super::traversal::{Sighting, Traversal};
@@ -72,6 +71,13 @@ pub enum Arrival {
     /// The map expected another place or fragment; the robot goes on with what it found, apart from the rest until it recognizes
     /// something.
     Contradiction,
+}
+
+impl Arrival {
+    /// Whether the fragment had been walked before.
+    const fn came_again(self) -> bool {
+        matches!(self, Self::Known | Self::Duplicate)
+    }
 }
 
 /// Why an exploration cannot begin or a walk cannot be taken in. The map is as before.
@@ -183,20 +189,18 @@ impl CpMapper {
         check(walk.sighting, walk.bearings.as_ref())?;
         dictionary.check(&walk.patterns)?;
         self.map().check(dictionary)?;
+        let judge = self.config.comparison(dictionary);
         let (arrival, came_again) = match &mut self.knowledge {
             Knowledge::Map(mapper) => {
                 let is_online = self.config.mapping.looks_at_map(self.traversals);
-                let arrival = reason(mapper, turn, walk, &self.config, is_online, dictionary)?;
-                let came_again = matches!(arrival, Arrival::Known | Arrival::Duplicate);
-                (arrival, came_again)
+                let arrival = reason(mapper, turn, walk, is_online.then_some(&judge))?;
+                (arrival, arrival.came_again())
             }
-            Knowledge::Beam(beam) => {
-                match beam.walked(turn, walk, &self.config.comparison(dictionary))? {
-                    Understood::As(belief) => (belief.into(), belief.came_again()),
-                    Understood::Anew(belief) => (Arrival::Revised, belief.came_again()),
-                    Understood::Not => (Arrival::Contradiction, false),
-                }
-            }
+            Knowledge::Beam(beam) => match beam.walked(turn, walk, &judge)? {
+                Understood::As(arrival) => (arrival, arrival.came_again()),
+                Understood::Anew(arrival) => (Arrival::Revised, arrival.came_again()),
+                Understood::Not => (Arrival::Contradiction, false),
+            },
         };
         if came_again {
             self.before_duplicate.get_or_insert(self.traversals);
@@ -265,44 +269,29 @@ impl CpMapper {
     }
 }
 
-/// Offline and online: on the one map there is, what is similar is the same.
+/// Offline and online: on the one map there is, what is similar is the same. Offline nothing is compared.
 fn reason(
     mapper: &mut Mapper,
     turn: Turn,
     walk: &Traversal,
-    config: &CpMapperConfig,
-    is_online: bool,
-    dictionary: &Dictionary,
+    judge: Option<&Comparison<'_>>,
 ) -> Result<Arrival, NoSuchTurn> {
     let exit = mapper.exit(turn)?;
-    let walked = mapper.walk(exit, walk, |map, known, sense| {
-        !is_online || trusts(config, dictionary, map, walk, known, sense)
-    });
-    let (new, arrival) = match walked {
-        Walked::Known => return Ok(Arrival::Known),
-        Walked::New(new) => (new, Arrival::New),
-        Walked::Contradicted(new) => (new, Arrival::Contradiction),
-    };
-    let merges = if is_online {
-        mapper.unify_with_similar(new, &config.comparison(dictionary))
-    } else {
-        None
-    };
-    Ok(match (merges, arrival) {
-        (Some(_), Arrival::New) => Arrival::Duplicate,
-        _ => arrival,
-    })
-}
-
-impl From<Belief> for Arrival {
-    fn from(belief: Belief) -> Self {
-        match belief {
-            Belief::NewPlace => Self::New,
-            Belief::NewWay => Self::Loop,
-            Belief::Duplicate => Self::Duplicate,
-            Belief::Known => Self::Known,
-        }
+    let is_filled = mapper.map.end_at(exit).is_some();
+    if mapper.follow(exit, walk, judge) {
+        return Ok(Arrival::Known);
     }
+    let new = if is_filled {
+        mapper.go_adrift(exit, walk)
+    } else {
+        mapper.append(exit, walk)
+    };
+    let merges = judge.and_then(|judge| mapper.unify_with_similar(new, judge));
+    Ok(match merges {
+        _ if is_filled => Arrival::Contradiction,
+        Some(_) => Arrival::Duplicate,
+        None => Arrival::New,
+    })
 }
 
 fn check(sighting: Sighting, bearings: Option<&Bearings>) -> Result<(), CpmError> {

@@ -4,7 +4,7 @@ use thiserror::Error;
 use tolman_quantizers::{AssociativeMemory, ConfigError, InputError, SoinnConfig};
 
 use super::map::{CpMap, End};
-use super::pattern::{Dictionary, DictionaryError, PatternId};
+use super::pattern::{Dictionary, DictionaryError, PatternId, euclidean};
 use super::similarity::Sense;
 
 /// The paths of several environments in one associative memory: the paper's fourth layer, "introduced for the case in which the robot
@@ -128,10 +128,8 @@ impl Environments {
         if codes.len() < 2 {
             return Err(RecallError::TooShort);
         }
-        for pair in codes.windows(2) {
-            if let [key, response] = pair {
-                self.memory.associate(key, response)?;
-            }
+        for (key, response) in codes.iter().zip(&codes[1..]) {
+            self.memory.associate(key, response)?;
         }
         for (enter, code) in path.iter().zip(codes) {
             let is_known =
@@ -179,11 +177,8 @@ impl Environments {
 
     /// The learned fragment with the nearest code, and how far that is; the first of equals.
     fn nearest(&self, code: &[f64]) -> Option<(&Learned, f64)> {
-        let distance = |known: &Learned| {
-            let squares = known.code.iter().zip(code).map(|(a, b)| (a - b) * (a - b));
-            libm::sqrt(squares.sum())
-        };
-        let all = self.learned.iter().map(|known| (known, distance(known)));
+        let all = self.learned.iter();
+        let all = all.map(|known| (known, euclidean(&known.code, code)));
         all.min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 

@@ -5,6 +5,7 @@ use core::cell::Cell;
 use tolman_geom::{Interval, PointBox};
 
 use super::bearings::SHARP;
+use super::cp_mapper::Arrival;
 use super::map::{End, Fragment, FragmentId, Junction, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
@@ -26,26 +27,6 @@ pub(super) struct Hypothesis {
 /// Where the junctions of a map, by id, lie, seen from where a walk began; none where that is not known.
 type Positions = [Option<PointBox>];
 
-/// What a hypothesis makes of a walk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Belief {
-    /// A fragment and a place that were not on the map.
-    NewPlace,
-    /// A new fragment to a place of the map: a loop is closed on arrival.
-    NewWay,
-    /// A fragment that is on the map elsewhere: two junctions are one.
-    Duplicate,
-    /// A fragment of the map.
-    Known,
-}
-
-impl Belief {
-    /// Whether the fragment had been walked before.
-    pub(super) const fn came_again(self) -> bool {
-        matches!(self, Self::Known | Self::Duplicate)
-    }
-}
-
 impl Hypothesis {
     pub(super) const fn certain(mapper: Mapper) -> Self {
         Self { mapper, cost: 0.0 }
@@ -57,16 +38,14 @@ impl Hypothesis {
         turn: Turn,
         walk: &Traversal,
         judge: &Comparison<'_>,
-    ) -> Result<Vec<(Self, Belief)>, NoSuchTurn> {
+    ) -> Result<Vec<(Self, Arrival)>, NoSuchTurn> {
         let exit = self.mapper.exit(turn)?;
         if let Some(end) = self.mapper.map.end_at(exit) {
-            let known = self.along(exit, end, walk, judge);
-            return Ok(known
-                .map(|known| (known, Belief::Known))
-                .into_iter()
-                .collect());
+            let known = self.along(exit, end, walk, judge).into_iter();
+            return Ok(known.map(|known| (known, Arrival::Known)).collect());
         }
-        let Some(departure) = self.departure_cost(exit, walk) else {
+        let bearing = |motion: Motion| self.mapper.map.bearing_cost(exit, motion.departure);
+        let Some(departure) = walk.motion.map_or(Some(0.0), bearing) else {
             return Ok(Vec::new());
         };
         let base = Self {
@@ -87,7 +66,7 @@ impl Hypothesis {
         all.extend(new.duplicates(fragment, &positions, judge));
         if !is_known_place {
             new.cost += NEW_PLACE;
-            all.push((new, Belief::NewPlace));
+            all.push((new, Arrival::New));
         }
         Ok(all)
     }
@@ -138,7 +117,7 @@ impl Hypothesis {
         walk: &Traversal,
         motion: Motion,
         positions: &Positions,
-    ) -> Vec<(Self, Belief)> {
+    ) -> Vec<(Self, Arrival)> {
         let map = &self.mapper.map;
         let area = self.area();
         let mut all = Vec::new();
@@ -166,7 +145,7 @@ impl Hypothesis {
                     .add_fragment(patterns, walk.motion, exit, entry);
                 next.mapper.at = entry;
                 next.mapper.notice(walk);
-                all.push((next, Belief::NewWay));
+                all.push((next, Arrival::Loop));
             }
         }
         all
@@ -178,7 +157,7 @@ impl Hypothesis {
         new: FragmentId,
         positions: &Positions,
         judge: &Comparison<'_>,
-    ) -> Vec<(Self, Belief)> {
+    ) -> Vec<(Self, Arrival)> {
         let map = &self.mapper.map;
         let Some(fragment) = map.fragment(new) else {
             return Vec::new();
@@ -211,19 +190,11 @@ impl Hypothesis {
                         mapper: Mapper { map, at },
                         cost: self.cost - gain.get(),
                     };
-                    all.push((next, Belief::Duplicate));
+                    all.push((next, Arrival::Duplicate));
                 }
             }
         }
         all
-    }
-
-    /// What it costs to believe that one leaves by this port in the direction that was reckoned; none if it cannot be.
-    fn departure_cost(&self, exit: Port, walk: &Traversal) -> Option<f64> {
-        match walk.motion {
-            Some(motion) => self.mapper.map.bearing_cost(exit, motion.departure),
-            None => Some(0.0),
-        }
     }
 
     /// What speaks for two walks being along one fragment; none if they cannot be.

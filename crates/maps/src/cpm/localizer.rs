@@ -1,5 +1,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem::replace;
 
 use thiserror::Error;
 
@@ -52,7 +53,8 @@ pub struct Localizer {
     tracks: Vec<Track>,
     /// How likely the robot is at one place of each map before anything is known.
     anywhere: Vec<f64>,
-    stage: Stage,
+    /// Whether anything was observed yet.
+    is_placed: bool,
 }
 
 /// How a [`Localizer`] judges; probabilities.
@@ -104,14 +106,6 @@ pub enum LocalizeError {
     /// No junction where the robot may be has such a turn.
     #[error(transparent)]
     Turn(#[from] NoSuchTurn),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
-    /// Before the first observation.
-    Unplaced,
-    InFragment,
-    AtJunction,
 }
 
 /// A fragment, walked one way.
@@ -249,7 +243,7 @@ impl Localizer {
             config,
             anywhere: anywhere(maps.len(), &tracks),
             tracks,
-            stage: Stage::Unplaced,
+            is_placed: false,
         };
         localizer.spread(1.0);
         Ok(localizer)
@@ -267,19 +261,15 @@ impl Localizer {
             elsewhere,
         } = self.config;
         // Not yet on its way, it may be anywhere: that is where it already is.
-        let moves = self.stage != Stage::Unplaced;
-        self.stage = Stage::InFragment;
+        let moves = replace(&mut self.is_placed, true);
+        let slips = [(0, slip), (1, 1.0 - 2.0 * slip), (2, slip)];
+        let steps: &[(usize, f64)] = if moves { &slips } else { &[(0, 1.0)] };
         let chance = mistake / self.dictionary.len() as f64;
         let near = NEAR * self.dictionary.greatest_distance();
         for track in &mut self.tracks {
             let count = track.patterns.len();
             let mut next = vec![0.0; count + 1];
             for (passed, belief) in track.passed.iter().enumerate() {
-                if !moves {
-                    next[passed] += belief;
-                    continue;
-                }
-                let steps = [(0, slip), (1, 1.0 - 2.0 * slip), (2, slip)];
                 for (step, probability) in steps {
                     // At the end it stays until the junction is seen.
                     next[(passed + step).min(count)] += belief * probability;
@@ -322,7 +312,7 @@ impl Localizer {
             let ways = bearings.map_or(1.0, |seen| track.seen(seen));
             ways * seen_as(track.place == sighting)
         });
-        self.stage = Stage::AtJunction;
+        self.is_placed = true;
     }
 
     /// The robot turns round amid a fragment, or before the place at its end, and goes back along it. O(all sequences' lengths).
@@ -332,8 +322,7 @@ impl Localizer {
             .iter()
             .map(|track| {
                 let other = self.index(track.map, track.enter.opposite());
-                let other = other.and_then(|other| self.tracks.get(other));
-                let passed = other.map_or(&track.passed, |other| &other.passed);
+                let passed = &other.map_or(track, |other| &self.tracks[other]).passed;
                 // What it has passed comes next, the last first.
                 passed.iter().rev().copied().collect()
             })
@@ -354,19 +343,15 @@ impl Localizer {
                 here += belief * libm::pow(2.0 * seen, (count - passed) as f64);
             }
             track.passed.fill(0.0);
-            if let Some(end) = track.passed.last_mut() {
-                *end = here;
-            }
+            track.passed[count] = here;
         }
     }
 
     /// Weighs each fragment by how likely that is which is seen at its end.
     fn weigh(&mut self, likelihood: impl Fn(&Track) -> f64) {
         for track in &mut self.tracks {
-            let likelihood = likelihood(track);
-            if let Some(end) = track.passed.last_mut() {
-                *end *= likelihood;
-            }
+            let count = track.patterns.len();
+            track.passed[count] *= likelihood(track);
         }
         self.normalize();
     }
@@ -386,11 +371,9 @@ impl Localizer {
         let entered = self.entered(turn)?;
         for (track, entered) in self.tracks.iter_mut().zip(entered) {
             track.passed.fill(0.0);
-            if let Some(none) = track.passed.first_mut() {
-                *none = entered;
-            }
+            track.passed[0] = entered;
         }
-        self.stage = Stage::InFragment;
+        self.is_placed = true;
         self.normalize();
         self.spread(self.config.elsewhere);
         Ok(())
@@ -422,9 +405,7 @@ impl Localizer {
     pub fn maps(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.maps.len()];
         for track in &self.tracks {
-            if let Some(sum) = sums.get_mut(track.map) {
-                *sum += track.passed.iter().sum::<f64>();
-            }
+            sums[track.map] += track.passed.iter().sum::<f64>();
         }
         sums
     }
@@ -434,9 +415,7 @@ impl Localizer {
         let mut entered = vec![0.0; self.tracks.len()];
         let mut refused = None;
         for track in &self.tracks {
-            let Some(map) = self.maps.get(track.map) else {
-                continue;
-            };
+            let map = &self.maps[track.map];
             let degree = map.degree(track.ahead.junction);
             let number = match turn.exit(track.ahead.number, degree) {
                 Ok(number) => number,
@@ -468,7 +447,7 @@ impl Localizer {
     /// Moves a part of the belief to anywhere.
     fn spread(&mut self, part: f64) {
         for track in &mut self.tracks {
-            let anywhere = self.anywhere.get(track.map).copied().unwrap_or(0.0);
+            let anywhere = self.anywhere[track.map];
             for (passed, belief) in track.passed.iter_mut().enumerate() {
                 // A robot put into a fragment has been observed to be in it.
                 let here = if passed > 0 { part * anywhere } else { 0.0 };
@@ -495,9 +474,7 @@ impl Localizer {
 fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     let mut places = vec![0_usize; maps];
     for track in tracks {
-        if let Some(places) = places.get_mut(track.map) {
-            *places += track.patterns.len();
-        }
+        places[track.map] += track.patterns.len();
     }
     let seen = places.iter().filter(|places| **places > 0).count();
     let each = |places: &usize| match places {

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use super::config::{Candidates, CpMapperConfig};
+use super::config::Candidates;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, Port, PortState};
 use super::pattern::{Dictionary, PatternId};
 use super::scores::Scores;
@@ -17,17 +17,6 @@ pub(super) struct Mapper {
     pub(super) at: Port,
 }
 
-/// What a walk was, as far as the map knew.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Walked {
-    /// Through an open port.
-    New(FragmentId),
-    /// Along a fragment of the map, which led where it should.
-    Known,
-    /// Along a fragment of the map, which turned out to be another: the map is wrong somewhere, or what was sighted is.
-    Contradicted(FragmentId),
-}
-
 impl Mapper {
     pub(super) fn new(start: Sighting) -> Self {
         let mut map = CpMap::default();
@@ -36,30 +25,25 @@ impl Mapper {
         Self { map, at }
     }
 
-    /// Takes in a walk. What is new is joined to the last junction, "together with the performed transition"; the junction
-    /// it led to is new as well, until unified with another.
-    pub(super) fn walk(
+    /// Takes in a walk if it is along a fragment of the map that leads where it should and is trusted; returns whether it is.
+    pub(super) fn follow(
         &mut self,
         exit: Port,
         walk: &Traversal,
-        trust: impl Fn(&CpMap, &Fragment, Sense) -> bool,
-    ) -> Walked {
-        let Some(end) = self.map.end_at(exit) else {
-            return Walked::New(self.append(exit, walk));
+        judge: Option<&Comparison<'_>>,
+    ) -> bool {
+        let map = &self.map;
+        let Some((end, port)) = map.end_at(exit).zip(map.beyond(exit)) else {
+            return false;
         };
-        let sense = Sense::entered_at(end.sign);
-        let expected = self.map.beyond(exit);
-        let place = expected.and_then(|port| self.map.junction(port.junction));
-        let known = self.map.fragment(end.fragment);
-        if let (Some(place), Some(known), Some(port)) = (place, known, expected)
-            && place.sighting() == walk.sighting
-            && trust(&self.map, known, sense)
-        {
+        let place = map.junction(port.junction);
+        let is_expected = place.is_some_and(|place| place.sighting() == walk.sighting)
+            && judge.is_none_or(|judge| judge.trusts(map, walk, end));
+        if is_expected {
             self.at = port;
             self.confirm(end, walk);
-            return Walked::Known;
         }
-        Walked::Contradicted(self.go_adrift(exit, walk))
+        is_expected
     }
 
     /// The robot is not where the map has it. What it has walked begins at a copy of its place that hangs on nothing, until it is
@@ -77,6 +61,8 @@ impl Mapper {
         self.append(adrift.port(turn.0), walk)
     }
 
+    /// What is new is joined to the last junction, "together with the performed transition"; the junction it led to is new as well,
+    /// until unified with another.
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = junction.port(0);
@@ -198,33 +184,35 @@ impl Comparison<'_> {
                     .candidates(self.dictionary, patterns, most as usize + 1)
             }
         };
-        match candidates {
-            None => map.fragments().filter(|(id, _)| *id != one).collect(),
+        let mut others: Vec<(FragmentId, &Fragment)> = match candidates {
+            None => map.fragments().collect(),
             Some(ids) => {
-                let found = ids.into_iter().filter(|id| *id != one);
+                let found = ids.into_iter();
                 found
                     .filter_map(|id| Some((id, map.fragment(id)?)))
                     .collect()
             }
-        }
+        };
+        others.retain(|(id, _)| *id != one);
+        others
     }
-}
 
-/// How an online robot judges a fragment that it knows: it trusts the map unless another fragment fits what it has observed, and
-/// this one does not.
-pub(super) fn trusts(
-    config: &CpMapperConfig,
-    dictionary: &Dictionary,
-    map: &CpMap,
-    walk: &Traversal,
-    known: &Fragment,
-    sense: Sense,
-) -> bool {
-    let matching = &config.matching;
-    matching.agrees(dictionary, &walk.patterns, &known.patterns, sense)
-        || map.fragments().all(|(_, other)| {
-            matching
-                .matches(dictionary, &walk.patterns, &other.patterns)
-                .is_none()
-        })
+    /// How an online robot judges a fragment that it knows, entered at an end: it trusts the map unless another fragment fits what it
+    /// has observed, and this one does not.
+    fn trusts(&self, map: &CpMap, walk: &Traversal, end: End) -> bool {
+        let Self {
+            matching,
+            dictionary,
+            ..
+        } = self;
+        let sense = Sense::entered_at(end.sign);
+        let known = map.fragment(end.fragment);
+        let agrees =
+            |known: &Fragment| matching.agrees(dictionary, &walk.patterns, &known.patterns, sense);
+        let differs = |other: &Fragment| {
+            let found = matching.matches(dictionary, &walk.patterns, &other.patterns);
+            found.is_none()
+        };
+        known.is_some_and(agrees) || map.fragments().all(|(_, other)| differs(other))
+    }
 }

@@ -3,14 +3,8 @@ use alloc::vec::Vec;
 
 /// The nodes of a map by id. Copies of the map share them all, and still the others once one of them has changed some: a copy
 /// costs nothing, the first change to it a count for each node, whatever is in it.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nodes<I, T>(Arc<Vec<(I, Arc<T>)>>);
-
-impl<I, T> Clone for Nodes<I, T> {
-    fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0))
-    }
-}
 
 impl<I, T> Default for Nodes<I, T> {
     fn default() -> Self {

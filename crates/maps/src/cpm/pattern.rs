@@ -331,7 +331,7 @@ const fn hashed(hash: u64, word: u64) -> u64 {
     (hash ^ word).wrapping_mul(0x0100_0000_01b3)
 }
 
-fn euclidean(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn euclidean(a: &[f64], b: &[f64]) -> f64 {
     let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
     libm::sqrt(squares.sum())
 }

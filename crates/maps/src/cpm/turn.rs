@@ -57,11 +57,7 @@ impl Turn {
         if self.0 >= degree {
             return Err(NoSuchTurn { turn, degree });
         }
-        let spaces = degree - 1;
-        Ok(match self {
-            Self::BACK => Self::BACK,
-            Self(turn) => Self(spaces - turn + 1),
-        })
+        Ok(Self(sum(0, degree - self.0, degree)))
     }
 
     /// Equations (9) and (10): the turn that leads to where first this turn and then `next` would lead,
@@ -70,12 +66,8 @@ impl Turn {
     /// # Errors
     /// If the junction has no such turn.
     pub const fn then(self, next: Self, degree: u32) -> Result<Self, NoSuchTurn> {
-        if self.0 >= degree {
-            let turn = self;
-            return Err(NoSuchTurn { turn, degree });
-        }
-        if next.0 >= degree {
-            let turn = next;
+        let turn = if self.0 >= degree { self } else { next };
+        if turn.0 >= degree {
             return Err(NoSuchTurn { turn, degree });
         }
         Ok(Self(sum(self.0, next.0, degree)))

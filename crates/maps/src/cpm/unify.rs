@@ -19,8 +19,7 @@ pub(super) struct Merges {
 impl Merges {
     /// What has become of an end.
     #[must_use]
-    pub(super) fn end(&self, end: End) -> End {
-        let mut end = end;
+    pub(super) fn end(&self, mut end: End) -> End {
         while let Some((fragment, sense)) = self.fragments.get(&end.fragment) {
             end = fragment.end(sense.of(end.sign));
         }
@@ -34,8 +33,7 @@ impl Merges {
 
     /// What has become of a port.
     #[must_use]
-    pub(super) fn port(&self, port: Port) -> Port {
-        let mut port = port;
+    pub(super) fn port(&self, mut port: Port) -> Port {
         while let Some((junction, offset, degree)) = self.junctions.get(&port.junction) {
             port = junction.port((port.number + offset) % degree);
         }
@@ -65,12 +63,23 @@ impl CpMap {
         sense: Sense,
         agree: Agree<'_>,
     ) -> Option<(Self, Merges)> {
-        let unification = Unification {
+        let mut new = Unification {
             map: self.clone(),
             merges: Merges::default(),
             queue: Vec::new(),
         };
-        unification.run(one, other, sense, agree)
+        new.merge(one, other, sense)?;
+        while let Some((a, b)) = new.queue.pop() {
+            let (a, b) = (new.merges.end(a), new.merges.end(b));
+            let sense = Sense::between(a.sign, b.sign);
+            let one = new.map.fragment(a.fragment)?;
+            if a.fragment != b.fragment && !agree(one, new.map.fragment(b.fragment)?, sense) {
+                return None;
+            }
+            new.merge(a.fragment, b.fragment, sense)?;
+        }
+        new.settle();
+        Some((new.map, new.merges))
     }
 }
 
@@ -82,27 +91,6 @@ struct Unification {
 }
 
 impl Unification {
-    fn run(
-        mut self,
-        one: FragmentId,
-        other: FragmentId,
-        sense: Sense,
-        agree: Agree<'_>,
-    ) -> Option<(CpMap, Merges)> {
-        self.merge(one, other, sense)?;
-        while let Some((a, b)) = self.queue.pop() {
-            let (a, b) = (self.merges.end(a), self.merges.end(b));
-            let sense = Sense::between(a.sign, b.sign);
-            let one = self.map.fragment(a.fragment)?;
-            if a.fragment != b.fragment && !agree(one, self.map.fragment(b.fragment)?, sense) {
-                return None;
-            }
-            self.merge(a.fragment, b.fragment, sense)?;
-        }
-        self.settle();
-        Some((self.map, self.merges))
-    }
-
     fn merge(&mut self, one: FragmentId, other: FragmentId, sense: Sense) -> Option<()> {
         let (kept, gone) = (one.min(other), one.max(other));
         if kept == gone {

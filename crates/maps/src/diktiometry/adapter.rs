@@ -6,8 +6,7 @@ use tolman_geom::PointBox;
 
 use super::{
     Choice, Contradiction, Culprit, Fate, Ground, Hints, LinkId, Matcher, Move, Observer, PlaceId,
-    Projection, Similarity, Successor, Track, arrive, between_places, elide_place, remember,
-    see_exits, trusted_odometry,
+    Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
 };
 
 /// How many of the places met before the last are related to a new one directly: two moves back, three, …
@@ -38,8 +37,8 @@ impl Observer {
             place.envelope = place.envelope.hull(robot);
         }
         self.traverse(projection);
-        let (link, narrowed) = arrive(&mut self.map, projection, to, robot, &self.config);
-        if let Err(excluded) = narrowed {
+        let link = self.arrive(projection, to, robot);
+        if let Err(excluded) = self.narrow(from, to, projection.displacement) {
             contradictions.push(Contradiction {
                 track: track.id,
                 culprit: Culprit::Relation { from, to },
@@ -65,7 +64,7 @@ impl Observer {
                 self.views.insert(to, view, &self.config);
             }
         }
-        see_exits(&mut self.map, to, &step.exits, &self.config);
+        self.see_exits(to, &step.exits);
         let pairs = choice.doubts.iter().chain(&choice.twins);
         for &other in pairs.filter(|&&other| other != to) {
             self.map.paths.note(to, other, Ground::Position);
@@ -85,7 +84,7 @@ impl Observer {
         }
         let earlier = track.history.iter().rev().skip(1).take(SPAN);
         for entry in earlier {
-            let way = between_places(entry.since + moved, &self.config);
+            let way = self.between_places(entry.since + moved);
             let from = self.map.paths.resolve(entry.place);
             let Some(from) = from.filter(|from| *from != to && way.is_bounded()) else {
                 continue;
@@ -109,9 +108,8 @@ impl Observer {
     }
 
     fn traverse(&mut self, projection: &Projection) {
-        let (frame, position) = self.map.site(projection.from);
-        let [start, end] = [position, projection.position].map(PointBox::middle);
-        let grid = &mut self.map.frame_mut(frame).grid;
+        let [start, end] = self.ends(projection);
+        let grid = &mut self.map.frame_mut(projection.frame).grid;
         grid.traverse(start, end, self.config.separation);
     }
 

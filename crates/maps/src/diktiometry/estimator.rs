@@ -7,8 +7,7 @@ use tolman_geom::PointBox;
 use super::{
     Action, ActiveFrame, Candidate, Choice, Contradiction, Culprit, GeometricIndexing, Hints,
     LinkId, Match, Matcher, Move, Observer, PlaceId, Predicted, Projection, Similarity, Situation,
-    Standing, StepReport, Track, TrackId, TrackReport, Traversal, Use, choose, expected, moved,
-    plies, project, search,
+    Standing, StepReport, Track, TrackId, TrackReport, Use, choose, expected, moved, plies, search,
 };
 
 /// Whether a track may change the map. Only the best may, lest a dying hypothesis damage it; in the paper all do.
@@ -30,7 +29,7 @@ impl Observer {
         hints: &mut Hints,
         next: &mut Vec<(Track, TrackReport)>,
     ) {
-        let projection = project(&self.map, track, step, &self.config);
+        let projection = self.project(track, step);
         let choice = self.matches(track, step, &projection);
         let predicted = self.likeliest(track.place, step.action);
         if rank == Rank::Best {
@@ -151,7 +150,7 @@ impl Observer {
             config: &self.config,
             percept: step.percept.as_ref(),
             astray: projection.astray,
-            traversed: self.traversal(track.place, projection),
+            traversals: self.traversals(projection),
             confidence: track.confidence,
         };
         let expected = match self.config.indexing.expectational {
@@ -176,17 +175,11 @@ impl Observer {
         plies(&self.map, &reached, projection)
     }
 
-    /// Whether the way just gone was gone often before.
-    fn traversal(&self, place: PlaceId, projection: &Projection) -> Traversal {
-        let (frame, position) = self.map.site(place);
-        let [from, to] = [position, projection.position].map(PointBox::middle);
-        let grid = &self.map.frame(frame).grid;
-        if grid.traversals(from, to, self.config.separation) >= self.config.matching.well_traversed
-        {
-            Traversal::Well
-        } else {
-            Traversal::Poorly
-        }
+    /// How often the way just gone was gone before.
+    fn traversals(&self, projection: &Projection) -> u32 {
+        let [from, to] = self.ends(projection);
+        let grid = &self.map.frame(projection.frame).grid;
+        grid.traversals(from, to, self.config.separation)
     }
 
     fn carry_active(&self, track: &mut Track, projection: &Projection) {

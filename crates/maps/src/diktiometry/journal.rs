@@ -8,7 +8,7 @@ use super::{Config, JournalLength, Move, Observer, PlaceId, Start, StartError, S
 
 /// All that an observer was told, in order. What it decided follows from that, to the bit: to replay the journal is to decide
 /// again.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Journal {
     /// How it began.
@@ -64,16 +64,6 @@ pub enum ReplayError {
         /// Why.
         source: StepError,
     },
-}
-
-impl Journal {
-    pub(super) const fn begun(start: Start) -> Self {
-        Self {
-            start,
-            moves: Vec::new(),
-            distinctions: Vec::new(),
-        }
-    }
 }
 
 impl Observer {

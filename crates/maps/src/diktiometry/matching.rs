@@ -8,5 +8,4 @@ mod view;
 pub(super) use engine::{Choice, choose};
 pub use matcher::Matcher;
 pub(super) use matcher::Situation;
-pub(super) use order::Traversal;
 pub(super) use view::{remember, share_a_view, similarity};

@@ -5,9 +5,9 @@ use tolman_planners::a_star;
 
 use super::{
     Action, Config, Diktiometry, Exits, Hints, Journal, JournalLength, Link, Move, Outcome,
-    Percepts, PlaceId, Plan, Predicted, Rank, Restructured, Signature, Start, StartError,
-    StepError, StepReport, Track, TrackId, TrackReport, ViewIndex, block, deposit, remember,
-    restructure, steps_along,
+    Percepts, PlaceId, PlanStep, Predicted, Rank, Restructured, Signature, Start, StartError,
+    StepError, StepReport, Track, TrackId, TrackReport, ViewIndex, deposit, remember, restructure,
+    steps_along,
 };
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
@@ -27,7 +27,6 @@ pub struct Observer {
     pub(super) rivals: bool,
     /// Tracks so far.
     pub(super) born: u32,
-    moves: u64,
     /// Its moves are kept if the configuration says so.
     pub(super) journal: Journal,
 }
@@ -41,7 +40,10 @@ impl Observer {
         config.check()?;
         check_percept(&config, start.percept.as_ref())?;
         check_exits(&config, &start.exits)?;
-        let journal = Journal::begun(start.clone());
+        let journal = Journal {
+            start: start.clone(),
+            ..Journal::default()
+        };
         let mut map = Diktiometry::default();
         let place = map.found_place();
         let first = map.place_mut(place);
@@ -61,7 +63,6 @@ impl Observer {
             rivals: false,
             tracks: Vec::from([track]),
             born: 1,
-            moves: 0,
             journal,
         })
     }
@@ -81,7 +82,7 @@ impl Observer {
     /// Moves taken in so far.
     #[must_use]
     pub const fn moves(&self) -> u64 {
-        self.moves
+        self.map.paths.now
     }
 
     /// The estimate: all tracks, the best first; never none.
@@ -117,16 +118,15 @@ impl Observer {
     }
 
     /// The actions from one place to another that are the likeliest to lead there and few, along links that probably work now
-    /// ([`PathGraph::likely`](super::PathGraph::likely)); the fewest where the world never changed. None if no way is known.
+    /// ([`PathGraph::likely`](super::PathGraph::likely)); the fewest where the world never changed. Empty if both are one, none if no way is known.
     /// O(places + links · (degree + log links)).
     #[must_use]
-    pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Plan> {
+    pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
         let way = a_star(&self.map.paths, from.0, |place| place == to.0, |_| 0)?.path;
         let ways = |place| self.map.paths.likely(place).map(|(_, link)| link.step());
-        let steps = steps_along(&way, ways)?;
-        Some(Plan { steps })
+        steps_along(&way, ways)
     }
 
     /// Takes in a move that has ended.
@@ -135,10 +135,9 @@ impl Observer {
     /// [`StepError`] if it is none; everything then is as it was.
     pub fn step(&mut self, step: &Move) -> Result<StepReport, StepError> {
         self.admit(step)?;
-        self.moves += 1;
-        self.map.paths.now = self.moves;
+        self.map.paths.now += 1;
         let mut report = StepReport {
-            number: self.moves,
+            number: self.moves(),
             tracks: Vec::new(),
             contradictions: Vec::new(),
             restructured: Vec::new(),
@@ -171,7 +170,7 @@ impl Observer {
     /// The robot is where it was, and now knows that the action leads nowhere.
     fn blocked(&mut self, step: &Move, report: &mut StepReport) {
         let here = self.place();
-        block(&mut self.map, here, step.action, &self.config);
+        self.block(here, step.action);
         let lines = self.tracks.iter().map(|track| TrackReport {
             motion: Some(PointBox::ORIGIN),
             ..track.report(track.place, None, None)

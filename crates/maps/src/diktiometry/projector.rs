@@ -1,6 +1,6 @@
-use tolman_geom::{Interval, PointBox};
+use tolman_geom::{Interval, Point, PointBox};
 
-use super::{Action, Config, Diktiometry, FrameId, Move, PlaceId, Track};
+use super::{Action, FrameId, Move, Observer, PlaceId, Track};
 
 /// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
 /// estimates and control inputs".
@@ -19,28 +19,31 @@ pub(super) struct Projection {
     pub(super) astray: f64,
 }
 
-pub(super) fn project(
-    map: &Diktiometry,
-    track: &Track,
-    step: &Move,
-    config: &Config,
-) -> Projection {
-    let (frame, position) = map.site(track.place);
-    let displacement = between_places(step.odometry.position, config);
-    Projection {
-        from: track.place,
-        action: step.action,
-        frame,
-        displacement,
-        position: position + displacement,
-        astray: track.astray + displacement.norm().middle(),
+impl Observer {
+    pub(super) fn project(&self, track: &Track, step: &Move) -> Projection {
+        let (frame, position) = self.map.site(track.place);
+        let displacement = self.between_places(step.odometry.position);
+        Projection {
+            from: track.place,
+            action: step.action,
+            frame,
+            displacement,
+            position: position + displacement,
+            astray: track.astray + displacement.norm().middle(),
+        }
     }
-}
 
-/// The robot's displacement is the places' up to where in the places it stopped.
-pub(super) fn between_places(robot: PointBox, config: &Config) -> PointBox {
-    let Ok(stops) = Interval::about(0.0, 2.0 * config.place_radius) else {
-        return robot; // Its radius was checked to be a number, and not negative.
-    };
-    robot + PointBox::new(stops, stops)
+    /// The robot's displacement is the places' up to where in the places it stopped.
+    pub(super) fn between_places(&self, robot: PointBox) -> PointBox {
+        let Ok(stops) = Interval::about(0.0, 2.0 * self.config.place_radius) else {
+            return robot; // Its radius was checked to be a number, and not negative.
+        };
+        robot + PointBox::new(stops, stops)
+    }
+
+    /// The points between which the robot went, in the frame of the place that was left.
+    pub(super) fn ends(&self, projection: &Projection) -> [Point; 2] {
+        let (_, start) = self.map.site(projection.from);
+        [start, projection.position].map(PointBox::middle)
+    }
 }

@@ -102,14 +102,7 @@ pub enum Restructured {
     LinkElided(LinkId),
 }
 
-/// A way over known links.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Plan {
-    /// The actions with the places they most often led to, in order; empty if the robot is there.
-    pub steps: Vec<PlanStep>,
-}
-
-/// One action of a plan.
+/// One action of a plan: of a way over known links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanStep {
     /// What to do.

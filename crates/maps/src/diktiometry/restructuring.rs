@@ -9,7 +9,6 @@ mod split;
 mod transients;
 
 use alloc::vec::Vec;
-use core::iter;
 
 use super::{
     Config, Diktiometry, Distinction, Estim, Fate, GeometricMerge, LinkId, PlaceId, Restructured,
@@ -121,7 +120,11 @@ pub(super) fn restructure(
             if !may_merge(pair.a)
                 || !may_merge(pair.b)
                 || distinctions.iter().any(|one| separates(map, one, &pair))
-                || !accepted(merge_verdicts(map, &pair, config))
+                || !accepted(
+                    RESTRUCTURERS
+                        .into_iter()
+                        .map(|says| says(map, &pair, config)),
+                )
             {
                 continue;
             }
@@ -150,29 +153,30 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
     ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
 }
 
-/// What each restructurer says of two places being one; asked one after the other, as far as need be.
-fn merge_verdicts(
-    map: &Diktiometry,
-    pair: &geometric::Pair,
-    config: &Config,
-) -> impl Iterator<Item = Verdict> {
-    let geometry = geometric::merge(map, pair, config);
-    // What stands where nothing else can looks new, but is the same.
-    let settled = config.restructuring.geometric_merge == GeometricMerge::Narrow
-        && geometry == Verdict::Propose;
-    let views = move || {
-        let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
-        if settled || share_a_view(a, b, &config.percepts) {
-            Verdict::Abstain
-        } else {
-            Verdict::Reject
-        }
+/// What a restructurer says of two places being one.
+type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
+
+/// They are asked one after the other, as far as need be.
+const RESTRUCTURERS: [Restructurer; 5] = [
+    geometric::merge,
+    views_differ,
+    local_path::merge,
+    non_local_path::merge,
+    look_agreement::merge,
+];
+
+/// Places that look different are not one. But what stands where nothing else can looks new, and is the same.
+fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> Verdict {
+    let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
+    let settled = || {
+        config.restructuring.geometric_merge == GeometricMerge::Narrow
+            && geometric::merge(map, pair, config) == Verdict::Propose
     };
-    iter::once(geometry)
-        .chain(iter::once_with(views))
-        .chain(iter::once_with(|| local_path::merge(map, pair, config)))
-        .chain(iter::once_with(|| non_local_path::merge(map, pair, config)))
-        .chain(iter::once_with(|| look_agreement::merge(map, pair, config)))
+    if share_a_view(a, b, &config.percepts) || settled() {
+        Verdict::Abstain
+    } else {
+        Verdict::Reject
+    }
 }
 
 /// What is proposed for a place that is two. Neither restructurer has grounds to reject what the other sees: places at one

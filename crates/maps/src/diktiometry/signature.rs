@@ -71,7 +71,19 @@ impl Signature {
     /// # Errors
     /// [`SignatureError`] if there are no values, the last column is not full, or a value is not finite.
     pub fn new(rows: usize, values: Vec<f64>) -> Result<Self, SignatureError> {
-        check_shape(rows, values.len())?;
+        let count = values.len();
+        if rows == 0 || count == 0 {
+            return Err(SignatureError::Empty {
+                rows,
+                values: count,
+            });
+        }
+        if !count.is_multiple_of(rows) {
+            return Err(SignatureError::Ragged {
+                rows,
+                values: count,
+            });
+        }
         if let Some(at) = values.iter().position(|value| !value.is_finite()) {
             return Err(SignatureError::NotFinite {
                 column: at / rows,
@@ -113,14 +125,4 @@ impl Signature {
             })
             .count()
     }
-}
-
-const fn check_shape(rows: usize, values: usize) -> Result<(), SignatureError> {
-    if rows == 0 || values == 0 {
-        return Err(SignatureError::Empty { rows, values });
-    }
-    if !values.is_multiple_of(rows) {
-        return Err(SignatureError::Ragged { rows, values });
-    }
-    Ok(())
 }

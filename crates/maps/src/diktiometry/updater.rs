@@ -1,70 +1,127 @@
 //! The updater: it "adjusts the parameters of states in the representation, for example, the position of a known point".
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
 use super::{
-    Action, Config, Diktiometry, Estim, Excluded, Exits, Expected, Link, LinkId, Place, PlaceId,
-    Projection,
+    Action, Estim, Excluded, Exits, Expected, LinkId, Observer, Place, PlaceId, Projection,
 };
 
-/// The track went from one place to another: the link between them is counted, and the boxes at both its ends are narrowed,
-/// that of the place arrived at by the one it left (as in the paper) and back.
-///
-/// `robot` is where the robot was projected to be in the frame of the place arrived at.
-///
-/// # Errors
-/// [`Excluded`] if the displacement contradicts what is known of the two frames; the boxes then stay as they were.
-pub(super) fn arrive(
-    map: &mut Diktiometry,
-    projection: &Projection,
-    to: PlaceId,
-    robot: PointBox,
-    config: &Config,
-) -> (LinkId, Result<(), Excluded>) {
-    let Projection { from, action, .. } = *projection;
-    let link = map.paths.link_to(from, action, to);
-    let blocked = &mut map.place_mut(from).blocked;
-    blocked.retain(|blocked| *blocked != action);
-    let taken = Taken {
-        link,
-        length: length(projection.displacement),
-    };
-    expect(map, from, action, Some(taken), config);
-    let taken = map.link_mut(link);
-    taken.traversed = taken.traversed.saturating_add(1);
-    let place = map.place_mut(to);
-    place.visits = place.visits.saturating_add(1);
-    estimate(place, robot, config.separation);
-    (link, narrow(map, from, to, projection.displacement))
-}
-
-/// An action led nowhere: no plan uses it until it leads somewhere again, and the links it should have gone along were expected
-/// in vain.
-pub(super) fn block(map: &mut Diktiometry, from: PlaceId, action: Action, config: &Config) {
-    let blocked = &mut map.place_mut(from).blocked;
-    if !blocked.contains(&action) {
-        blocked.push(action);
+impl Observer {
+    /// The track went from one place to another: the link between them is counted.
+    ///
+    /// `robot` is where the robot was projected to be in the frame of the place arrived at.
+    pub(super) fn arrive(
+        &mut self,
+        projection: &Projection,
+        to: PlaceId,
+        robot: PointBox,
+    ) -> LinkId {
+        let Projection { from, action, .. } = *projection;
+        let link = self.map.paths.link_to(from, action, to);
+        let blocked = &mut self.map.place_mut(from).blocked;
+        blocked.retain(|blocked| *blocked != action);
+        self.expect(from, action, Some((link, projection.displacement)));
+        let taken = self.map.link_mut(link);
+        taken.traversed = taken.traversed.saturating_add(1);
+        let place = self.map.place_mut(to);
+        place.visits = place.visits.saturating_add(1);
+        estimate(place, robot, self.config.separation);
+        link
     }
-    expect(map, from, action, None, config);
-}
 
-/// Narrows what is known of two places by an estimate of the displacement between them.
-fn narrow(
-    map: &mut Diktiometry,
-    from: PlaceId,
-    to: PlaceId,
-    displacement: PointBox,
-) -> Result<(), Excluded> {
-    let [(start, begins), (end, ends)] = [from, to].map(|place| map.site(place));
-    let frames = begins + displacement - ends;
-    map.reference.relate(start, end, frames)?;
-    let end_from_start = map.reference.known(start, end).unwrap_or(frames);
-    // Forward, as the paper does, and backward.
-    contract(map.place_mut(to), begins + displacement - end_from_start);
-    contract(map.place_mut(from), ends + end_from_start - displacement);
-    Ok(())
+    /// An action led nowhere: no plan uses it until it leads somewhere again, and the links it should have gone along were expected
+    /// in vain.
+    pub(super) fn block(&mut self, from: PlaceId, action: Action) {
+        let blocked = &mut self.map.place_mut(from).blocked;
+        if !blocked.contains(&action) {
+            blocked.push(action);
+        }
+        self.expect(from, action, None);
+    }
+
+    /// Narrows what is known of two places by an estimate of the displacement between them: the box of the second by that of the
+    /// first (as in the paper) and back.
+    ///
+    /// # Errors
+    /// [`Excluded`] if it contradicts what is known of the two frames; the boxes then stay as they were.
+    pub(super) fn narrow(
+        &mut self,
+        from: PlaceId,
+        to: PlaceId,
+        displacement: PointBox,
+    ) -> Result<(), Excluded> {
+        let map = &mut self.map;
+        let [(start, begins), (end, ends)] = [from, to].map(|place| map.site(place));
+        let frames = begins + displacement - ends;
+        map.reference.relate(start, end, frames)?;
+        let end_from_start = map.reference.known(start, end).unwrap_or(frames);
+        // Forward, as the paper does, and backward.
+        contract(map.place_mut(to), begins + displacement - end_from_start);
+        contract(map.place_mut(from), ends + end_from_start - displacement);
+        Ok(())
+    }
+
+    /// The robot saw which actions could be tried at a place: links of all others were expected there in vain.
+    pub(super) fn see_exits(&mut self, place: PlaceId, exits: &Exits) {
+        if *exits == Exits::Unknown {
+            return;
+        }
+        let links = self.map.paths.outgoing(place).map(|(_, link)| link.action);
+        let shut: BTreeSet<Action> = links.filter(|action| !exits.allow(*action)).collect();
+        for action in shut {
+            self.expect(place, action, None);
+        }
+        // What is open leads where it always led, or, if it was shut, where it mostly led.
+        let paths = &self.map.paths;
+        let here = self.map.place(place);
+        let open = paths
+            .outgoing(place)
+            .filter(|(_, link)| exits.allow(link.action));
+        let told = open.filter(|(id, link)| {
+            let alone = paths.along(place, link.action).count() == 1;
+            let again = !here.exits.allow(link.action);
+            alone || (again && paths.likeliest(place, link.action) == Some(*id))
+        });
+        let told: Vec<LinkId> = told.map(|(id, _)| id).collect();
+        let now = paths.now;
+        for id in told {
+            self.map.link_mut(id).constancy.look(Expected::Met, now);
+        }
+        self.map.place_mut(place).exits = exits.clone();
+    }
+
+    /// Counts that the links of an action, and the places they lead to, were expected, and that one of them, if any, was met: the one
+    /// `taken`, on a way of that displacement.
+    fn expect(&mut self, from: PlaceId, action: Action, taken: Option<(LinkId, PointBox)>) {
+        let (fading, now) = (self.config.transients.fading, self.map.paths.now);
+        let along = self.map.paths.along(from, action);
+        let along: Vec<(LinkId, PlaceId)> = along.map(|(id, link)| (id, link.to)).collect();
+        for (id, to) in along {
+            let met = taken.is_some_and(|(link, _)| link == id);
+            let looked_for = met || taken.is_some_and(|(_, way)| !self.ends_before(from, to, way));
+            let outcome = if met { Expected::Met } else { Expected::InVain };
+            let link = self.map.link_mut(id);
+            link.counts.expect(outcome, fading);
+            link.constancy.look(outcome, now);
+            let place = self.map.place_mut(to);
+            place.counts.expect(outcome, fading);
+            // Behind a shut door the place is still there, and so it is behind a new one.
+            if looked_for {
+                place.constancy.look(outcome, now);
+            }
+        }
+    }
+
+    /// Whether a way from a place ends before another place: two places are δ_sep apart, so that it ends before it, and not there, if it
+    /// is shorter by more than half of that. By the middles of the boxes, along ways that do not turn.
+    fn ends_before(&self, from: PlaceId, place: PlaceId, way: PointBox) -> bool {
+        let length = |displacement: PointBox| displacement.middle().coords.norm();
+        let there = self.map.related(from, place);
+        there.is_some_and(|there| length(way) + 0.5 * self.config.separation < length(there))
+    }
 }
 
 fn contract(place: &mut Place, estimate: PointBox) {
@@ -112,95 +169,4 @@ pub(super) fn merge_estims(estims: &mut Vec<Estim>, separation: f64) {
             Point::from((a.position.coords * a.weight + b.position.coords * b.weight) / weight);
         a.weight = weight;
     }
-}
-
-/// The robot saw which actions could be tried at a place: links of all others were expected there in vain.
-pub(super) fn see_exits(map: &mut Diktiometry, place: PlaceId, exits: &Exits, config: &Config) {
-    if *exits == Exits::Unknown {
-        return;
-    }
-    let links = map.paths.outgoing(place).map(|(_, link)| link.action);
-    let mut shut: Vec<Action> = links.filter(|action| !exits.allow(*action)).collect();
-    shut.sort_unstable();
-    shut.dedup();
-    for action in shut {
-        expect(map, place, action, None, config);
-    }
-    // What is open leads where it always led, or, if it was shut, where it mostly led.
-    let here = map.place(place);
-    let outgoing = map.paths.outgoing(place);
-    let open = outgoing.filter(|(_, link)| exits.allow(link.action));
-    let told = open.filter(|(id, link)| {
-        let alone = map.paths.along(place, link.action).count() == 1;
-        let again = !here.exits.allow(link.action);
-        alone || (again && map.paths.likeliest(place, link.action) == Some(*id))
-    });
-    let told: Vec<LinkId> = told.map(|(id, _)| id).collect();
-    let now = map.paths.now;
-    for id in told {
-        map.link_mut(id).constancy.look(Expected::Met, now);
-    }
-    map.place_mut(place).exits = exits.clone();
-}
-
-/// The link along which an action led.
-#[derive(Clone, Copy, Debug)]
-struct Taken {
-    link: LinkId,
-    /// How far away it ended, m.
-    length: f64,
-}
-
-/// Counts that the links of an action, and the places they lead to, were expected, and that one of them, if any, was met.
-fn expect(
-    map: &mut Diktiometry,
-    from: PlaceId,
-    action: Action,
-    taken: Option<Taken>,
-    config: &Config,
-) {
-    let (fading, now) = (config.transients.fading, map.paths.now);
-    for id in map.place(from).outgoing.clone() {
-        let Link {
-            action: led, to, ..
-        } = *map.link(id);
-        if led != action {
-            continue;
-        }
-        let is_met = taken.is_some_and(|taken| taken.link == id);
-        let ends_there =
-            |taken: Taken| !ends_before(map, from, to, taken.length, config.separation);
-        let looked_for = is_met || taken.is_some_and(ends_there);
-        let outcome = if is_met {
-            Expected::Met
-        } else {
-            Expected::InVain
-        };
-        let link = map.link_mut(id);
-        link.counts.expect(outcome, fading);
-        link.constancy.look(outcome, now);
-        let place = map.place_mut(to);
-        place.counts.expect(outcome, fading);
-        // Behind a shut door the place is still there, and so it is behind a new one.
-        if looked_for {
-            place.constancy.look(outcome, now);
-        }
-    }
-}
-
-/// Whether a way of this length from a place ends before another place: two places are δ_sep apart, so that it ends before it, and
-/// not there, if it is shorter by more than half of that. By the middles of the boxes, along ways that do not turn.
-fn ends_before(
-    map: &Diktiometry,
-    from: PlaceId,
-    place: PlaceId,
-    way: f64,
-    separation: f64,
-) -> bool {
-    let there = map.related(from, place);
-    there.is_some_and(|there| way + 0.5 * separation < length(there))
-}
-
-fn length(displacement: PointBox) -> f64 {
-    displacement.middle().coords.norm()
 }

@@ -249,7 +249,7 @@ fn no_plan_leads_through_a_door_that_was_seen_shut() {
     }
     let (here, truths) = (walk.observer.place(), walk.truths());
     let east = truths.iter().find(|(_, truth)| **truth == 1).unwrap();
-    let steps = |walk: &Walk| walk.observer.plan(here, *east.0).unwrap().steps.len();
+    let steps = |walk: &Walk| walk.observer.plan(here, *east.0).unwrap().len();
     assert_eq!(steps(&walk), 1);
     let shut = open(2).with_way(0, Direction::East, None);
     walk.robot.find_itself_in(shut.into());
@@ -282,7 +282,7 @@ fn plans_lead_round_a_door_that_may_have_moved() {
     let place = |place: u32| *truths.iter().find(|(_, truth)| **truth == place).unwrap().0;
     let steps = |walk: &Walk| {
         let plan = walk.observer.plan(place(0), place(1));
-        plan.unwrap().steps.len()
+        plan.unwrap().len()
     };
     while walk.robot.at() != 0 {
         walk.wander(1);

@@ -144,7 +144,7 @@ proptest! {
             if let Some((last, _)) = observer.map().paths.places().last()
                 && let Some(plan) = observer.plan(observer.place(), last)
             {
-                let end = plan.steps.last().map_or(observer.place(), |step| step.to);
+                let end = plan.last().map_or(observer.place(), |step| step.to);
                 prop_assert_eq!(end, last);
             }
         }

@@ -8,7 +8,7 @@ mod settings;
 
 use alloc::collections::BTreeMap;
 
-use tolman_arena::diktiometry::{ErrorSummary, Isomorphism, NEAR, PlanTrial, Survey, TAIL, WINDOW};
+use tolman_arena::diktiometry::{ErrorSummary, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row,
@@ -191,7 +191,7 @@ impl Procedure for Diktiometry {
             plans_to_gone: share(gone, plans.len()),
             places: Some(score.places),
             visited: Some(score.visited),
-            isomorphic: Some(score.isomorphism == Isomorphism::Yes),
+            isomorphic: Some(score.is_isomorphic),
         };
         Ok(run.fields()?)
     }

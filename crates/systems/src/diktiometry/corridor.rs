@@ -30,6 +30,12 @@ impl RoutineConfig {
             .is_some_and(|doorway| width < 0.5 * (self.corridor_width + doorway))
     }
 
+    /// Whether there is an opening on the left, one on the right, and a doorway.
+    fn beside(&self, view: View) -> [bool; 3] {
+        let [left, right] = [view.left, view.right].map(|range| self.is_open(range));
+        [left, right, self.is_narrow(view)]
+    }
+
     /// Returns a length that no opening and no doorway falls short of.
     pub(super) const fn shortest(&self) -> f64 {
         0.25 * self.corridor_width
@@ -123,32 +129,20 @@ pub(super) fn round_scan<S: Ranges>(sensing: &S) -> Result<&Scan, SenseError> {
 
 /// Openings and doorways beside the way, from which the middle of the next place follows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beside {
-    left: Span,
-    right: Span,
-    narrow: Span,
-}
+pub(super) struct Beside([Span; 3]);
 
 impl Beside {
     /// Returns what is beside the robot at the start: it belongs to the place just left.
     pub(super) fn at_start(view: View, gauge: &RoutineConfig) -> Self {
-        Self {
-            left: Span::at_start(gauge.is_open(view.left)),
-            right: Span::at_start(gauge.is_open(view.right)),
-            narrow: Span::at_start(gauge.is_narrow(view)),
-        }
+        Self(gauge.beside(view).map(Span::at_start))
     }
 
     /// Takes in `view` from `along` the way, m. Returns how far along the middle of a place lies,
     /// m, when what makes the place has ended.
     pub(super) fn see(&mut self, view: View, along: f64, gauge: &RoutineConfig) -> Option<f64> {
-        let shortest = gauge.shortest();
-        let middles = [
-            self.left.see(gauge.is_open(view.left), along, shortest),
-            self.right.see(gauge.is_open(view.right), along, shortest),
-            self.narrow.see(gauge.is_narrow(view), along, shortest),
-        ];
-        middles.into_iter().flatten().next()
+        let spans = self.0.iter_mut().zip(gauge.beside(view));
+        let middles = spans.map(|(span, there)| span.see(there, along, gauge.shortest()));
+        middles.fold(None, Option::or)
     }
 }
 

@@ -280,6 +280,6 @@ fn is_sure(observer: &Observer) -> bool {
 /// Returns the first direction of the plan to a place.
 fn first_step(observer: &Observer, to: PlaceId) -> Option<Direction> {
     let plan = observer.plan(observer.place(), to)?;
-    let Action(action) = plan.steps.first()?.action;
+    let Action(action) = plan.first()?.action;
     Direction::ALL.get(action as usize).copied()
 }

@@ -1,3 +1,6 @@
+use core::ops::Bound::{self, Excluded, Included};
+use core::ops::RangeBounds;
+
 use thiserror::Error;
 
 /// What a [`Surveyor`](super::Surveyor) knows of the corridors and of its robot.
@@ -68,33 +71,36 @@ impl RoutineConfig {
     /// # Errors
     /// [`RoutineConfigError`] names the first that is not.
     pub fn check(&self) -> Result<(), RoutineConfigError> {
-        let wrong = |field, value, expected| RoutineConfigError {
-            field,
-            value,
-            expected,
-        };
-        if !(0.0..=0.5).contains(&self.odometry_share) {
-            let expected = "a share from 0 to 0.5";
-            return Err(wrong("odometry_share", self.odometry_share, expected));
-        }
-        if !(0.0..f64::INFINITY).contains(&self.compass_bound) {
-            let expected = "a number of radians, 0 or more";
-            return Err(wrong("compass_bound", self.compass_bound, expected));
-        }
-        let lengths = [
-            ("corridor_width", self.corridor_width),
-            ("doorway_width", self.doorway_width.unwrap_or(1.0)),
-            ("turn_per_step", self.turn_per_step),
-            ("translate_per_step", self.translate_per_step),
+        let fields = [
+            ("odometry_share", self.odometry_share, SHARE),
+            ("compass_bound", self.compass_bound, ANGLE),
+            ("corridor_width", self.corridor_width, POSITIVE),
+            ("doorway_width", self.doorway_width.unwrap_or(1.0), POSITIVE),
+            ("turn_per_step", self.turn_per_step, POSITIVE),
+            ("translate_per_step", self.translate_per_step, POSITIVE),
         ];
-        for (field, value) in lengths {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(wrong(field, value, "a number above 0"));
+        for (field, value, (range, expected)) in fields {
+            if !range.contains(&value) {
+                return Err(RoutineConfigError {
+                    field,
+                    value,
+                    expected,
+                });
             }
         }
         Ok(())
     }
 }
+
+/// What a field may hold, and in words.
+type Allowed = ((Bound<f64>, Bound<f64>), &'static str);
+
+const SHARE: Allowed = ((Included(0.0), Included(0.5)), "a share from 0 to 0.5");
+const ANGLE: Allowed = (
+    (Included(0.0), Excluded(f64::INFINITY)),
+    "a number of radians, 0 or more",
+);
+const POSITIVE: Allowed = ((Excluded(0.0), Excluded(f64::INFINITY)), "a number above 0");
 
 #[cfg(test)]
 mod tests {

@@ -4,6 +4,7 @@ mod columns;
 mod feature_tree;
 mod triangles;
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::cell::LazyCell;
 
@@ -19,6 +20,8 @@ const DOUBLINGS: u32 = 3;
 /// All views of all places, by their columns and, if that is asked for, by triangles of their edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ViewIndex {
+    /// Whose they are.
+    places: Vec<PlaceId>,
     columns: ColumnIndex,
     triangles: TriangleIndex,
 }
@@ -29,9 +32,10 @@ impl ViewIndex {
         let Percepts::Signatures(kind) = &config.percepts else {
             return;
         };
-        self.columns.insert(place, view, kind);
+        self.places.push(place);
+        self.columns.insert(view, kind);
         if config.indexing.perceptual == PerceptualIndexing::Triangles {
-            self.triangles.insert(place, view, kind);
+            self.triangles.insert(view, kind);
         }
     }
 
@@ -49,11 +53,12 @@ impl ViewIndex {
         let seen = LazyCell::new(|| Seen::of(percept));
         // The half sizes of the growing hypercube, in those of the first.
         let sizes = (0..=DOUBLINGS).map(|doubling| f64::from(1_u32 << doubling));
-        let mut sets = sizes.map(|size| match config.indexing.perceptual {
+        let sets = sizes.map(|size| match config.indexing.perceptual {
             PerceptualIndexing::Off => Vec::new(),
-            PerceptualIndexing::Columns => self.columns.within(percept, kind, paths, size),
-            PerceptualIndexing::Triangles => self.triangles.within(&seen, kind, paths, size),
+            PerceptualIndexing::Columns => self.columns.within(percept, kind, size),
+            PerceptualIndexing::Triangles => self.triangles.within(&seen, kind, size),
         });
+        let mut sets = sets.map(|views| self.standing(&views, paths));
         sets.find(|set| !set.is_empty()).unwrap_or_default()
     }
 
@@ -66,8 +71,17 @@ impl ViewIndex {
     ) -> Vec<PlaceId> {
         match &config.percepts {
             Percepts::None => Vec::new(),
-            Percepts::Signatures(kind) => self.columns.within(percept, kind, paths, 1.0),
+            Percepts::Signatures(kind) => {
+                self.standing(&self.columns.within(percept, kind, 1.0), paths)
+            }
         }
+    }
+
+    /// The places that stand now of some views.
+    fn standing(&self, views: &[u32], paths: &PathGraph) -> Vec<PlaceId> {
+        let places = views.iter().map(|view| self.places[*view as usize]);
+        let standing: BTreeSet<PlaceId> = places.filter_map(|place| paths.resolve(place)).collect();
+        Vec::from_iter(standing)
     }
 }
 

@@ -1,7 +1,6 @@
 use alloc::vec::Vec;
 
-use super::matcher::{Certainty, find};
-use super::order::Age;
+use super::matcher::find;
 use crate::diktiometry::{Candidate, Matcher, PlaceId, Similarity, Situation};
 
 /// What the matching engine decided.
@@ -26,7 +25,8 @@ pub(crate) struct Chosen {
     /// None for a new place.
     pub(crate) candidate: Option<Candidate>,
     pub(super) look: Similarity,
-    pub(super) certainty: Certainty,
+    /// Whether the robot can be at no other place: no other is near enough to it, or none that looks like what the robot sees.
+    pub(super) is_certain: bool,
 }
 
 impl Chosen {
@@ -34,7 +34,7 @@ impl Chosen {
         matcher: Matcher::NewPlace,
         candidate: None,
         look: Similarity::Alike,
-        certainty: Certainty::Uncertain,
+        is_certain: false,
     };
 
     pub(crate) fn place(&self) -> Option<PlaceId> {
@@ -46,10 +46,6 @@ impl Chosen {
         matches!(self.matcher, Matcher::Continue | Matcher::Link)
     }
 
-    fn is_certain(&self) -> bool {
-        self.certainty == Certainty::Certain
-    }
-
     /// How far the middle of the place is from the robot's, squared, m².
     fn distance(&self) -> f64 {
         self.candidate.map_or(0.0, |candidate| {
@@ -58,14 +54,9 @@ impl Chosen {
         })
     }
 
-    fn age(&self, situation: &Situation<'_>) -> Age {
+    fn visits(&self, situation: &Situation<'_>) -> u32 {
         let place = self.place().map(|place| situation.map.place(place));
-        let visits = place.map_or(0, |place| place.visits);
-        if visits < situation.config.matching.alpha_visits {
-            Age::Young
-        } else {
-            Age::Old
-        }
+        place.map_or(0, |place| place.visits)
     }
 }
 
@@ -87,10 +78,10 @@ pub(crate) fn choose(
     }
     let mut continues = first.iter().filter(|one| one.matcher == Matcher::Continue);
     // Where the robot can be at no other place, others could only turn out to be the same.
-    let enough = if situation.precedes(Matcher::Continue, Matcher::Link, Age::Old) {
+    let enough = if situation.precedes(Matcher::Continue, Matcher::Link, 0) {
         continues.next().is_some()
     } else {
-        continues.any(Chosen::is_certain)
+        continues.any(|one| one.is_certain)
     };
     let mut sets = Vec::from([first]);
     if !enough {
@@ -101,7 +92,7 @@ pub(crate) fn choose(
     }
     // All that is certain beside the first is the same place once more.
     let all = sets.iter().flatten();
-    let certain = all.filter(|one| one.is_normal() && one.is_certain());
+    let certain = all.filter(|one| one.is_normal() && one.is_certain);
     let certain: Vec<PlaceId> = certain.filter_map(Chosen::place).collect();
 
     // The first set is joined with the first of the others.
@@ -109,10 +100,10 @@ pub(crate) fn choose(
         let joined = sets.remove(1);
         sets[0].extend(joined);
     }
-    choice.matches = maximal(situation, &applicable(sets));
+    choice.matches = maximal(situation, &applicable(&sets));
     if let Some(best) = choice.matches.first() {
         choice.look = best.look;
-        if best.is_certain() {
+        if best.is_certain {
             choice.twins = certain;
             choice.twins.retain(|place| Some(*place) != best.place());
         }
@@ -131,7 +122,7 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
 }
 
 /// The matches of the first set that has some without an error or, if there is none, some with one; these stand against a new place.
-fn applicable(sets: Vec<Vec<Chosen>>) -> Vec<Chosen> {
+fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
         let all = set.iter().copied();
         all.filter(Chosen::is_normal).collect()
@@ -153,7 +144,7 @@ fn maximal(situation: &Situation<'_>, applicable: &[Chosen]) -> Vec<Chosen> {
         } else {
             one
         };
-        situation.precedes(other.matcher, one.matcher, grown.age(situation))
+        situation.precedes(other.matcher, one.matcher, grown.visits(situation))
     };
     let maximal = |one: &&Chosen| !applicable.iter().any(|other| precedes(other, one));
     let mut matches: Vec<Chosen> = applicable.iter().filter(maximal).copied().collect();

@@ -3,8 +3,7 @@ use alloc::vec::Vec;
 use super::engine::Chosen;
 use super::view::agrees;
 use crate::diktiometry::{
-    Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Signature, Similarity,
-    Traversal, Use,
+    Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Signature, Similarity, Use,
 };
 
 /// How a track came to its place.
@@ -31,7 +30,7 @@ pub(crate) struct Situation<'a> {
     /// Distance since the last CONTINUE, m.
     pub(crate) astray: f64,
     /// How often the region just traversed was traversed before.
-    pub(crate) traversed: Traversal,
+    pub(crate) traversals: u32,
     /// The track's confidence.
     pub(crate) confidence: f64,
 }
@@ -44,16 +43,6 @@ enum Applicable {
     Doubtful,
     /// The robot is elsewhere.
     None,
-}
-
-/// Whether the robot can be at no other place than the candidate: no other is near enough to it, or none that looks
-/// like what the robot sees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Certainty {
-    /// It cannot.
-    Certain,
-    /// It may.
-    Uncertain,
 }
 
 /// The matcher that applies to a candidate; one that none can tell goes to `doubts`. Its views are compared with the percept once.
@@ -69,17 +58,13 @@ pub(super) fn find(
         Similarity::Alike => config.least_alike_distance(),
         Similarity::Unlike => config.least_distance(),
     };
-    let certainty = if candidate.is_certain(least_distance) {
-        Certainty::Certain
-    } else {
-        Certainty::Uncertain
-    };
-    match applicable(candidate, situation, look, certainty) {
+    let is_certain = candidate.is_certain(least_distance);
+    match applicable(candidate, situation, look, is_certain) {
         Applicable::Matcher(matcher) => Some(Chosen {
             matcher,
             candidate: Some(*candidate),
             look,
-            certainty,
+            is_certain,
         }),
         Applicable::Doubtful => {
             doubts.push(candidate.place);
@@ -97,16 +82,15 @@ fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,
     look: Similarity,
-    certainty: Certainty,
+    is_certain: bool,
 ) -> Applicable {
     let Situation { map, config, .. } = *situation;
     let place = map.place(candidate.place);
     let continues =
         candidate.expectation == Expectation::Expected && config.matching.continuation == Use::On;
-    let certain = certainty == Certainty::Certain;
     // What stands where nothing else can looks new, but is the same.
     let settled = config.matching.identity == Identity::Certain
-        && ((continues && candidate.is_possible()) || certain);
+        && ((continues && candidate.is_possible()) || is_certain);
     if look == Similarity::Unlike && !settled {
         return Applicable::None;
     }
@@ -115,7 +99,7 @@ fn applicable(
             _ if continues => Applicable::Matcher(Matcher::Continue),
             _ if config.matching.link == Use::Off => Applicable::Doubtful,
             Identity::Meets => Applicable::Matcher(Matcher::Link),
-            Identity::Certain if certain => Applicable::Matcher(Matcher::Link),
+            Identity::Certain if is_certain => Applicable::Matcher(Matcher::Link),
             Identity::Certain => Applicable::Doubtful,
         };
     }

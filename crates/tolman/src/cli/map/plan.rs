@@ -53,7 +53,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         writeln!(out, "that is place {}, where the plan begins", from.0)?;
     }
     let mut at = from;
-    for step in &plan.steps {
+    for step in &plan {
         let predicted = observer.predict(at, step.action);
         let likely = predicted
             .iter()

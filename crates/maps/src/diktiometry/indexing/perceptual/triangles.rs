@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use crate::diktiometry::{PathGraph, PlaceId, Rotation, Signature, SignatureKind};
+use crate::diktiometry::{Rotation, Signature, SignatureKind};
 
 /// How many edges of a view are kept, the clearest: 56 triangles.
 const EDGES: usize = 8;
@@ -25,15 +25,8 @@ const BORDERS: usize = 2 * EDGES;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TriangleIndex {
     tree: FeatureTree,
-    /// By number of the view.
-    views: Vec<View>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct View {
-    place: PlaceId,
-    /// How many of its triangles have to be found.
-    enough: usize,
+    /// How many of a view's triangles have to be found, by its number.
+    enough: Vec<usize>,
 }
 
 /// The border before a column.
@@ -71,22 +64,19 @@ impl Seen {
 }
 
 impl TriangleIndex {
-    /// Takes in a view of a place. Views with fewer than three edges have no triangle and are never found.
+    /// Takes in a view. Views with fewer than three edges have no triangle and are never found.
     ///
     /// An edge is kept if noise alone cannot make it, and borders of a percept are asked for whether it can or not: so a view whose
     /// values are seen again within the tolerance is found by all its triangles, as long as it has no more borders than are asked for
     /// or its edges are clearer than all others by four tolerances.
-    pub(super) fn insert(&mut self, place: PlaceId, view: &Signature, kind: &SignatureKind) {
+    pub(super) fn insert(&mut self, view: &Signature, kind: &SignatureKind) {
         let mut edges = borders(view);
         edges.retain(|edge| edge.clearness() > kind.tolerance);
         let edges = clearest(edges, EDGES);
         // As many as the share of the edges makes that has to agree.
         let agreeing = libm::ceil(kind.share * edges.len() as f64 - 1e-9) as usize;
-        let number = self.views.len() as u32;
-        self.views.push(View {
-            place,
-            enough: triples(agreeing).max(1),
-        });
+        let number = self.enough.len() as u32;
+        self.enough.push(triples(agreeing).max(1));
         for triangle in triangles(&edges) {
             // Whoever asks tells a triangle of several longest sides from each of them.
             if let Some(kept) = turns(triangle, view.columns()).next() {
@@ -98,15 +88,8 @@ impl TriangleIndex {
         }
     }
 
-    /// The places with a view of which enough triangles are those of a percept, their contrasts within `size` times what noise may
-    /// do. By id. O(√(triangles)) for each triangle asked for.
-    pub(super) fn within(
-        &self,
-        percept: &Seen,
-        kind: &SignatureKind,
-        paths: &PathGraph,
-        size: f64,
-    ) -> Vec<PlaceId> {
+    /// The views of which enough triangles are those of a percept, their contrasts within `size` times what noise may do. O(√(triangles)) for each triangle asked for.
+    pub(super) fn within(&self, percept: &Seen, kind: &SignatureKind, size: f64) -> Vec<u32> {
         // Each of the two columns at an edge may differ by the tolerance. Sides are whole columns.
         let mut half_sizes = Vec::from([0.0; SIDES]);
         half_sizes.resize(SIDES + 3 * kind.rows, 2.0 * kind.tolerance * size);
@@ -119,13 +102,10 @@ impl TriangleIndex {
         votes.retain(|vote| vote.offset == 0 || kind.rotation == Rotation::Free);
         votes.sort_unstable();
         let views = votes.chunk_by(|a, b| a == b).filter_map(|alike| {
-            let view = &self.views[alike[0].view as usize];
-            (alike.len() >= view.enough).then_some(view.place)
+            let view = alike[0].view;
+            (alike.len() >= self.enough[view as usize]).then_some(view)
         });
-        let mut places: Vec<PlaceId> = views.filter_map(|place| paths.resolve(place)).collect();
-        places.sort_unstable();
-        places.dedup();
-        places
+        views.collect()
     }
 }
 
@@ -212,8 +192,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::diktiometry::Diktiometry;
-    use crate::diktiometry::Rotation;
 
     const ROWS: usize = 2;
     const COLUMNS: usize = 12;
@@ -238,19 +216,11 @@ mod tests {
         Signature::new(ROWS, values.collect()).unwrap()
     }
 
-    fn places(count: usize) -> Diktiometry {
-        let mut map = Diktiometry::default();
-        for _ in 0..count {
-            map.found_place();
-        }
-        map
-    }
-
     fn index(views: &[Vec<f64>], kind: &SignatureKind) -> TriangleIndex {
         let mut index = TriangleIndex::default();
-        for (place, view) in (0..).map(PlaceId).zip(views) {
+        for view in views {
             let view = Signature::new(ROWS, view.clone()).unwrap();
-            index.insert(place, &view, kind);
+            index.insert(&view, kind);
         }
         index
     }
@@ -284,10 +254,8 @@ mod tests {
                 .collect();
             let truth = truth.index(views.len());
             let percept = seen(&views[truth], turned, &noise, brighter);
-            let map = places(views.len());
-            let found = index(&stored, &kind).within(&Seen::of(&percept), &kind, &map.paths, 1.0);
-            let place = PlaceId(truth as u32);
-            prop_assert_eq!(found.contains(&place), edges(&stored[truth], &kind) >= 3);
+            let found = index(&stored, &kind).within(&Seen::of(&percept), &kind, 1.0);
+            prop_assert_eq!(found.contains(&(truth as u32)), edges(&stored[truth], &kind) >= 3);
         }
 
         /// The same, whichever way the percept is turned.
@@ -299,11 +267,10 @@ mod tests {
         ) {
             let kind = kind(Rotation::Free);
             let index = index(&views, &kind);
-            let map = places(views.len());
             let still = vec![0.0; ROWS * COLUMNS];
             let [north, other] = [0, turned].map(|turned| {
                 let percept = seen(&percept, turned, &still, 0.0);
-                index.within(&Seen::of(&percept), &kind, &map.paths, 1.0)
+                index.within(&Seen::of(&percept), &kind, 1.0)
             });
             prop_assert_eq!(north, other);
         }
@@ -318,13 +285,12 @@ mod tests {
             view[column * ROWS] = 1.0;
         }
         let index = index(core::slice::from_ref(&view), &kind);
-        let map = places(1);
         let still = vec![0.0; ROWS * COLUMNS];
         let found = |turned: usize| {
             let percept = seen(&view, turned, &still, 0.0);
-            index.within(&Seen::of(&percept), &kind, &map.paths, 1.0)
+            index.within(&Seen::of(&percept), &kind, 1.0)
         };
-        assert_eq!(found(0), [PlaceId(0)]);
+        assert_eq!(found(0), [0]);
         assert!((1..COLUMNS).all(|turned| found(turned).is_empty()));
     }
 
@@ -344,12 +310,11 @@ mod tests {
             .map(|at| 0.1 * libm::sin(at as f64))
             .collect();
         let index = index(core::slice::from_ref(&view), &kind);
-        let map = places(1);
         for turned in [0, 1, 250, 1999] {
             let percept = Seen::of(&seen(&view, turned, &noise, 1.0));
             assert!(percept.features.len() <= 3 * triples(BORDERS));
-            let found = index.within(&percept, &kind, &map.paths, 1.0);
-            assert_eq!(found, [PlaceId(0)], "turned by {turned}");
+            let found = index.within(&percept, &kind, 1.0);
+            assert_eq!(found, [0], "turned by {turned}");
         }
     }
 }
