@@ -69,17 +69,16 @@ mod knowledge;
 mod maze;
 
 pub use cell::Cell;
-#[cfg(feature = "alloc")]
-pub use check_error::CheckError;
 pub use direction::Direction;
-#[cfg(feature = "alloc")]
-pub use formats::{
-    Fault, Format, MazeError, MazeFile, UnknownFormat, WriteError, parse, parse_as, read, read_as,
-    write,
-};
-#[cfg(feature = "alloc")]
-pub use generators::{Braided, GenerateError, Perfect, Rooms};
 pub use grid::{Grid, Wall};
 pub use knowledge::{Knowledge, Walls};
 #[cfg(feature = "alloc")]
-pub use maze::Maze;
+pub use {
+    check_error::CheckError,
+    formats::{
+        Fault, Format, MazeError, MazeFile, UnknownFormat, WriteError, parse, parse_as, read,
+        read_as, write,
+    },
+    generators::{Braided, GenerateError, Perfect, Rooms},
+    maze::Maze,
+};

@@ -46,19 +46,16 @@ mod pose_set;
 pub mod speed_run;
 mod step_map;
 
-#[cfg(feature = "alloc")]
-pub use arcs::Arcs;
-#[cfg(feature = "alloc")]
-pub use best_first::{Found, a_star, best_first};
-#[cfg(feature = "alloc")]
-pub use breadth_first::steps_from;
-#[cfg(feature = "alloc")]
-pub use compression::compressed;
-#[cfg(feature = "alloc")]
-pub use dijkstra::costs_from;
 pub use graph::Graph;
 pub use passages::{Passages, Unknown};
-#[cfg(feature = "alloc")]
-pub use path::path_to;
 pub use pose_set::{Location, PoseSet};
 pub use step_map::StepMap;
+#[cfg(feature = "alloc")]
+pub use {
+    arcs::Arcs,
+    best_first::{Found, a_star, best_first},
+    breadth_first::steps_from,
+    compression::compressed,
+    dijkstra::costs_from,
+    path::path_to,
+};

@@ -67,24 +67,33 @@ impl<const N: usize> PoseSet<N> {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
         let fits = usize::from(grid.width().max(grid.height())) <= N;
         let grid = if fits { grid } else { Grid::new(0, 0) };
-        let mut poses = Self {
-            grid,
-            cells: [[0; N]; 4],
-            guess: None,
-        };
-        for cell in grid.cells() {
-            for heading in Direction::ALL {
-                poses.insert(cell, heading);
+        let headings = |cell| Direction::ALL.map(|heading| (cell, heading));
+        Self::of(grid, grid.cells().flat_map(headings), None)
+    }
+
+    fn of(
+        grid: Grid,
+        poses: impl Iterator<Item = (Cell, Direction)>,
+        guess: Option<(Cell, Direction)>,
+    ) -> Self {
+        let mut cells = [[0; N]; 4];
+        for (cell, heading) in poses {
+            let rows = cells.get_mut(heading.index());
+            if let Some(row) = rows.and_then(|rows| rows.get_mut(usize::from(cell.y))) {
+                *row |= 1 << (cell.x % 32);
             }
         }
-        poses
+        Self { grid, cells, guess }
     }
 
     /// Takes in that the mouse sees its cell open, or a wall there, to `side`. Where the map does not know,
     /// both can be. O(N²).
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
-        self.retain(|cell, heading| walls.knowledge(cell, heading.turned(side)) != contrary);
+        let fits = |(cell, heading): &(Cell, Direction)| {
+            walls.knowledge(*cell, heading.turned(side)) != contrary
+        };
+        *self = Self::of(self.grid, self.iter().filter(fits), self.guess);
     }
 
     /// Takes in that the mouse has turned to `side` and driven one cell. O(N²).
@@ -96,15 +105,8 @@ impl<const N: usize> PoseSet<N> {
             let next = grid.neighbour(cell, heading).filter(|_| free)?;
             Some((next, heading))
         };
-        let mut after = Self {
-            grid,
-            cells: [[0; N]; 4],
-            guess: self.guess.and_then(driven),
-        };
-        for (cell, heading) in self.iter().filter_map(driven) {
-            after.insert(cell, heading);
-        }
-        *self = after;
+        let guess = self.guess.and_then(driven);
+        *self = Self::of(grid, self.iter().filter_map(driven), guess);
     }
 
     /// Where the mouse is, as far as that is clear.
@@ -211,24 +213,6 @@ impl<const N: usize> PoseSet<N> {
         let rows = self.cells.get(heading.index());
         let row = rows.and_then(|rows| rows.get(usize::from(cell.y)));
         self.grid.contains(cell) && row.is_some_and(|row| row >> (cell.x % 32) & 1 == 1)
-    }
-
-    fn insert(&mut self, cell: Cell, heading: Direction) {
-        let rows = self.cells.get_mut(heading.index());
-        if let Some(row) = rows.and_then(|rows| rows.get_mut(usize::from(cell.y))) {
-            *row |= 1 << (cell.x % 32);
-        }
-    }
-
-    fn retain(&mut self, mut keep: impl FnMut(Cell, Direction) -> bool) {
-        let mut kept = Self {
-            cells: [[0; N]; 4],
-            ..*self
-        };
-        for (cell, heading) in self.iter().filter(|(cell, heading)| keep(*cell, *heading)) {
-            kept.insert(cell, heading);
-        }
-        *self = kept;
     }
 }
 

@@ -34,7 +34,7 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct AssociativeMemory<S> {
+pub struct AssociativeMemory<S: Scalar> {
     soinn: Soinn<S>,
     /// Features of a key; those of its response follow.
     key_dimension: usize,
@@ -232,7 +232,7 @@ impl<S: Scalar> AssociativeMemory<S> {
 
 /// One association after the other: see [`AssociativeMemory::chain`].
 #[derive(Clone, Debug)]
-pub struct Chain<'a, S> {
+pub struct Chain<'a, S: Scalar> {
     memory: &'a AssociativeMemory<S>,
     next: Vec<S>,
     reach: S,

@@ -38,16 +38,9 @@ use crate::{
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "SavedGng<S>",
-        into = "SavedGng<S>",
-        bound(
-            serialize = "S: Scalar + serde::Serialize",
-            deserialize = "S: Scalar + serde::Deserialize<'de>"
-        )
-    )
+    serde(try_from = "SavedGng<S>", into = "SavedGng<S>")
 )]
-pub struct Gng<S> {
+pub struct Gng<S: Scalar> {
     config: GngConfig,
     network: Network<S>,
     /// By slot.

@@ -32,7 +32,9 @@ pub trait Scalar:
     /// The same value, exactly.
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.
-    fn is_finite(self) -> bool;
+    fn is_finite(self) -> bool {
+        self.to_f64().is_finite()
+    }
 
     /// The largest squared distance that shall ever occur. It leaves room for sums of errors.
     #[doc(hidden)]
@@ -58,10 +60,6 @@ impl Scalar for f32 {
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
-    #[inline(always)]
-    fn is_finite(self) -> bool {
-        f32::is_finite(self)
-    }
 }
 
 impl Scalar for f64 {
@@ -76,9 +74,5 @@ impl Scalar for f64 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         self
-    }
-    #[inline(always)]
-    fn is_finite(self) -> bool {
-        f64::is_finite(self)
     }
 }

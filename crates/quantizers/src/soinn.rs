@@ -47,16 +47,9 @@ use crate::{
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(
-        try_from = "SavedSoinn<S>",
-        into = "SavedSoinn<S>",
-        bound(
-            serialize = "S: Scalar + serde::Serialize",
-            deserialize = "S: Scalar + serde::Deserialize<'de>"
-        )
-    )
+    serde(try_from = "SavedSoinn<S>", into = "SavedSoinn<S>")
 )]
-pub struct Soinn<S> {
+pub struct Soinn<S: Scalar> {
     config: SoinnConfig,
     network: Network<S>,
     /// By slot.

@@ -1,7 +1,7 @@
 //! Noise and faults: what comes between a sensor and its reading, or a motor and its motion.
 //!
 //! A [`Fault`] changes a value after it was read or made and knows nothing of where it came from;
-//! [`Faulty`] wraps a sensor in several, one after the other. Every fault draws from a
+//! [`Faults`] are several of one value, one after the other. Every fault draws from a
 //! [`Channel`](crate::Channel) of its own, so none shifts another one's numbers.
 //!
 //! To add one: give [`Fault`] a variant. Kidnapping is no fault of the robot: see
@@ -11,11 +11,11 @@ use tolman_geom::Heading;
 use tolman_robot::{ColumnImage, Scan};
 
 mod fault;
-mod faulty;
+mod faults;
 mod gaussian;
 
 pub use fault::{Fault, FaultError, FaultsError};
-pub use faulty::{Faults, Faulty};
+pub use faults::Faults;
 pub use gaussian::Gaussian;
 
 /// A value made of numbers that can be disturbed one by one.

@@ -1,7 +1,7 @@
 use tolman_maze::{Cell, Direction};
 
 use super::buckets::Buckets;
-use super::moves::{Further, for_each_straight, for_each_turn};
+use super::moves::{for_each_turn, straights};
 use super::state::{Facing, Node, STATES_PER_CELL};
 use super::{RunState, SpeedRun, SpeedRunTimes};
 use crate::Passages;
@@ -172,19 +172,18 @@ impl<const N: usize> SpeedRunMap<N> {
             let time = states.get(state).copied().unwrap_or(NEVER);
             let node = Node { cell, state };
             if by_straight >> state & 1 == 0 {
-                let straights = match node.facing() {
+                let lengths = match node.facing() {
                     Facing::Straight(_) => times.straights(),
                     Facing::Diagonal(..) => times.diagonals(),
                 };
-                for_each_straight::<N>(sides, node, |cells, to| {
+                for (cells, to) in straights::<N>(sides, node) {
                     // Who got there no later than we set out is ahead of us all the way.
                     if self.time(to) <= time {
-                        return Further::No;
+                        break;
                     }
-                    let takes = straights.get(cells).copied().unwrap_or(NEVER);
+                    let takes = lengths.get(cells).copied().unwrap_or(NEVER);
                     self.arrive(to, time.saturating_add(takes), Arrival::Straight, times);
-                    Further::Yes
-                });
+                }
             }
             for_each_turn::<N>(sides, node, |slalom, _, to| {
                 let takes = times.slalom().time_ms(slalom);

@@ -177,48 +177,29 @@ pub(super) fn for_each_turn<const N: usize>(
     }
 }
 
-/// Every cell count `n` and end of the straights that lead on from `node`, nearest first, until `visit` says
-/// to stop.
+/// Every cell count `n` and end of the straights that lead on from `node`, nearest first.
 #[inline(always)]
-pub(super) fn for_each_straight<const N: usize>(
+pub(super) fn straights<const N: usize>(
     sides: &[u8],
     node: Node,
-    mut visit: impl FnMut(usize, Node) -> Further,
-) {
-    let open = |cell, direction| is_open(sides, cell, direction);
-    match node.facing() {
-        Facing::Straight(ahead) => {
-            let mut cell = node.cell;
-            for n in 1.. {
-                if !open(cell, ahead) {
-                    return;
-                }
-                cell = beside::<N>(cell, ahead);
-                if visit(n, Node::straight(cell, ahead)) == Further::No {
-                    return;
-                }
-            }
+) -> impl Iterator<Item = (usize, Node)> {
+    let mut cell = node.cell;
+    // Along a diagonal the two directions take turns.
+    let (mut into, mut out) = match node.facing() {
+        Facing::Straight(ahead) => (ahead, ahead),
+        Facing::Diagonal(into, out) => (into, out),
+    };
+    let is_straight = into == out;
+    (1..).map_while(move |n| {
+        if !is_open(sides, cell, out) {
+            return None;
         }
-        Facing::Diagonal(mut into, mut out) => {
-            let mut cell = node.cell;
-            for n in 1.. {
-                if !open(cell, out) {
-                    return;
-                }
-                cell = beside::<N>(cell, out);
-                (into, out) = (out, into);
-                // The edge reached has to lead on.
-                if !open(cell, out) || visit(n, Node::diagonal(cell, into, out)) == Further::No {
-                    return;
-                }
-            }
+        cell = beside::<N>(cell, out);
+        (into, out) = (out, into);
+        if is_straight {
+            return Some((n, Node::straight(cell, out)));
         }
-    }
-}
-
-/// Whether a visitor wants to see more of a straight.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Further {
-    Yes,
-    No,
+        // The edge reached has to lead on.
+        is_open(sides, cell, out).then(|| (n, Node::diagonal(cell, into, out)))
+    })
 }

@@ -1,6 +1,6 @@
 use tolman_maze::{Cell, Direction};
 
-use super::moves::{Further, RunMove, RunStep, for_each_straight, for_each_turn};
+use super::moves::{RunMove, RunStep, for_each_turn, straights};
 use super::state::{Facing, Node};
 use super::{RunState, SpeedRunMap, SpeedRunTimes};
 use crate::Passages;
@@ -68,27 +68,13 @@ impl<const N: usize> Iterator for SpeedRun<'_, N> {
             return None;
         }
         let fits = |to: Node, takes: u16| map.time_from(to).checked_add(takes) == Some(left);
-        let mut found = None;
-        for_each_straight::<N>(sides, from, |cells, to| {
+        let mut found = straights::<N>(sides, from).find_map(|(length, to)| {
+            let cells = length as u16;
             let (takes, run_move) = match from.facing() {
-                Facing::Straight(_) => (
-                    times.straight_ms(cells),
-                    RunMove::Straight {
-                        cells: cells as u16,
-                    },
-                ),
-                Facing::Diagonal(..) => (
-                    times.diagonal_ms(cells),
-                    RunMove::Diagonal {
-                        cells: cells as u16,
-                    },
-                ),
+                Facing::Straight(_) => (times.straight_ms(length), RunMove::Straight { cells }),
+                Facing::Diagonal(..) => (times.diagonal_ms(length), RunMove::Diagonal { cells }),
             };
-            if takes.is_some_and(|takes| fits(to, takes)) {
-                found = Some((run_move, to));
-                return Further::No;
-            }
-            Further::Yes
+            fits(to, takes?).then_some((run_move, to))
         });
         if found.is_none() {
             for_each_turn::<N>(sides, from, |slalom, side, to| {

@@ -63,11 +63,7 @@ impl Links {
     /// The neighbours of a slot in ascending order, with the ages of the edges.
     #[inline]
     pub(crate) fn ages(&self, slot: usize) -> impl DoubleEndedIterator<Item = (usize, u32)> + '_ {
-        let wins = self.wins[slot];
-        self.halves(slot).iter().map(move |half| {
-            let both = wins.wrapping_add(self.wins[half.to as usize]);
-            (half.to as usize, both.wrapping_sub(half.renewed))
-        })
+        (0..self.degree(slot)).map(move |place| self.at(slot, place))
     }
 
     /// The neighbour at `place` in ascending order, and the edge's age.
@@ -80,8 +76,7 @@ impl Links {
 
     /// The last neighbour, and the edge's age.
     pub(crate) fn last(&self, slot: usize) -> Option<(usize, u32)> {
-        let place = self.degree(slot).checked_sub(1)?;
-        Some(self.at(slot, place))
+        self.ages(slot).next_back()
     }
 
     /// Ages all edges of a slot by one.

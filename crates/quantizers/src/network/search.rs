@@ -63,16 +63,10 @@ impl<S: Scalar> Best<S> {
         }
         for (lane, squared_distance) in sums.iter().copied().enumerate() {
             if squared_distance < self.second.squared_distance {
-                let candidate = Candidate {
+                self.offer(Candidate {
                     squared_distance,
                     slot: (start + lane) as u32,
-                };
-                if squared_distance < self.first.squared_distance {
-                    self.second = self.first;
-                    self.first = candidate;
-                } else {
-                    self.second = candidate;
-                }
+                });
             }
         }
     }

@@ -70,15 +70,6 @@ pub(crate) struct Tree<S> {
     len: usize,
     /// What a rebuild works on; kept so as not to allocate.
     slots: Vec<u32>,
-    open_parts: Vec<Part>,
-}
-
-/// Slots that are yet to be divided, and the leaf that stands for them meanwhile.
-#[derive(Clone, Copy, Debug)]
-struct Part {
-    start: u32,
-    end: u32,
-    leaf: u32,
 }
 
 impl<S: Scalar> Leaf<S> {
@@ -116,48 +107,48 @@ impl<S: Scalar> Tree<S> {
             places: vec![Place::default(); highest],
             len: 0,
             slots: slots.map(|slot| slot as u32).collect(),
-            open_parts: Vec::new(),
         };
         tree.len = tree.slots.len();
-        tree.fill(prototypes);
+        tree.build(prototypes);
         tree
     }
 
     /// Builds a balanced tree of all of `self.slots`.
-    fn fill(&mut self, prototypes: &Prototypes<S>) {
+    fn build(&mut self, prototypes: &Prototypes<S>) {
         self.nodes.clear();
         self.nodes.push(Node::Leaf(0));
         self.leaves.clear();
         self.leaves.push(Leaf::root());
         let mut slots = core::mem::take(&mut self.slots);
-        self.open_parts.push(Part {
-            start: 0,
-            end: slots.len() as u32,
-            leaf: 0,
-        });
-        while let Some(part) = self.open_parts.pop() {
-            let range = part.start as usize..part.end as usize;
-            if range.len() <= LANES {
-                for slot in &slots[range] {
-                    self.put(part.leaf, *slot, prototypes);
-                }
-                continue;
-            }
-            let division = divide(&mut slots[range], self.dimension, prototypes);
-            let leaf = self.fork(part.leaf, division.feature, division.split);
-            let middle = part.start + division.middle as u32;
-            self.open_parts.push(Part {
-                end: middle,
-                ..part
-            });
-            self.open_parts.push(Part {
-                start: middle,
-                leaf,
-                ..part
-            });
-        }
+        self.fill(0, &mut slots, prototypes);
         slots.clear();
         self.slots = slots;
+    }
+
+    /// Enters units into an empty leaf's region, divided until every leaf has room for its own.
+    fn fill(&mut self, leaf: u32, slots: &mut [u32], prototypes: &Prototypes<S>) {
+        if slots.len() > LANES {
+            return self.divide(leaf, slots, prototypes);
+        }
+        for slot in slots {
+            self.put(leaf, *slot, prototypes);
+        }
+    }
+
+    /// Divides an empty leaf's region by the feature that spreads its units most, at their median, and enters them.
+    /// Equal values are ordered by slot, so that the division does not depend on the order before.
+    fn divide(&mut self, leaf: u32, slots: &mut [u32], prototypes: &Prototypes<S>) {
+        let feature = widest(slots, self.dimension, prototypes);
+        let at = |slot: u32| prototypes.at(slot as usize, feature);
+        let middle = slots.len() / 2;
+        let (_, median, _) = slots.select_nth_unstable_by(middle, |a, b| {
+            let order = at(*a).partial_cmp(&at(*b));
+            order.unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(b))
+        });
+        let upper = self.fork(leaf, feature, at(*median));
+        let (below, above) = slots.split_at_mut(middle);
+        self.fill(upper, above, prototypes);
+        self.fill(leaf, below, prototypes);
     }
 
     /// Divides an empty leaf's region; the leaf keeps the lower part, and the new leaf for the upper part is returned.
@@ -252,13 +243,8 @@ impl<S: Scalar> Tree<S> {
     /// Divides a full leaf into two.
     fn divide_leaf(&mut self, leaf: u32, prototypes: &Prototypes<S>) {
         let mut slots = self.leaves[leaf as usize].slots;
-        let division = divide(&mut slots, self.dimension, prototypes);
         self.leaves[leaf as usize].clear();
-        let upper = self.fork(leaf, division.feature, division.split);
-        for (place, slot) in slots.into_iter().enumerate() {
-            let side = if place < division.middle { leaf } else { upper };
-            self.put(side, slot, prototypes);
-        }
+        self.divide(leaf, &mut slots, prototypes);
     }
 
     /// Builds the tree anew.
@@ -268,7 +254,7 @@ impl<S: Scalar> Tree<S> {
             let slots = &leaf.slots[..leaf.len as usize];
             self.slots.extend_from_slice(slots);
         }
-        self.fill(prototypes);
+        self.build(prototypes);
     }
 
     /// Takes a unit out.
@@ -387,26 +373,13 @@ impl<S: Scalar> Tree<S> {
     }
 }
 
-/// Where slots are divided: those from `middle` on are not below `split` in `feature`, the others not above it.
-struct Division<S> {
-    feature: usize,
-    split: S,
-    middle: usize,
-}
-
-/// Orders `slots` by the feature in which they are spread most, and divides them in the middle. Equal values are
-/// ordered by slot, so that the division does not depend on the order before.
-fn divide<S: Scalar>(
-    slots: &mut [u32],
-    dimension: usize,
-    prototypes: &Prototypes<S>,
-) -> Division<S> {
-    let at = |slot: u32, feature| prototypes.at(slot as usize, feature);
+/// The feature in which units are spread most.
+fn widest<S: Scalar>(slots: &[u32], dimension: usize, prototypes: &Prototypes<S>) -> usize {
     let mut widest = (0, S::ZERO - S::INFINITY);
     for feature in 0..dimension {
         let (mut low, mut high) = (S::INFINITY, S::ZERO - S::INFINITY);
-        for slot in slots.iter() {
-            let value = at(*slot, feature);
+        for slot in slots {
+            let value = prototypes.at(*slot as usize, feature);
             if value < low {
                 low = value;
             }
@@ -418,15 +391,5 @@ fn divide<S: Scalar>(
             widest = (feature, high - low);
         }
     }
-    let feature = widest.0;
-    let middle = slots.len() / 2;
-    let (_, median, _) = slots.select_nth_unstable_by(middle, |a, b| {
-        let order = at(*a, feature).partial_cmp(&at(*b, feature));
-        order.unwrap_or(core::cmp::Ordering::Equal).then(a.cmp(b))
-    });
-    Division {
-        feature,
-        split: at(*median, feature),
-        middle,
-    }
+    widest.0
 }

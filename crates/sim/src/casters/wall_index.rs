@@ -67,30 +67,15 @@ impl WallIndex {
             .max(longest / count)
             .max(most)
             .max(1e-9);
-        let level_of = |wall: &Wall| {
-            let mut level = 0;
-            let mut cell = base;
-            while extent(wall) > cell {
-                level += 1;
-                cell *= 2.0;
+        let (mut levels, mut sorted) = (Vec::new(), Vec::with_capacity(walls.len()));
+        let (mut rest, mut cell) = (walls.to_vec(), base);
+        while !rest.is_empty() {
+            let (larger, fitting): (Vec<Wall>, _) =
+                rest.into_iter().partition(|wall| extent(wall) > cell);
+            if !fitting.is_empty() {
+                levels.push(Level::new(fitting, cell, &mut sorted));
             }
-            level
-        };
-        let mut by_level: Vec<Vec<Wall>> = Vec::new();
-        for wall in walls {
-            let level: usize = level_of(wall);
-            if by_level.len() <= level {
-                by_level.resize(level + 1, Vec::new());
-            }
-            by_level[level].push(*wall);
-        }
-        let mut sorted = Vec::with_capacity(walls.len());
-        let mut levels = Vec::new();
-        let mut cell = base;
-        for walls in by_level {
-            if !walls.is_empty() {
-                levels.push(Level::new(walls, cell, &mut sorted));
-            }
+            rest = larger;
             cell *= 2.0;
         }
         let trace = |wall: &Wall| Trace {
@@ -166,7 +151,7 @@ impl WallIndex {
 
 impl Level {
     /// The level of `walls` that extend no further than `largest`; appends them to `sorted` in order of cells.
-    fn new(walls: Vec<Wall>, largest: f64, sorted: &mut Vec<Wall>) -> Self {
+    fn new(mut walls: Vec<Wall>, largest: f64, sorted: &mut Vec<Wall>) -> Self {
         let cell = 0.5 * largest;
         let middles = Bounds::of(walls.iter().map(middle));
         let columns = (middles.width() / cell) as usize + 1;
@@ -178,20 +163,13 @@ impl Level {
             row * columns + column
         };
         let reach = walls.iter().map(extent).fold(0.0, f64::max) * (0.5 + 1e-9) + 1e-9;
-        let mut placed: Vec<(usize, Wall)> = walls
-            .into_iter()
-            .map(|wall| (cell_of(&wall), wall))
+        walls.sort_by_key(cell_of);
+        let before = sorted.len();
+        let start = |cell| before + walls.partition_point(|wall| cell_of(wall) < cell);
+        let starts = (0..=columns * rows)
+            .map(|cell| start(cell) as u32)
             .collect();
-        placed.sort_by_key(|(cell, _)| *cell);
-        let mut starts = Vec::with_capacity(columns * rows + 1);
-        let mut placed = placed.into_iter().peekable();
-        for cell in 0..columns * rows {
-            starts.push(sorted.len() as u32);
-            while let Some((_, wall)) = placed.next_if(|(at, _)| *at == cell) {
-                sorted.push(wall);
-            }
-        }
-        starts.push(sorted.len() as u32);
+        sorted.extend(walls);
         Self {
             corner: middles.min,
             cell,

@@ -2,7 +2,7 @@ use thiserror::Error;
 use tolman_robot::{Body, CameraSensing, ColumnImage, TurnTranslate};
 
 use super::{ConfigError, LaserPioneer, LaserPioneerConfig};
-use crate::noise::{Fault, FaultsError, Faulty};
+use crate::noise::{Fault, Faults, FaultsError};
 use crate::sensors::{CameraError, ColumnCamera, Sensor};
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
@@ -25,7 +25,8 @@ pub struct CameraPioneerConfig {
 #[derive(Clone, Debug)]
 pub struct CameraPioneer {
     pioneer: LaserPioneer,
-    camera: Faulty<ColumnCamera>,
+    camera: ColumnCamera,
+    image: Faults<ColumnImage>,
     columns: u32,
 }
 
@@ -39,7 +40,8 @@ impl CameraPioneer {
         let camera = ColumnCamera::new(config.columns, config.reach)?;
         Ok(Self {
             pioneer: LaserPioneer::new(config.pioneer)?,
-            camera: Faulty::new("image", camera, config.image),
+            camera,
+            image: Faults::new("image", config.image),
             columns: config.columns,
         })
     }
@@ -79,6 +81,7 @@ impl Model for CameraPioneer {
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut CameraSensing) {
         self.pioneer.sense(around, chance, &mut sensing.laser);
         self.camera.sense(around, chance, &mut sensing.image);
+        self.image.disturb(&mut sensing.image, chance);
     }
 }
 

@@ -6,7 +6,7 @@ use tolman_robot::epuck::{
     WheelSpeeds, WheelTurns, proximity_mounts,
 };
 
-use crate::noise::{Fault, Faults, FaultsError, Faulty};
+use crate::noise::{Fault, Faults, FaultsError};
 use crate::sensors::{Infrared, ResponseCurve, ResponseError, Sensor};
 use crate::trace::Recordable;
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
@@ -71,7 +71,8 @@ pub struct Epuck {
     right: Faults<f64>,
     /// What the wheels turned in this step.
     turned: WheelTurns,
-    proximity: Faulty<Infrared<PROXIMITY_SENSORS>>,
+    infrared: Infrared<PROXIMITY_SENSORS>,
+    proximity: Faults<[f64; PROXIMITY_SENSORS]>,
 }
 
 impl Epuck {
@@ -94,7 +95,8 @@ impl Epuck {
             left: Faults::new("left wheel", config.wheels.iter().copied()),
             right: Faults::new("right wheel", config.wheels.iter().copied()),
             turned: WheelTurns::default(),
-            proximity: Faulty::new("proximity", infrared, config.proximity.iter().copied()),
+            infrared,
+            proximity: Faults::new("proximity", config.proximity.iter().copied()),
             config,
         })
     }
@@ -154,7 +156,8 @@ impl Model for Epuck {
 
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut EpuckSensing) {
         sensing.time_us = around.truth.time_us;
-        self.proximity.sense(around, chance, &mut sensing.proximity);
+        self.infrared.sense(around, chance, &mut sensing.proximity);
+        self.proximity.disturb(&mut sensing.proximity, chance);
         sensing.encoders = Some(self.turned);
         sensing.bump = Some(around.truth.bump);
     }

@@ -1,8 +1,8 @@
 use thiserror::Error;
 use tolman_geom::Heading;
-use tolman_robot::{Body, LaserSensing, Odometry, Ring, TurnTranslate};
+use tolman_robot::{Body, LaserSensing, Odometry, Ring, Scan, TurnTranslate};
 
-use crate::noise::{Fault, Faults, FaultsError, Faulty, Gaussian};
+use crate::noise::{Fault, Faults, FaultsError, Gaussian};
 use crate::sensors::{Laser, LaserError, Sensor};
 use crate::trace::Recordable;
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
@@ -141,7 +141,8 @@ pub struct LaserPioneer {
     body: Body,
     motor_turn: Faults<f64>,
     motor_distance: Faults<f64>,
-    laser: Faulty<Laser>,
+    laser: Laser,
+    scan: Faults<Scan>,
     compass: Faults<Heading>,
     odometry_distance: Faults<f64>,
     odometry_turn: Faults<f64>,
@@ -175,7 +176,8 @@ impl LaserPioneer {
                 "motor distance",
                 all(motors.translate, &faults.motor_distance),
             ),
-            laser: Faulty::new("scan", laser, all(config.scan_noise, &faults.scan)),
+            laser,
+            scan: Faults::new("scan", all(config.scan_noise, &faults.scan)),
             compass: Faults::new("compass", all(config.compass_noise, &faults.compass)),
             odometry_distance: Faults::new("odometry distance", distance),
             odometry_turn: Faults::new(
@@ -246,6 +248,7 @@ impl Model for LaserPioneer {
     fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, sensing: &mut LaserSensing) {
         sensing.time_us = around.truth.time_us;
         self.laser.sense(around, chance, &mut sensing.scan);
+        self.scan.disturb(&mut sensing.scan, chance);
         sensing.compass = Some(around.truth.pose.heading);
         self.compass.disturb(&mut sensing.compass, chance);
         // Wheels that a contact holds do not roll.

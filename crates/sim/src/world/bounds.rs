@@ -39,9 +39,6 @@ impl Bounds {
     /// Whether `point` lies inside or on the edge.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
-        self.min.x <= point.x
-            && point.x <= self.max.x
-            && self.min.y <= point.y
-            && point.y <= self.max.y
+        self.min <= point && point <= self.max
     }
 }

@@ -1,7 +1,6 @@
 use super::fault::Past;
 use super::{Fault, Values};
-use crate::sensors::Sensor;
-use crate::{Chance, Channel, Surroundings};
+use crate::{Chance, Channel};
 
 /// Faults of one value, one after the other, each with its memory and its channel.
 #[derive(Clone, Debug)]
@@ -30,38 +29,5 @@ impl<V: Values> Faults<V> {
         for (index, (fault, past)) in (0..).zip(&mut self.each) {
             fault.disturb(value, past, &mut chance.draws(self.channel.nth(index)));
         }
-    }
-}
-
-/// A sensor with faults.
-#[derive(Clone, Debug)]
-pub struct Faulty<S: Sensor> {
-    sensor: S,
-    faults: Faults<S::Reading>,
-}
-
-impl<S: Sensor<Reading: Values>> Faulty<S> {
-    /// `sensor` with `faults`, the first nearest to the truth. No other sensor of the robot may have
-    /// the same `name`.
-    #[must_use]
-    pub fn new(name: &str, sensor: S, faults: impl IntoIterator<Item = Fault>) -> Self {
-        Self {
-            sensor,
-            faults: Faults::new(name, faults),
-        }
-    }
-}
-
-impl<S: Sensor<Reading: Values>> Sensor for Faulty<S> {
-    type Reading = S::Reading;
-
-    fn sense(
-        &mut self,
-        surroundings: &Surroundings<'_>,
-        chance: &Chance,
-        reading: &mut Option<S::Reading>,
-    ) {
-        self.sensor.sense(surroundings, chance, reading);
-        self.faults.disturb(reading, chance);
     }
 }
