@@ -3,15 +3,15 @@
 
 use core::fmt::Debug;
 
-use tolman_arena::cpm::{Landmarks, Venue, is_whole_map_right, ring_measures};
+use tolman_arena::cpm::{Venue, is_whole_map_right, ring_measures};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyorConfig, mapper};
 use tolman_arena::micromouse::brief;
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, ring};
-use tolman_arena::run::{End, Watched, run};
+use tolman_arena::run::{End, Limited, run};
+use tolman_arena::{Landmarks, Simulated};
 use tolman_control::Stack;
 use tolman_maze::Maze;
-use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Robot, SensesLandmarks, System, Task};
-use tolman_sim::Solo;
+use tolman_robot::{Goal, Landmark, Mapper, SensesLandmarks, System, Task};
 use tolman_sim::robots::LaserPioneer;
 use tolman_systems::Actor;
 use tolman_systems::cpm::{Cpm, CpmConfig, RingAsEpuck};
@@ -25,14 +25,8 @@ const MAZE: &str = include_str!("../../mazes/forks.maze");
 const SEED: u64 = 1;
 const STEP_LIMIT: u32 = 100_000;
 
-/// Who tells the robot what it stands at.
-type Tells = Box<dyn Fn(&Solo<LaserPioneer>) -> Option<Landmark>>;
-
 /// The robot that all systems drive.
-type Pioneer = Landmarked<Solo<LaserPioneer>, Tells>;
-
-/// A run that nobody watches.
-type Unwatched<R> = Watched<R, fn(&R, &<R as Robot>::Command)>;
+type Pioneer = Simulated<LaserPioneer>;
 
 fn maze() -> Maze {
     tolman_maze::read(MAZE).unwrap().maze
@@ -43,19 +37,17 @@ fn pioneer() -> Pioneer {
     let landmarks = Landmarks::of(&venue.world);
     let model = LaserPioneer::new(calibrated()).unwrap();
     let start = venue.start().unwrap();
-    let solo = Solo::new(venue.world, model, start, SEED).unwrap();
-    let tells: Tells = Box::new(move |solo| landmarks.at(solo.truth().pose.position));
-    Landmarked::new(solo, tells)
+    Simulated::new(venue.world, landmarks, model, start, SEED).unwrap()
 }
 
 /// Lets `system` explore with `robot` and then go to the goal. Returns the time steps of both.
 fn explore_and_reach<R, S>(robot: R, system: &mut S) -> (u32, u32)
 where
     R: SensesLandmarks,
-    S: System<Unwatched<R>>,
+    S: System<Limited<R>>,
     S::Failure: Debug,
 {
-    let mut robot: Unwatched<R> = Watched::new(robot, STEP_LIMIT, |_, _| {});
+    let mut robot = Limited::new(robot, STEP_LIMIT);
     let explored = run(&mut robot, system, Task::Explore).unwrap();
     assert_eq!(explored.end, End::Done);
     let goal = Task::Reach(Goal::Landmark(Landmark::Goal));

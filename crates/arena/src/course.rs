@@ -8,9 +8,12 @@ use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Cell, Maze, MazeFile};
 use tolman_robot::Body;
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_sim::{CorridorSize, World, WorldError, Zone};
 
-use crate::pioneer::CORRIDOR_WIDTH;
+use crate::episode::EpisodeError;
+use crate::pioneer::{CORRIDOR_WIDTH, CoursePioneer};
+use crate::{Landmarks, Simulated};
 
 /// Why no robot can run in a maze.
 #[derive(Debug, Error)]
@@ -129,6 +132,22 @@ impl Course {
     #[must_use]
     pub fn starts(&self) -> &[Cell] {
         &self.starts
+    }
+
+    /// Returns a robot at `start`, at rest. `seed` is that of the simulation.
+    ///
+    /// # Errors
+    /// If the robot cannot be built or cannot stand there.
+    pub fn robot_at(
+        &self,
+        start: Pose,
+        robot: &LaserPioneerConfig,
+        seed: u64,
+    ) -> Result<CoursePioneer, EpisodeError> {
+        let model = LaserPioneer::new(robot.clone())?;
+        let landmarks = Landmarks::goal(self.destination.clone());
+        let world = Arc::clone(&self.world);
+        Ok(Simulated::new(world, landmarks, model, start, seed)?)
     }
 
     /// A random start: any of those cells with equal chance, any place in its middle from which the

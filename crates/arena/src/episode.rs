@@ -15,8 +15,7 @@ use tolman_systems::{Actor, ActorError, stream};
 use crate::course::Course;
 use crate::mind::Mind;
 use crate::oracle::Seer;
-use crate::pioneer::CoursePioneer;
-use crate::run::{self, End, Watched, WatchedError};
+use crate::run::{self, End, Limited, LimitedError};
 
 pub use step::Step;
 
@@ -49,7 +48,7 @@ pub enum EpisodeError {
         /// Which one, from 0.
         step: u32,
         /// Why.
-        source: ActorError<WatchedError<StepError>, Infallible>,
+        source: ActorError<LimitedError<StepError>, Infallible>,
     },
 }
 
@@ -118,13 +117,10 @@ pub fn run(
     mind: &mut Mind,
     mut watch: impl FnMut(&Step<'_>),
 ) -> Result<Episode, EpisodeError> {
-    let robot = CoursePioneer::new(trial.course, &trial.robot, trial.start, trial.seed)?;
-    let mut path = vec![trial.start];
-    let mut bumps = 0;
-    let mut robot = Watched::new(robot, trial.step_limit, |robot: &CoursePioneer<'_>, _| {
-        path.push(robot.truth().pose);
-        bumps += u32::from(robot.truth().bump);
-    });
+    let robot = trial
+        .course
+        .robot_at(trial.start, &trial.robot, trial.seed)?;
+    let mut robot = Limited::new(robot, trial.step_limit);
     // An action may last as long as the run.
     let layers = layers(trial.course, &trial.robot)?;
     let drive = Drive::new(layers, stream(trial.seed, LAYERS_STREAM)).longest_action(u32::MAX);
@@ -151,27 +147,26 @@ pub fn run(
         }
     }
     .map_err(|error| broken(&robot, error))?;
-    drop(robot);
     Ok(Episode {
         reached: ended.end == End::Done,
         actions: ended.actions,
         failed_actions,
         steps: ended.steps,
-        bumps,
-        path,
+        bumps: robot.robot().bumps(),
+        path: robot.robot().path().to_vec(),
     })
 }
 
 /// Returns that the simulator refused the command of time step `step`.
 pub(crate) const fn step_failed(step: u32, source: StepError) -> EpisodeError {
-    let source = ActorError::Robot(WatchedError::Robot(source));
+    let source = ActorError::Robot(LimitedError::Robot(source));
     EpisodeError::Step { step, source }
 }
 
 /// Returns why a run broke off at the robot's next step.
-pub(crate) fn broken<R: Robot, F: FnMut(&R, &R::Command)>(
-    robot: &Watched<R, F>,
-    source: ActorError<WatchedError<StepError>, Infallible>,
+pub(crate) fn broken(
+    robot: &Limited<impl Robot>,
+    source: ActorError<LimitedError<StepError>, Infallible>,
 ) -> EpisodeError {
     let step = robot.steps();
     EpisodeError::Step { step, source }

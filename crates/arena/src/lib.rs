@@ -22,5 +22,7 @@ pub mod mslst;
 pub mod oracle;
 pub mod pioneer;
 pub mod run;
+mod simulated;
 
 pub use mind::{AnyBrain, Mind};
+pub use simulated::{Landmarks, Simulated};

@@ -4,7 +4,7 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::Drive;
-use tolman_robot::{Body, System, Task, TurnTranslate};
+use tolman_robot::{Body, System, Task};
 use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
 use tolman_systems::{Actor, Doing, TimeStep, stream};
@@ -12,7 +12,7 @@ use tolman_systems::{Actor, Doing, TimeStep, stream};
 use crate::course::Course;
 use crate::episode::{EpisodeError, broken, layers};
 use crate::pioneer::CoursePioneer;
-use crate::run::{self, Watched};
+use crate::run::{self, Limited};
 
 /// Why no map was learned.
 #[derive(Debug, Error)]
@@ -56,7 +56,7 @@ pub fn scans(
     seed: u64,
 ) -> Result<Vec<Vec<f64>>, LearnError> {
     let wanderer = Wanderer::new(course, robot, &mut stream(seed, SCANS_STREAM))?;
-    let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
+    let mut robot = Limited::new(wanderer.robot, u32::MAX);
     let mut actor = Actor::new(Scans::new(steps), wanderer.drive, wanderer.rng);
     run::run(&mut robot, &mut actor, Task::Explore).map_err(|error| broken(&robot, error))?;
     Ok(actor.into_brain().into_scans())
@@ -83,7 +83,7 @@ pub fn learn_graph(
         actions,
         &TimeStep::of(&wanderer.robot, Doing::PutDown),
     );
-    let mut robot = Watched::new(wanderer.robot, u32::MAX, unseen);
+    let mut robot = Limited::new(wanderer.robot, u32::MAX);
     let mut actor = Actor::new(topology, wanderer.drive, wanderer.rng);
     run::until_done(&mut robot, |robot| {
         let standing = actor.act(robot, Task::Explore);
@@ -99,19 +99,16 @@ pub fn learn_graph(
     Ok(Learned { map, survey })
 }
 
-/// Nobody looks at a wanderer's time steps.
-const fn unseen(_robot: &CoursePioneer<'_>, _command: &TurnTranslate) {}
-
 /// A robot somewhere on a course, and what it needs to wander.
-struct Wanderer<'a> {
-    robot: CoursePioneer<'a>,
+struct Wanderer {
+    robot: CoursePioneer,
     drive: Drive<ChaCha8Rng>,
     rng: ChaCha8Rng,
 }
 
-impl<'a> Wanderer<'a> {
+impl Wanderer {
     fn new(
-        course: &'a Course,
+        course: &Course,
         robot: &LaserPioneerConfig,
         seeds: &mut ChaCha8Rng,
     ) -> Result<Self, EpisodeError> {
@@ -122,7 +119,7 @@ impl<'a> Wanderer<'a> {
         let simulation = seeds.next_u64();
         let layers_rng = stream(seeds.next_u64(), 0);
         Ok(Self {
-            robot: CoursePioneer::new(course, robot, start, simulation)?,
+            robot: course.robot_at(start, robot, simulation)?,
             drive: Drive::new(layers(course, robot)?, layers_rng),
             rng: stream(seeds.next_u64(), 0),
         })

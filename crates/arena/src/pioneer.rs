@@ -1,14 +1,15 @@
 //! The robot of MSLST: a Pioneer with a ring of 72 laser beams and a compass.
 
-mod on_course;
-
 use tolman_robot::{Body, Ring};
 use tolman_sim::Contact;
 use tolman_sim::noise::Gaussian;
-use tolman_sim::robots::{LaserPioneerConfig, MotorNoise};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise};
 use tolman_systems::mslst::ROBOT_UNIT;
 
-pub use on_course::CoursePioneer;
+use crate::Simulated;
+
+/// A simulated Pioneer on a course, which senses the goal where its centre lies in the destination.
+pub type CoursePioneer = Simulated<LaserPioneer>;
 
 /// Name of the robot in files of learned maps.
 pub const LASER_PIONEER: &str = "laser Pioneer";

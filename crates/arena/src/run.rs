@@ -3,18 +3,17 @@
 use thiserror::Error;
 use tolman_robot::{Landmark, Robot, SensesLandmarks, Standing, Stopping, System, Task};
 
-/// A robot in a run: its time steps are counted, limited and watched, and it stands still when the run is over.
+/// A robot in a run: its time steps are counted and limited, and it stands still when the run is over.
 #[derive(Debug)]
-pub struct Watched<R: Robot, F> {
+pub struct Limited<R: Robot> {
     robot: Stopping<R>,
-    watch: F,
     steps: u32,
     step_limit: u32,
 }
 
 /// Why a robot in a run makes no step.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum WatchedError<E> {
+pub enum LimitedError<E> {
     /// The run has as many time steps as it may have.
     #[error("the run ended after {steps} time steps")]
     OutOfTime {
@@ -26,13 +25,11 @@ pub enum WatchedError<E> {
     Robot(#[from] E),
 }
 
-impl<R: Robot, F: FnMut(&R, &R::Command)> Watched<R, F> {
-    /// Returns `robot`, which may make `step_limit` time steps. `watch` is shown each of them and what the robot
-    /// was told, once it is made; nothing of the run depends on it.
-    pub const fn new(robot: R, step_limit: u32, watch: F) -> Self {
+impl<R: Robot> Limited<R> {
+    /// Returns `robot`, which may make `step_limit` time steps.
+    pub const fn new(robot: R, step_limit: u32) -> Self {
         Self {
             robot: Stopping::new(robot),
-            watch,
             steps: 0,
             step_limit,
         }
@@ -54,10 +51,10 @@ impl<R: Robot, F: FnMut(&R, &R::Command)> Watched<R, F> {
     }
 }
 
-impl<R: Robot, F: FnMut(&R, &R::Command)> Robot for Watched<R, F> {
+impl<R: Robot> Robot for Limited<R> {
     type Command = R::Command;
     type Sensing = R::Sensing;
-    type Error = WatchedError<R::Error>;
+    type Error = LimitedError<R::Error>;
 
     fn sensing(&self) -> &R::Sensing {
         self.robot.sensing()
@@ -65,16 +62,15 @@ impl<R: Robot, F: FnMut(&R, &R::Command)> Robot for Watched<R, F> {
 
     fn step(&mut self, command: &R::Command) -> Result<(), Self::Error> {
         if self.is_out_of_time() {
-            return Err(WatchedError::OutOfTime { steps: self.steps });
+            return Err(LimitedError::OutOfTime { steps: self.steps });
         }
         self.robot.step(command)?;
         self.steps += 1;
-        (self.watch)(&self.robot, command);
         Ok(())
     }
 }
 
-impl<R: SensesLandmarks, F: FnMut(&R, &R::Command)> SensesLandmarks for Watched<R, F> {
+impl<R: SensesLandmarks> SensesLandmarks for Limited<R> {
     fn landmark(&self) -> Option<Landmark> {
         self.robot.landmark()
     }
@@ -109,16 +105,11 @@ pub enum End {
 ///
 /// # Errors
 /// What the system says when the robot fails or it cannot go on.
-pub fn run<R, F, S>(
-    robot: &mut Watched<R, F>,
+pub fn run<R: Robot, S: System<Limited<R>>>(
+    robot: &mut Limited<R>,
     system: &mut S,
     task: Task,
-) -> Result<Ended, S::Failure>
-where
-    R: Robot,
-    F: FnMut(&R, &R::Command),
-    S: System<Watched<R, F>>,
-{
+) -> Result<Ended, S::Failure> {
     until_done(robot, |robot| system.act(robot, task))
 }
 
@@ -127,14 +118,10 @@ where
 ///
 /// # Errors
 /// What `act` says when the robot fails or it cannot go on.
-pub fn until_done<R, F, E>(
-    robot: &mut Watched<R, F>,
-    mut act: impl FnMut(&mut Watched<R, F>) -> Result<Standing, E>,
-) -> Result<Ended, E>
-where
-    R: Robot,
-    F: FnMut(&R, &R::Command),
-{
+pub fn until_done<R: Robot, E>(
+    robot: &mut Limited<R>,
+    mut act: impl FnMut(&mut Limited<R>) -> Result<Standing, E>,
+) -> Result<Ended, E> {
     let mut actions = 0;
     let end = loop {
         if robot.is_out_of_time() {
@@ -245,8 +232,7 @@ mod tests {
             ),
         ] {
             let mut cart = Cart::default();
-            let mut seen = 0;
-            let mut robot = Watched::new(&mut cart, limit, |_, _| seen += 1);
+            let mut robot = Limited::new(&mut cart, limit);
             let ended = run(&mut robot, &mut Roller, task).unwrap();
             drop(robot);
             assert_eq!(
@@ -257,7 +243,6 @@ mod tests {
                     steps
                 }
             );
-            assert_eq!(seen, steps);
             assert_eq!(cart.told.len() as u32, steps + 1);
             assert_eq!(cart.told.last(), Some(&0.0));
         }

@@ -15,9 +15,9 @@ use tolman_systems::cpm::{
     Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, Walker, WalkerConfig,
 };
 
-use super::robots::{epuck, walker_config};
-use super::simulated::SimulatedEpuck;
+use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::trial::tests::{PATTERNS, maze_1};
+use crate::Landmarks;
 
 const WIDTH: f64 = 0.25;
 
@@ -167,7 +167,8 @@ fn junctions_of_many_branches_end_in_an_error_or_as_it_is_said() {
     for (branches, width) in [(5, 0.25), (8, 0.15), (10, 0.12), (10, 0.25)] {
         let (world, start) = star(branches, width);
         let robot = Epuck::new(epuck()).unwrap();
-        let body = SimulatedEpuck::new(Arc::new(world), robot, start, 1).unwrap();
+        let landmarks = Landmarks::of(&world);
+        let body = SimulatedEpuck::new(Arc::new(world), landmarks, robot, start, 1).unwrap();
         match search(body, width) {
             Ok((episode, is_there)) => {
                 assert_eq!(

@@ -11,7 +11,7 @@ use tolman_systems::cpm::{
 };
 
 use super::fragments::TrueFragments;
-use super::simulated::SimulatedEpuck;
+use super::robots::SimulatedEpuck;
 use super::trial::{Trial, TrialError};
 
 /// One episode by itself: of a robot that learns a map to be kept, or drives by one that was kept.

@@ -5,8 +5,8 @@ use tolman_maze::Maze;
 use tolman_systems::cpm::{Aim, Done, Layer3, Step, Walker};
 
 use super::fragments::TrueFragments;
+use super::robots::SimulatedEpuck;
 use super::score::Score;
-use super::simulated::SimulatedEpuck;
 use super::trial::{Trial, TrialError};
 use super::world::shortest_covering_walk;
 

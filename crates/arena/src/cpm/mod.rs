@@ -23,7 +23,6 @@ mod put_down;
 mod robots;
 mod round_trip;
 mod score;
-mod simulated;
 mod spots;
 mod survey;
 mod trial;
@@ -40,10 +39,11 @@ pub use fragments::{TrueFragments, Way};
 pub use layout::{Course, Fit, Layout, OpenPort};
 pub use map_right::is_whole_map_right;
 pub use put_down::{KnownMaze, PutDown, PutDownRecord};
-pub use robots::{epuck, idealized_epuck, ring_measures, slow_epuck, walker_config};
+pub use robots::{
+    SimulatedEpuck, epuck, idealized_epuck, ring_measures, slow_epuck, walker_config,
+};
 pub use round_trip::RoundTrip;
 pub use score::Closures;
-pub use simulated::{Landmarks, SimulatedEpuck};
 pub use survey::{Surveyed, survey};
 pub use trial::{Record, Trial, TrialError, learn, learn_by};
 pub use venue::Venue;

@@ -5,24 +5,21 @@ use alloc::sync::Arc;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::Maze;
-use tolman_robot::epuck::WheelSpeeds;
-use tolman_robot::{Goal, Landmark, Landmarked, Mapper, Position, SensesLandmarks, Task};
+use tolman_robot::{Goal, Landmark, Mapper, Position, SensesLandmarks, Task};
+use tolman_sim::Truth;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{Solo, Truth};
 use tolman_systems::cpm::{
     CommonPatterns, Cpm, CpmConfig, Lesson, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
 };
 
 use super::map_right::is_whole_map_right;
 use super::robots::ring_measures;
-use super::simulated::Landmarks;
 use super::venue::Venue;
 use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
-use crate::run::{End, Ended, Watched, run};
+use crate::run::{End, Ended, Limited, run};
+use crate::{Landmarks, Simulated};
 
 /// Who tells the robot what it stands at.
-type Tells = Box<dyn Fn(&Solo<LaserPioneer>) -> Option<Landmark>>;
-
 /// Explorations take 30 000.
 const STEP_LIMIT: u32 = 100_000;
 
@@ -35,7 +32,7 @@ fn venue(text: &str) -> Venue {
 }
 
 /// A Pioneer that looks like an e-puck.
-type Epuck = RingAsEpuck<Landmarked<Solo<LaserPioneer>, Tells>>;
+type Epuck = RingAsEpuck<Simulated<LaserPioneer>>;
 
 /// The robot at the start of a maze, which looks like an e-puck, and how it is driven.
 fn placed(venue: &Venue, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
@@ -44,24 +41,21 @@ fn placed(venue: &Venue, robot: LaserPioneerConfig, seed: u64) -> (Epuck, Walker
     let config = measures.walker_config();
     let model = LaserPioneer::new(robot).unwrap();
     let start = venue.start().unwrap();
-    let solo = Solo::new(Arc::clone(&venue.world), model, start, seed).unwrap();
-    let tells: Tells = Box::new(move |solo| landmarks.at(solo.truth().pose.position));
-    let epuck = RingAsEpuck::new(Landmarked::new(solo, tells), measures).unwrap();
+    let world = Arc::clone(&venue.world);
+    let pioneer = Simulated::new(world, landmarks, model, start, seed).unwrap();
+    let epuck = RingAsEpuck::new(pioneer, measures).unwrap();
     (epuck, config)
 }
 
 fn truth(epuck: &Epuck) -> &Truth {
-    epuck.robot().robot().truth()
+    epuck.robot().truth()
 }
 
 /// Lets `cpm` pursue a task to its end, and returns how it ended and the steps it took.
 fn pursue(cpm: &mut Cpm, epuck: &mut Epuck, task: Task) -> Ended {
-    let mut bumps = 0;
-    let watch = |epuck: &&mut Epuck, _: &WheelSpeeds| bumps += u32::from(truth(epuck).bump);
-    let mut robot = Watched::new(epuck, STEP_LIMIT, watch);
+    let mut robot = Limited::new(epuck, STEP_LIMIT);
     let ended = run(&mut robot, cpm, task).unwrap();
-    drop(robot);
-    assert_eq!(bumps, 0, "{task:?}");
+    assert_eq!(robot.robot().robot().bumps(), 0, "{task:?}");
     ended
 }
 
@@ -73,7 +67,7 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
     assert_eq!(explored.end, End::Done);
     assert!(is_whole_map_right(map, maze), "{map:?}");
     let goal = map.landmarks(Landmark::Goal).next().unwrap();
-    epuck.robot_mut().robot_mut().place(start).unwrap();
+    epuck.robot_mut().place(start).unwrap();
     cpm.carried();
     assert_eq!(cpm.belief(), []);
     let localized = pursue(&mut cpm, &mut epuck, Task::Localize);

@@ -1,7 +1,12 @@
 use tolman_control::epuck::{RangeCurve, RangeCurveError};
-use tolman_sim::robots::{EpuckConfig, LaserPioneerConfig};
+use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneerConfig};
 use tolman_sim::sensors::ResponseCurve;
 use tolman_systems::cpm::{EpuckMeasures, RingMeasures, WalkerConfig};
+
+use crate::Simulated;
+
+/// The simulated e-puck. Its maze's zones `start` and `destination` are its landmarks.
+pub type SimulatedEpuck = Simulated<Epuck>;
 
 /// A sweep at 4.83 rad/s, just below what the wheels can, takes one sample a step.
 const STEP_US: u64 = 13_000;

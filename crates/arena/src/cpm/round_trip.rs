@@ -5,7 +5,7 @@ use tolman_maps::cpm::CpMap;
 use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Layer3, Step, Walker};
 
-use super::simulated::SimulatedEpuck;
+use super::robots::SimulatedEpuck;
 use super::trial::TrialError;
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new

@@ -9,7 +9,7 @@ use tolman_systems::cpm::{Layer3, Step, Walker};
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
 use super::map_right::is_map_right;
-use super::simulated::SimulatedEpuck;
+use super::robots::SimulatedEpuck;
 
 /// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

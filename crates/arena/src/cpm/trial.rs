@@ -17,9 +17,8 @@ use tolman_systems::cpm::{
 };
 
 use super::fragments::Way;
-use super::robots::{epuck, walker_config};
+use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
-use super::simulated::SimulatedEpuck;
 use super::venue::Venue;
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the

@@ -10,9 +10,9 @@ use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::{CorridorSize, World};
 
-use super::robots::epuck;
-use super::simulated::SimulatedEpuck;
+use super::robots::{SimulatedEpuck, epuck};
 use super::trial::TrialError;
+use crate::Landmarks;
 
 /// A maze with a start, and how wide its corridors are for an e-puck.
 #[derive(Clone, Debug)]
@@ -89,7 +89,8 @@ impl Venue {
         seed: u64,
     ) -> Result<SimulatedEpuck, TrialError> {
         let (world, robot) = (Arc::clone(&self.world), Epuck::new(robot)?);
-        Ok(SimulatedEpuck::new(world, robot, start, seed)?)
+        let landmarks = Landmarks::of(&world);
+        Ok(SimulatedEpuck::new(world, landmarks, robot, start, seed)?)
     }
 
     /// The first of four cells without a wall between them, if there are any: in rooms the robot, which follows corridors, may go round for ever

@@ -17,8 +17,7 @@ use tolman_systems::cpm::{
     Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, WalkError, Walker, WalkerConfig,
 };
 
-use super::robots::{epuck, walker_config};
-use super::simulated::SimulatedEpuck;
+use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::trial::tests::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;

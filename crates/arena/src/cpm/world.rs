@@ -84,6 +84,13 @@ impl Corridor {
         }
     }
 
+    const fn port_mut(&mut self, sign: Sign) -> &mut WorldPort {
+        match sign {
+            Sign::Minus => &mut self.minus,
+            Sign::Plus => &mut self.plus,
+        }
+    }
+
     /// The direction in which one leaves by an end.
     #[must_use]
     pub fn bearing(&self, sign: Sign) -> Heading {
@@ -131,8 +138,8 @@ impl Corridor {
 #[derive(Clone, Debug)]
 pub struct WorldBuilder {
     dictionary: Dictionary,
-    places: Vec<(Point, Option<Landmark>)>,
-    corridors: Vec<(u32, u32, Vec<Point>, Vec<PatternId>)>,
+    places: Vec<Place>,
+    corridors: Vec<Corridor>,
 }
 
 /// Why a drawing is no world.
@@ -177,7 +184,11 @@ impl WorldBuilder {
 
     /// Adds a place and returns its number.
     pub fn place(&mut self, position: Point, landmark: Option<Landmark>) -> u32 {
-        self.places.push((position, landmark));
+        self.places.push(Place {
+            position,
+            landmark,
+            ports: Vec::new(),
+        });
         self.places.len() as u32 - 1
     }
 
@@ -198,11 +209,11 @@ impl WorldBuilder {
         self.dictionary.check(patterns)?;
         let mut line = Vec::with_capacity(via.len() + 2);
         for place in [minus, plus] {
-            let (position, _) = self
-                .places
-                .get(place as usize)
-                .ok_or(WorldError::NoSuchPlace { place, count })?;
-            line.push(*position);
+            let end = self.places.get(place as usize);
+            line.push(
+                end.ok_or(WorldError::NoSuchPlace { place, count })?
+                    .position,
+            );
         }
         line.splice(1..1, via.iter().copied());
         if line
@@ -211,7 +222,18 @@ impl WorldBuilder {
         {
             return Err(WorldError::NotFinite { corridor: number });
         }
-        self.corridors.push((minus, plus, line, patterns.to_vec()));
+        for (place, sign) in [(minus, Sign::Minus), (plus, Sign::Plus)] {
+            let corridor = number;
+            let ports = &mut self.places[place as usize].ports;
+            ports.push(CorridorEnd { corridor, sign });
+        }
+        let unnumbered = |place| WorldPort { place, number: 0 };
+        self.corridors.push(Corridor {
+            patterns: patterns.to_vec(),
+            line,
+            minus: unnumbered(minus),
+            plus: unnumbered(plus),
+        });
         Ok(number)
     }
 
@@ -220,68 +242,37 @@ impl WorldBuilder {
     /// # Errors
     /// [`WorldError`] if no corridor leads to a place, or the start is none.
     pub fn finish(self, start: u32) -> Result<World, WorldError> {
-        let count = self.places.len() as u32;
+        let Self {
+            dictionary,
+            mut places,
+            mut corridors,
+        } = self;
+        let count = places.len() as u32;
         if start >= count {
-            return Err(WorldError::NoSuchPlace {
-                place: start,
-                count,
-            });
+            let place = start;
+            return Err(WorldError::NoSuchPlace { place, count });
         }
-        let unplaced = WorldPort {
-            place: 0,
-            number: 0,
-        };
-        let mut corridors: Vec<Corridor> = Vec::with_capacity(self.corridors.len());
-        let mut ends: Vec<Vec<(f64, CorridorEnd)>> = alloc::vec![Vec::new(); self.places.len()];
-        for (number, (minus, plus, line, patterns)) in (0..).zip(self.corridors) {
-            let corridor = Corridor {
-                patterns,
-                line,
-                minus: unplaced,
-                plus: unplaced,
-            };
-            for (place, sign) in [(minus, Sign::Minus), (plus, Sign::Plus)] {
-                let end = CorridorEnd {
-                    corridor: number,
-                    sign,
-                };
-                ends[place as usize].push((corridor.bearing(sign).radians(), end));
+        for (number, place) in (0..).zip(&mut places) {
+            if place.ports.is_empty() {
+                return Err(WorldError::Isolated { place: number });
             }
-            corridors.push(corridor);
+            let corridor = |end: &CorridorEnd| &corridors[end.corridor as usize];
+            let bearing = |end: &CorridorEnd| corridor(end).bearing(end.sign).radians();
+            place
+                .ports
+                .sort_by(|a, b| bearing(a).total_cmp(&bearing(b)));
+            for (port, end) in (0..).zip(&place.ports) {
+                corridors[end.corridor as usize].port_mut(end.sign).number = port;
+            }
         }
-        let mut places = Vec::with_capacity(self.places.len());
-        for ((position, landmark), (place, mut ends)) in
-            self.places.into_iter().zip((0..).zip(ends))
-        {
-            if ends.is_empty() {
-                return Err(WorldError::Isolated { place });
-            }
-            ends.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-            let ports: Vec<CorridorEnd> = ends.into_iter().map(|(_, end)| end).collect();
-            for (number, end) in (0..).zip(&ports) {
-                let corridor = &mut corridors[end.corridor as usize];
-                let port = match end.sign {
-                    Sign::Minus => &mut corridor.minus,
-                    Sign::Plus => &mut corridor.plus,
-                };
-                *port = WorldPort { place, number };
-            }
-            places.push(Place {
-                position,
-                landmark,
-                ports,
-            });
-        }
-        let dictionary = self.dictionary;
-        let start = WorldPort {
-            place: start,
-            number: 0,
-        };
         Ok(World {
             dictionary,
             places,
             corridors,
-            start,
+            start: WorldPort {
+                place: start,
+                number: 0,
+            },
         })
     }
 }

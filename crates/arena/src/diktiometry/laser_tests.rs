@@ -7,7 +7,7 @@ use tolman_sim::robots::LaserPioneer;
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 
 use super::{Office, OfficeConfig, SurveyorConfig, mapper};
-use crate::run::{End, Watched, run};
+use crate::run::{End, Limited, run};
 
 /// The J maze in corridors 0.95 m wide with walls that are lines, as MSLST has it.
 pub(super) fn j() -> Office {
@@ -45,7 +45,7 @@ fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
         let landmarked = Landmarked::new(solo, |solo: &Solo<LaserPioneer>| {
             is_near(solo, goal).then_some(Landmark::Goal)
         });
-        let mut robot = Watched::new(landmarked, 20_000, |_, _| {});
+        let mut robot = Limited::new(landmarked, 20_000);
         let paper = DiktiometerConfig::paper(routines, mapper(&office, &config));
         let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, seed);
 
@@ -88,7 +88,7 @@ fn a_run_that_broke_off_goes_on() {
     let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, 1);
     for (limit, end) in [(50, End::OutOfTime), (20_000, End::Done)] {
         let nowhere = Landmarked::new(&mut solo, |_| None);
-        let mut robot = Watched::new(nowhere, limit, |_, _| {});
+        let mut robot = Limited::new(nowhere, limit);
         let ended = run(&mut robot, &mut system, Task::Explore).unwrap();
         assert_eq!(ended.end, end, "{ended:?}");
     }

@@ -5,7 +5,7 @@ use tolman_systems::Brain;
 
 use crate::mind::AnyBrain;
 use crate::pioneer::CoursePioneer;
-use crate::run::Watched;
+use crate::run::Limited;
 
 /// One time step of a run, as it has just been made.
 #[derive(Clone, Copy, Debug)]
@@ -19,17 +19,14 @@ pub struct Step<'a> {
     /// How the action ended with this step; `None` while it goes on.
     pub ends: Option<Outcome>,
     /// The robot as it is now.
-    pub robot: &'a CoursePioneer<'a>,
+    pub robot: &'a CoursePioneer,
 }
 
 impl<'a> Step<'a> {
-    pub(super) fn of<'c: 'a, F>(
+    pub(super) fn of(
         brain: Option<&'a AnyBrain>,
-        driven: &Driven<'a, Watched<CoursePioneer<'c>, F>>,
-    ) -> Self
-    where
-        F: FnMut(&CoursePioneer<'c>, &TurnTranslate),
-    {
+        driven: &Driven<'a, Limited<CoursePioneer>>,
+    ) -> Self {
         Self {
             action: driven.action,
             brain,

@@ -182,6 +182,7 @@ struct Outing<'a> {
     steps: u32,
     stops: u32,
     errors: f64,
+    was_at_goal: bool,
 }
 
 impl<'a> Outing<'a> {
@@ -197,51 +198,45 @@ impl<'a> Outing<'a> {
             steps: 0,
             stops: 0,
             errors: 0.0,
+            was_at_goal: false,
         })
     }
 
     fn both_runs(&mut self) -> Result<NoisyEnd, NoisyError> {
-        if let Some(end) = self.explore()? {
+        if let Some(end) = self.until_done(NoisyMouse::explore)? {
             return Ok(end);
+        }
+        if !self.was_at_goal {
+            return Ok(NoisyEnd::Mistaken);
         }
         self.steps += 1;
         let run_1 = self.steps;
         self.body.place(self.mouse.start())?;
         self.mouse.put_back();
-        self.run(run_1)
+        if let Some(end) = self.until_done(NoisyMouse::run)? {
+            return Ok(end);
+        }
+        if !self.is_at_goal() {
+            return Ok(NoisyEnd::Mistaken);
+        }
+        let run_2 = self.steps - run_1;
+        Ok(NoisyEnd::Arrived { run_1, run_2 })
     }
 
-    /// The first run; how it ended, if badly.
-    fn explore(&mut self) -> Result<Option<NoisyEnd>, NoisyError> {
-        let mut was_at_goal = false;
+    /// Lets the mouse act until it takes itself to be done; or how the trial ended before.
+    fn until_done(
+        &mut self,
+        act: fn(&mut NoisyMouse, &mut Solo<LaserPioneer>) -> Result<NoisyNext, StepError>,
+    ) -> Result<Option<NoisyEnd>, NoisyError> {
         while self.steps < MAX_STEPS {
             self.stop()?;
-            was_at_goal |= self.is_at_goal();
-            match self.mouse.explore(&mut self.body)? {
+            match act(&mut self.mouse, &mut self.body)? {
                 NoisyNext::Stepped => self.steps += 1,
-                NoisyNext::Done if was_at_goal => return Ok(None),
-                NoisyNext::Done => return Ok(Some(NoisyEnd::Mistaken)),
+                NoisyNext::Done => return Ok(None),
                 NoisyNext::Stuck => return Ok(Some(NoisyEnd::Stuck)),
             }
         }
         Ok(Some(NoisyEnd::OutOfSteps))
-    }
-
-    /// The second run.
-    fn run(&mut self, run_1: u32) -> Result<NoisyEnd, NoisyError> {
-        while self.steps < MAX_STEPS {
-            self.stop()?;
-            match self.mouse.run(&mut self.body)? {
-                NoisyNext::Stepped => self.steps += 1,
-                NoisyNext::Done if self.is_at_goal() => {
-                    let run_2 = self.steps - run_1;
-                    return Ok(NoisyEnd::Arrived { run_1, run_2 });
-                }
-                NoisyNext::Done => return Ok(NoisyEnd::Mistaken),
-                NoisyNext::Stuck => return Ok(NoisyEnd::Stuck),
-            }
-        }
-        Ok(NoisyEnd::OutOfSteps)
     }
 
     /// Lets the mouse look, and writes down how far it is from where it believes to be.
@@ -250,6 +245,7 @@ impl<'a> Outing<'a> {
         let off = self.mouse.pose().position - self.body.truth().pose.position;
         self.errors += off.norm();
         self.stops += 1;
+        self.was_at_goal |= self.is_at_goal();
         Ok(())
     }
 

@@ -4,15 +4,16 @@ use alloc::sync::Arc;
 
 use tolman_geom::Pose;
 use tolman_maze::{Cell, Maze};
-use tolman_robot::{Goal, Landmark, Task, TurnTranslate};
+use tolman_robot::{Goal, Landmark, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{CorridorSize, Solo, World};
+use tolman_sim::{CorridorSize, World};
 use tolman_systems::micromouse::Search;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 
 use super::{brief, check};
 use crate::pioneer::{self, CORRIDOR_WIDTH};
-use crate::run::{End, Watched, run};
+use crate::run::{End, Limited, run};
+use crate::{Landmarks, Simulated};
 
 const MAZE: &str = "\
 o---o---o---o---o
@@ -64,24 +65,24 @@ fn send<S: Search>(
         tolman_control::heading_of(heading),
     );
     let body = LaserPioneer::new(robot.clone()).unwrap();
-    let mut solo = Solo::new(Arc::clone(&world), body, pose, 7).unwrap();
+    let landmarks = Landmarks::of(&world);
+    let mut pioneer = Simulated::new(Arc::clone(&world), landmarks, body, pose, 7).unwrap();
     let mut outing = Vec::new();
     for task in tasks {
-        let mut cells = Vec::new();
-        let watch = |solo: &&mut Solo<LaserPioneer>, _: &TurnTranslate| {
-            let cell = world.cell_at(solo.truth().pose.position).unwrap();
-            if cells.last() != Some(&cell) {
-                cells.push(cell);
-            }
-        };
-        let mut watched = Watched::new(&mut solo, 3000, watch);
-        let end = run(&mut watched, mouse, *task).unwrap().end;
-        drop(watched);
+        let from = pioneer.path().len();
+        let mut limited = Limited::new(&mut pioneer, 3000);
+        let end = run(&mut limited, mouse, *task).unwrap().end;
+        drop(limited);
+        let path = pioneer.path()[from..].iter();
+        let mut cells: Vec<Cell> = path
+            .map(|pose| world.cell_at(pose.position).unwrap())
+            .collect();
+        cells.dedup();
         outing.push((cells, end));
     }
     Outing {
         cells: outing,
-        bumps: solo.bumps(),
+        bumps: pioneer.bumps(),
     }
 }
 

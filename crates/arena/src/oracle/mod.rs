@@ -11,12 +11,28 @@ mod unlocalized;
 use alloc::sync::Arc;
 
 use tolman_control::Outcome;
-use tolman_geom::Pose;
+use tolman_geom::{Heading, Pose};
 use tolman_maze::Direction;
+use tolman_sim::Solo;
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
 pub use policy::Policy;
 pub(crate) use seer::Seer;
 pub use unlocalized::{Chart, UnlocalizedOracle};
+
+use crate::course::Course;
+use crate::episode::EpisodeError;
+use crate::pioneer::without_noise;
+
+/// Returns the robot of a course without noise, to be set down anywhere.
+fn perfect_robot(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+) -> Result<Solo<LaserPioneer>, EpisodeError> {
+    let model = LaserPioneer::new(without_noise(robot))?;
+    let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::NORTH);
+    Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
+}
 
 /// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body and
 /// the same layers as everyone else. Not in the paper.

@@ -8,9 +8,9 @@ use tolman_robot::{Robot, TurnTranslate};
 use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
+use super::perfect_robot;
 use crate::course::Course;
 use crate::episode::{EpisodeError, step_failed};
-use crate::pioneer::without_noise;
 
 /// What every action costs, in time steps to the destination, from every place of a course.
 ///
@@ -23,8 +23,8 @@ pub struct Policy {
     lattice: Lattice,
     /// For each node and action, the steps from there to the destination that begin with the action.
     costs: Vec<[Option<u32>; 4]>,
-    /// For each node and action, the node it leads to without noise; none where it fails.
-    ends: Vec<[Option<u32>; 4]>,
+    /// For each node and action, the node it leads to without noise and in how many steps; none where it fails.
+    ends: Vec<[Option<(u32, u32)>; 4]>,
 }
 
 /// Positions of the lattice per corridor width.
@@ -54,10 +54,8 @@ impl Policy {
                 most: MOST_NODES,
             });
         }
-        let model = LaserPioneer::new(without_noise(robot))?;
         let mut stack = Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)?;
-        let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::EAST);
-        let mut solo = Solo::new(course.world.clone(), model, somewhere, 0)?;
+        let mut solo = perfect_robot(course, robot)?;
 
         let mut arcs = Vec::new();
         let mut ends = vec![[None; 4]; lattice.node_count()];
@@ -93,10 +91,6 @@ impl Policy {
                 })
             })
             .collect();
-        let ends = ends
-            .into_iter()
-            .map(|actions| actions.map(|end| end.map(|(head, _)| head)))
-            .collect();
         Ok(Self {
             lattice,
             costs,
@@ -113,7 +107,7 @@ impl Policy {
 
     /// Where an action leads from about `pose` without noise; none where it fails.
     pub(super) fn end(&self, pose: Pose, action: Direction) -> Option<Point> {
-        let head = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
+        let (head, _) = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
         Some(self.lattice.pose(head).position)
     }
 

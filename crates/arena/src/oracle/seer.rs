@@ -3,11 +3,11 @@ use core::ops::ControlFlow;
 use rand_chacha::ChaCha8Rng;
 use tolman_control::{Drive, Driven, Outcome};
 use tolman_maze::Direction;
-use tolman_robot::{Landmark, Robot, SensesLandmarks, Standing, TurnTranslate};
+use tolman_robot::{Landmark, Robot, SensesLandmarks, Standing};
 
 use super::Oracle;
 use crate::pioneer::CoursePioneer;
-use crate::run::Watched;
+use crate::run::Limited;
 
 /// An oracle that drives to the goal. No robot outside the arena can be asked for the truth.
 #[derive(Debug)]
@@ -28,14 +28,11 @@ impl<'a> Seer<'a> {
     }
 
     /// Makes the next action. `see` is shown every time step.
-    pub(crate) fn act<'c, F>(
+    pub(crate) fn act(
         &mut self,
-        robot: &mut Watched<CoursePioneer<'c>, F>,
-        mut see: impl FnMut(&Driven<'_, Watched<CoursePioneer<'c>, F>>),
-    ) -> Result<Standing, <Watched<CoursePioneer<'c>, F> as Robot>::Error>
-    where
-        F: FnMut(&CoursePioneer<'c>, &TurnTranslate),
-    {
+        robot: &mut Limited<CoursePioneer>,
+        mut see: impl FnMut(&Driven<'_, Limited<CoursePioneer>>),
+    ) -> Result<Standing, <Limited<CoursePioneer> as Robot>::Error> {
         if robot.landmark() == Some(Landmark::Goal) {
             return Ok(Standing::Done);
         }

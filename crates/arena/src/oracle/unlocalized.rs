@@ -6,15 +6,13 @@ use tolman_control::Outcome;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, Mapper, Position, Robot, TurnTranslate};
-use tolman_sim::Solo;
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::mslst::{ROBOT_UNIT, heading_free};
 use tolman_systems::{Brain, Doing, TimeStep};
 
-use super::{Oracle, Policy};
+use super::{Oracle, Policy, perfect_robot};
 use crate::course::Course;
 use crate::episode::{EpisodeError, step_failed};
-use crate::pioneer::without_noise;
 
 /// The ceiling for those who start they know not where: it has the true map, and finds out where it is by a
 /// Bayes filter over all positions; then it does what the [`Oracle`] would do at the most likely one.
@@ -76,9 +74,7 @@ impl Chart {
         robot: &LaserPioneerConfig,
         policy: Arc<Policy>,
     ) -> Result<Self, EpisodeError> {
-        let model = LaserPioneer::new(without_noise(robot))?;
-        let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::NORTH);
-        let mut solo = Solo::new(course.world.clone(), model, somewhere, 0)?;
+        let mut solo = perfect_robot(course, robot)?;
         let mut places = Vec::new();
         let mut numbers = Vec::new();
         for position in policy.positions() {

@@ -1,9 +1,11 @@
+use alloc::vec;
+use alloc::vec::Vec;
 use core::iter;
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
-use crate::wall_map::{TooLarge, inner_wall};
+use crate::wall_map::TooLarge;
 
 /// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
@@ -32,9 +34,8 @@ pub struct WallBelief<const N: usize> {
     grid: Grid,
     pitch: f64,
     thickness: f64,
-    /// By y, then x: readings for the wall in the east less those against it.
-    east: [[i8; N]; N],
-    north: [[i8; N]; N],
+    /// By wall: readings for it less those against it.
+    votes: Vec<i8>,
 }
 
 /// What one range sensor says.
@@ -75,7 +76,7 @@ impl<const N: usize> WallBelief<N> {
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
-    pub const fn new(grid: Grid, pitch: f64, thickness: f64) -> Result<Self, TooLarge> {
+    pub fn new(grid: Grid, pitch: f64, thickness: f64) -> Result<Self, TooLarge> {
         if grid.width() as usize > N || grid.height() as usize > N {
             return Err(TooLarge { grid, side: N });
         }
@@ -83,8 +84,7 @@ impl<const N: usize> WallBelief<N> {
             grid,
             pitch,
             thickness,
-            east: [[0; N]; N],
-            north: [[0; N]; N],
+            votes: vec![0; grid.wall_count()],
         })
     }
 
@@ -143,15 +143,7 @@ impl<const N: usize> WallBelief<N> {
     }
 
     fn vote(&mut self, cell: Cell, side: Direction, vote: i8) {
-        let Some((cell, side)) = inner_wall(self.grid, cell, side) else {
-            return;
-        };
-        let plane = match side {
-            Direction::East => &mut self.east,
-            _ => &mut self.north,
-        };
-        let row = plane.get_mut(usize::from(cell.y));
-        if let Some(votes) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
+        if let Some(votes) = self.votes.get_mut(self.grid.wall(cell, side).0 as usize) {
             *votes = (*votes + vote).clamp(-Self::MOST, Self::MOST);
         }
     }
@@ -229,16 +221,11 @@ impl<const N: usize> Walls for WallBelief<N> {
     }
 
     fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
-        let Some((cell, direction)) = inner_wall(self.grid, cell, direction) else {
+        let beyond = self.grid.neighbour(cell, direction);
+        if beyond.is_none() || !self.grid.contains(cell) {
             return Knowledge::Wall;
-        };
-        let plane = match direction {
-            Direction::East => &self.east,
-            _ => &self.north,
-        };
-        let row = plane.get(usize::from(cell.y));
-        let votes = row.and_then(|row| row.get(usize::from(cell.x)));
-        match votes.copied().unwrap_or(0) {
+        }
+        match self.votes[self.grid.wall(cell, direction).0 as usize] {
             Self::CONVINCED.. => Knowledge::Wall,
             ..=Self::DOUBTED => Knowledge::Open,
             _ => Knowledge::Unknown,

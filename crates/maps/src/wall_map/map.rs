@@ -342,7 +342,7 @@ impl<const N: usize, const LOG: usize> Walls for WallMap<N, LOG> {
 }
 
 /// Returns the wall on a side of a cell as that in the east or north of a cell; `None` on the border and beyond.
-pub(crate) fn inner_wall(grid: Grid, cell: Cell, side: Direction) -> Option<(Cell, Direction)> {
+fn inner_wall(grid: Grid, cell: Cell, side: Direction) -> Option<(Cell, Direction)> {
     let beyond = grid.neighbour(cell, side).filter(|_| grid.contains(cell))?;
     Some(match side {
         Direction::North | Direction::East => (cell, side),

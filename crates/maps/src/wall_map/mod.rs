@@ -11,6 +11,5 @@ mod log;
 mod map;
 mod ray;
 
-pub(crate) use map::inner_wall;
 pub use map::{ClosedCells, ObserveError, TooLarge, WallMap};
 pub use ray::{Ray, RayEnd};

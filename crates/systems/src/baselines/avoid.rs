@@ -14,8 +14,8 @@ use crate::{Brain, Doing, TimeStep};
 /// is in a dead end and turns back; where that fails too it forgets and tries again.
 #[derive(Clone, Debug, Default)]
 pub struct Avoid {
-    travelling: Option<Direction>,
-    failed: Vec<Direction>,
+    pub(super) travelling: Option<Direction>,
+    pub(super) failed: Vec<Direction>,
 }
 
 impl Avoid {

@@ -2,11 +2,12 @@ use core::convert::Infallible;
 use core::f64::consts::PI;
 
 use rand::{Rng, RngExt};
-use tolman_control::{Outcome, heading_of};
+use tolman_control::heading_of;
 use tolman_geom::Heading;
 use tolman_maze::Direction;
 use tolman_robot::{Mapper, Scan};
 
+use super::Avoid;
 use crate::{Brain, Doing, TimeStep};
 
 /// MSLST's Wall-follow brain: "always sticks to the wall on its right".
@@ -21,8 +22,8 @@ use crate::{Brain, Doing, TimeStep};
 #[derive(Clone, Debug)]
 pub struct WallFollow {
     corridor_width: f64,
-    travelling: Option<Direction>,
-    failed: Vec<Direction>,
+    /// It remembers what came of its actions as Avoid does.
+    memory: Avoid,
     /// What it saw last, and which way it was headed; `None` while either sensor drops out.
     view: Option<(Scan, Heading)>,
 }
@@ -34,11 +35,10 @@ const WATCHED: f64 = PI / 12.0;
 impl WallFollow {
     /// A wall follower in corridors `corridor_width` metres wide.
     #[must_use]
-    pub const fn new(corridor_width: f64) -> Self {
+    pub fn new(corridor_width: f64) -> Self {
         Self {
             corridor_width,
-            travelling: None,
-            failed: Vec::new(),
+            memory: Avoid::default(),
             view: None,
         }
     }
@@ -61,14 +61,9 @@ impl Mapper for WallFollow {
     type Error = Infallible;
 
     fn observe(&mut self, seen: &TimeStep) -> Result<(), Infallible> {
-        match seen.doing {
-            Doing::UnderWay(_) => return Ok(()),
-            Doing::PutDown => *self = Self::new(self.corridor_width),
-            Doing::Ended(action, Outcome::Completed) => {
-                self.travelling = Some(action);
-                self.failed.clear();
-            }
-            Doing::Ended(action, _) => self.failed.push(action),
+        self.memory.learn(seen.doing);
+        if matches!(seen.doing, Doing::UnderWay(_)) {
+            return Ok(());
         }
         self.view = seen.scan.clone().zip(seen.heading);
         Ok(())
@@ -78,18 +73,21 @@ impl Mapper for WallFollow {
 impl Brain for WallFollow {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         let travelling = *self
+            .memory
             .travelling
             .get_or_insert_with(|| Direction::ALL[rng.random_range(0..4_u32) as usize]);
         let right = travelling.right();
-        if self.wall_towards(heading_of(right)) && !self.failed.contains(&right) {
-            self.failed.push(right);
+        let is_wall = self.wall_towards(heading_of(right));
+        let failed = &mut self.memory.failed;
+        if is_wall && !failed.contains(&right) {
+            failed.push(right);
         }
         let order = [right, travelling, travelling.left(), travelling.opposite()];
         order
             .into_iter()
-            .find(|action| !self.failed.contains(action))
+            .find(|action| !failed.contains(action))
             .unwrap_or_else(|| {
-                self.failed.clear();
+                failed.clear();
                 travelling
             })
     }

@@ -5,7 +5,7 @@ use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
 use tolman_quantizers::{ConfigError, Denoising, InputError, Quantizer, Soinn, SoinnConfig};
 
 use super::robot::CpmRobot;
-use super::walker::{Observation, WalkError, Walker};
+use super::walker::{Observation, WalkResult, Walker};
 
 /// C: the common patterns. In the paper "a representative vector of each cluster is a common-pattern CP" (section 4.1); ours
 /// stand for units of SOINN, since with clusters fewer loops are recognized.
@@ -50,7 +50,7 @@ pub fn wander<B: CpmRobot>(
     walker: &mut Walker<B>,
     lesson: Lesson,
     rng: &mut impl Rng,
-) -> Result<Vec<Observation>, WalkError<B::Error>> {
+) -> WalkResult<Vec<Observation>, B> {
     let mut seen = Vec::new();
     let begun = walker.time_us();
     let mut degree = walker.begin()?.degree;

@@ -1,8 +1,12 @@
 use thiserror::Error;
 use tolman_geom::IntervalError;
 use tolman_maps::cpm::{CpmError, LocalizeError, Sighting};
+use tolman_robot::Robot;
 
 use super::walker::WalkError;
+
+/// What CPM does with the body `B`, or why it cannot go on.
+pub type CpmResult<T, B> = Result<T, CpmFailure<<B as Robot>::Error>>;
 
 /// Why CPM cannot go on with its robot.
 #[derive(Debug, Error)]

@@ -13,7 +13,7 @@ use super::config::CpmConfig;
 use super::decision::{Aim, Decision, Done, Leg};
 use super::episode::{Begun, Episode};
 use super::explorer::Explorer;
-use super::failure::CpmFailure;
+use super::failure::{CpmFailure, CpmResult};
 use super::robot::CpmRobot;
 use super::walker::{Observation, WalkError, Walker};
 use super::walker_config::HeadingBy;
@@ -92,7 +92,7 @@ impl Layer3 {
         patterns: CommonPatterns,
         novelty: Option<f64>,
         config: CpmConfig,
-    ) -> Result<Self, CpmFailure<B::Error>> {
+    ) -> CpmResult<Self, B> {
         let explorer = Explorer::new(config, walker.begin()?)?;
         Ok(Self::new(patterns, novelty, explorer))
     }
@@ -106,7 +106,7 @@ impl Layer3 {
         patterns: CommonPatterns,
         config: CpmConfig,
         map: CpMap,
-    ) -> Result<Self, CpmFailure<B::Error>> {
+    ) -> CpmResult<Self, B> {
         let at = map.start().ok_or(CpmFailure::NoStart)?;
         let expected = map.junction(at.junction).map(Junction::sighting);
         let found = walker.begin()?;
@@ -134,10 +134,7 @@ impl Layer3 {
     ///
     /// # Errors
     /// [`CpmFailure`].
-    pub fn placed_at_start<B: CpmRobot>(
-        &mut self,
-        walker: &mut Walker<B>,
-    ) -> Result<(), CpmFailure<B::Error>> {
+    pub fn placed_at_start<B: CpmRobot>(&mut self, walker: &mut Walker<B>) -> CpmResult<(), B> {
         let start = self.map().start().ok_or(CpmFailure::NoStart)?;
         walker.begin()?;
         Ok(self.explorer.mapper.place(start)?)
@@ -197,7 +194,7 @@ impl Layer3 {
         walker: &mut Walker<B>,
         aim: Aim,
         rng: &mut impl Rng,
-    ) -> Result<ControlFlow<Done, Step>, CpmFailure<B::Error>> {
+    ) -> CpmResult<ControlFlow<Done, Step>, B> {
         // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
         let leg = match self.explorer.decide(aim, rng) {
             Decision::Done(done) => return Ok(ControlFlow::Break(done)),
@@ -231,7 +228,7 @@ impl Layer3 {
         aim: Aim,
         rng: &mut impl Rng,
         mut see: impl FnMut(&Self, &Walker<B>, &Step),
-    ) -> Result<Episode, CpmFailure<B::Error>> {
+    ) -> CpmResult<Episode, B> {
         let begun = Begun::now(walker);
         loop {
             match self.advance(walker, aim, rng)? {
@@ -245,10 +242,7 @@ impl Layer3 {
     ///
     /// # Errors
     /// [`CpmFailure`].
-    pub fn drive<B: CpmRobot>(
-        walker: &mut Walker<B>,
-        leg: &PlanLeg,
-    ) -> Result<Sighting, CpmFailure<B::Error>> {
+    pub fn drive<B: CpmRobot>(walker: &mut Walker<B>, leg: &PlanLeg) -> CpmResult<Sighting, B> {
         // "The length of the fragments is used to estimate how many observation the robot can skip."
         let skip = walker.strides(leg.observations);
         let walk = walker.walk(leg.turn.0 as usize, skip, None)?;
@@ -263,7 +257,7 @@ impl Layer3 {
         &self,
         walker: &mut Walker<B>,
         plan: &Plan,
-    ) -> Result<Episode, CpmFailure<B::Error>> {
+    ) -> CpmResult<Episode, B> {
         let begun = Begun::now(walker);
         // It may stand at the goal already.
         let here = self.map().junction(self.explorer.mapper.at().junction);

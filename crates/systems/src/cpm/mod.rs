@@ -90,7 +90,7 @@ pub use config::{CpmConfig, Onward};
 pub use decision::{Aim, Decision, Done, Leg};
 pub use episode::{Begun, Episode};
 pub use explorer::Explorer;
-pub use failure::CpmFailure;
+pub use failure::{CpmFailure, CpmResult};
 pub use layer3::{Experience, Layer3, Step, Walked};
 pub use map_file::{MapFile, MapFileError};
 pub use mode::Mode;
@@ -99,6 +99,8 @@ pub use ring_as_epuck::{RingAsEpuck, RingMeasures, UnfitRing};
 pub use robot::CpmRobot;
 pub use search::Search;
 pub use system::{Cpm, ObserveError};
-pub use walker::{BeforePlace, Observation, Prospect, RestingWalker, Walk, WalkError, Walker};
+pub use walker::{
+    BeforePlace, Observation, Prospect, RestingWalker, Walk, WalkError, WalkResult, Walker,
+};
 pub use walker_config::{EpuckMeasures, HeadingBy, WalkerConfig};
 pub use whereabouts::{Approach, Whereabouts};

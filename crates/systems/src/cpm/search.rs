@@ -4,9 +4,9 @@ use rand::{Rng, RngExt};
 use tolman_maps::cpm::{CpMap, LocalizeError, Localizer, LocalizerConfig, Turn};
 
 use super::common_patterns::CommonPatterns;
-use super::failure::CpmFailure;
+use super::failure::CpmResult;
 use super::robot::CpmRobot;
-use super::walker::{BeforePlace, Prospect, Walk, WalkError, Walker};
+use super::walker::{BeforePlace, Prospect, Walk, WalkError, WalkResult, Walker};
 use super::whereabouts::{Approach, SURE, Whereabouts};
 
 /// Walks of this robot along one fragment differ by less than one stride in twenty.
@@ -67,7 +67,7 @@ impl Search {
         &mut self,
         walker: &mut Walker<B>,
         rng: &mut impl Rng,
-    ) -> Result<ControlFlow<()>, CpmFailure<B::Error>> {
+    ) -> CpmResult<ControlFlow<()>, B> {
         let place = self.found.at_places.len();
         let walk = if place == 0 {
             self.set_off(walker)?
@@ -95,7 +95,7 @@ impl Search {
         walker: &mut Walker<B>,
         rng: &mut impl Rng,
         mut see: impl FnMut(&Walker<B>),
-    ) -> Result<Whereabouts, CpmFailure<B::Error>> {
+    ) -> CpmResult<Whereabouts, B> {
         loop {
             let flow = self.advance(walker, rng)?;
             see(walker);
@@ -105,10 +105,7 @@ impl Search {
         }
     }
 
-    fn set_off<B: CpmRobot>(
-        &mut self,
-        walker: &mut Walker<B>,
-    ) -> Result<Walk, WalkError<B::Error>> {
+    fn set_off<B: CpmRobot>(&mut self, walker: &mut Walker<B>) -> WalkResult<Walk, B> {
         walker.set_off(|prospect| {
             if self.approach == Approach::StraightOn {
                 return BeforePlace::Enter;
@@ -125,11 +122,7 @@ impl Search {
         })
     }
 
-    fn arrive<B: CpmRobot>(
-        &mut self,
-        walker: &Walker<B>,
-        walk: Walk,
-    ) -> Result<(), CpmFailure<B::Error>> {
+    fn arrive<B: CpmRobot>(&mut self, walker: &Walker<B>, walk: Walk) -> CpmResult<(), B> {
         let sighting = walk.sighting.ok_or(WalkError::Lost)?;
         let prospect = Prospect {
             observations: walk.observations,

@@ -12,7 +12,7 @@ use super::common_patterns::CommonPatterns;
 use super::config::CpmConfig;
 use super::decision::{Aim, Done};
 use super::explorer::Explorer;
-use super::failure::CpmFailure;
+use super::failure::{CpmFailure, CpmResult};
 use super::layer3::{Experience, Layer3};
 use super::mode::Mode;
 use super::robot::CpmRobot;
@@ -131,7 +131,7 @@ impl Cpm {
     }
 
     /// Looks where the robot is and begins the map there.
-    fn begin<R: CpmRobot>(&mut self, robot: &mut R) -> Result<Standing, CpmFailure<R::Error>> {
+    fn begin<R: CpmRobot>(&mut self, robot: &mut R) -> CpmResult<Standing, R> {
         let mut walker = Walker::new(robot, self.walker.clone());
         let patterns = self.patterns.clone();
         let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
@@ -141,7 +141,7 @@ impl Cpm {
     }
 
     /// Comes to the next place on the way to knowing where it is.
-    fn localize<R: CpmRobot>(&mut self, robot: &mut R) -> Result<Standing, CpmFailure<R::Error>> {
+    fn localize<R: CpmRobot>(&mut self, robot: &mut R) -> CpmResult<Standing, R> {
         let Some(layer) = &mut self.layer else {
             return Ok(Standing::gave_up("it has no map to find itself on"));
         };
@@ -190,7 +190,7 @@ impl Cpm {
         robot: &mut R,
         resting: RestingWalker,
         aim: Aim,
-    ) -> Result<Standing, CpmFailure<R::Error>> {
+    ) -> CpmResult<Standing, R> {
         let Some(layer) = &mut self.layer else {
             return self.begin(robot);
         };
@@ -219,7 +219,7 @@ impl Cpm {
         robot: &mut R,
         resting: RestingWalker,
         plan: &Plan,
-    ) -> Result<Standing, CpmFailure<R::Error>> {
+    ) -> CpmResult<Standing, R> {
         let (Some(layer), Some(leg)) = (&mut self.layer, plan.legs.first()) else {
             self.standing = Stance::AtPlace(resting);
             return Ok(Standing::Done);
@@ -248,7 +248,7 @@ impl Cpm {
         robot: &mut R,
         resting: RestingWalker,
         goal: Goal,
-    ) -> Result<Standing, CpmFailure<R::Error>> {
+    ) -> CpmResult<Standing, R> {
         match (self.plan(goal), goal) {
             (Some(plan), _) => self.drive(robot, resting, &plan),
             (None, Goal::Landmark(landmark)) => self.pursue(robot, resting, Aim::Find(landmark)),

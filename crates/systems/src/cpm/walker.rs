@@ -257,7 +257,7 @@ impl<B: CpmRobot> Walker<B> {
     ///
     /// # Errors
     /// [`WalkError`].
-    pub fn look_around(&mut self) -> Result<Profile, WalkError<B::Error>> {
+    pub fn look_around(&mut self) -> WalkResult<Profile, B> {
         Ok(self.look()?.profile)
     }
 
@@ -271,7 +271,7 @@ impl<B: CpmRobot> Walker<B> {
     ///
     /// # Errors
     /// [`WalkError`].
-    pub fn begin(&mut self) -> Result<Sighting, WalkError<B::Error>> {
+    pub fn begin(&mut self) -> WalkResult<Sighting, B> {
         let walk = self.set_off(|_| BeforePlace::Enter)?;
         walk.sighting.ok_or(WalkError::Lost)
     }
@@ -285,7 +285,7 @@ impl<B: CpmRobot> Walker<B> {
     pub fn set_off(
         &mut self,
         mut choose: impl FnMut(&Prospect) -> BeforePlace,
-    ) -> Result<Walk, WalkError<B::Error>> {
+    ) -> WalkResult<Walk, B> {
         // It may have been carried here.
         self.pilot.stand()?;
         let begun = self.pose().position;
@@ -341,7 +341,7 @@ impl<B: CpmRobot> Walker<B> {
         number: usize,
         skip: u32,
         give_up_after: Option<u32>,
-    ) -> Result<Walk, WalkError<B::Error>> {
+    ) -> WalkResult<Walk, B> {
         let branch = *self
             .memory
             .branches
@@ -375,11 +375,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    fn follow(
-        &mut self,
-        mut course: Course,
-        give_up_after: Option<u32>,
-    ) -> Result<Walk, WalkError<B::Error>> {
+    fn follow(&mut self, mut course: Course, give_up_after: Option<u32>) -> WalkResult<Walk, B> {
         loop {
             if let Some(ahead) = self.stride(&mut course)? {
                 if let Some(seen) = self.enter(&mut course, ahead)? {
@@ -399,7 +395,7 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// One stride along a fragment, and a look, unless it is one to skip: at what comes into sight, or at the path.
-    fn stride(&mut self, course: &mut Course) -> Result<Option<Ahead>, WalkError<B::Error>> {
+    fn stride(&mut self, course: &mut Course) -> WalkResult<Option<Ahead>, B> {
         if course.strides >= self.config.longest_fragment {
             return Err(WalkError::Endless {
                 strides: course.strides,
@@ -456,11 +452,7 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// Goes into what is in sight; none if it is no place, seen from its middle.
-    fn enter(
-        &mut self,
-        course: &mut Course,
-        ahead: Ahead,
-    ) -> Result<Option<Seen>, WalkError<B::Error>> {
+    fn enter(&mut self, course: &mut Course, ahead: Ahead) -> WalkResult<Option<Seen>, B> {
         match ahead {
             Ahead::Landmark(landmark) => {
                 self.drive_to_landmark()?;
@@ -512,7 +504,7 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// Drives on from where a landmark is first seen to near its middle.
-    fn drive_to_landmark(&mut self) -> Result<(), WalkError<B::Error>> {
+    fn drive_to_landmark(&mut self) -> WalkResult<(), B> {
         let width = self.config.corridor_width;
         let begun = self.driven();
         let step_s = self.config.pilot.step_us as f64 * 1e-6;
@@ -547,11 +539,7 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// Drives to the middle of the place that it has seen, and looks what it is.
-    fn settle(
-        &mut self,
-        mut view: View,
-        landmark: Option<Landmark>,
-    ) -> Result<Seen, WalkError<B::Error>> {
+    fn settle(&mut self, mut view: View, landmark: Option<Landmark>) -> WalkResult<Seen, B> {
         let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
             let middle = match view.segments.place() {
@@ -627,7 +615,7 @@ impl<B: CpmRobot> Walker<B> {
         Point::new(ahead - self.config.corridor_width / 2.0, 0.0)
     }
 
-    fn look(&mut self) -> Result<View, WalkError<B::Error>> {
+    fn look(&mut self) -> WalkResult<View, B> {
         let sweep = self.pilot.sweep()?;
         self.memory.observations += 1;
         let profile = Profile::of(&sweep, self.config.alignment)?;
@@ -661,7 +649,7 @@ impl<B: CpmRobot> Walker<B> {
     }
 
     /// What becomes a common pattern; none where not two ways are seen.
-    fn observation(&self, view: &View) -> Result<Option<Observation>, WalkError<B::Error>> {
+    fn observation(&self, view: &View) -> WalkResult<Option<Observation>, B> {
         let ahead = view.profile.segments(&self.config.features)?;
         let back = view.profile.half_turned().segments(&self.config.features)?;
         let nearest = ahead
@@ -678,6 +666,9 @@ impl<B: CpmRobot> Walker<B> {
         }))
     }
 }
+
+/// What a walk of the body `B` brings, or why it ends early.
+pub type WalkResult<T, B> = Result<T, WalkError<<B as Robot>::Error>>;
 
 /// Why a walk came to no end.
 #[derive(Debug, Error)]

@@ -79,8 +79,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     if let [first, second] = &arguments.compare[..] {
         let differences = compare(first, second).map_err(classify)?;
         if differences.is_empty() {
-            writeln!(out, "{differences}")?;
-            return Ok(());
+            return Ok(writeln!(out, "{differences}")?);
         }
         return Err(Failure::Failed(anyhow!("{differences}")));
     }

@@ -65,6 +65,5 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         learned,
     };
     file::write(&arguments.out, map.to_json()?)?;
-    writeln!(out, "{states} states, a graph of {nodes} nodes")?;
-    Ok(())
+    Ok(writeln!(out, "{states} states, a graph of {nodes} nodes")?)
 }

@@ -104,8 +104,7 @@ impl Arguments {
         if self.json {
             let mut line = serde_json::to_value(hosted)?;
             line["maze"] = json!(name);
-            writeln!(out, "{line}")?;
-            return Ok(());
+            return Ok(writeln!(out, "{line}")?);
         }
         let came = if hosted.solved {
             "solved"
@@ -119,13 +118,12 @@ impl Arguments {
             crashes,
             ..
         } = hosted;
-        writeln!(
+        Ok(writeln!(
             out,
             "{name}: {came}, score {score:.1} ({score_in_cells:.1} in cells), {movements} movements, \
              {crashes} crashes, {}",
             how(hosted.ended)
-        )?;
-        Ok(())
+        )?)
     }
 }
 

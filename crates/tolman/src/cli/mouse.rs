@@ -130,8 +130,7 @@ impl Arguments {
             line["search"] = json!(self.search.name());
             line["above_floor"] = json!(judgement.above_floor());
             line["gave_up"] = json!(tried.trial.gave_up.map(|error| error.to_string()));
-            writeln!(out, "{line}")?;
-            return Ok(());
+            return Ok(writeln!(out, "{line}")?);
         }
         match (judgement.run_1, judgement.run_2, judgement.score) {
             (Some(run_1), Some(run_2), Some(score)) => writeln!(

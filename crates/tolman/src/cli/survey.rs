@@ -104,13 +104,12 @@ fn walk(
     let written = SurveyFile::of(world, seed, office, &survey);
     file::write(&arguments.out, written.to_json()?)?;
     let score = survey.score();
-    writeln!(
+    Ok(writeln!(
         out,
         "{} places for {} true ones after {} moves, purity {:.3}",
         score.places,
         score.visited,
         survey.observer().moves(),
         score.purity
-    )?;
-    Ok(())
+    )?)
 }

@@ -57,8 +57,7 @@ pub(super) fn carry_out(
             "unexplored_ports": unexplored,
             "observations_to_goal": length,
         });
-        writeln!(out, "{json:#}")?;
-        return Ok(());
+        return Ok(writeln!(out, "{json:#}")?);
     }
     writeln!(out, "{world}, seed {seed}")?;
     writeln!(out, "{units} units in {clusters} clusters")?;

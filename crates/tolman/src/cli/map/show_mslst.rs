@@ -42,8 +42,7 @@ pub(super) fn carry_out(
             "destination_nodes": destinations,
             "furthest_node": furthest,
         });
-        writeln!(out, "{json:#}")?;
-        return Ok(());
+        return Ok(writeln!(out, "{json:#}")?);
     }
     writeln!(out, "{world}, seed {seed}")?;
     writeln!(

@@ -63,8 +63,7 @@ pub(super) fn carry_out(
             "link_precision": score.link_precision,
             "places": places,
         });
-        writeln!(out, "{json:#}")?;
-        return Ok(());
+        return Ok(writeln!(out, "{json:#}")?);
     }
     writeln!(
         out,

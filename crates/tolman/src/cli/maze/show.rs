@@ -24,12 +24,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     if arguments.json {
         let mut json = serde_json::to_value(&summary)?;
         json["drawing"] = read.maze.to_string().into();
-        writeln!(out, "{json:#}")?;
-        return Ok(());
+        return Ok(writeln!(out, "{json:#}")?);
     }
     if let Some(name) = &read.name {
         writeln!(out, "{name}")?;
     }
-    writeln!(out, "{}{summary}", read.maze)?;
-    Ok(())
+    Ok(writeln!(out, "{}{summary}", read.maze)?)
 }

@@ -1,32 +1,29 @@
 use alloc::sync::Arc;
 
 use tolman_geom::{Point, Pose};
-use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
-use tolman_sim::robots::Epuck;
-use tolman_sim::{PlaceError, Solo, StepError, Truth, World, Zone};
+use tolman_sim::{Model, PlaceError, Solo, StepError, Truth, World, Zone};
 
-/// The simulated e-puck. Its maze's zones `start` and `destination` are its landmarks.
+/// A simulated robot that senses landmarks and leaves a path.
 #[derive(Debug)]
-pub struct SimulatedEpuck {
-    solo: Solo<Epuck>,
+pub struct Simulated<M: Model> {
+    solo: Solo<M>,
     landmarks: Landmarks,
     path: Vec<Pose>,
 }
 
-impl SimulatedEpuck {
-    /// Puts the robot at `start`.
+impl<M: Model> Simulated<M> {
+    /// Puts the robot at `start`, at rest. `seed` is that of the simulation.
     ///
     /// # Errors
     /// If it cannot stand there.
     pub fn new(
-        world: impl Into<Arc<World>>,
-        robot: Epuck,
+        world: Arc<World>,
+        landmarks: Landmarks,
+        robot: M,
         start: Pose,
         seed: u64,
     ) -> Result<Self, PlaceError> {
-        let world = world.into();
-        let landmarks = Landmarks::of(&world);
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
             landmarks,
@@ -34,7 +31,7 @@ impl SimulatedEpuck {
         })
     }
 
-    /// What really is, for scoring.
+    /// What really is, for scoring; no system sees it.
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.solo.truth()
@@ -67,34 +64,34 @@ impl SimulatedEpuck {
     }
 }
 
-impl Robot for SimulatedEpuck {
-    type Command = WheelSpeeds;
-    type Sensing = EpuckSensing;
+impl<M: Model> Robot for Simulated<M> {
+    type Command = M::Command;
+    type Sensing = M::Sensing;
     type Error = StepError;
 
-    fn sensing(&self) -> &EpuckSensing {
+    fn sensing(&self) -> &M::Sensing {
         self.solo.sensing()
     }
 
-    fn step(&mut self, command: &WheelSpeeds) -> Result<(), StepError> {
+    fn step(&mut self, command: &M::Command) -> Result<(), StepError> {
         self.solo.step(command)?;
         self.path.push(self.solo.truth().pose);
         Ok(())
     }
 }
 
-impl SensesLandmarks for SimulatedEpuck {
+impl<M: Model> SensesLandmarks for Simulated<M> {
     fn landmark(&self) -> Option<Landmark> {
         self.landmarks.at(self.solo.truth().pose.position)
     }
 }
 
-/// The landmarks of a world: its zones `start` and `destination`.
+/// The landmarks of a world, each with the zone where a robot's centre has to lie.
 #[derive(Clone, Debug)]
 pub struct Landmarks(Vec<(Landmark, Zone)>);
 
 impl Landmarks {
-    /// Returns those of a world.
+    /// Returns the zones `start` and `destination` of a world.
     #[must_use]
     pub fn of(world: &World) -> Self {
         let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
@@ -102,6 +99,12 @@ impl Landmarks {
             .into_iter()
             .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())));
         Self(zones.collect())
+    }
+
+    /// Returns the goal alone.
+    #[must_use]
+    pub fn goal(zone: Zone) -> Self {
+        Self(vec![(Landmark::Goal, zone)])
     }
 
     /// Returns the one that stands at a position.
