@@ -46,7 +46,6 @@ const STEPS: &[Step] = &[
     ("plain build", || passes("check --workspace --quiet")),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run(false))),
-    ("commands", commands),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
     ("fuzz", fuzz_targets),
@@ -106,14 +105,6 @@ fn tests() -> Result<Outcome> {
         return passes("nextest run --workspace --all-features --status-level fail");
     }
     passes("test --workspace --all-features --lib --bins --tests --quiet")
-}
-
-/// Every command that the pages and the help texts show, with the release build that the step before made.
-fn commands() -> Result<Outcome> {
-    let release = workspace::target_folder()?.join("release").join("tolman");
-    let mut test =
-        cargo("test --package tolman --all-features --test commands --quiet -- --ignored");
-    passed(succeed(test.env("TOLMAN", release)))
 }
 
 /// A command of the workspace as the tests built it.
