@@ -45,7 +45,7 @@ pub enum Lesson {
 /// ("the robot can learn the CPs for ca. 1500 s; thereby 1000 steps are taken").
 ///
 /// # Errors
-/// [`WalkError`].
+/// [`WalkError`](super::WalkError).
 pub fn wander<B: CpmRobot>(
     walker: &mut Walker<B>,
     lesson: Lesson,

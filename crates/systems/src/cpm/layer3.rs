@@ -86,7 +86,7 @@ impl Layer3 {
     /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are as of [`new`](Self::new).
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn begin<B: CpmRobot>(
         walker: &mut Walker<B>,
         patterns: CommonPatterns,
@@ -100,7 +100,7 @@ impl Layer3 {
     /// Lets a robot look where it is that has a map, written in these patterns, which begins there.
     ///
     /// # Errors
-    /// [`CpmFailure`], also if it stands somewhere else.
+    /// [`CpmFailure`](super::CpmFailure), also if it stands somewhere else.
     pub fn resume<B: CpmRobot>(
         walker: &mut Walker<B>,
         patterns: CommonPatterns,
@@ -133,7 +133,7 @@ impl Layer3 {
     /// Takes in that the robot was put back to where its map begins.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn placed_at_start<B: CpmRobot>(&mut self, walker: &mut Walker<B>) -> CpmResult<(), B> {
         let start = self.map().start().ok_or(CpmFailure::NoStart)?;
         walker.begin()?;
@@ -188,7 +188,7 @@ impl Layer3 {
     /// Walks one fragment towards the aim, or says why there is none to walk.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn advance<B: CpmRobot>(
         &mut self,
         walker: &mut Walker<B>,
@@ -221,7 +221,7 @@ impl Layer3 {
     /// Walks until the aim is reached: the first episode, or the way back. `see` is told of every fragment.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn pursue<B: CpmRobot>(
         &mut self,
         walker: &mut Walker<B>,
@@ -241,7 +241,7 @@ impl Layer3 {
     /// Drives one fragment of a plan, skipping observations, and returns what stands at its end.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn drive<B: CpmRobot>(walker: &mut Walker<B>, leg: &PlanLeg) -> CpmResult<Sighting, B> {
         // "The length of the fragments is used to estimate how many observation the robot can skip."
         let skip = walker.strides(leg.observations);
@@ -252,7 +252,7 @@ impl Layer3 {
     /// Drives the shortest known way to the goal, skipping observations: the second episode.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn drive_plan<B: CpmRobot>(
         &self,
         walker: &mut Walker<B>,

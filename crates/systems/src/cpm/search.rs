@@ -62,7 +62,7 @@ impl Search {
     /// Comes to the next place. Breaks where it is sure or has come to as many as it may.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn advance<B: CpmRobot>(
         &mut self,
         walker: &mut Walker<B>,
@@ -89,7 +89,7 @@ impl Search {
     /// Where it is then, [`Whereabouts::here`] says: `Location::ahead` is the port behind it.
     ///
     /// # Errors
-    /// [`CpmFailure`].
+    /// [`CpmFailure`](super::CpmFailure).
     pub fn find_out<B: CpmRobot>(
         mut self,
         walker: &mut Walker<B>,
