@@ -54,7 +54,7 @@ fn the_mazes_of_others_are_courses() {
         let text = std::fs::read_to_string(&file).unwrap();
         // Some of them cannot be solved, and say so in their names.
         if let Ok(maze) = tolman_maze::read(&text) {
-            let course = Course::new(&file.to_string_lossy(), &maze, &body()).unwrap();
+            let course = Course::for_body(&file.to_string_lossy(), &maze, &body()).unwrap();
             check_starts(&course, &body());
             courses += 1;
         }

@@ -3,12 +3,13 @@
 
 use core::fmt::Debug;
 
-use tolman_arena::cpm::{Venue, is_whole_map_right, ring_measures};
+use tolman_arena::Simulated;
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{is_whole_map_right, ring_measures};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyorConfig, mapper};
 use tolman_arena::micromouse::brief;
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, ring};
 use tolman_arena::run::{End, Limited, run};
-use tolman_arena::{Landmarks, Simulated};
 use tolman_control::Stack;
 use tolman_maze::Maze;
 use tolman_robot::{Goal, Landmark, Mapper, SensesLandmarks, System, Task};
@@ -33,11 +34,10 @@ fn maze() -> Maze {
 }
 
 fn pioneer() -> Pioneer {
-    let venue = Venue::new("", maze(), CORRIDOR_WIDTH).unwrap();
-    let landmarks = Landmarks::of(&venue.world);
+    let course = Course::new("", maze(), CORRIDOR_WIDTH).unwrap();
     let model = LaserPioneer::new(calibrated()).unwrap();
-    let start = venue.start().unwrap();
-    Simulated::new(venue.world, landmarks, model, start, SEED).unwrap()
+    let start = course.start().unwrap();
+    course.robot_at(start, model, SEED).unwrap()
 }
 
 /// Lets `system` explore with `robot` and then go to the goal. Returns the time steps of both.

@@ -87,7 +87,7 @@ fn a_run_ends_where_it_says() {
         for seed in 0..SEEDS {
             let trial = trial(&course, seed);
             let episode = episode::run(&trial, &mut mind(&cast, agent, &course), |_| {}).unwrap();
-            let inside = |pose: &Pose| course.destination().contains(pose.position);
+            let inside = |pose: &Pose| course.is_destination(pose.position);
             let (last, before) = episode.path.split_last().unwrap();
             assert_eq!(inside(last), episode.reached, "{name}, seed {seed}");
             assert!(

@@ -54,7 +54,7 @@ pub(crate) fn course(path: &Path) -> Course {
 pub(crate) fn course_for(path: &Path, body: &Body) -> Course {
     let text = fs::read_to_string(path).unwrap();
     let file = tolman_maze::read(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-    Course::new(&path.to_string_lossy(), &file, body).unwrap()
+    Course::for_body(&path.to_string_lossy(), &file, body).unwrap()
 }
 
 /// One of the project's own mazes.

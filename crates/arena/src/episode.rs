@@ -8,7 +8,7 @@ use thiserror::Error;
 use tolman_control::{Drive, RingError, Stack};
 use tolman_geom::Pose;
 use tolman_robot::{Body, Goal, Landmark, Robot, Task};
-use tolman_sim::robots::{ConfigError, LaserPioneerConfig};
+use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::{Actor, ActorError, stream};
 
@@ -117,9 +117,8 @@ pub fn run(
     mind: &mut Mind,
     mut watch: impl FnMut(&Step<'_>),
 ) -> Result<Episode, EpisodeError> {
-    let robot = trial
-        .course
-        .robot_at(trial.start, &trial.robot, trial.seed)?;
+    let robot = LaserPioneer::new(trial.robot.clone())?;
+    let robot = trial.course.robot_at(trial.start, robot, trial.seed)?;
     let mut robot = Limited::new(robot, trial.step_limit);
     // An action may last as long as the run.
     let layers = layers(trial.course, &trial.robot)?;

@@ -25,4 +25,4 @@ pub mod run;
 mod simulated;
 
 pub use mind::{AnyBrain, Mind};
-pub use simulated::{Landmarks, Simulated};
+pub use simulated::Simulated;

@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::Drive;
 use tolman_robot::{Body, System, Task};
-use tolman_sim::robots::LaserPioneerConfig;
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
 use tolman_systems::{Actor, Doing, TimeStep, stream};
 
@@ -119,7 +119,7 @@ impl Wanderer {
         let simulation = seeds.next_u64();
         let layers_rng = stream(seeds.next_u64(), 0);
         Ok(Self {
-            robot: course.robot_at(start, robot, simulation)?,
+            robot: course.robot_at(start, LaserPioneer::new(robot.clone())?, simulation)?,
             drive: Drive::new(layers(course, robot)?, layers_rng),
             rng: stream(seeds.next_u64(), 0),
         })

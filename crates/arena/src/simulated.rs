@@ -1,14 +1,15 @@
 use alloc::sync::Arc;
 
-use tolman_geom::{Point, Pose};
+use tolman_geom::Pose;
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
-use tolman_sim::{Model, PlaceError, Solo, StepError, Truth, World, Zone};
+use tolman_sim::{DoorError, DoorState, Model, PlaceError, Solo, StepError, Truth, World, Zone};
 
-/// A simulated robot that senses landmarks and leaves a path.
+/// A simulated robot that senses the zones `start` and `destination` of its world as landmarks, and leaves a path.
 #[derive(Debug)]
 pub struct Simulated<M: Model> {
     solo: Solo<M>,
-    landmarks: Landmarks,
+    /// With the zones where its centre has to lie.
+    landmarks: Vec<(Landmark, Zone)>,
     path: Vec<Pose>,
 }
 
@@ -17,13 +18,12 @@ impl<M: Model> Simulated<M> {
     ///
     /// # Errors
     /// If it cannot stand there.
-    pub fn new(
-        world: Arc<World>,
-        landmarks: Landmarks,
-        robot: M,
-        start: Pose,
-        seed: u64,
-    ) -> Result<Self, PlaceError> {
+    pub fn new(world: Arc<World>, robot: M, start: Pose, seed: u64) -> Result<Self, PlaceError> {
+        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
+        let zones = names.into_iter();
+        let zones =
+            zones.filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())));
+        let landmarks = zones.collect();
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
             landmarks,
@@ -57,6 +57,14 @@ impl<M: Model> Simulated<M> {
         self.solo.place(pose)
     }
 
+    /// Opens or shuts a door of the world it is in.
+    ///
+    /// # Errors
+    /// If there is no such door.
+    pub fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), DoorError> {
+        self.solo.simulation_mut().set_door(name, state)
+    }
+
     /// The world it is in.
     #[must_use]
     pub fn world(&self) -> &World {
@@ -82,35 +90,9 @@ impl<M: Model> Robot for Simulated<M> {
 
 impl<M: Model> SensesLandmarks for Simulated<M> {
     fn landmark(&self) -> Option<Landmark> {
-        self.landmarks.at(self.solo.truth().pose.position)
-    }
-}
-
-/// The landmarks of a world, each with the zone where a robot's centre has to lie.
-#[derive(Clone, Debug)]
-pub struct Landmarks(Vec<(Landmark, Zone)>);
-
-impl Landmarks {
-    /// Returns the zones `start` and `destination` of a world.
-    #[must_use]
-    pub fn of(world: &World) -> Self {
-        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
-        let zones = names
-            .into_iter()
-            .filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())));
-        Self(zones.collect())
-    }
-
-    /// Returns the goal alone.
-    #[must_use]
-    pub fn goal(zone: Zone) -> Self {
-        Self(vec![(Landmark::Goal, zone)])
-    }
-
-    /// Returns the one that stands at a position.
-    #[must_use]
-    pub fn at(&self, here: Point) -> Option<Landmark> {
-        let mut at = self.0.iter().filter(|(_, zone)| zone.contains(here));
-        at.next().map(|(landmark, _)| *landmark)
+        let here = self.truth().pose.position;
+        let mut at = self.landmarks.iter();
+        let at = at.find(|(_, zone)| zone.contains(here));
+        at.map(|(landmark, _)| *landmark)
     }
 }

@@ -24,7 +24,7 @@ type Anything = Box<dyn Error>;
 fn main() -> Result<(), Anything> {
     let path = env::args().nth(1).ok_or("name the file to write")?;
     let text = include_str!("../../../mazes/large.maze");
-    let course = Course::new("Large", &tolman_maze::read(text)?, &pioneer::body())?;
+    let course = Course::for_body("Large", &tolman_maze::read(text)?, &pioneer::body())?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let figures = [
         learned_graph(&course),

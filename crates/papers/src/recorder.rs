@@ -19,7 +19,7 @@ use tolman_replay::{Belief, BeliefAt, Floor, Mark, Marks, Notes, Replay, Scenery
 /// use tolman_papers::Recorder;
 ///
 /// let maze = tolman_maze::read("o---o---o---o\n| S       G |\no---o---o---o\n")?;
-/// let (course, robot) = (Course::new("corridor", &maze, &body())?, calibrated());
+/// let (course, robot) = (Course::for_body("corridor", &maze, &body())?, calibrated());
 /// let start = random_start(&course, &body(), 7);
 /// let trial = Trial { course: &course, robot, start, step_limit: 500, seed: 7 };
 /// let mut mind = Cast::default().mind(Agent::Avoid, &course, &trial.robot)?;

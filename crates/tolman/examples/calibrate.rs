@@ -75,7 +75,7 @@ fn main() -> Result<(), BoxError> {
     let mut courses = Vec::new();
     for (name, text, limit) in MAZES {
         courses.push((
-            Course::new(name, &tolman_maze::read(text)?, &pioneer::body())?,
+            Course::for_body(name, &tolman_maze::read(text)?, &pioneer::body())?,
             limit,
         ));
     }

@@ -17,7 +17,6 @@ use tolman_systems::cpm::{
 
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::trial::tests::{PATTERNS, maze_1};
-use crate::Landmarks;
 
 const WIDTH: f64 = 0.25;
 
@@ -96,7 +95,11 @@ fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), CpmFailur
 #[test]
 fn one_sensor_that_fails_ends_in_an_error_or_as_it_is_said() {
     let maze = maze_1();
-    let body = || maze.robot(epuck(), 1).unwrap();
+    let start = maze.start().unwrap();
+    let body = || {
+        maze.robot_at(start, Epuck::new(epuck()).unwrap(), 1)
+            .unwrap()
+    };
     let (mut blind_reached, mut stuck_told) = (0, 0);
     for sensor in 0..PROXIMITY_SENSORS {
         // A sensor that is not there sees nothing, one that is stuck a wall that touches it.
@@ -167,8 +170,7 @@ fn junctions_of_many_branches_end_in_an_error_or_as_it_is_said() {
     for (branches, width) in [(5, 0.25), (8, 0.15), (10, 0.12), (10, 0.25)] {
         let (world, start) = star(branches, width);
         let robot = Epuck::new(epuck()).unwrap();
-        let landmarks = Landmarks::of(&world);
-        let body = SimulatedEpuck::new(Arc::new(world), landmarks, robot, start, 1).unwrap();
+        let body = SimulatedEpuck::new(Arc::new(world), robot, start, 1).unwrap();
         match search(body, width) {
             Ok((episode, is_there)) => {
                 assert_eq!(

@@ -5,7 +5,7 @@ use tolman_systems::cpm::{CommonPatterns, CpmConfig};
 use super::robots::{epuck, walker_config};
 use super::survey::survey;
 use super::trial::TrialError;
-use super::venue::Venue;
+use crate::course::Course;
 
 /// Whether the fragments of a maze can be told apart by what the robot observes along them: the constraints of section 4.3, "every path-fragment
 /// in the environment is *distinctive*" and *asymmetrical*, measured by f_S.
@@ -47,14 +47,14 @@ struct Walked {
 /// # Errors
 /// [`TrialError`] if the robot cannot walk a fragment, comes to another place than its end, or sees nothing on the way.
 pub fn distinctness(
-    venue: &Venue,
+    course: &Course,
     patterns: &CommonPatterns,
     seeds: impl IntoIterator<Item = u64>,
 ) -> Result<Distinctness, TrialError> {
-    let config = walker_config(&epuck(), venue.corridor_width)?;
+    let config = walker_config(&epuck(), course.corridor_width)?;
     let mut walks = Vec::new();
     for seed in seeds {
-        let walked = survey(venue, &epuck(), &config, seed)?;
+        let walked = survey(course, &epuck(), &config, seed)?;
         for walk in walked {
             let ends = (walk.from, walk.way.to);
             if walk.to != Some(walk.way.to) || walk.observations.is_empty() {
@@ -103,6 +103,7 @@ pub fn distinctness(
 
 #[cfg(test)]
 mod tests {
+    use super::super::course::epuck_course;
     use super::*;
     use crate::cpm::trial::tests::PATTERNS;
 
@@ -115,8 +116,8 @@ o---o---o---o---o---o
 | S               G |
 o---o---o---o---o---o
 ";
-        let venue = Venue::of_file("", tolman_maze::read(text).unwrap()).unwrap();
-        let found = distinctness(&venue, &PATTERNS, 0..2).unwrap();
+        let course = epuck_course("", tolman_maze::read(text).unwrap()).unwrap();
+        let found = distinctness(&course, &PATTERNS, 0..2).unwrap();
         let most = found.most_alike.unwrap();
         assert!(most.score > 0.9, "{most:?}");
         let least = found.least_alike.unwrap();
@@ -126,8 +127,8 @@ o---o---o---o---o---o
     #[test]
     fn a_fragment_without_anything_to_see_is_refused() {
         let text = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
-        let venue = Venue::of_file("", tolman_maze::read(text).unwrap()).unwrap();
-        let refused = distinctness(&venue, &PATTERNS, 0..1).unwrap_err();
+        let course = epuck_course("", tolman_maze::read(text).unwrap()).unwrap();
+        let refused = distinctness(&course, &PATTERNS, 0..1).unwrap_err();
         assert!(matches!(refused, TrialError::Unwalked { .. }), "{refused}");
     }
 }

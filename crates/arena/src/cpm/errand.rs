@@ -102,7 +102,7 @@ impl Trial<'_> {
     /// How many fragments the maze has.
     #[must_use]
     pub fn true_fragments(&self) -> u32 {
-        TrueFragments::of(&self.venue.maze).count()
+        TrueFragments::of(&self.course.maze).count()
     }
 
     /// Walks from the start until the aim is reached, and optimizes the map. `watch` is told after every fragment how far it has come, and may
@@ -119,7 +119,7 @@ impl Trial<'_> {
             most_traversals: self.patience(),
             ..self.mode.config()
         };
-        let mut walker = self.walker_at(self.venue.start()?)?;
+        let mut walker = self.walker_at(self.course.start()?)?;
         let mut layer = self.begin(&mut walker, config)?;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let (begun, mut progress) = (Begun::now(&walker), Progress::default());
@@ -145,7 +145,7 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`], also if the map has no way to a goal, or does not begin where the robot stands.
     pub fn drive(&self, map: CpMap) -> Result<Errand, TrialError> {
-        let mut walker = self.walker_at(self.venue.start()?)?;
+        let mut walker = self.walker_at(self.course.start()?)?;
         let (patterns, config) = (self.patterns.clone(), self.mode.config());
         let layer = Layer3::resume(&mut walker, patterns, config, map)?;
         let plan = layer.explorer().mapper.plan(Landmark::Goal);
@@ -227,7 +227,7 @@ mod tests {
             ..CpmConfig::online()
         };
         let trial = Trial {
-            venue: &maze,
+            course: &maze,
             patterns: &PATTERNS,
             robot: epuck(),
             mode: Mode::Paper(blind),

@@ -39,8 +39,8 @@ impl Trial<'_> {
     /// # Errors
     /// [`TrialError`] if it cannot be begun.
     pub fn explore(&self) -> Result<Exploration, TrialError> {
-        let maze = &self.venue.maze;
-        let mut walker = self.walker_at(self.venue.start()?)?;
+        let maze = &self.course.maze;
+        let mut walker = self.walker_at(self.course.start()?)?;
         let mut found = Exploration {
             fragments: TrueFragments::of(maze).count(),
             best: best_walk(maze),

@@ -10,27 +10,27 @@ use super::fragments::{DIRECTIONS, along};
 /// by port, as far as they agree.
 ///
 /// ```
-/// use tolman_arena::cpm::{Layout, learn, Trial, Venue, epuck};
+/// use tolman_arena::cpm::{Layout, Trial, epuck, epuck_course, learn};
 /// use tolman_systems::cpm::Mode;
 /// use tolman_systems::cpm::CpmConfig;
 /// use tolman_robot::Landmark;
 ///
 /// # let text = include_str!("../../mazes/cpm-1.maze");
-/// let venue = Venue::of_file("", tolman_maze::read(text)?)?;
-/// let patterns = learn(&venue, 1)?;
+/// let course = epuck_course("", tolman_maze::read(text)?)?;
+/// let patterns = learn(&course, 1)?;
 /// let mode = Mode::Paper(CpmConfig::online());
-/// let trial = Trial { venue: &venue, patterns: &patterns, robot: epuck(), mode, seed: 3 };
+/// let trial = Trial { course: &course, patterns: &patterns, robot: epuck(), mode, seed: 3 };
 /// let map = trial.play()?.map;
-/// let layout = Layout::of(&map, &venue.maze);
+/// let layout = Layout::of(&map, &course.maze);
 /// let goal = map.landmarks(Landmark::Goal).next().ok_or("the goal is not on the map")?;
-/// assert_eq!(layout.place(goal), Some(venue.maze.goals()[0]));
+/// assert_eq!(layout.place(goal), Some(course.maze.goals()[0]));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
     /// With the direction of port 0.
     places: BTreeMap<JunctionId, (Cell, Direction)>,
-    fragments: BTreeMap<FragmentId, Course>,
+    fragments: BTreeMap<FragmentId, Lie>,
     open: Vec<OpenPort>,
 }
 
@@ -47,7 +47,7 @@ pub struct OpenPort {
 
 /// Where a fragment lies.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Course {
+pub struct Lie {
     /// From − to +, with the places at both ends.
     pub cells: Vec<Cell>,
     /// Whether the map has both its ends where the maze has them.
@@ -135,7 +135,7 @@ impl Layout {
         if end.sign == Sign::Plus {
             cells.reverse();
         }
-        self.fragments.insert(end.fragment, Course { cells, fit });
+        self.fragments.insert(end.fragment, Lie { cells, fit });
         if known.is_some() {
             return None;
         }
@@ -155,7 +155,7 @@ impl Layout {
 
     /// Where a fragment lies.
     #[must_use]
-    pub fn course(&self, fragment: FragmentId) -> Option<&Course> {
+    pub fn fragment(&self, fragment: FragmentId) -> Option<&Lie> {
         self.fragments.get(&fragment)
     }
 

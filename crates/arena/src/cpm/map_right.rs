@@ -26,8 +26,8 @@ pub(super) fn is_map_right(
     });
     let mut laid = BTreeSet::new();
     let are_fragments = map.fragments().all(|(id, _)| {
-        let course = layout.course(id).filter(|course| course.fit == Fit::Agrees);
-        let ways = course.and_then(|course| fragments.driven(course.cells.iter().copied()));
+        let lie = layout.fragment(id).filter(|lie| lie.fit == Fit::Agrees);
+        let ways = lie.and_then(|lie| fragments.driven(lie.cells.iter().copied()));
         ways.is_some_and(|ways| ways.iter().all(|way| laid.insert(way.fragment)))
     });
     are_places && are_fragments && laid == *walked

@@ -1,7 +1,7 @@
 //! CPM's e-puck in mazes: [`SimulatedEpuck`], the trials that are played with it, and what it should have
 //! learned there. The system is `tolman_systems::cpm`.
 //!
-//! A [`Trial`] plays both episodes in the maze of a [`Venue`] and scores them by its
+//! A [`Trial`] plays both episodes on a [course](epuck_course) and scores them by its
 //! [`TrueFragments`]. An [`Errand`] is one episode; a [`Layout`] says where the parts of a map lie.
 //! An [`Exploration`] is a maze walked to its end. A [`PutDown`] is a trial of a robot that has to find out where
 //! it is. A [`RoundTrip`] is the way to the goal, back by untried fragments, and there again. [`world`] has
@@ -10,6 +10,7 @@
 #[cfg(test)]
 mod adversity;
 mod bends;
+mod course;
 mod distinctness;
 mod errand;
 mod exploration;
@@ -26,17 +27,17 @@ mod score;
 mod spots;
 mod survey;
 mod trial;
-mod venue;
 #[cfg(test)]
 mod wire;
 pub mod world;
 
 pub use bends::Likeness;
+pub use course::{CORRIDOR_WIDTH, epuck_course};
 pub use distinctness::{Distinctness, Pair, distinctness};
 pub use errand::{DriveFrom, Errand, Learned, Progress};
 pub use exploration::Exploration;
 pub use fragments::{TrueFragments, Way};
-pub use layout::{Course, Fit, Layout, OpenPort};
+pub use layout::{Fit, Layout, Lie, OpenPort};
 pub use map_right::is_whole_map_right;
 pub use put_down::{KnownMaze, PutDown, PutDownRecord};
 pub use robots::{
@@ -46,4 +47,3 @@ pub use round_trip::RoundTrip;
 pub use score::Closures;
 pub use survey::{Surveyed, survey};
 pub use trial::{Record, Trial, TrialError, learn, learn_by};
-pub use venue::Venue;

@@ -1,7 +1,5 @@
 //! CPM on the laser Pioneer: mazes learned by a robot nearly four times an e-puck's size, without its sensors.
 
-use alloc::sync::Arc;
-
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::Maze;
@@ -14,10 +12,10 @@ use tolman_systems::cpm::{
 
 use super::map_right::is_whole_map_right;
 use super::robots::ring_measures;
-use super::venue::Venue;
+use crate::Simulated;
+use crate::course::Course;
 use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
 use crate::run::{End, Ended, Limited, run};
-use crate::{Landmarks, Simulated};
 
 /// Who tells the robot what it stands at.
 /// Explorations take 30 000.
@@ -27,22 +25,21 @@ const STEP_LIMIT: u32 = 100_000;
 const FORKS: &str = include_str!("../../mazes/forks.maze");
 
 /// A maze with corridors for a Pioneer.
-fn venue(text: &str) -> Venue {
-    Venue::new("", tolman_maze::read(text).unwrap().maze, CORRIDOR_WIDTH).unwrap()
+fn course(text: &str) -> Course {
+    Course::new("", tolman_maze::read(text).unwrap().maze, CORRIDOR_WIDTH).unwrap()
 }
 
 /// A Pioneer that looks like an e-puck.
 type Epuck = RingAsEpuck<Simulated<LaserPioneer>>;
 
 /// The robot at the start of a maze, which looks like an e-puck, and how it is driven.
-fn placed(venue: &Venue, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
-    let landmarks = Landmarks::of(&venue.world);
+fn placed(course: &Course, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
     let measures = ring_measures(&robot, CORRIDOR_WIDTH);
     let config = measures.walker_config();
     let model = LaserPioneer::new(robot).unwrap();
-    let start = venue.start().unwrap();
-    let world = Arc::clone(&venue.world);
-    let pioneer = Simulated::new(world, landmarks, model, start, seed).unwrap();
+    let pioneer = course
+        .robot_at(course.start().unwrap(), model, seed)
+        .unwrap();
     let epuck = RingAsEpuck::new(pioneer, measures).unwrap();
     (epuck, config)
 }
@@ -88,7 +85,7 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
 /// The calibrated motors miss turns by 12 % and distances by 25 %.
 #[test]
 fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
-    let forks = venue(FORKS);
+    let forks = course(FORKS);
     for seed in 0..2 {
         let (epuck, config) = placed(&forks, calibrated(), seed);
         let cpm = Cpm::unlearned(config, CpmConfig::robust(), seed).unwrap();
@@ -99,13 +96,13 @@ fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
 /// As the paper has it: patterns of a learning maze, no dead reckoning.
 #[test]
 fn a_pioneer_learns_as_the_paper_s_robot_does() {
-    let learning = venue(include_str!("../../mazes/cpm-learning.maze"));
+    let learning = course(include_str!("../../mazes/cpm-learning.maze"));
     let (epuck, config) = placed(&learning, calibrated(), 1);
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let mut walker = Walker::new(epuck, config);
     let seen = wander(&mut walker, Lesson::Observations(300), &mut rng).unwrap();
     let patterns = CommonPatterns::learn(&seen, soinn()).unwrap();
-    let forks = venue(FORKS);
+    let forks = course(FORKS);
     let (epuck, config) = placed(&forks, calibrated(), 1);
     let cpm = Cpm::new(config, patterns, CpmConfig::online(), 1);
     play(cpm, epuck, &forks.maze);

@@ -2,14 +2,14 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
-use tolman_sim::robots::EpuckConfig;
+use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{Approach, CommonPatterns, Search, Walker, Whereabouts};
 
 use super::fragments::{TrueFragments, Way};
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
 use super::trial::{Record, TrialError};
-use super::venue::Venue;
+use crate::course::Course;
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
 ///
@@ -36,7 +36,7 @@ pub struct PutDown<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct KnownMaze<'a> {
     /// The maze.
-    pub venue: &'a Venue,
+    pub course: &'a Course,
     /// The trial in which the robot learned its map of it.
     pub learned: &'a Record,
 }
@@ -71,7 +71,7 @@ pub struct PutDownRecord {
 impl KnownMaze<'_> {
     /// Where a robot may be put that has this map.
     fn spots(&self) -> Vec<Spot> {
-        Spot::all(&self.venue.maze, |way| {
+        Spot::all(&self.course.maze, |way| {
             let mut known = self.learned.truth.values();
             known.any(|truth| truth.fragment == way.fragment)
         })
@@ -88,16 +88,20 @@ impl PutDown<'_> {
         let Some(known) = self.known.get(self.here) else {
             return Ok(None);
         };
-        let venue = known.venue;
-        let fragments = TrueFragments::of(&venue.maze);
+        let course = known.course;
+        let fragments = TrueFragments::of(&course.maze);
         let mazes: Vec<Vec<Spot>> = self.known.iter().map(KnownMaze::spots).collect();
         let spots = mazes.get(self.here).map(Vec::as_slice).unwrap_or_default();
         if spots.is_empty() {
             return Ok(None);
         }
         let spot = &spots[rng.random_range(0..spots.len() as u32) as usize];
-        let body = venue.robot_at(spot.pose(venue), self.robot.clone(), self.seed)?;
-        let config = walker_config(&self.robot, venue.corridor_width)?;
+        let body = course.robot_at(
+            spot.pose(course),
+            Epuck::new(self.robot.clone())?,
+            self.seed,
+        )?;
+        let config = walker_config(&self.robot, course.corridor_width)?;
         let mut walker = Walker::new(body, config);
         let maps = self.known.iter().map(|known| known.learned.map.clone());
         let maps: Vec<CpMap> = maps.collect();
@@ -107,7 +111,7 @@ impl PutDown<'_> {
         let whereabouts = search.find_out(&mut walker, &mut rng, |walker| {
             let from = walker.departed_at(walker.body().path());
             onward.push(from.and_then(|from| {
-                let cell = venue.world.cell_at(from.position)?;
+                let cell = course.world.cell_at(from.position)?;
                 fragments.way(cell, from.heading)
             }));
         })?;

@@ -89,7 +89,8 @@ mod tests {
     fn sweeps_last_as_long_as_the_paper_says() {
         let maze = maze_1();
         let sweep = |robot: &EpuckConfig| {
-            let body = maze.robot(robot.clone(), 1).unwrap();
+            let body = Epuck::new(robot.clone()).unwrap();
+            let body = maze.robot_at(maze.start().unwrap(), body, 1).unwrap();
             let config = walker_config(robot, 0.25).unwrap();
             let mut pilot = Pilot::new(body, config.pilot);
             let samples = pilot.sweep().unwrap().samples.len();

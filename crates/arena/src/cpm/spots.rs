@@ -7,7 +7,7 @@ use tolman_robot::Landmark;
 use super::fragments::{
     Quarters, TrueFragments, Way, along, bends, headings, landmark_at, quarters,
 };
-use super::venue::Venue;
+use crate::course::Course;
 use tolman_systems::cpm::Approach;
 
 /// Where a robot may be put down: in the middle of a cell between the places at the ends of a fragment, looking along it.
@@ -108,8 +108,8 @@ impl Spot {
         spots
     }
 
-    pub(super) fn pose(&self, venue: &Venue) -> Pose {
-        venue.in_cell(self.cell, self.heading)
+    pub(super) fn pose(&self, course: &Course) -> Pose {
+        course.in_cell(self.cell, self.heading)
     }
 
     fn view(&self, approach: Approach, looks: Looks) -> View<'_> {

@@ -1,11 +1,11 @@
 use tolman_maps::cpm::Sighting;
 use tolman_maze::Cell;
-use tolman_sim::robots::EpuckConfig;
+use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{Observation, WalkError, Walker, WalkerConfig};
 
 use super::fragments::{TrueFragments, Way};
 use super::trial::TrialError;
-use super::venue::Venue;
+use crate::course::Course;
 
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
@@ -28,17 +28,17 @@ pub struct Surveyed {
 /// # Errors
 /// [`TrialError`] if the robot cannot stand at a place, or a walk comes to no end.
 pub fn survey(
-    venue: &Venue,
+    course: &Course,
     robot: &EpuckConfig,
     config: &WalkerConfig,
     seed: u64,
 ) -> Result<Vec<Surveyed>, TrialError> {
-    let fragments = TrueFragments::of(&venue.maze);
+    let fragments = TrueFragments::of(&course.maze);
     let mut walks = Vec::new();
     for (cell, out, way) in fragments.ways() {
         // Whoever came by this fragment looks into the place.
-        let start = venue.in_cell(cell, out.opposite());
-        let body = venue.robot_at(start, robot.clone(), seed)?;
+        let start = course.in_cell(cell, out.opposite());
+        let body = course.robot_at(start, Epuck::new(robot.clone())?, seed)?;
         let mut walker = Walker::new(body, config.clone());
         walker.begin()?;
         let walk = walker.walk(0, 0, None)?;
@@ -46,7 +46,7 @@ pub fn survey(
         walks.push(Surveyed {
             from: cell,
             way,
-            to: venue.world.cell_at(end),
+            to: course.world.cell_at(end),
             observations: walk.observations,
             sighting: walk.sighting.ok_or(WalkError::Lost)?,
         });
@@ -93,19 +93,21 @@ mod tests {
 
     #[test]
     fn what_it_sensed_before_it_was_put_down_is_no_part_of_what_it_sees() {
-        let venue = maze_1();
+        let course = maze_1();
         let config = walker_config(&epuck(), 0.25).unwrap();
-        for (from, out, _) in TrueFragments::of(&venue.maze).ways() {
-            let start = venue.in_cell(from, out.opposite());
+        for (from, out, _) in TrueFragments::of(&course.maze).ways() {
+            let start = course.in_cell(from, out.opposite());
             let carried = Carried {
-                body: venue.robot_at(start, epuck(), 1).unwrap(),
+                body: course
+                    .robot_at(start, Epuck::new(epuck()).unwrap(), 1)
+                    .unwrap(),
                 sensed: Some(EpuckSensing {
                     proximity: Some([3800.0; PROXIMITY_SENSORS]),
                     ..EpuckSensing::default()
                 }),
             };
             let seen = Walker::new(carried, config.clone()).begin().unwrap();
-            assert_eq!(seen.degree, venue.maze.degree(from) as u32, "at {from:?}");
+            assert_eq!(seen.degree, course.maze.degree(from) as u32, "at {from:?}");
         }
     }
 
@@ -117,11 +119,11 @@ mod tests {
             include_str!("../../mazes/cpm-2.maze"),
             include_str!("../../mazes/cpm-3.maze"),
         ] {
-            let venue = Venue::new("", tolman_maze::read(text).unwrap().maze, 0.25).unwrap();
+            let course = Course::new("", tolman_maze::read(text).unwrap().maze, 0.25).unwrap();
             let config = walker_config(&epuck(), 0.25).unwrap();
-            for walk in survey(&venue, &epuck(), &config, 4).unwrap() {
+            for walk in survey(&course, &epuck(), &config, 4).unwrap() {
                 assert_eq!(walk.to, Some(walk.way.to), "from {:?}", walk.from);
-                let degree = venue.maze.degree(walk.way.to) as u32;
+                let degree = course.maze.degree(walk.way.to) as u32;
                 assert_eq!(walk.sighting.degree, degree, "at {:?}", walk.to);
             }
         }
@@ -142,18 +144,20 @@ mod tests {
             o   o   o---o---o   o\n\
             | S |               |\n\
             o---o---o---o---o---o\n";
-        let venue = Venue::new("", tolman_maze::read(text).unwrap().maze, 0.25).unwrap();
+        let course = Course::new("", tolman_maze::read(text).unwrap().maze, 0.25).unwrap();
         let config = walker_config(&epuck(), 0.25).unwrap();
-        let fragments = TrueFragments::of(&venue.maze);
+        let fragments = TrueFragments::of(&course.maze);
         for (from, out, way) in fragments.ways() {
-            let start = venue.in_cell(from, out.opposite());
-            let body = venue.robot_at(start, epuck(), 2).unwrap();
+            let start = course.in_cell(from, out.opposite());
+            let body = course
+                .robot_at(start, Epuck::new(epuck()).unwrap(), 2)
+                .unwrap();
             let mut walker = Walker::new(body, config.clone());
             walker.begin().unwrap();
             for to in [way.to, from] {
                 walker.walk(0, 0, None).unwrap();
                 let end = walker.body().truth().pose.position;
-                assert_eq!(venue.world.cell_at(end), Some(to), "{from:?} by {way:?}");
+                assert_eq!(course.world.cell_at(end), Some(to), "{from:?} by {way:?}");
             }
         }
     }

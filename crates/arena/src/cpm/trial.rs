@@ -9,8 +9,8 @@ use tolman_maps::cpm::{CpMap, CpmError, FragmentId, LocalizeError, RecallError};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_sim::noise::Fault;
-use tolman_sim::robots::{EpuckConfig, EpuckError};
-use tolman_sim::{PlaceError, StepError, WorldError};
+use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
+use tolman_sim::{PlaceError, StepError};
 use tolman_systems::cpm::{
     Aim, CommonPatterns, CpmConfig, CpmFailure, Done, Episode, Layer3, LearnError, Lesson, Mode,
     Step, WalkError, Walker, WalkerConfig, soinn, wander,
@@ -19,14 +19,14 @@ use tolman_systems::cpm::{
 use super::fragments::Way;
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
-use super::venue::Venue;
+use crate::course::{Course, CourseError};
 
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.
 #[derive(Clone, Debug)]
 pub struct Trial<'a> {
     /// The maze, with a start and a goal.
-    pub venue: &'a Venue,
+    pub course: &'a Course,
     /// What the robot learned before, if its mode has that.
     pub patterns: &'a CommonPatterns,
     /// The robot.
@@ -100,9 +100,9 @@ impl Record {
 ///
 /// # Errors
 /// [`TrialError`].
-pub fn learn(venue: &Venue, seed: u64) -> Result<CommonPatterns, TrialError> {
-    let config = walker_config(&epuck(), venue.corridor_width)?;
-    learn_by(venue, epuck(), config, Lesson::Observations(1000), seed)
+pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, TrialError> {
+    let config = walker_config(&epuck(), course.corridor_width)?;
+    learn_by(course, epuck(), config, Lesson::Observations(1000), seed)
 }
 
 /// Learns the common patterns in a maze as any other robot that observes like this.
@@ -110,13 +110,16 @@ pub fn learn(venue: &Venue, seed: u64) -> Result<CommonPatterns, TrialError> {
 /// # Errors
 /// [`TrialError`].
 pub fn learn_by(
-    venue: &Venue,
+    course: &Course,
     robot: EpuckConfig,
     config: WalkerConfig,
     lesson: Lesson,
     seed: u64,
 ) -> Result<CommonPatterns, TrialError> {
-    let mut walker = Walker::new(venue.robot(robot, seed)?, config);
+    let mut walker = Walker::new(
+        course.robot_at(course.start()?, Epuck::new(robot)?, seed)?,
+        config,
+    );
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let observations = wander(&mut walker, lesson, &mut rng)?;
     Ok(CommonPatterns::learn(&observations, soinn())?)
@@ -134,9 +137,10 @@ impl Trial<'_> {
 
     /// The robot anywhere in its world.
     pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, TrialError> {
-        let mut config = walker_config(&self.robot, self.venue.corridor_width)?;
+        let mut config = walker_config(&self.robot, self.course.corridor_width)?;
         config.heading = self.mode.heading();
-        let body = self.venue.robot_at(start, self.robot.clone(), self.seed)?;
+        let robot = Epuck::new(self.robot.clone())?;
+        let body = self.course.robot_at(start, robot, self.seed)?;
         Ok(Walker::new(body, config))
     }
 
@@ -170,7 +174,7 @@ impl Trial<'_> {
         &self,
         see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<Record, TrialError> {
-        let start = self.venue.start()?;
+        let start = self.course.start()?;
         let mut walker = self.walker_at(start)?;
         let mut record = Record::default();
         match self.begin(&mut walker, self.mode.config()) {
@@ -194,7 +198,7 @@ impl Trial<'_> {
         record: &mut Record,
         mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<(), TrialError> {
-        let maze = &self.venue.maze;
+        let maze = &self.course.maze;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let mut score = Score::of(maze);
         score.begin(layer, walker);
@@ -221,7 +225,7 @@ impl Trial<'_> {
             record.second = Some(layer.drive_plan(walker, &plan)?);
             let path = walker.body().path();
             let path = path.get(record.second_from..).unwrap_or_default();
-            if let Some(driven) = score.length_of(&self.venue.world, path) {
+            if let Some(driven) = score.length_of(&self.course.world, path) {
                 let is_as_short = |shortest: Option<u32>| is_as_short(driven, shortest);
                 record.is_shortest_known = is_as_short(score.known.shortest());
                 record.is_shortest_as_it_lies = is_as_short(score.shortest_as_it_lies(maze));
@@ -240,33 +244,15 @@ fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TrialError {
-    /// The maze marks no start.
-    #[error("the maze marks no start: mark a cell with S")]
-    NoStart,
-    /// In such corridors the robot does not see what they are.
-    #[error(
-        "corridors of {width} m: an e-puck, whose sensors reach {reach} m, tells junctions in corridors of {least} to {most} m alone; set \
-         corridor_width to 0.25"
-    )]
-    Width {
-        /// From wall to wall, m.
-        width: f64,
-        /// How narrow they may be, m.
-        least: f64,
-        /// How wide they may be, m.
-        most: f64,
-        /// How far its sensors reach, m.
-        reach: f64,
-    },
+    /// The maze is no course for an e-puck.
+    #[error(transparent)]
+    Course(#[from] CourseError),
     /// Who watched a robot learn broke off.
     #[error("broken off after {walks} fragments")]
     BrokenOff {
         /// How many were walked.
         walks: u32,
     },
-    /// The maze makes no world.
-    #[error(transparent)]
-    World(#[from] WorldError),
     /// The robot cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
@@ -314,9 +300,7 @@ impl TrialError {
     pub const fn is_bad_input(&self) -> bool {
         matches!(
             self,
-            Self::NoStart
-                | Self::Width { .. }
-                | Self::World(_)
+            Self::Course(_)
                 | Self::Epuck(_)
                 | Self::NoPlan
                 | Self::Place(_)
@@ -338,12 +322,12 @@ pub(super) mod tests {
 
     const WIDTH: f64 = 0.25;
 
-    fn read(text: &str) -> Venue {
-        Venue::new("", tolman_maze::read(text).unwrap().maze, WIDTH).unwrap()
+    fn read(text: &str) -> Course {
+        Course::new("", tolman_maze::read(text).unwrap().maze, WIDTH).unwrap()
     }
 
     /// Maze 1 of the paper, for all tests of CPM.
-    pub(crate) fn maze_1() -> Venue {
+    pub(crate) fn maze_1() -> Course {
         read(include_str!("../../mazes/cpm-1.maze"))
     }
 
@@ -351,9 +335,9 @@ pub(super) mod tests {
     pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> =
         LazyLock::new(|| learn(&read(include_str!("../../mazes/cpm-learning.maze")), 1).unwrap());
 
-    fn trial(venue: &Venue, robot: EpuckConfig) -> Trial<'_> {
+    fn trial(course: &Course, robot: EpuckConfig) -> Trial<'_> {
         Trial {
-            venue,
+            course,
             patterns: &PATTERNS,
             robot,
             mode: Mode::Paper(CpmConfig::online()),
@@ -361,8 +345,8 @@ pub(super) mod tests {
         }
     }
 
-    fn play(venue: &Venue, robot: EpuckConfig) -> Record {
-        trial(venue, robot).play().unwrap()
+    fn play(course: &Course, robot: EpuckConfig) -> Record {
+        trial(course, robot).play().unwrap()
     }
 
     #[test]
@@ -405,7 +389,7 @@ pub(super) mod tests {
         for direction in Direction::ALL {
             maze.set_wall(goal, direction, true);
         }
-        let record = play(&Venue::new("", maze, WIDTH).unwrap(), epuck());
+        let record = play(&Course::new("", maze, WIDTH).unwrap(), epuck());
         assert!(!record.is_solved() && record.trouble.is_none());
         assert_eq!(record.first.unwrap().done, Done::NotThere);
         assert!(record.second.is_none());
@@ -419,7 +403,7 @@ pub(super) mod tests {
         }
         maze.set_start(Some((Cell::new(0, 0), Direction::East)));
         maze.set_goals(vec![Cell::new(3, 0)]);
-        let record = play(&Venue::new("", maze, WIDTH).unwrap(), epuck());
+        let record = play(&Course::new("", maze, WIDTH).unwrap(), epuck());
         assert!(record.is_solved(), "{:?}", record.trouble);
     }
 
@@ -496,7 +480,7 @@ pub(super) mod tests {
         let maze = maze_1();
         let record = play(&maze, epuck());
         let known = [KnownMaze {
-            venue: &maze,
+            course: &maze,
             learned: &record,
         }];
         let straight_on = (0..4).map(|seed| (Approach::StraightOn, seed));

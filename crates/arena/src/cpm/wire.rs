@@ -13,6 +13,7 @@ use tolman_maps::cpm::CpMap;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
 use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
+use tolman_sim::robots::Epuck;
 use tolman_systems::cpm::{
     Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, WalkError, Walker, WalkerConfig,
 };
@@ -145,7 +146,9 @@ impl Write for Line {
 }
 
 fn simulated(seed: u64) -> SimulatedEpuck {
-    maze_1().robot(epuck(), seed).unwrap()
+    let maze = maze_1();
+    let robot = Epuck::new(epuck()).unwrap();
+    maze.robot_at(maze.start().unwrap(), robot, seed).unwrap()
 }
 
 fn line(seed: u64) -> Line {

@@ -11,11 +11,13 @@ use tolman_maps::diktiometry::{
     ActionKind, Config, Outcome, Percepts, Rotation, Signature, SignatureError, SignatureKind,
 };
 use tolman_maze::{Cell, Direction, Maze};
-use tolman_sim::{StepError, World};
+use tolman_sim::robots::{Epuck, EpuckError};
+use tolman_sim::{PlaceError, StepError, World};
 use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Mapping, Planner, Rover};
 
 use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
-use crate::cpm::{SimulatedEpuck, TrialError, TrueFragments, Venue, epuck, walker_config};
+use crate::course::{Course, CourseError};
+use crate::cpm::{SimulatedEpuck, TrueFragments, epuck, walker_config};
 use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
 use tolman_systems::stream;
 
@@ -88,9 +90,15 @@ pub struct EpuckSurvey {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpuckSurveyError {
-    /// It cannot stand at a start in this maze.
+    /// The maze is no course from a start.
     #[error(transparent)]
-    Trial(#[from] TrialError),
+    Course(#[from] CourseError),
+    /// The robot cannot be built.
+    #[error(transparent)]
+    Epuck(#[from] EpuckError),
+    /// It cannot stand at the start.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
     /// Its sensors cannot be read.
     #[error(transparent)]
     Curve(#[from] RangeCurveError),
@@ -184,7 +192,8 @@ impl EpuckRover {
         config: &EpuckSurveyConfig,
         seed: u64,
     ) -> Result<Self, EpuckSurveyError> {
-        let body = Venue::new("", maze.clone(), corridor_width)?.robot(epuck(), seed)?;
+        let course = Course::new("", maze.clone(), corridor_width)?;
+        let body = course.robot_at(course.start()?, Epuck::new(epuck())?, seed)?;
         let ahead = body.truth().pose.heading;
         let mut walker_config = walker_config(&epuck(), corridor_width)?;
         walker_config.heading = HeadingBy::Walls;

@@ -39,7 +39,7 @@ fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
     for seed in 1..4 {
         let pioneer = LaserPioneer::new(config.laser_robot()).unwrap();
         let pose = Pose::new(start, Heading::NORTH);
-        let solo = Solo::new(office.world().clone(), pioneer, pose, seed).unwrap();
+        let solo = Solo::new(office.course.world.clone(), pioneer, pose, seed).unwrap();
         let is_near =
             |solo: &Solo<LaserPioneer>, at: Point| (solo.truth().pose.position - at).norm() < 0.3;
         let landmarked = Landmarked::new(solo, |solo: &Solo<LaserPioneer>| {
@@ -83,7 +83,7 @@ fn a_run_that_broke_off_goes_on() {
         .map(|place| place.position);
     let pioneer = LaserPioneer::new(config.laser_robot()).unwrap();
     let pose = Pose::new(start.unwrap(), Heading::NORTH);
-    let mut solo = Solo::new(office.world().clone(), pioneer, pose, 1).unwrap();
+    let mut solo = Solo::new(office.course.world.clone(), pioneer, pose, 1).unwrap();
     let paper = DiktiometerConfig::paper(routines, mapper(&office, &config));
     let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, 1);
     for (limit, end) in [(50, End::OutOfTime), (20_000, End::Done)] {

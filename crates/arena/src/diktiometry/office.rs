@@ -1,7 +1,6 @@
 //! A world of corridors in which corners and doorways are the places: the paper's simulated environments.
 
 use alloc::collections::BTreeMap;
-use alloc::sync::Arc;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -9,6 +8,8 @@ use thiserror::Error;
 use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_sim::{CorridorSize, Door, DoorState, Material, Wall, World, WorldError};
+
+use crate::course::Course;
 
 /// How deep the narrow part of a doorway is, in the middle of the wall, as a share of the corridor's width.
 const DOORWAY_DEPTH: f64 = 0.5;
@@ -63,13 +64,13 @@ impl OfficeConfig {
 /// to a goal of the maze from belongs to it, if the maze has a goal.
 #[derive(Clone, Debug)]
 pub struct Office {
-    maze: Maze,
+    /// Its corridors. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the passage.
+    pub course: Course,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
     /// The cells that belong to it, in the order of the grid.
     cells: Vec<Cell>,
     config: OfficeConfig,
-    world: Arc<World>,
 }
 
 /// Why a maze makes no office.
@@ -156,24 +157,11 @@ impl Office {
             }
         }
         Ok(Self {
-            maze: maze.clone(),
+            course: Course::in_world("", maze.clone(), config.corridor_width, world),
             doorways,
             cells,
             config: *config,
-            world: Arc::new(world),
         })
-    }
-
-    /// Its walls. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the passage.
-    #[must_use]
-    pub const fn world(&self) -> &Arc<World> {
-        &self.world
-    }
-
-    /// The maze it was built from.
-    #[must_use]
-    pub const fn maze(&self) -> &Maze {
-        &self.maze
     }
 
     /// How it is furnished.
@@ -234,11 +222,11 @@ impl Office {
     }
 
     fn site(&self, cell: Cell) -> u32 {
-        self.maze.grid().index(cell) as u32
+        self.course.maze.grid().index(cell) as u32
     }
 
     fn site_of_doorway(&self, number: usize) -> u32 {
-        (self.maze.grid().cells().count() + number) as u32
+        (self.course.maze.grid().cells().count() + number) as u32
     }
 
     /// A passage as doorways are named.
@@ -246,7 +234,7 @@ impl Office {
         match direction {
             Direction::North | Direction::East => Some((cell, direction)),
             Direction::South | Direction::West => {
-                let neighbour = self.maze.grid().neighbour(cell, direction)?;
+                let neighbour = self.course.maze.grid().neighbour(cell, direction)?;
                 Some((neighbour, direction.opposite()))
             }
         }
@@ -317,7 +305,7 @@ impl Chart<'_> {
 
     fn is_open(&self, cell: Cell, direction: Direction) -> bool {
         let doorway = self.doorway(cell, direction);
-        self.office.maze.is_open(cell, direction)
+        self.office.course.maze.is_open(cell, direction)
             && !doorway.is_some_and(|number| self.shut.contains(&number))
     }
 
@@ -334,7 +322,7 @@ impl Chart<'_> {
             if let Some(number) = self.doorway(cell, direction) {
                 return Some(self.office.site_of_doorway(number));
             }
-            cell = self.office.maze.grid().neighbour(cell, direction)?;
+            cell = self.office.course.maze.grid().neighbour(cell, direction)?;
             if self.is_corner(cell) {
                 return Some(self.office.site(cell));
             }
@@ -346,7 +334,7 @@ impl Chart<'_> {
     fn behind(&self, number: usize, direction: Direction) -> Option<u32> {
         let (cell, along) = self.office.doorways[number];
         let beyond = match direction {
-            _ if direction == along => self.office.maze.grid().neighbour(cell, along)?,
+            _ if direction == along => self.office.course.maze.grid().neighbour(cell, along)?,
             _ if direction == along.opposite() => cell,
             _ => return None,
         };

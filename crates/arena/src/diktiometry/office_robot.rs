@@ -1,81 +1,31 @@
 use tolman_geom::{Heading, Point, Pose};
-use tolman_robot::{CameraSensing, Robot, TurnTranslate};
 use tolman_sim::robots::CameraPioneer;
-use tolman_sim::{DoorState, Solo, StepError};
+use tolman_sim::{DoorError, DoorState};
 use tolman_systems::diktiometry::Surveyor;
 
 use super::{Office, RunError, Sight, SurveyorConfig};
+use crate::Simulated;
 
-/// A simulated Pioneer with a camera in an [`Office`], which keeps where it truly was.
-#[derive(Debug)]
-pub struct OfficeRobot {
-    solo: Solo<CameraPioneer>,
-    path: Vec<Pose>,
-}
+/// A simulated Pioneer with a camera.
+pub type OfficeRobot = Simulated<CameraPioneer>;
 
 /// An [`OfficeRobot`] with its control routines.
 pub type OfficeSurveyor = Surveyor<OfficeRobot, Sight>;
 
-impl OfficeRobot {
-    /// Returns a robot at `at`, m, that faces north. `seed` is that of all noise.
-    ///
-    /// # Errors
-    /// [`RunError`] if the robot cannot be built or cannot stand there.
-    pub fn new(
-        office: &Office,
-        config: &SurveyorConfig,
-        at: Point,
-        seed: u64,
-    ) -> Result<Self, RunError> {
-        let pose = Pose::new(at, Heading::NORTH);
-        let robot = CameraPioneer::new(config.camera_robot())?;
-        let solo = Solo::new(office.world().clone(), robot, pose, seed)?;
-        let path = vec![pose];
-        Ok(Self { solo, path })
-    }
-
-    /// Returns where the robot truly was after each time step, for pictures.
-    #[must_use]
-    pub fn path(&self) -> &[Pose] {
-        &self.path
-    }
-
-    /// Returns where the robot truly is, m, for scoring.
-    #[must_use]
-    pub fn position(&self) -> Point {
-        self.solo.truth().pose.position
-    }
-
-    /// Opens or shuts both leaves of doorway `number`.
-    ///
-    /// # Errors
-    /// [`RunError::Door`] if there is none of that number.
-    pub fn set_doorway(&mut self, number: usize, state: DoorState) -> Result<(), RunError> {
-        for leaf in ["a", "b"] {
-            let simulation = self.solo.simulation_mut();
-            simulation.set_door(&format!("{number} {leaf}"), state)?;
-        }
-        Ok(())
-    }
+/// Opens or shuts both leaves of doorway `number` where `robot` is.
+///
+/// # Errors
+/// If there is none of that number.
+pub(super) fn set_doorway(
+    robot: &mut OfficeRobot,
+    number: usize,
+    state: DoorState,
+) -> Result<(), DoorError> {
+    let mut leaves = ["a", "b"].into_iter();
+    leaves.try_for_each(|leaf| robot.set_door(&format!("{number} {leaf}"), state))
 }
 
-impl Robot for OfficeRobot {
-    type Command = TurnTranslate;
-    type Sensing = CameraSensing;
-    type Error = StepError;
-
-    fn sensing(&self) -> &CameraSensing {
-        self.solo.sensing()
-    }
-
-    fn step(&mut self, command: &TurnTranslate) -> Result<(), StepError> {
-        self.solo.step(command)?;
-        self.path.push(self.solo.truth().pose);
-        Ok(())
-    }
-}
-
-/// Returns a robot with its routines at `at`, m, in `office`. `seed` is that of all noise.
+/// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` is that of all noise.
 ///
 /// # Errors
 /// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
@@ -89,7 +39,9 @@ pub fn surveyor(
     let routines = config
         .routines(furniture.corridor_width)
         .with_doorways(furniture.doorway_width());
-    let robot = OfficeRobot::new(office, config, at, seed)?;
+    let robot = CameraPioneer::new(config.camera_robot())?;
+    let pose = Pose::new(at, Heading::NORTH);
+    let robot = office.course.robot_at(pose, robot, seed)?;
     Ok(Surveyor::new(robot, config.sight, routines)?)
 }
 
@@ -130,8 +82,7 @@ mod tests {
         let config = SurveyorConfig::paper();
         let mut rover = surveyor(office, &config, places[&at].position, seed).unwrap();
         for number in shut {
-            let robot = rover.robot_mut();
-            robot.set_doorway(*number, DoorState::Shut).unwrap();
+            set_doorway(rover.robot_mut(), *number, DoorState::Shut).unwrap();
         }
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         for _ in 0..moves {
@@ -158,7 +109,7 @@ mod tests {
         for (seed, doorways) in [(1, 0.0), (2, 0.3), (3, 1.0)] {
             let office = office(seed, doorways);
             walk(&office, &[], 300, seed, |_, to, arrival, robot| {
-                let miss = (robot.position() - to.position).abs().max();
+                let miss = (robot.truth().pose.position - to.position).abs().max();
                 assert!(
                     miss < SurveyorConfig::paper().place_radius,
                     "{miss} m from {to:?}"
@@ -175,7 +126,7 @@ mod tests {
         let places = office.places(&[]);
         let mut before = places.first_key_value().unwrap().1.position;
         walk(&office, &[], 300, 4, |from, to, arrival, robot| {
-            let here = robot.position();
+            let here = robot.truth().pose.position;
             let moved = here - before;
             before = here;
             assert!(
@@ -218,8 +169,8 @@ mod tests {
         let (mut real, mut ghostly) = (Vec::new(), Vec::new());
         let mut before = truth.values().next().unwrap().position;
         walk(&office, &[], 600, 8, |from, to, arrival, robot| {
-            let moved = robot.position() - before;
-            before = robot.position();
+            let moved = robot.truth().pose.position - before;
+            before = robot.truth().pose.position;
             if from.site != to.site {
                 let miss = arrival.moved.middle().coords - moved;
                 real.push([arrival.moved.width(), miss.norm()].map(|x| x / moved.norm()));

@@ -15,7 +15,7 @@ use tolman_systems::diktiometry::{
 
 use super::{
     MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, Places, Sight,
-    SurveyorConfig, Visit, leads, score, surveyor,
+    SurveyorConfig, Visit, leads, office_robot::set_doorway, score, surveyor,
 };
 use tolman_systems::stream;
 
@@ -275,14 +275,14 @@ impl<'a> Survey<'a> {
         self.move_a_door()?;
         let (observer, exits) = (self.mapping.observer(), self.mapping.exits());
         let decision = self.planner.choose(observer, exits, &mut self.walk);
-        let at = self.robot().position();
+        let at = self.position();
         self.go(decision.ok_or(RunError::NoWay { at })?)
     }
 
     fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
-        let before = self.robot().position();
+        let before = self.position();
         let gone = self.mapping.go(&mut self.rover, decision.direction);
-        let here = self.robot().position();
+        let here = self.position();
         let MappedMove { arrival, report } =
             gone.map_err(|source| RunError::BrokeOff { at: here, source })?;
         let from = self.site;
@@ -313,19 +313,23 @@ impl<'a> Survey<'a> {
             return Ok(());
         }
         let number = self.doors.random_range(0..doorways as u32) as usize;
-        if (self.office.doorway(number) - self.robot().position()).norm() < 3.0 {
+        if (self.office.doorway(number) - self.position()).norm() < 3.0 {
             return Ok(());
         }
         let robot = self.rover.robot_mut();
         if let Some(at) = self.shut.iter().position(|shut| *shut == number) {
-            robot.set_doorway(number, DoorState::Open)?;
+            set_doorway(robot, number, DoorState::Open)?;
             self.shut.remove(at);
         } else {
-            robot.set_doorway(number, DoorState::Shut)?;
+            set_doorway(robot, number, DoorState::Shut)?;
             self.shut.push(number);
         }
         self.truth = self.office.places(&self.shut);
         Ok(())
+    }
+
+    fn position(&self) -> Point {
+        self.robot().truth().pose.position
     }
 
     /// The true place the robot is at.
@@ -348,7 +352,7 @@ impl<'a> Survey<'a> {
     #[must_use]
     pub fn past(&self) -> Past {
         Past {
-            at: self.robot().position(),
+            at: self.position(),
             ..self.past.clone()
         }
     }

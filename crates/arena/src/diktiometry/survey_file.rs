@@ -93,7 +93,7 @@ impl SurveyFile {
         let past = &self.past;
         let visits = past.visits.iter().map(|visit| (visit.site, visit.place));
         let body = Body {
-            maze: self.office.maze().to_string(),
+            maze: self.office.course.maze.to_string(),
             office: *self.office.config(),
             surveyor: self.config.robot.clone(),
             heed: self.config.heed,

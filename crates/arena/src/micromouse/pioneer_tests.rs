@@ -11,9 +11,9 @@ use tolman_systems::micromouse::Search;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 
 use super::{brief, check};
+use crate::Simulated;
 use crate::pioneer::{self, CORRIDOR_WIDTH};
 use crate::run::{End, Limited, run};
-use crate::{Landmarks, Simulated};
 
 const MAZE: &str = "\
 o---o---o---o---o
@@ -65,8 +65,7 @@ fn send<S: Search>(
         tolman_control::heading_of(heading),
     );
     let body = LaserPioneer::new(robot.clone()).unwrap();
-    let landmarks = Landmarks::of(&world);
-    let mut pioneer = Simulated::new(Arc::clone(&world), landmarks, body, pose, 7).unwrap();
+    let mut pioneer = Simulated::new(Arc::clone(&world), body, pose, 7).unwrap();
     let mut outing = Vec::new();
     for task in tasks {
         let from = pioneer.path().len();

@@ -11,8 +11,8 @@ mod unlocalized;
 use alloc::sync::Arc;
 
 use tolman_control::Outcome;
-use tolman_geom::{Heading, Pose};
-use tolman_maze::Direction;
+use tolman_geom::Pose;
+use tolman_maze::{Cell, Direction};
 use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
@@ -30,7 +30,8 @@ fn perfect_robot(
     robot: &LaserPioneerConfig,
 ) -> Result<Solo<LaserPioneer>, EpisodeError> {
     let model = LaserPioneer::new(without_noise(robot))?;
-    let somewhere = Pose::new(course.world.cell_centre(course.starts()[0]), Heading::NORTH);
+    let somewhere = course.starts().next().unwrap_or(Cell::new(0, 0));
+    let somewhere = course.in_cell(somewhere, Direction::North);
     Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
 }
 

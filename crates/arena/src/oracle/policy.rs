@@ -62,7 +62,7 @@ impl Policy {
         let mut goals = Vec::new();
         for node in 0..lattice.node_count() as u32 {
             let pose = lattice.pose(node);
-            if course.destination().contains(pose.position) {
+            if course.is_destination(pose.position) {
                 goals.push(node);
                 continue;
             }
@@ -147,7 +147,7 @@ fn carry_out(
         solo.step(&proposal.command)
             .map_err(|source| step_failed(step, source))?;
         let pose = solo.truth().pose;
-        if course.destination().contains(pose.position) {
+        if course.is_destination(pose.position) {
             return Ok(Some((pose, step)));
         }
         match proposal.ends {

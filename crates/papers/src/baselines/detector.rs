@@ -61,7 +61,7 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
         .map_or(&[][..], |(_, open)| open);
     let centre = Cell::new(ARM, ARM);
     let file = MazeFile::from(place(centre, open));
-    let course = Course::new(job.row, &file, &pioneer::body())?;
+    let course = Course::for_body(job.row, &file, &pioneer::body())?;
     let detector = CorridorDetector::new(pioneer::ring(), course.corridor_width)?;
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
     let half = 0.5 * course.corridor_width;

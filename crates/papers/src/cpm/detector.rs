@@ -8,8 +8,10 @@ use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
 use tolman_robot::Robot as _;
 use tolman_robot::epuck::WheelSpeeds;
+use tolman_sim::robots::Epuck;
 
-use tolman_arena::cpm::{Venue, epuck, survey, walker_config};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{epuck, survey, walker_config};
 use tolman_experiment::{
     Better, BoxError, Fields, Job, Metric, Record, Row, Table, record, require,
 };
@@ -205,20 +207,20 @@ pub(super) fn config() -> impl Serialize {
 }
 
 /// Looks at places of all mazes.
-pub(super) fn run(venues: &[Venue], job: &Job<'_>) -> Result<Fields, BoxError> {
+pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError> {
     let mut tally = DetectorRun::default();
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
-    for venue in venues {
+    for course in courses {
         if job.row == ON_THE_WAY {
-            walk(venue, job.seed, &mut tally)?;
+            walk(course, job.seed, &mut tally)?;
             continue;
         }
         let (setting, width) = settings()
             .find(|(setting, width)| row(setting, *width) == job.row)
             .ok_or("there is no such row")?;
-        let width = width.unwrap_or(venue.corridor_width);
-        let venue = Venue::new(&venue.name, venue.maze.clone(), width)?;
-        sweep_all(setting, &venue, job.seed, &mut rng, &mut tally)?;
+        let width = width.unwrap_or(course.corridor_width);
+        let course = Course::new(&course.name, course.maze.clone(), width)?;
+        sweep_all(setting, &course, job.seed, &mut rng, &mut tally)?;
     }
     Ok(tally.finished().fields()?)
 }
@@ -226,27 +228,27 @@ pub(super) fn run(venues: &[Venue], job: &Job<'_>) -> Result<Fields, BoxError> {
 /// One sweep in every cell that the robot can come to.
 fn sweep_all(
     setting: &Setting,
-    venue: &Venue,
+    course: &Course,
     seed: u64,
     rng: &mut impl Rng,
     tally: &mut DetectorRun,
 ) -> Result<(), BoxError> {
     let mut pilot = None;
-    for cell in venue.maze.reachable() {
-        let ways: Vec<_> = venue.maze.neighbours(cell).collect();
+    for cell in course.maze.reachable() {
+        let ways: Vec<_> = course.maze.neighbours(cell).collect();
         let Some((way, _)) = ways.get(rng.random_range(0..ways.len().max(1) as u32) as usize)
         else {
             continue;
         };
         let mut off = || rng.random_range(-OFF..=OFF);
-        let position = venue.world.cell_centre(cell) + Vector::new(off(), off());
+        let position = course.world.cell_centre(cell) + Vector::new(off(), off());
         let heading = heading_of(*way).turned(rng.random_range(-ASKEW..=ASKEW));
         let pose = Pose::new(position, heading);
         let pilot = match &mut pilot {
             Some(pilot) => pilot,
             None => {
-                let body = venue.robot_at(pose, epuck(), seed)?;
-                let config = walker_config(&epuck(), venue.corridor_width)?.pilot;
+                let body = course.robot_at(pose, Epuck::new(epuck())?, seed)?;
+                let config = walker_config(&epuck(), course.corridor_width)?.pilot;
                 pilot.insert(Pilot::new(body, config))
             }
         };
@@ -263,10 +265,10 @@ fn sweep_all(
 }
 
 /// The robot walks every fragment both ways; what is told of the place at its end counts, and a place that it does not come to is missed.
-fn walk(venue: &Venue, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxError> {
-    let config = walker_config(&epuck(), venue.corridor_width)?;
-    for walk in survey(venue, &epuck(), &config, seed)? {
-        let degree = |cell| venue.maze.degree(cell);
+fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxError> {
+    let config = walker_config(&epuck(), course.corridor_width)?;
+    for walk in survey(course, &epuck(), &config, seed)? {
+        let degree = |cell| course.maze.degree(cell);
         tally.told(walk.sighting.degree as usize, walk.to.map_or(0, degree));
         if walk.to != Some(walk.way.to) {
             tally.missed(degree(walk.way.to));

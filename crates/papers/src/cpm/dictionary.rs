@@ -1,6 +1,7 @@
 //! How many common patterns the robot learns: section 5, "31 clusters are obtained with 102 nodes".
 
-use tolman_arena::cpm::{Venue, learn};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::learn;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, Tolerance, record, require};
 use tolman_systems::cpm::CommonPatterns;
 
@@ -34,7 +35,7 @@ impl DictionaryRun {
     }
 }
 
-pub(super) fn table(learning: &Venue) -> Table {
+pub(super) fn table(learning: &Course) -> Table {
     Table::of::<DictionaryRun>(DICTIONARY, "The dictionary of common patterns")
         .metrics_from(DictionaryRun::units)
         .row(
@@ -48,7 +49,7 @@ pub(super) fn table(learning: &Venue) -> Table {
 }
 
 /// One walk through the learning maze.
-pub(super) fn run(learning: &Venue, job: &Job<'_>) -> Result<Fields, BoxError> {
+pub(super) fn run(learning: &Course, job: &Job<'_>) -> Result<Fields, BoxError> {
     let patterns = learn(learning, job.seed)?;
     Ok(DictionaryRun::of(&patterns).fields()?)
 }

@@ -8,7 +8,8 @@ use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_sim::World;
 
-use tolman_arena::cpm::{Fit, Layout, Venue};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{Fit, Layout};
 use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series, Zone};
 
 /// Width of a plan, user units.
@@ -44,8 +45,8 @@ const fn series(id: FragmentId) -> Series {
 /// A map over the maze it was learned in: each fragment along the corridor it stands for, in a colour of its own, with its name and its signs;
 /// junctions as squares. Dashed stubs are ports nobody has been through.
 #[must_use]
-pub fn over_maze(map: &CpMap, venue: &Venue) -> Drawing {
-    let plan = plan_with(map, venue);
+pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
+    let plan = plan_with(map, course);
     plan.drawing(format!(
         "A common-pattern map of {} fragments over its maze.",
         map.fragments().len()
@@ -54,24 +55,24 @@ pub fn over_maze(map: &CpMap, venue: &Venue) -> Drawing {
 
 /// A drive over the map that it was made by, over the maze.
 #[must_use]
-pub fn drive(map: &CpMap, venue: &Venue, path: &[Pose]) -> Drawing {
-    let mut plan = plan_with(map, venue);
+pub fn drive(map: &CpMap, course: &Course, path: &[Pose]) -> Drawing {
+    let mut plan = plan_with(map, course);
     let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
     plan.trajectory(&positions, JUNCTION);
     plan.drawing("A drive by a common-pattern map.")
 }
 
-fn plan_with(map: &CpMap, venue: &Venue) -> Plan {
-    let world = &venue.world;
-    let layout = Layout::of(map, &venue.maze);
-    let mut plan = plan_of(venue);
+fn plan_with(map: &CpMap, course: &Course) -> Plan {
+    let world = &course.world;
+    let layout = Layout::of(map, &course.maze);
+    let mut plan = plan_of(course);
     let mut graph = Graph::new().radius(RADIUS);
     let mut signs = Vec::new();
     let bounds = world.bounds();
     let unit = (bounds.max.x - bounds.min.x) / WIDTH;
     stubs(&mut graph, &layout, world);
     for (id, fragment) in map.fragments() {
-        let Some(course) = layout.course(id) else {
+        let Some(course) = layout.fragment(id) else {
             continue;
         };
         let centres = centres(&course.cells, world);
@@ -104,12 +105,12 @@ fn plan_with(map: &CpMap, venue: &Venue) -> Plan {
 
 /// The plan of a maze; what the robot cannot come to is solid.
 #[must_use]
-pub fn plan_of(venue: &Venue) -> Plan {
-    let world = &venue.world;
+pub fn plan_of(course: &Course) -> Plan {
+    let world = &course.world;
     let mut plan = Plan::of_world(world, WIDTH);
     // Cell (0, 0) begins at the origin.
     let side = 2.0 * world.cell_centre(Cell::new(0, 0)).x;
-    for cell in venue.maze.sealed() {
+    for cell in course.maze.sealed() {
         plan.square(world.cell_centre(cell), side, Zone::Solid);
     }
     plan
@@ -136,9 +137,9 @@ fn add(graph: &mut Graph, node: GraphNode) {
 /// The map by itself, as the paper's figure 8: fragment nodes as discs, junction nodes as squares, each edge with the sign of the
 /// fragment's end and the port of the junction. Nodes lie as they do in the maze.
 #[must_use]
-pub fn graph(map: &CpMap, venue: &Venue) -> Drawing {
-    let world = &venue.world;
-    let layout = Layout::of(map, &venue.maze);
+pub fn graph(map: &CpMap, course: &Course) -> Drawing {
+    let world = &course.world;
+    let layout = Layout::of(map, &course.maze);
     let mut graph = Graph::new().radius(RADIUS + 1.0);
     stubs(&mut graph, &layout, world);
     let mut junctions = Vec::new();
@@ -149,7 +150,7 @@ pub fn graph(map: &CpMap, venue: &Venue) -> Drawing {
         }
     }
     for (id, fragment) in map.fragments() {
-        let Some(course) = layout.course(id) else {
+        let Some(course) = layout.fragment(id) else {
             continue;
         };
         let centres = centres(&course.cells, world);

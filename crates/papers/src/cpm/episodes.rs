@@ -8,7 +8,8 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Maze};
 
 use super::trials;
-use tolman_arena::cpm::{TrueFragments, Venue, Way};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{TrueFragments, Way};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
 use tolman_systems::cpm::CommonPatterns;
@@ -63,11 +64,11 @@ impl EpisodesRun {
     }
 }
 
-/// `venues` one row each.
-pub(super) fn table(venues: &[Venue]) -> Table {
+/// `courses` one row each.
+pub(super) fn table(courses: &[Course]) -> Table {
     let table = Table::of::<EpisodesRun>(EPISODES, "Episodes until the way is known")
         .metrics_from(EpisodesRun::cells)
-        .rows(venues.iter().map(|venue| Row::new(&venue.name)));
+        .rows(courses.iter().map(|course| Row::new(&course.name)));
     let QLearningConfig {
         learning_rate,
         discount,
@@ -84,24 +85,24 @@ pub(super) fn table(venues: &[Venue]) -> Table {
 
 /// One trial of CPM, and what its rivals need to do as well.
 pub(super) fn run(
-    venue: &Venue,
+    course: &Course,
     patterns: &CommonPatterns,
     job: &Job<'_>,
 ) -> Result<Fields, BoxError> {
-    let graph = JunctionTask::of(&venue.maze)?;
-    let shortest = TrueFragments::of(&venue.maze).shortest(&venue.maze, |way| Some(way.cells));
+    let graph = JunctionTask::of(&course.maze)?;
+    let shortest = TrueFragments::of(&course.maze).shortest(&course.maze, |way| Some(way.cells));
     let run = EpisodesRun {
         shortest_cells: shortest.ok_or("no way leads to the goal")?,
         ..EpisodesRun::default()
     };
-    let record = trials::trial(venue, patterns, trials::faithful(), job.seed).play()?;
+    let record = trials::trial(course, patterns, trials::faithful(), job.seed).play()?;
     if !record.is_solved() {
         return Ok(run.fields()?);
     }
     let second = record.path.get(record.second_from..).unwrap_or_default();
     let cells = second
         .iter()
-        .filter_map(|pose| venue.world.cell_at(pose.position));
+        .filter_map(|pose| course.world.cell_at(pose.position));
     let wanted = length_of(cells);
     let q_learning = q_learning(&graph, wanted, job.seed);
     let random_walk = random_walk(&graph, wanted, job.seed);
@@ -110,9 +111,9 @@ pub(super) fn run(
         cpm_episodes: Some(1),
         cpm_metres: Some(trials::metres(&record)),
         q_learning_episodes: q_learning.as_ref().map(|it| it.episodes),
-        q_learning_metres: q_learning.map(|it| it.metres(venue)),
+        q_learning_metres: q_learning.map(|it| it.metres(course)),
         random_walk_episodes: random_walk.as_ref().map(|it| it.episodes),
-        random_walk_metres: random_walk.map(|it| it.metres(venue)),
+        random_walk_metres: random_walk.map(|it| it.metres(course)),
         ..run
     };
     Ok(run.fields()?)
@@ -125,8 +126,8 @@ struct Walked {
 }
 
 impl Walked {
-    fn metres(&self, venue: &Venue) -> f64 {
-        self.cells as f64 * venue.corridor_width
+    fn metres(&self, course: &Course) -> f64 {
+        self.cells as f64 * course.corridor_width
     }
 }
 

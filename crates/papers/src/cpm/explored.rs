@@ -3,7 +3,8 @@
 use tolman_systems::cpm::Done;
 
 use super::trials::{Setting, Trials, better, in_both_modes};
-use tolman_arena::cpm::{Trial, Venue};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::Trial;
 use tolman_experiment::{BoxError, Fields, Record, Table, record, require};
 
 /// The name of the table.
@@ -63,8 +64,8 @@ impl ExploredRun {
 }
 
 /// `papers`: the mazes are the paper's, and others are drawn beside them; `quick`: for a first look.
-pub(super) fn explored(venues: &[Venue], papers: bool, quick: bool) -> Trials {
-    let mut settings = in_both_modes(venues);
+pub(super) fn explored(courses: &[Course], papers: bool, quick: bool) -> Trials {
+    let mut settings = in_both_modes(courses);
     if papers {
         settings.push(Setting::aliased("Aliased better", better()));
     }

@@ -5,15 +5,16 @@ use tolman_geom::Point;
 use super::Cpm;
 use super::drawing;
 use super::trials::{BETTER, FIGURE_9, TrialRun};
-use tolman_arena::cpm::{Record, Venue};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::Record;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, RecordError, Run};
 
 pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
-    for (number, venue) in (1_u32..).zip(&experiment.venues) {
+    for (number, course) in (1_u32..).zip(&experiment.courses) {
         for (suffix, kind) in [("", "paper"), (BETTER, "better")] {
-            let row = format!("{}{suffix}", venue.name);
+            let row = format!("{}{suffix}", course.name);
             let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
             let runs = runs.iter().filter(of_row);
             let runs = runs.map(|run| Ok((run, run.record()?)));
@@ -22,12 +23,12 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
                 continue;
             };
             figures.push(times(&row, &format!("times-{number}-{kind}"), &runs));
-            let Some((venue, record)) = experiment.play(&longest.job())? else {
+            let Some((course, record)) = experiment.play(&longest.job())? else {
                 continue;
             };
             let name = format!("{number}-{kind}");
-            figures.push(ways(&venue, &record, &row, &format!("ways-{name}")));
-            figures.extend(maps(&venue, &record, &row, &name));
+            figures.push(ways(&course, &record, &row, &format!("ways-{name}")));
+            figures.extend(maps(&course, &record, &row, &name));
         }
     }
     Ok(figures)
@@ -70,16 +71,16 @@ fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
 }
 
 /// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took longest.
-fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Figure {
-    let mut plan = drawing::plan_of(venue);
+fn ways(course: &Course, record: &Record, row: &str, name: &str) -> Figure {
+    let mut plan = drawing::plan_of(course);
     let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
     let (first, second) = positions.split_at(record.second_from.min(positions.len()));
     plan.faint_trajectory(first, Series(0));
     plan.trajectory(second, Series(1));
-    let start = venue.maze.start().map(|(cell, _)| (cell, "start"));
-    let goals = venue.maze.goals().iter().map(|cell| (*cell, "goal"));
+    let start = course.maze.start().map(|(cell, _)| (cell, "start"));
+    let goals = course.maze.goals().iter().map(|cell| (*cell, "goal"));
     for (cell, word) in start.into_iter().chain(goals) {
-        plan.label(venue.world.cell_centre(cell), word);
+        plan.label(course.world.cell_centre(cell), word);
     }
     Figure::new(
         name,
@@ -95,9 +96,9 @@ fn ways(venue: &Venue, record: &Record, row: &str, name: &str) -> Figure {
 }
 
 /// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by itself.
-fn maps(venue: &Venue, record: &Record, row: &str, name: &str) -> [Figure; 2] {
-    let over = drawing::over_maze(&record.map, venue);
-    let graph = drawing::graph(&record.map, venue);
+fn maps(course: &Course, record: &Record, row: &str, name: &str) -> [Figure; 2] {
+    let over = drawing::over_maze(&record.map, course);
+    let graph = drawing::graph(&record.map, course);
     [
         Figure::new(format!("map-{name}"), format!("{row}: the map over its maze"), over)
             .caption(

@@ -2,8 +2,9 @@
 
 use std::sync::OnceLock;
 
-use super::{trials, venue};
-use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, Record, Venue, epuck};
+use super::{mazes, trials};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, Record, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Row, Table, record, require, run_seed};
 use tolman_systems::cpm::{Approach, CommonPatterns};
@@ -107,10 +108,10 @@ fn cast(row: &str) -> (&str, Approach) {
 }
 
 /// `quick`: for a first look.
-pub(super) fn table(venues: &[Venue], quick: bool) -> Table {
+pub(super) fn table(courses: &[Course], quick: bool) -> Table {
     let title = "Put down in mid-fragment of one of the mazes";
     let runs = if quick { QUICK_RUNS } else { RUNS };
-    let mazes = venues.iter().map(|venue| venue.name.as_str());
+    let mazes = courses.iter().map(|course| course.name.as_str());
     let rows = mazes.chain([ALIASED]).flat_map(|maze| {
         ["", TO_AND_FRO].map(|suffix| Row::new(format!("{maze}{suffix}")).runs(runs))
     });
@@ -131,7 +132,7 @@ impl Known {
     /// A solved trial of each maze, for one run of a row.
     fn records(
         &self,
-        venues: &[Venue],
+        courses: &[Course],
         patterns: &CommonPatterns,
         master_seed: u64,
         run: u32,
@@ -140,19 +141,19 @@ impl Known {
         if let Some(records) = self.0[number].get() {
             return Ok(records);
         }
-        let solved = |venue: &Venue| {
+        let solved = |course: &Course| {
             for attempt in 0..ATTEMPTS {
                 // Not the chance of any run of the table.
                 let attempt = number as u32 * ATTEMPTS + attempt;
                 let seed = run_seed(master_seed, "localization maps", attempt);
-                let record = trials::trial(venue, patterns, trials::better(), seed).play()?;
+                let record = trials::trial(course, patterns, trials::better(), seed).play()?;
                 if record.is_solved() {
                     return Ok(record);
                 }
             }
-            Err(format!("no trial of {} was solved", venue.name).into())
+            Err(format!("no trial of {} was solved", course.name).into())
         };
-        let records: Result<_, BoxError> = venues.iter().map(solved).collect();
+        let records: Result<_, BoxError> = courses.iter().map(solved).collect();
         let records = records?;
         // Two threads may learn them at once; they learn the same.
         Ok(self.0[number].get_or_init(|| records))
@@ -161,7 +162,7 @@ impl Known {
     /// One robot put down.
     pub(super) fn run(
         &self,
-        venues: &[Venue],
+        courses: &[Course],
         patterns: &CommonPatterns,
         master_seed: u64,
         job: &Job<'_>,
@@ -170,13 +171,13 @@ impl Known {
         if maze == ALIASED {
             return aliased(patterns, approach, job.seed);
         }
-        let records = self.records(venues, patterns, master_seed, job.run)?;
-        let known: Vec<KnownMaze<'_>> = venues
+        let records = self.records(courses, patterns, master_seed, job.run)?;
+        let known: Vec<KnownMaze<'_>> = courses
             .iter()
             .zip(records)
-            .map(|(venue, learned)| KnownMaze { venue, learned })
+            .map(|(course, learned)| KnownMaze { course, learned })
             .collect();
-        let here = venues.iter().position(|venue| venue.name == maze);
+        let here = courses.iter().position(|course| course.name == maze);
         let here = here.ok_or("there is no such row")?;
         let record = put_down(&known, here, patterns, approach, job.seed).play()?;
         let record = record.ok_or("no fragment is long enough to stand amid")?;
@@ -207,14 +208,14 @@ fn put_down<'a>(
 fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<Fields, BoxError> {
     for attempt in 0..ATTEMPTS {
         let seed = |of| run_seed(seed, of, attempt);
-        let venue = venue::aliased(seed("localization mazes"))?;
+        let course = mazes::aliased(seed("localization mazes"))?;
         let learning = seed("localization maps");
-        let learned = trials::trial(&venue, patterns, trials::better(), learning).play()?;
+        let learned = trials::trial(&course, patterns, trials::better(), learning).play()?;
         if !learned.is_solved() {
             continue;
         }
         let known = [KnownMaze {
-            venue: &venue,
+            course: &course,
             learned: &learned,
         }];
         let put_down = put_down(&known, 0, patterns, approach, seed("localization"));
@@ -227,24 +228,24 @@ fn aliased(patterns: &CommonPatterns, approach: Approach, seed: u64) -> Result<F
 
 #[cfg(test)]
 mod tests {
-    use super::super::venue;
+    use super::super::mazes;
     use super::*;
     use tolman_arena::cpm::learn;
 
     #[test]
     fn a_robot_put_down_finds_out_where_it_is() {
-        let (venues, learning) = (venue::papers().unwrap(), venue::learning().unwrap());
+        let (courses, learning) = (mazes::papers().unwrap(), mazes::learning().unwrap());
         let patterns = learn(&learning, 1).unwrap();
         let known = Known::default();
         let mut right = 0;
-        for (run, venue) in (0..).zip(&venues) {
+        for (run, course) in (0..).zip(&courses) {
             let job = Job {
                 table: LOCALIZATION,
-                row: &venue.name,
+                row: &course.name,
                 run,
                 seed: 7,
             };
-            let fields = known.run(&venues, &patterns, 1, &job).unwrap();
+            let fields = known.run(&courses, &patterns, 1, &job).unwrap();
             let run: LocalizationRun = fields.record().unwrap();
             right += u32::from(run.last_place);
             run.relations().unwrap();

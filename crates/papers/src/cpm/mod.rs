@@ -9,18 +9,19 @@ mod episodes;
 mod explored;
 mod figures;
 mod localization;
+mod mazes;
 mod places;
 mod real;
 mod replay;
 mod trials;
-mod venue;
 
 use alloc::collections::BTreeMap;
 
 use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
-use tolman_arena::cpm::{Record, Venue, epuck, learn};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{Record, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_draw::Figure;
 use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table};
@@ -51,13 +52,13 @@ pub(super) const ENTRY: Entry = Entry {
 /// The experiment, ready to run.
 #[derive(Debug)]
 struct Cpm {
-    venues: Vec<Venue>,
+    courses: Vec<Course>,
     real: Real,
-    learning: Venue,
+    learning: Course,
     /// What the robot learned in the learning maze.
     patterns: CommonPatterns,
     trials: Vec<Trials>,
-    /// What the robot learned of the venues.
+    /// What the robot learned of the courses.
     known: Known,
     master_seed: u64,
 }
@@ -81,33 +82,33 @@ struct Config<'a, R, D> {
 /// If a maze cannot be read, or nothing is learned.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     let papers = options.mazes.is_empty();
-    let venues = if papers {
-        venue::papers()?
+    let courses = if papers {
+        mazes::papers()?
     } else {
-        venue::from_files(&options.mazes)?
+        mazes::from_files(&options.mazes)?
     };
-    let (learning, real) = (venue::learning()?, Real::new(options.seed)?);
+    let (learning, real) = (mazes::learning()?, Real::new(options.seed)?);
     let patterns = learn(&learning, options.seed)?;
     let mut trials = vec![
-        trials::figure_9(&venues, papers),
-        trials::offline(&venues),
-        trials::unlearned(&venues),
-        explored::explored(&venues, papers, options.quick),
+        trials::figure_9(&courses, papers),
+        trials::offline(&courses),
+        trials::unlearned(&courses),
+        explored::explored(&courses, papers, options.quick),
     ];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
-    tables.push(episodes::table(&venues));
-    tables.push(places::table(&venues));
+    tables.push(episodes::table(&courses));
+    tables.push(places::table(&courses));
     if papers {
         let aliased = trials::aliased(options.quick);
         tables.push(aliased.table.clone());
         trials.push(aliased);
-        tables.push(real::table(&real.venue));
-        tables.push(localization::table(&venues, options.quick));
+        tables.push(real::table(&real.course));
+        tables.push(localization::table(&courses, options.quick));
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
     }
     let cpm = Cpm {
-        venues,
+        courses,
         real,
         learning,
         patterns,
@@ -133,9 +134,9 @@ fn agree(found: Option<f64>, expected: Option<f64>) -> bool {
 
 impl Cpm {
     /// The maze and the way of mapping of a run that is a trial.
-    fn cast(&self, job: &Job<'_>) -> Result<Option<(Venue, Mode)>, BoxError> {
+    fn cast(&self, job: &Job<'_>) -> Result<Option<(Course, Mode)>, BoxError> {
         match job.table {
-            EPISODES => Ok(Some((self.venue(job.row)?.clone(), trials::faithful()))),
+            EPISODES => Ok(Some((self.course(job.row)?.clone(), trials::faithful()))),
             _ => match self.trials_of(job.table) {
                 Some(trials) => trials.cast(job).map(Some),
                 None => Ok(None),
@@ -144,28 +145,31 @@ impl Cpm {
     }
 
     /// Plays the trial of a run, and says where; none of a run that is no trial.
-    fn play(&self, job: &Job<'_>) -> Result<Option<(Venue, Record)>, BoxError> {
-        let Some((venue, mode)) = self.cast(job)? else {
+    fn play(&self, job: &Job<'_>) -> Result<Option<(Course, Record)>, BoxError> {
+        let Some((course, mode)) = self.cast(job)? else {
             return Ok(None);
         };
-        let record = trials::trial(&venue, &self.patterns, mode, job.seed).play()?;
-        Ok(Some((venue, record)))
+        let record = trials::trial(&course, &self.patterns, mode, job.seed).play()?;
+        Ok(Some((course, record)))
     }
 
     fn trials_of(&self, table: &str) -> Option<&Trials> {
         self.trials.iter().find(|trials| trials.table.name == table)
     }
 
-    fn venue(&self, name: &str) -> Result<&Venue, BoxError> {
-        let venue = self.venues.iter().find(|venue| venue.name == name);
-        venue.ok_or_else(|| format!("there is no row {name:?}").into())
+    fn course(&self, name: &str) -> Result<&Course, BoxError> {
+        let course = self.courses.iter().find(|course| course.name == name);
+        course.ok_or_else(|| format!("there is no row {name:?}").into())
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
         let modes = self.trials.iter();
         let modes = modes.map(|trials| (&*trials.table.name, trials.modes()));
-        let mazes = self.venues.iter().chain([&self.learning, &self.real.venue]);
-        let mazes = mazes.map(|venue| (&*venue.name, venue.maze.to_string()));
+        let mazes = self
+            .courses
+            .iter()
+            .chain([&self.learning, &self.real.course]);
+        let mazes = mazes.map(|course| (&*course.name, course.maze.to_string()));
         Ok(toml::Table::try_from(Config {
             robot: epuck(),
             real: real::config(),
@@ -185,12 +189,12 @@ impl Procedure for Cpm {
             FIGURE_11 => self.real.run(job),
             LOCALIZATION => {
                 let known = &self.known;
-                known.run(&self.venues, &self.patterns, self.master_seed, job)
+                known.run(&self.courses, &self.patterns, self.master_seed, job)
             }
-            EPISODES => episodes::run(self.venue(job.row)?, &self.patterns, job),
-            PLACES => places::run(self.venue(job.row)?, job),
+            EPISODES => episodes::run(self.course(job.row)?, &self.patterns, job),
+            PLACES => places::run(self.course(job.row)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
-            DETECTOR => detector::run(&self.venues, job),
+            DETECTOR => detector::run(&self.courses, job),
             table => match self.trials_of(table) {
                 Some(trials) => trials.run(&self.patterns, job),
                 None => Err(format!("there is no table {table:?}").into()),
@@ -210,10 +214,10 @@ impl Procedure for Cpm {
         if [EPISODES, EXPLORED].contains(&job.table) {
             return Ok(None);
         }
-        let Some((venue, mode)) = self.cast(job)? else {
+        let Some((course, mode)) = self.cast(job)? else {
             return Ok(None);
         };
-        let trial = trials::trial(&venue, &self.patterns, mode, job.seed);
+        let trial = trials::trial(&course, &self.patterns, mode, job.seed);
         replay::of(&trial, job).map(Some)
     }
 }

@@ -1,6 +1,6 @@
 //! The diktiometry on the same robot in the same mazes: junctions and dead ends as places.
 
-use tolman_arena::cpm::Venue;
+use tolman_arena::course::Course;
 use tolman_arena::diktiometry::{EpuckSurveyConfig, survey_maze};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 
@@ -42,10 +42,10 @@ impl PlacesRun {
     }
 }
 
-pub(super) fn table(venues: &[Venue]) -> Table {
+pub(super) fn table(courses: &[Course]) -> Table {
     Table::of::<PlacesRun>(PLACES, "The diktiometry on the e-puck")
         .metrics_from(PlacesRun::purity)
-    .rows(venues.iter().map(|venue| Row::new(&venue.name)))
+    .rows(courses.iter().map(|course| Row::new(&course.name)))
     .note(format!(
         "{MOVES} moves from one junction or dead end to the next by layers 0 and 1, a random walk that heeds the map's advice 30 % of the \
          time. Odometry is the encoders' with headings trued up by the walls, a place looks as one sweep there does. Recall is of all ways of \
@@ -59,8 +59,8 @@ pub(super) const fn config() -> EpuckSurveyConfig {
 }
 
 /// One survey.
-pub(super) fn run(venue: &Venue, job: &Job<'_>) -> Result<Fields, BoxError> {
-    let survey = survey_maze(&venue.maze, venue.corridor_width, &config(), job.seed)?;
+pub(super) fn run(course: &Course, job: &Job<'_>) -> Result<Fields, BoxError> {
+    let survey = survey_maze(&course.maze, course.corridor_width, &config(), job.seed)?;
     let score = survey.score;
     let run = PlacesRun {
         moves: survey.moves,

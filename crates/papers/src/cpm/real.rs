@@ -3,10 +3,11 @@
 use std::sync::OnceLock;
 
 use serde::Serialize;
-use tolman_sim::robots::EpuckConfig;
+use tolman_sim::robots::{Epuck, EpuckConfig};
 
-use super::{agree, less, venue};
-use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, Venue, learn_by, slow_epuck, walker_config};
+use super::{agree, less, mazes};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, learn_by, slow_epuck, walker_config};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::cpm::{
     CommonPatterns, CpmConfig, Done, Episode, Layer3, Lesson, Step, Walker, WalkerConfig,
@@ -24,8 +25,8 @@ const STRIDE_S: f64 = 2.7;
 /// The real robot's maze, and what such a robot learned before.
 #[derive(Debug)]
 pub(super) struct Real {
-    pub(super) venue: Venue,
-    learning: Venue,
+    pub(super) course: Course,
+    learning: Course,
     seed: u64,
     patterns: OnceLock<CommonPatterns>,
 }
@@ -45,19 +46,19 @@ pub(super) fn config() -> impl Serialize {
     }
 }
 
-/// How it observes in the corridors of a venue.
-fn walker(venue: &Venue) -> Result<WalkerConfig, BoxError> {
+/// How it observes in the corridors of a course.
+fn walker(course: &Course) -> Result<WalkerConfig, BoxError> {
     Ok(WalkerConfig {
         stride_s: STRIDE_S,
-        ..walker_config(&slow_epuck(), venue.corridor_width)?
+        ..walker_config(&slow_epuck(), course.corridor_width)?
     })
 }
 
 impl Real {
     pub(super) fn new(seed: u64) -> Result<Self, BoxError> {
         Ok(Self {
-            venue: venue::real()?,
-            learning: venue::learning()?,
+            course: mazes::real()?,
+            learning: mazes::learning()?,
             seed,
             patterns: OnceLock::new(),
         })
@@ -79,8 +80,10 @@ impl Real {
         job: &Job<'_>,
         see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
     ) -> Result<RoundTrip, BoxError> {
-        let body = self.venue.robot(slow_epuck(), job.seed)?;
-        let mut walker = Walker::new(body, walker(&self.venue)?);
+        let body =
+            self.course
+                .robot_at(self.course.start()?, Epuck::new(slow_epuck())?, job.seed)?;
+        let mut walker = Walker::new(body, walker(&self.course)?);
         let (patterns, config) = (self.patterns()?, CpmConfig::online());
         Ok(RoundTrip::watch(
             &mut walker,
@@ -148,11 +151,11 @@ impl RoundTripRun {
     }
 }
 
-pub(super) fn table(venue: &Venue) -> Table {
+pub(super) fn table(course: &Course) -> Table {
     Table::of::<RoundTripRun>(FIGURE_11, "The maze of the real robot")
         .metrics_from(RoundTripRun::solved)
         .row(
-            Row::new(&venue.name)
+            Row::new(&course.name)
                 .paper("solved_percent", 100.0)
                 .paper(RoundTripRun::observations_1, 20.0)
                 .paper(RoundTripRun::seconds_1, 121.0)
@@ -206,7 +209,7 @@ mod tests {
         let real = Real::new(1).unwrap();
         let job = Job {
             table: FIGURE_11,
-            row: &real.venue.name,
+            row: &real.course.name,
             run: 0,
             seed: 1,
         };

@@ -9,7 +9,8 @@ use tolman_robot::epuck::BODY_RADIUS;
 
 use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
-use tolman_arena::cpm::{Layout, SimulatedEpuck, Trial, Venue, slow_epuck};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{Layout, SimulatedEpuck, Trial, slow_epuck};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Edge, Fact, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series, Track,
@@ -18,7 +19,7 @@ use tolman_systems::cpm::{Layer3, Step, Walker};
 
 /// Plays a trial again and watches it.
 pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
-    let mut watch = Watch::new(trial.venue);
+    let mut watch = Watch::new(trial.course);
     let record = trial.watch(|layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&record.path);
     let begun = record.second_from as u32;
@@ -41,7 +42,7 @@ pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
 
 /// Plays a round trip again and watches it: to the goal, back, and to the goal again.
 pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxError> {
-    let mut watch = Watch::new(&real.venue);
+    let mut watch = Watch::new(&real.course);
     let trip = real.play(job, |layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&trip.path);
     for (episode, begun, name) in [
@@ -72,7 +73,7 @@ const STILL: f64 = 1e-6;
 
 /// What is noted at the end of each fragment.
 struct Watch<'a> {
-    venue: &'a Venue,
+    course: &'a Course,
     nodes: Vec<Node>,
     /// The nodes that stand for parts of the map as it is.
     live: BTreeMap<Part, usize>,
@@ -90,9 +91,9 @@ enum Part {
 }
 
 impl<'a> Watch<'a> {
-    fn new(venue: &'a Venue) -> Self {
+    fn new(course: &'a Course) -> Self {
         Self {
-            venue,
+            course,
             nodes: Vec::new(),
             live: BTreeMap::new(),
             edges: Vec::new(),
@@ -104,7 +105,7 @@ impl<'a> Watch<'a> {
 
     /// The replay of a track, with what was seen on it.
     fn replay(self, step_us: u64, job: &Job<'_>, mut track: Track) -> Replay {
-        let scenery = Scenery::of_world(&self.venue.world);
+        let scenery = Scenery::of_world(&self.course.world);
         track.maps = vec![MapGrowth {
             name: "common-pattern map".to_owned(),
             nodes: self.nodes,
@@ -115,7 +116,7 @@ impl<'a> Watch<'a> {
         let step_s = step_us as f64 * 1e-6;
         let title = format!("{}, run {}", job.row, job.run);
         Replay::new(title, step_s, scenery, vec![track])
-            .fact("maze", &self.venue.name)
+            .fact("maze", &self.course.name)
             .fact("seed", job.seed.to_string())
     }
 
@@ -138,24 +139,24 @@ impl<'a> Watch<'a> {
 
     /// What has changed on the map.
     fn update(&mut self, map: &CpMap, now: u32) {
-        let layout = Layout::of(map, &self.venue.maze);
+        let layout = Layout::of(map, &self.course.maze);
         let mut parts = Vec::new();
         for (id, junction) in map.junctions() {
             let cell = layout.place(id);
             parts.extend(cell.map(|cell| {
                 let facts = vec![Fact::new("branches", junction.degree().to_string())];
-                let at = self.venue.world.cell_centre(cell);
+                let at = self.course.world.cell_centre(cell);
                 (Part::Junction(id), at, junction_name(map, id), facts)
             }));
         }
         for (id, fragment) in map.fragments() {
-            let course = layout.course(id);
+            let course = layout.fragment(id);
             parts.extend(course.map(|course| {
                 let facts = vec![
                     Fact::new("observations", fragment.patterns.len().to_string()),
                     Fact::new("walked", fragment.traversals.to_string()),
                 ];
-                let at = middle_of(&course.cells, &self.venue.world);
+                let at = middle_of(&course.cells, &self.course.world);
                 (Part::Fragment(id), at, fragment_name(id), facts)
             }));
         }

@@ -2,8 +2,9 @@
 
 use alloc::collections::BTreeMap;
 
-use super::{agree, less, venue};
-use tolman_arena::cpm::{Likeness, Record, Trial, Venue, epuck};
+use super::{agree, less, mazes};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{Likeness, Record, Trial, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require};
 use tolman_systems::cpm::{CommonPatterns, CpmConfig, Mode};
@@ -40,7 +41,7 @@ pub(super) struct Trials {
 pub(super) struct Setting {
     row: String,
     /// The maze that the robot runs in; `None`: another one with fragments that look alike each run.
-    venue: Option<Venue>,
+    course: Option<Course>,
     mode: Mode,
 }
 
@@ -49,7 +50,7 @@ impl Setting {
     pub(super) fn aliased(row: &str, mode: Mode) -> Self {
         Self {
             row: row.into(),
-            venue: None,
+            course: None,
             mode,
         }
     }
@@ -70,8 +71,8 @@ pub(super) fn better() -> Mode {
 }
 
 /// Figure 9; `papers`: the mazes are the paper's.
-pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
-    let settings = in_both_modes(venues);
+pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
+    let settings = in_both_modes(courses);
     let least = Metric::least("reduction_min_percent", TrialRun::reduction);
     let table = Table::of::<TrialRun>(FIGURE_9, "Time from the first to the second episode")
     .metric(solved())
@@ -109,25 +110,25 @@ pub(super) fn figure_9(venues: &[Venue], papers: bool) -> Trials {
 }
 
 /// Each maze with the paper's system and with ours.
-pub(super) fn in_both_modes(venues: &[Venue]) -> Vec<Setting> {
-    in_modes(venues, [("", faithful()), (BETTER, better())])
+pub(super) fn in_both_modes(courses: &[Course]) -> Vec<Setting> {
+    in_modes(courses, [("", faithful()), (BETTER, better())])
 }
 
 /// Each maze in some modes, with what follows its name in their rows.
-fn in_modes<const N: usize>(venues: &[Venue], modes: [(&str, Mode); N]) -> Vec<Setting> {
-    let setting = |venue: &Venue, suffix: &str, mode| Setting {
-        row: format!("{}{suffix}", venue.name),
-        venue: Some(venue.clone()),
+fn in_modes<const N: usize>(courses: &[Course], modes: [(&str, Mode); N]) -> Vec<Setting> {
+    let setting = |course: &Course, suffix: &str, mode| Setting {
+        row: format!("{}{suffix}", course.name),
+        course: Some(course.clone()),
         mode,
     };
-    let each = |venue| modes.map(|(suffix, mode)| setting(venue, suffix, mode));
-    venues.iter().flat_map(each).collect()
+    let each = |course| modes.map(|(suffix, mode)| setting(course, suffix, mode));
+    courses.iter().flat_map(each).collect()
 }
 
 /// The paper's two systems side by side.
-pub(super) fn offline(venues: &[Venue]) -> Trials {
+pub(super) fn offline(courses: &[Course]) -> Trials {
     let offline = Mode::Paper(CpmConfig::offline());
-    let settings = in_modes(venues, [(" offline", offline), (" online", faithful())]);
+    let settings = in_modes(courses, [(" offline", offline), (" online", faithful())]);
     let table = Table::of::<TrialRun>("offline", "Offline against online CPM")
         .metric(solved())
         .metric(Metric::mean(TrialRun::traversals))
@@ -142,9 +143,9 @@ pub(super) fn offline(venues: &[Venue]) -> Trials {
 }
 
 /// "The CPs must be learned incrementally" (section 8).
-pub(super) fn unlearned(venues: &[Venue]) -> Trials {
+pub(super) fn unlearned(courses: &[Course]) -> Trials {
     let mode = Mode::Unlearned(CpmConfig::robust());
-    let mut settings = in_modes(venues, [("", mode)]);
+    let mut settings = in_modes(courses, [("", mode)]);
     settings.push(Setting::aliased("Aliased", mode));
     let table = Table::of::<UnlearnedRun>("unlearned", "Patterns learned on the way")
         .metric(solved())
@@ -160,7 +161,7 @@ pub(super) fn unlearned(venues: &[Venue]) -> Trials {
     Trials::new(table, settings, Setting::row, |trial| {
         let record = trial.play()?;
         let run = UnlearnedRun {
-            trial: TrialRun::of(trial.venue, &record, record.is_solved()),
+            trial: TrialRun::of(trial.course, &record, record.is_solved()),
             patterns: record.patterns,
         };
         Ok(run.fields()?)
@@ -197,9 +198,9 @@ pub(super) fn aliased(quick: bool) -> Trials {
     Trials::new(table, settings, row, |trial| {
         let record = trial.play()?;
         let is_solved = record.is_solved() && record.is_map_right;
-        let likeness = Likeness::of(&trial.venue.maze);
+        let likeness = Likeness::of(&trial.course.maze);
         let run = AliasedRun {
-            trial: TrialRun::of(trial.venue, &record, is_solved),
+            trial: TrialRun::of(trial.course, &record, is_solved),
             shortest_known: record.is_solved(),
             alike_pairs: likeness.alike_pairs,
             symmetrical: likeness.symmetrical,
@@ -321,39 +322,39 @@ impl Trials {
     }
 
     /// The maze and the way of mapping of a run.
-    pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Venue, Mode), BoxError> {
+    pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Course, Mode), BoxError> {
         let mut settings = self.settings.iter();
         let setting = settings.find(|setting| setting.row == job.row);
         let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-        let venue = match &setting.venue {
-            Some(venue) => venue.clone(),
-            None => venue::aliased(job.seed)?,
+        let course = match &setting.course {
+            Some(course) => course.clone(),
+            None => mazes::aliased(job.seed)?,
         };
-        Ok((venue, setting.mode))
+        Ok((course, setting.mode))
     }
 
     /// Plays a run.
     pub(super) fn run(&self, patterns: &CommonPatterns, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let (venue, mode) = self.cast(job)?;
-        (self.measure)(&trial(&venue, patterns, mode, job.seed))
+        let (course, mode) = self.cast(job)?;
+        (self.measure)(&trial(&course, patterns, mode, job.seed))
     }
 }
 
 /// Plays a trial and measures both episodes.
 fn measure(trial: &Trial<'_>) -> Result<Fields, BoxError> {
     let record = trial.play()?;
-    Ok(TrialRun::of(trial.venue, &record, record.is_solved()).fields()?)
+    Ok(TrialRun::of(trial.course, &record, record.is_solved()).fields()?)
 }
 
 /// A trial of the paper's robot.
 pub(super) fn trial<'a>(
-    venue: &'a Venue,
+    course: &'a Course,
     patterns: &'a CommonPatterns,
     mode: Mode,
     seed: u64,
 ) -> Trial<'a> {
     Trial {
-        venue,
+        course,
         patterns,
         robot: epuck(),
         mode,
@@ -362,9 +363,9 @@ pub(super) fn trial<'a>(
 }
 
 impl TrialRun {
-    fn of(venue: &Venue, record: &Record, solved: bool) -> Self {
+    fn of(course: &Course, record: &Record, solved: bool) -> Self {
         let closures = record.closures;
-        let shortest = venue.shortest_metres();
+        let shortest = course.shortest_metres();
         let long = solved && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
         let reduction = record.reduction_percent().filter(|_| solved);
         Self {

@@ -15,7 +15,7 @@ const MOST_BOXES: usize = 100;
 /// than a hundred places are drawn without boxes.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
-    let mut plan = Plan::of_world(office.world(), WIDTH);
+    let mut plan = Plan::of_world(&office.course.world, WIDTH);
     let drawn = survey.drawn();
     for place in drawn.iter().filter(|_| drawn.len() <= MOST_BOXES) {
         plan.region(&Region::within(&place.bounds), Series(1));

@@ -39,7 +39,7 @@ pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
     track.beliefs = vec![watch.belief];
     track.series = vec![watch.places, watch.error];
     track.notes = vec![watch.matcher, watch.reason];
-    let scenery = Scenery::of_world(setting.office.world());
+    let scenery = Scenery::of_world(&setting.office.course.world);
     let step_s = COARSE as f64 * robot.step_us as f64 * 1e-6;
     let score = survey.score();
     Ok(Replay::new(

@@ -67,7 +67,7 @@ impl Setting {
         }
         Row {
             survey: &self.config,
-            maze: self.office.maze().to_string(),
+            maze: self.office.course.maze.to_string(),
             furniture: self.office.config(),
         }
     }

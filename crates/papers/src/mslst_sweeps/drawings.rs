@@ -67,7 +67,7 @@ pub(super) fn of(corridors: &Corridors, seed: u64) -> Result<Course, BoxError> {
         let Some(maze) = drawn(corridors, rng) else {
             continue;
         };
-        let course = Course::new("Large, redrawn", &MazeFile::from(maze), &pioneer::body())?;
+        let course = Course::for_body("Large, redrawn", &MazeFile::from(maze), &pioneer::body())?;
         let venue = large_like(course);
         if sized(&venue, corridors, seed)? {
             return Ok(venue.course);

@@ -69,7 +69,7 @@ impl World {
             }
             .generate(rng)?,
         };
-        Ok(Course::new(
+        Ok(Course::for_body(
             &self.name(),
             &MazeFile::from(maze),
             &pioneer::body(),
@@ -299,7 +299,7 @@ fn widened(world: &World, units: f64) -> Result<World, BoxError> {
         corridor_width: Some(units * ROBOT_UNIT),
         maze: course.maze.clone(),
     };
-    let course = Course::new(&course.name, &file, &pioneer::body())?;
+    let course = Course::for_body(&course.name, &file, &pioneer::body())?;
     Ok(World::Fixed {
         course: Box::new(course),
         steps: *steps,
@@ -311,7 +311,7 @@ fn room(side: u16) -> Result<World, BoxError> {
     let mut maze = Maze::open(Grid::new(side, side));
     maze.set_goals(vec![Cell::new(side - 1, 0)]);
     let name = format!("open room {side} × {side}");
-    let course = Course::new(&name, &MazeFile::from(maze), &pioneer::body())?;
+    let course = Course::for_body(&name, &MazeFile::from(maze), &pioneer::body())?;
     Ok(World::Fixed {
         steps: course.step_limit(),
         course: Box::new(course),

@@ -25,7 +25,7 @@ pub(crate) fn from_files(files: &[PathBuf], taken: &[&str]) -> Result<Vec<Venue>
 pub(crate) fn from_file(path: &Path) -> Result<Venue, BoxError> {
     let file = maze_file::read(path)?;
     let name = file.name.clone().unwrap_or_else(|| maze_file::stem(path));
-    let course = Course::new(&name, &file, &pioneer::body())
+    let course = Course::for_body(&name, &file, &pioneer::body())
         .map_err(|error| maze_file::in_file(path, error))?;
     let (title, steps) = (format!("The maze {name}"), course.step_limit());
     Ok(Venue::new(&name, &title, course, steps))

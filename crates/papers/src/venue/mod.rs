@@ -95,7 +95,7 @@ pub(super) fn large_maze() -> Result<Course, BoxError> {
 }
 
 fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
-    Ok(Course::new(
+    Ok(Course::for_body(
         name,
         &tolman_maze::read(text)?,
         &pioneer::body(),

@@ -49,7 +49,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     replay_file::check(&path, overwrite)?;
     let maze = tolman_maze::read(MAZE).context("the maze of this program")?;
     let robot = calibrated();
-    let course = Course::new("Large", &maze, &body()).context("the maze of this program")?;
+    let course = Course::for_body("Large", &maze, &body()).context("the maze of this program")?;
     let trial = Trial {
         course: &course,
         robot: robot.clone(),

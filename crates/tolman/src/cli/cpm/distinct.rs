@@ -7,7 +7,7 @@ use anyhow::anyhow;
 use tolman_arena::cpm::{Pair, distinctness};
 use tolman_maps::cpm::Sense;
 
-use super::{learned_patterns, venue};
+use super::{course, learned_patterns};
 use crate::cli::share::share;
 use crate::cli::{Failure, OrBadInput};
 
@@ -34,9 +34,9 @@ pub(in crate::cli) struct Arguments {
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let patterns = learned_patterns(arguments.seed)?;
     for path in &arguments.mazes {
-        let venue = venue(path)?;
-        let (name, seeds) = (&venue.name, 0..u64::from(arguments.walks));
-        let found = distinctness(&venue, &patterns, seeds).or_bad_input()?;
+        let course = course(path)?;
+        let (name, seeds) = (&course.name, 0..u64::from(arguments.walks));
+        let found = distinctness(&course, &patterns, seeds).or_bad_input()?;
         if let Some(most) = found.most_alike {
             let told = told(&most);
             if most.score >= arguments.below {

@@ -12,7 +12,7 @@ use tolman_robot::Landmark;
 use tolman_systems::Origin;
 use tolman_systems::cpm::{Aim, CommonPatterns, Done, MapFile, Preset};
 
-use super::{classify, learned_patterns, venue};
+use super::{classify, course, learned_patterns};
 use crate::cli::bar::bar;
 use crate::cli::words::words;
 use crate::cli::{Failure, file, interrupt};
@@ -81,14 +81,14 @@ const fn remedy(system: Preset) -> &'static str {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let venue = venue(&arguments.maze)?;
+    let course = course(&arguments.maze)?;
     let (system, aim) = (arguments.system, arguments.until);
     let patterns = match system {
         Preset::Faithful | Preset::Better => learned_patterns(arguments.seed)?,
         Preset::Unlearned => CommonPatterns::none()?,
     };
     let trial = Trial {
-        venue: &venue,
+        course: &course,
         patterns: &patterns,
         robot: epuck(),
         mode: system.mode(),
@@ -109,8 +109,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         }
     });
     line.finish_and_clear();
-    let name = &venue.name;
-    let room = venue.room().map(|Cell { x, y }| {
+    let name = &course.name;
+    let room = course.room().map(|Cell { x, y }| {
         format!(", which has an open room at cell {x}, {y}, where the robot finds no corridors")
     });
     let room = room.unwrap_or_default();
@@ -140,7 +140,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let there_are = trial.true_fragments();
     let file = MapFile {
         origin: Origin {
-            world: venue.name.clone(),
+            world: course.name.clone(),
             robot: "e-puck".to_owned(),
             seed: arguments.seed,
         },

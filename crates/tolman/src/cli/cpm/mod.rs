@@ -9,7 +9,8 @@ use std::path::Path;
 
 use anyhow::{Context, Error};
 use clap::Subcommand;
-use tolman_arena::cpm::{TrialError, Venue, learn};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{TrialError, epuck_course, learn};
 use tolman_systems::cpm::CommonPatterns;
 
 use super::{Failure, OrBadInput, maze};
@@ -48,7 +49,7 @@ fn classify(error: TrialError, context: String) -> Failure {
 /// If the robot fails.
 fn learned_patterns(seed: u64) -> Result<CommonPatterns, Failure> {
     let learning = include_str!("../../../../../mazes/cpm-learning.maze");
-    let learning = Venue::of_file("", tolman_maze::read(learning)?)?;
+    let learning = epuck_course("", tolman_maze::read(learning)?)?;
     Ok(learn(&learning, seed)?)
 }
 
@@ -56,10 +57,10 @@ fn learned_patterns(seed: u64) -> Result<CommonPatterns, Failure> {
 ///
 /// # Errors
 /// Bad input.
-pub(super) fn venue(path: &Path) -> Result<Venue, Failure> {
+pub(super) fn course(path: &Path) -> Result<Course, Failure> {
     let file = maze::read(path)?;
     let name = maze::name(path);
-    Venue::of_file(&name, file)
+    epuck_course(&name, file)
         .with_context(|| name.clone())
         .or_bad_input()
 }

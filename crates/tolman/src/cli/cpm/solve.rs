@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::cpm::{DriveFrom, Errand, Trial, Venue, epuck};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{DriveFrom, Errand, Trial, epuck};
 use tolman_draw::Figure;
 use tolman_geom::Pose;
 use tolman_maps::cpm::CpMap;
@@ -13,7 +14,7 @@ use tolman_papers::cpm::drawing;
 use tolman_systems::cpm::Done;
 use tolman_systems::cpm::MapFile;
 
-use super::{classify, venue};
+use super::{classify, course};
 use crate::cli::start::Start;
 use crate::cli::{Failure, OrBadInput, file, map};
 
@@ -77,9 +78,9 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let Some(first) = files.first() else {
         return Err(Failure::BadInput(anyhow!("no map is given: add --map")));
     };
-    let venue = venue(&arguments.maze)?;
+    let course = course(&arguments.maze)?;
     let trial = Trial {
-        venue: &venue,
+        course: &course,
         patterns: &first.patterns,
         robot: epuck(),
         mode: first.preset.mode(),
@@ -89,20 +90,20 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let driven = match (&maps[..], arguments.start) {
         ([map], Start::Marked) => trial.drive(map.clone()).map(|errand| (None, errand)),
         (maps, start) => {
-            let start = pose(start, &venue, arguments.seed)?;
+            let start = pose(start, &course, arguments.seed)?;
             let drive = trial.drive_from(maps, start);
             drive.map(|drive| (Some(Found::of(&drive)), drive.errand))
         }
     };
     let (found, errand) =
-        driven.map_err(|error| classify(error, format!("no drive through {}", venue.name)))?;
+        driven.map_err(|error| classify(error, format!("no drive through {}", course.name)))?;
     let Errand { episode, bumps, .. } = &errand;
     let reached = episode.done == Done::Reached;
     if let Some(path) = &arguments.svg {
-        let drawing = drawing::drive(&errand.map, &venue, &errand.path);
+        let drawing = drawing::drive(&errand.map, &course, &errand.path);
         file::write(
             path,
-            Figure::new("drive", &venue.name, drawing).standalone(),
+            Figure::new("drive", &course.name, drawing).standalone(),
         )?;
     }
     let learned_in = |map: usize| files.get(map).map_or("", |file| file.origin.world.as_str());
@@ -117,7 +118,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             })
         });
         let json = json!({
-            "maze": venue.name,
+            "maze": course.name,
             "seed": arguments.seed,
             "reached": reached,
             "seconds": episode.seconds,
@@ -142,7 +143,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Ok(());
     }
     let by = learned_in(found.map_or(0, |found| found.map));
-    let elsewhere = if by == venue.name {
+    let elsewhere = if by == course.name {
         String::new()
     } else {
         format!(", of {by},")
@@ -150,7 +151,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     Err(Failure::Failed(anyhow!(
         "the e-puck did not arrive in {}: after {:.0} s it was at another place than its map{elsewhere} has there; try another --seed, or learn \
          the map anew",
-        venue.name,
+        course.name,
         episode.seconds
     )))
 }
@@ -159,12 +160,12 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 ///
 /// # Errors
 /// Bad input if there is nowhere.
-fn pose(start: Start, venue: &Venue, seed: u64) -> Result<Pose, Failure> {
+fn pose(start: Start, course: &Course, seed: u64) -> Result<Pose, Failure> {
     match start {
-        Start::Marked => venue.start().or_bad_input(),
-        Start::Random => venue
+        Start::Marked => course.start().or_bad_input(),
+        Start::Random => course
             .anywhere(seed)
-            .ok_or_else(|| anyhow!("{} has no way to a goal", venue.name))
+            .ok_or_else(|| anyhow!("{} has no way to a goal", course.name))
             .or_bad_input(),
         Start::At(pose) => Ok(pose),
     }

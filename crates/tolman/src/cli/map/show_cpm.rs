@@ -27,17 +27,17 @@ pub(super) fn carry_out(
         map,
     } = &read;
     if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
-        let venue = cpm::venue(maze)?;
-        if venue.name != *world && venue.name != maze_name(maze) {
+        let course = cpm::course(maze)?;
+        if course.name != *world && course.name != maze_name(maze) {
             return Err(Failure::BadInput(anyhow!(
                 "{} is a map of {world}, and {} says that it is {}: name the maze that the map was learned in",
                 arguments.file.display(),
                 maze.display(),
-                venue.name
+                course.name
             )));
         }
-        let drawing = drawing::over_maze(map, &venue);
-        file::write(path, Figure::new("map", &venue.name, drawing).standalone())?;
+        let drawing = drawing::over_maze(map, &course);
+        file::write(path, Figure::new("map", &course.name, drawing).standalone())?;
     }
     let (units, clusters) = (patterns.unit_count(), patterns.cluster_count());
     let (fragments, junctions) = (map.fragments().len(), map.junctions().len());

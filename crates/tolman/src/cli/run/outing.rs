@@ -80,7 +80,7 @@ pub(in crate::cli) struct Name<'a> {
 /// Bad input if there is no maze, or the robot does not fit.
 pub(in crate::cli) fn course(path: &Path) -> Result<Course, Failure> {
     let read = maze::read(path)?;
-    Course::new(&maze::world_name(path, &read), &read, &body())
+    Course::for_body(&maze::world_name(path, &read), &read, &body())
         .with_context(|| maze::name(path))
         .or_bad_input()
 }

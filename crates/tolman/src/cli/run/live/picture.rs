@@ -46,12 +46,9 @@ pub(super) fn draw(view: &View<'_>, frame: &mut Frame<'_>, area: Rect) {
 fn paint(view: &View<'_>, window: Window, context: &mut Context<'_>) {
     let course = view.trial.course;
     let inked = |color| palette::inked(color, view.ink);
-    floor(
-        context,
-        course.destination(),
-        window,
-        inked(palette::DESTINATION),
-    );
+    if let Some(destination) = course.destination() {
+        floor(context, destination, window, inked(palette::DESTINATION));
+    }
     let trail: Vec<Point> = view.trail.iter().copied().collect();
     dotted(
         context,

@@ -237,7 +237,7 @@ o---o---o
 
     fn course() -> Course {
         let file = tolman_maze::read(MAZE).unwrap();
-        Course::new("hook.maze", &file, &body()).unwrap()
+        Course::for_body("hook.maze", &file, &body()).unwrap()
     }
 
     fn trial(course: &Course) -> Trial<'_> {

@@ -8,14 +8,15 @@ use tolman_maze::{Cell, Direction, Maze, Perfect};
 
 use super::trials::BETTER;
 use crate::maze_file;
-use tolman_arena::cpm::{Likeness, Venue};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{CORRIDOR_WIDTH, Likeness, epuck_course};
 use tolman_experiment::BoxError;
 
 /// Cells along each side of an aliased maze.
 const ALIASED_SIDE: u16 = 5;
 
 /// The paper's three mazes, drawn anew.
-pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
+pub(super) fn papers() -> Result<Vec<Course>, BoxError> {
     [
         include_str!("../../mazes/cpm-1.maze"),
         include_str!("../../mazes/cpm-2.maze"),
@@ -27,43 +28,43 @@ pub(super) fn papers() -> Result<Vec<Venue>, BoxError> {
 }
 
 /// That of figure 11, drawn anew.
-pub(super) fn real() -> Result<Venue, BoxError> {
+pub(super) fn real() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-real.maze"))
 }
 
 /// Where the common patterns are learned.
-pub(super) fn learning() -> Result<Venue, BoxError> {
+pub(super) fn learning() -> Result<Course, BoxError> {
     read(include_str!("../../mazes/cpm-learning.maze"))
 }
 
-fn read(text: &str) -> Result<Venue, BoxError> {
-    Ok(Venue::of_file("", tolman_maze::read(text)?)?)
+fn read(text: &str) -> Result<Course, BoxError> {
+    Ok(epuck_course("", tolman_maze::read(text)?)?)
 }
 
 /// The mazes that the caller names; the later of two of one name gets a number, and so does one whose name is that of another's row.
-pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Venue>, BoxError> {
-    let mut venues: Vec<Venue> = Vec::new();
+pub(super) fn from_files(files: &[PathBuf]) -> Result<Vec<Course>, BoxError> {
+    let mut courses: Vec<Course> = Vec::new();
     for path in files {
-        let mut venue = Venue::of_file(&maze_file::stem(path), maze_file::read(path)?)
+        let mut course = epuck_course(&maze_file::stem(path), maze_file::read(path)?)
             .map_err(|error| maze_file::in_file(path, error))?;
         let rows = |name: &str| [name.to_owned(), format!("{name}{BETTER}")];
-        venue.name = maze_file::told_apart(&venue.name, |name| {
-            let mut taken = venues.iter().flat_map(|before| rows(&before.name));
+        course.name = maze_file::told_apart(&course.name, |name| {
+            let mut taken = courses.iter().flat_map(|before| rows(&before.name));
             taken.any(|row| rows(name).contains(&row))
         });
-        venues.push(venue);
+        courses.push(course);
     }
-    Ok(venues)
+    Ok(courses)
 }
 
 /// A random maze whose fragments are short and alike, without rooms: a way behind every other dead end opened, start in the south-west,
 /// goal in the dead end farthest from it. Drawn again until two fragments of it bend alike.
-pub(super) fn aliased(seed: u64) -> Result<Venue, BoxError> {
+pub(super) fn aliased(seed: u64) -> Result<Course, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {
         let maze = braided(&mut rng)?;
         if Likeness::of(&maze).alike_pairs > 0 {
-            return Ok(Venue::new("Aliased", maze, Venue::CORRIDOR_WIDTH)?);
+            return Ok(Course::new("Aliased", maze, CORRIDOR_WIDTH)?);
         }
     }
 }
@@ -119,7 +120,8 @@ mod tests {
 
     #[test]
     fn no_two_mazes_have_a_row_of_one_name() {
-        let folder = std::env::temp_dir().join(format!("tolman-cpm-venues-{}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("tolman-cpm-courses-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let maze = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
         let names = ["Loop", "Loop", "Loop better"];
@@ -131,9 +133,9 @@ mod tests {
                 path
             })
             .collect();
-        let venues = from_files(&files).unwrap();
+        let courses = from_files(&files).unwrap();
         fs::remove_dir_all(&folder).unwrap();
-        let found: Vec<&str> = venues.iter().map(|venue| venue.name.as_str()).collect();
+        let found: Vec<&str> = courses.iter().map(|course| course.name.as_str()).collect();
         assert_eq!(found, ["Loop", "Loop (2)", "Loop better (2)"]);
     }
 }
