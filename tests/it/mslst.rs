@@ -38,6 +38,7 @@ fn map_file() -> MapFile {
     MapFile {
         origin: Origin {
             world: "J".to_owned(),
+            drawing: None,
             robot: "laser Pioneer".to_owned(),
             seed: 5,
         },

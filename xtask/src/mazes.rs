@@ -28,5 +28,5 @@ pub(crate) fn check_with(tolman: impl Fn() -> Result<Command>) -> Result<()> {
     files.retain(|path| path.extension().is_some_and(|extension| extension != "md"));
     workspace::succeed(tolman()?.args(["maze", "check"]).args(files))?;
     let distinctive = DISTINCTIVE.map(|name| folder.join(name));
-    workspace::succeed(tolman()?.args(["cpm", "distinct"]).args(distinctive))
+    workspace::succeed(tolman()?.args(["maze", "distinct"]).args(distinctive))
 }

@@ -120,6 +120,17 @@ impl Course {
         Ok(course)
     }
 
+    /// Returns what tells this drawing from others of its name: a hash of walls, marks and the corridors' width.
+    #[must_use]
+    pub fn drawing(&self) -> String {
+        let text = format!("{}{}", self.maze, self.corridor_width);
+        // FNV-1a, 64 bits.
+        let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        format!("{hash:016x}")
+    }
+
     /// Time steps after which a run has failed where nothing else is said: in proportion to the length
     /// of the corridors, as many for each metre as MSLST gives in its Large maze.
     #[must_use]

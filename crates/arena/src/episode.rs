@@ -15,7 +15,7 @@ use tolman_systems::{Actor, ActorError, stream};
 use crate::course::Course;
 use crate::mind::Mind;
 use crate::oracle::Seer;
-use crate::run::{self, End, Limited, LimitedError};
+use crate::run::{self, End, InRun, Limited, LimitedError};
 
 pub use step::Step;
 
@@ -102,7 +102,7 @@ pub fn random_start(course: &Course, body: &Body, seed: u64) -> Pose {
 ///
 /// # Errors
 /// If the layers do not fit the robot's ring.
-pub(crate) fn layers(course: &Course, robot: &LaserPioneerConfig) -> Result<Stack, RingError> {
+pub fn layers(course: &Course, robot: &LaserPioneerConfig) -> Result<Stack, RingError> {
     Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)
 }
 

@@ -9,6 +9,9 @@
 
 extern crate alloc;
 
+/// Any error, of whoever is not known here.
+pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
+
 pub mod cast;
 pub mod competition;
 pub mod course;
@@ -20,9 +23,11 @@ mod mind;
 pub mod mms;
 pub mod mslst;
 pub mod oracle;
+mod outing;
 pub mod pioneer;
 pub mod run;
 mod simulated;
 
 pub use mind::{AnyBrain, Mind};
+pub use outing::{Depicted, HasSimulated, Outing, Portrait, Sent, Site};
 pub use simulated::Simulated;

@@ -40,14 +40,9 @@ impl<R: Robot> Limited<R> {
         &self.robot
     }
 
-    /// Returns the number of time steps made so far.
-    pub const fn steps(&self) -> u32 {
-        self.steps
-    }
-
-    /// Returns whether no further step may be made.
-    pub const fn is_out_of_time(&self) -> bool {
-        self.steps >= self.step_limit
+    /// Returns the most time steps that it may make.
+    pub const fn step_limit(&self) -> u32 {
+        self.step_limit
     }
 }
 
@@ -73,6 +68,25 @@ impl<R: Robot> Robot for Limited<R> {
 impl<R: SensesLandmarks> SensesLandmarks for Limited<R> {
     fn landmark(&self) -> Option<Landmark> {
         self.robot.landmark()
+    }
+}
+
+/// A robot in a run, or who drives it.
+pub trait InRun {
+    /// Returns the number of time steps that the robot has made.
+    fn steps(&self) -> u32;
+
+    /// Returns whether it may make no further step.
+    fn is_out_of_time(&self) -> bool;
+}
+
+impl<R: Robot> InRun for Limited<R> {
+    fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    fn is_out_of_time(&self) -> bool {
+        self.steps >= self.step_limit
     }
 }
 
@@ -113,14 +127,14 @@ pub fn run<R: Robot, S: System<Limited<R>>>(
     until_done(robot, |robot| system.act(robot, task))
 }
 
-/// Lets `act` make one action with `robot` after the other until one says that the task is done or given up, or the robot
-/// is out of time.
+/// Lets `act` make one action with `robot`, or who drives it, after the other until one says that the task is done or given
+/// up, or the robot is out of time.
 ///
 /// # Errors
 /// What `act` says when the robot fails or it cannot go on.
-pub fn until_done<R: Robot, E>(
-    robot: &mut Limited<R>,
-    mut act: impl FnMut(&mut Limited<R>) -> Result<Standing, E>,
+pub fn until_done<D: InRun + ?Sized, E>(
+    robot: &mut D,
+    mut act: impl FnMut(&mut D) -> Result<Standing, E>,
 ) -> Result<Ended, E> {
     let mut actions = 0;
     let end = loop {

@@ -2,15 +2,21 @@ use alloc::sync::Arc;
 
 use tolman_geom::Pose;
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
+use tolman_sim::trace::{Detail, Recordable, Recording};
 use tolman_sim::{DoorError, DoorState, Model, PlaceError, Solo, StepError, Truth, World, Zone};
+
+use crate::BoxError;
 
 /// A simulated robot that senses the zones `start` and `destination` of its world as landmarks, and leaves a path.
 #[derive(Debug)]
 pub struct Simulated<M: Model> {
     solo: Solo<M>,
+    seed: u64,
     /// With the zones where its centre has to lie.
     landmarks: Vec<(Landmark, Zone)>,
     path: Vec<Pose>,
+    commands: Vec<M::Command>,
+    bumped: Vec<u32>,
 }
 
 impl<M: Model> Simulated<M> {
@@ -26,8 +32,11 @@ impl<M: Model> Simulated<M> {
         let landmarks = zones.collect();
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
+            seed,
             landmarks,
             path: vec![start],
+            commands: Vec::new(),
+            bumped: Vec::new(),
         })
     }
 
@@ -35,6 +44,12 @@ impl<M: Model> Simulated<M> {
     #[must_use]
     pub fn truth(&self) -> &Truth {
         self.solo.truth()
+    }
+
+    /// What it is built to.
+    #[must_use]
+    pub fn model(&self) -> &M {
+        self.solo.model()
     }
 
     /// Where it was after every step.
@@ -47,6 +62,12 @@ impl<M: Model> Simulated<M> {
     #[must_use]
     pub const fn bumps(&self) -> u32 {
         self.solo.bumps()
+    }
+
+    /// In which steps it touched something, counted from 1 as those of its [`path`](Self::path).
+    #[must_use]
+    pub fn bumped(&self) -> &[u32] {
+        &self.bumped
     }
 
     /// Lifts it and sets it down elsewhere.
@@ -72,6 +93,29 @@ impl<M: Model> Simulated<M> {
     }
 }
 
+impl<M: Recordable> Simulated<M> {
+    /// Returns the trace of the run so far, from where it was put first: JSON lines with the world, the robot, and every
+    /// step's command, true pose, bump and readings.
+    ///
+    /// The run is made once more for it: the same commands make the same run, if nobody lifted the robot or moved a door.
+    ///
+    /// # Errors
+    /// If the robot cannot be built again, or a line has no JSON form.
+    pub fn trace(&self) -> Result<Vec<u8>, BoxError> {
+        let model = M::from_config(self.model().config().clone())?;
+        let mut lines = Vec::new();
+        let world = Arc::clone(self.solo.simulation().world());
+        let robots = vec![(model, self.path[0])];
+        let mut recording =
+            Recording::start(world, self.seed, robots, &mut lines, Detail::Sensing)?;
+        for command in &self.commands {
+            recording.step(core::slice::from_ref(command))?;
+        }
+        recording.finish()?;
+        Ok(lines)
+    }
+}
+
 impl<M: Model> Robot for Simulated<M> {
     type Command = M::Command;
     type Sensing = M::Sensing;
@@ -84,6 +128,10 @@ impl<M: Model> Robot for Simulated<M> {
     fn step(&mut self, command: &M::Command) -> Result<(), StepError> {
         self.solo.step(command)?;
         self.path.push(self.solo.truth().pose);
+        self.commands.push(command.clone());
+        if self.solo.truth().bump {
+            self.bumped.push(self.commands.len() as u32);
+        }
         Ok(())
     }
 }

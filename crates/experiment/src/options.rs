@@ -8,27 +8,35 @@ use super::Entry;
 use crate::shell::quoted;
 
 /// What the caller calls experiments with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Program {
-    /// The installed program, `tolman`.
-    #[default]
-    Tolman,
+    /// The installed program of this name.
+    Command(&'static str),
     /// `cargo xtask`, in the project's own folder.
     Xtask,
 }
 
+/// What this project's own program is called.
+const OWN: &str = "tolman";
+
+impl Default for Program {
+    fn default() -> Self {
+        Self::Command(OWN)
+    }
+}
+
 impl Program {
-    /// The one that runs now. Cargo names itself to the programs it starts in the variable `CARGO`.
-    pub fn current() -> Self {
+    /// The one that runs now and is called `command`. Cargo names itself to the programs it starts in the variable `CARGO`.
+    pub fn current(command: &'static str) -> Self {
         match env::var_os("CARGO") {
-            Some(_) => Self::Xtask,
-            None => Self::Tolman,
+            Some(_) if command == OWN => Self::Xtask,
+            _ => Self::Command(command),
         }
     }
 
     const fn command(self) -> &'static str {
         match self {
-            Self::Tolman => "tolman",
+            Self::Command(command) => command,
             Self::Xtask => "cargo xtask",
         }
     }

@@ -26,7 +26,7 @@ impl tolman_robot::Standstill for Motion {
 /// the [`Chance`] of this robot and tick.
 pub trait Model {
     /// What it is told in one time step.
-    type Command: core::fmt::Debug + tolman_robot::Standstill;
+    type Command: Clone + core::fmt::Debug + tolman_robot::Standstill;
     /// What it senses after one.
     type Sensing: core::fmt::Debug;
 

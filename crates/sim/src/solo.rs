@@ -39,6 +39,12 @@ impl<M: Model> Solo<M> {
         self.simulation.truth(self.robot)
     }
 
+    /// The robot's model.
+    #[must_use]
+    pub fn model(&self) -> &M {
+        self.simulation.model(self.robot)
+    }
+
     /// Returns the number of time steps in which the robot touched something.
     #[must_use]
     pub const fn bumps(&self) -> u32 {

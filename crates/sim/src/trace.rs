@@ -49,7 +49,7 @@ use crate::Model;
 
 /// A model that can be written down and built again.
 pub trait Recordable:
-    Model<Command: Clone + Serialize + DeserializeOwned, Sensing: Clone + Serialize + DeserializeOwned>
+    Model<Command: Serialize + DeserializeOwned, Sensing: Clone + Serialize + DeserializeOwned>
 {
     /// All that is needed to build one.
     type Config: Clone + Debug + Serialize + DeserializeOwned;

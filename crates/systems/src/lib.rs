@@ -21,6 +21,6 @@ mod time_step;
 
 pub use actor::{Actor, ActorError};
 pub use brain::Brain;
-pub use map_header::{FileError, MapSystem, Origin};
+pub use map_header::{FileError, MapFiles, Origin, origin_of};
 pub use stream::stream;
 pub use time_step::{Doing, TimeStep};

@@ -1,6 +1,6 @@
 //! The one form of files that hold a learned map: JSON with a header that every system shares.
 //!
-//! A file begins `{"format":"tolman-map","version":1,"system":"mslst","world":"J","robot":"laser
+//! A file begins `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser
 //! Pioneer","seed":1,` and goes on with what the system keeps. Files of other versions are refused
 //! by name, and so are those of the formats that were there before.
 
@@ -10,18 +10,20 @@ use thiserror::Error;
 
 const FORMAT: &str = "tolman-map";
 /// Version of the header and of every system's part. No other is read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
-/// A system that keeps its maps in files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MapSystem {
-    /// States and a graph of them, of [`mslst`](crate::mslst).
-    Mslst,
-    /// Fragments and junctions, of [`cpm`](crate::cpm).
-    Cpm,
-    /// The journal of a survey, of [`diktiometry`](crate::diktiometry).
-    Diktiometry,
+/// The formats that systems had of their own before, with what wrote them.
+const FORMER: [(&str, &str); 3] = [
+    ("tolman-mslst-map", "mslst"),
+    ("tolman-cpm", "cpm"),
+    ("tolman-survey", "diktiometry"),
+];
+
+/// The map files of one system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MapFiles {
+    /// Name of the system, as `tolman learn --system` has it.
+    pub system: &'static str,
 }
 
 /// Where a map was learned, by which robot and from which seed.
@@ -29,6 +31,9 @@ pub enum MapSystem {
 pub struct Origin {
     /// Name of the maze.
     pub world: String,
+    /// What tells the drawing of the maze from others of its name; `None` if nobody drew it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawing: Option<String>,
     /// Name of the robot, such as "e-puck".
     pub robot: String,
     /// Seed of all random numbers from the first step on.
@@ -40,14 +45,10 @@ pub struct Origin {
 #[non_exhaustive]
 pub enum FileError {
     /// The text is not JSON, or has no header.
-    #[error(
-        "this is no learned map: make one with `tolman learn`, `tolman cpm learn` or `tolman survey`"
-    )]
+    #[error("this is no learned map: make one with `tolman learn`")]
     Header(#[source] serde_json::Error),
     /// The text ends too soon.
-    #[error(
-        "this map is cut off: copy it again, or make one with `tolman learn`, `tolman cpm learn` or `tolman survey`"
-    )]
+    #[error("this map is cut off: copy it again, or make one with `tolman learn`")]
     CutOff(#[source] serde_json::Error),
     /// The format is that of another kind of file.
     #[error("its format is {found:?}, expected {FORMAT:?}")]
@@ -57,12 +58,13 @@ pub enum FileError {
     },
     /// The format is one that is no longer read.
     #[error(
-        "its format, {:?}, is no longer read: make a new {} with `{}`",
-        .system.words().former_format, .system.words().file_name, .system.words().command
+        "its format, {found:?}, is no longer read: make a new map with `tolman learn --system {system}`"
     )]
     FormerFormat {
+        /// Format that the file names.
+        found: &'static str,
         /// System that once wrote this format.
-        system: MapSystem,
+        system: &'static str,
     },
     /// The file was written by a later tolman.
     #[error("its version is {found}, and {VERSION} is the latest known here: update tolman")]
@@ -72,7 +74,7 @@ pub enum FileError {
     },
     /// The version is one that is no longer read, or that never was.
     #[error(
-        "its version is {found}, and only {VERSION} is read here: make a new map with `tolman learn`, `tolman cpm learn` or `tolman survey`"
+        "its version is {found}, and only {VERSION} is read here: make a new map with `tolman learn`"
     )]
     FormerVersion {
         /// Version that the file names.
@@ -80,28 +82,27 @@ pub enum FileError {
     },
     /// The map is that of another system.
     #[error(
-        "this is a {}, expected a {}: make one with `{}`",
-        .found.words().file_name, .expected.words().file_name, .expected.words().command
+        "this is a map of {found}, expected one of {expected}: make one with `tolman learn --system {expected}`"
     )]
     System {
         /// System that the file names.
-        found: MapSystem,
+        found: String,
         /// System that the caller asked for.
-        expected: MapSystem,
+        expected: &'static str,
     },
     /// The header is sound, but what follows is not. The source has line and column.
-    #[error("this {} cannot be read: make one with `{}`", .system.words().file_name, .system.words().command)]
+    #[error("this map of {system} cannot be read: make one with `tolman learn --system {system}`")]
     Body {
         /// System that the file names.
-        system: MapSystem,
+        system: &'static str,
         /// Place where it cannot be read.
         source: serde_json::Error,
     },
     /// The map has no JSON form.
-    #[error("this {} has no JSON form", .system.words().file_name)]
+    #[error("this map of {system} has no JSON form")]
     Unwritable {
         /// System of the map.
-        system: MapSystem,
+        system: &'static str,
         /// Reason.
         source: serde_json::Error,
     },
@@ -111,7 +112,7 @@ pub enum FileError {
 struct File<'a, B> {
     format: &'static str,
     version: u32,
-    system: MapSystem,
+    system: &'static str,
     #[serde(flatten)]
     origin: &'a Origin,
     #[serde(flatten)]
@@ -125,102 +126,86 @@ struct Tag {
     version: u32,
 }
 
+/// What a file of this version begins with.
 #[derive(Deserialize)]
-struct Named {
-    system: MapSystem,
+struct Header {
+    system: String,
+    #[serde(flatten)]
+    origin: Origin,
 }
 
-impl MapSystem {
-    const ALL: [Self; 3] = [Self::Mslst, Self::Cpm, Self::Diktiometry];
-
-    /// Returns the system that a file is of.
-    ///
-    /// # Errors
-    /// [`FileError`] if the text has no header, or one of another format or version.
-    pub fn of(text: &str) -> Result<Self, FileError> {
-        let Tag { format, version } = serde_json::from_str(text).map_err(|source| {
-            if source.is_eof() && text.contains(&format!("\"{FORMAT}\"")) {
-                FileError::CutOff(source)
-            } else {
-                FileError::Header(source)
-            }
-        })?;
-        let mut systems = Self::ALL.into_iter();
-        if let Some(system) = systems.find(|system| system.words().former_format == format) {
-            return Err(FileError::FormerFormat { system });
+fn header(text: &str) -> Result<Header, FileError> {
+    let Tag { format, version } = serde_json::from_str(text).map_err(|source| {
+        let is_whole = text.trim_end().ends_with('}');
+        if !is_whole && text.contains(&format!("\"{FORMAT}\"")) {
+            FileError::CutOff(source)
+        } else {
+            FileError::Header(source)
         }
-        if format != FORMAT {
-            return Err(FileError::Format { found: format });
-        }
-        if version > VERSION {
-            return Err(FileError::LaterVersion { found: version });
-        }
-        if version < VERSION {
-            return Err(FileError::FormerVersion { found: version });
-        }
-        let Named { system } = serde_json::from_str(text).map_err(FileError::Header)?;
-        Ok(system)
+    })?;
+    let mut former = FORMER.into_iter();
+    if let Some((found, system)) = former.find(|(former, _)| *former == format) {
+        return Err(FileError::FormerFormat { found, system });
     }
+    if format != FORMAT {
+        return Err(FileError::Format { found: format });
+    }
+    if version > VERSION {
+        return Err(FileError::LaterVersion { found: version });
+    }
+    if version < VERSION {
+        return Err(FileError::FormerVersion { found: version });
+    }
+    serde_json::from_str(text).map_err(FileError::Header)
+}
 
+/// Returns the name of the system that a file is of, and where its map was learned.
+///
+/// # Errors
+/// [`FileError`] if the text has no header, or one of another format or version.
+pub fn origin_of(text: &str) -> Result<(String, Origin), FileError> {
+    let Header { system, origin } = header(text)?;
+    Ok((system, origin))
+}
+
+impl MapFiles {
     /// Returns the text of a file with a line end: the header, then the fields of `body`.
     ///
     /// # Errors
     /// [`FileError::Unwritable`] if `body` has no JSON form.
     pub fn write(self, origin: &Origin, body: &impl Serialize) -> Result<String, FileError> {
+        let system = self.system;
         let file = File {
             format: FORMAT,
             version: VERSION,
-            system: self,
+            system,
             origin,
             body,
         };
         serde_json::to_string(&file)
             .map(|text| text + "\n")
-            .map_err(|source| FileError::Unwritable {
-                system: self,
-                source,
-            })
+            .map_err(|source| FileError::Unwritable { system, source })
     }
 
     /// Returns where the map of a file was learned, and what the file keeps besides.
     ///
     /// # Errors
-    /// [`FileError`] as of [`of`](Self::of), or if the map is another system's or not sound.
+    /// [`FileError`] if the text has no header, or one of another format or version, or if the map is another system's or
+    /// not sound.
     pub fn read<B: DeserializeOwned>(self, text: &str) -> Result<(Origin, B), FileError> {
-        let found = Self::of(text)?;
-        if found != self {
-            let expected = self;
-            return Err(FileError::System { found, expected });
+        let Header { system, origin } = header(text)?;
+        if system != self.system {
+            return Err(FileError::System {
+                found: system,
+                expected: self.system,
+            });
         }
-        let origin = serde_json::from_str(text).map_err(FileError::Header)?;
         let body = serde_json::from_str(text).map_err(|source| FileError::Body {
-            system: self,
+            system: self.system,
             source,
         })?;
         Ok((origin, body))
     }
-
-    const fn words(self) -> Words {
-        let (file_name, command, former_format) = match self {
-            Self::Mslst => ("map of MSLST", "tolman learn", "tolman-mslst-map"),
-            Self::Cpm => ("map of CPM", "tolman cpm learn", "tolman-cpm"),
-            Self::Diktiometry => ("survey", "tolman survey", "tolman-survey"),
-        };
-        Words {
-            file_name,
-            command,
-            former_format,
-        }
-    }
-}
-
-/// How messages speak of a system's files.
-struct Words {
-    file_name: &'static str,
-    /// Writes one.
-    command: &'static str,
-    /// What `format` said when every system had a format of its own.
-    former_format: &'static str,
 }
 
 #[cfg(test)]
@@ -232,6 +217,7 @@ mod tests {
     fn origin() -> Origin {
         Origin {
             world: "J".to_owned(),
+            drawing: None,
             robot: "e-puck".to_owned(),
             seed: u64::MAX,
         }
@@ -242,8 +228,10 @@ mod tests {
         BTreeMap::from([("part".to_owned(), 0.1)])
     }
 
+    const CPM: MapFiles = MapFiles { system: "cpm" };
+
     fn text() -> String {
-        MapSystem::Cpm.write(&origin(), &body()).unwrap()
+        CPM.write(&origin(), &body()).unwrap()
     }
 
     #[test]
@@ -253,13 +241,14 @@ mod tests {
             part: f64,
         }
         let text = text();
-        let start = r#"{"format":"tolman-map","version":1,"system":"cpm","world":"J","robot":"e-puck","seed":18446744073709551615,"part":0.1}"#;
+        let start = r#"{"format":"tolman-map","version":2,"system":"cpm","world":"J","robot":"e-puck","seed":18446744073709551615,"part":0.1}"#;
         assert_eq!(text, format!("{start}\n"));
-        assert_eq!(MapSystem::of(&text).unwrap(), MapSystem::Cpm);
-        let (read, body): (_, Body) = MapSystem::Cpm.read(&text).unwrap();
+        assert_eq!(origin_of(&text).unwrap(), ("cpm".to_owned(), origin()));
+        let (read, body): (_, Body) = CPM.read(&text).unwrap();
         assert_eq!((read, body.part.to_bits()), (origin(), 0.1_f64.to_bits()));
-        let other = MapSystem::Mslst.read::<Body>(&text).err().unwrap();
-        let told = "this is a map of CPM, expected a map of MSLST: make one with `tolman learn`";
+        let other = MapFiles { system: "mslst" }.read::<Body>(&text);
+        let other = other.err().unwrap();
+        let told = "this is a map of cpm, expected one of mslst: make one with `tolman learn --system mslst`";
         assert_eq!(other.to_string(), told);
     }
 
@@ -267,30 +256,27 @@ mod tests {
     fn what_is_no_map_is_refused_by_name() {
         let text = text();
         let refused = |text: &str, expected: &str| {
-            let told = format!("{:?}", MapSystem::of(text).unwrap_err());
+            let told = format!("{:?}", origin_of(text).unwrap_err());
             assert!(told.starts_with(expected), "{told} for {expected}");
         };
-        let version = |number: &str| text.replace(":1,", number);
+        let version = |number: &str| text.replace(":2,", number);
         refused("", "Header");
         refused("{}", "Header");
         refused(&text[..text.len() / 2], "CutOff");
         refused(&text.replace("tolman-map", "soup"), "Format");
-        refused(&version(":0,"), "FormerVersion { found: 0");
-        refused(&version(":2,"), "LaterVersion { found: 2");
-        refused(&text.replace("\"cpm\"", "\"soup\""), "Header");
+        refused(&version(":1,"), "FormerVersion { found: 1");
+        refused(&version(":3,"), "LaterVersion { found: 3");
+        refused(&text.replace("\"system\":", "\"soup\":"), "Header");
     }
 
     #[test]
     fn files_of_former_formats_say_how_a_new_one_is_made() {
-        for (format, told) in [
-            ("tolman-mslst-map", "a new map of MSLST with `tolman learn`"),
-            ("tolman-cpm", "a new map of CPM with `tolman cpm learn`"),
-            ("tolman-survey", "a new survey with `tolman survey`"),
-        ] {
+        for (format, system) in FORMER {
             // The former files of CPM had a field `system`, too.
             let text = format!(r#"{{"format":"{format}","version":2,"system":"faithful"}}"#);
-            let error = MapSystem::of(&text).unwrap_err().to_string();
-            assert!(error.contains(format) && error.ends_with(told), "{error}");
+            let error = origin_of(&text).unwrap_err().to_string();
+            let told = format!("a new map with `tolman learn --system {system}`");
+            assert!(error.contains(format) && error.ends_with(&told), "{error}");
         }
     }
 
@@ -298,7 +284,7 @@ mod tests {
     fn what_has_no_json_form_is_not_written() {
         // Keys have to be strings.
         let unwritable = BTreeMap::from([([1, 2], 3)]);
-        let error = MapSystem::Cpm.write(&origin(), &unwritable).unwrap_err();
+        let error = CPM.write(&origin(), &unwritable).unwrap_err();
         assert!(matches!(error, FileError::Unwritable { .. }), "{error}");
     }
 }

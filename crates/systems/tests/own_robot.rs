@@ -295,6 +295,7 @@ fn a_map_that_nobody_watched_survives_its_file() {
     let file = MapFile {
         origin: Origin {
             world: "corridors".to_owned(),
+            drawing: None,
             robot: "digger".to_owned(),
             seed: 5,
         },

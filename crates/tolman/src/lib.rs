@@ -1,5 +1,27 @@
 //! The application: it composes robots, systems, worlds and tables, and is the `tolman` command.
 //!
-//! [`catalogue`] is what it knows by name.
+//! A [`Catalogue`] is what the command knows by name; [`run`] is the command. Whoever has a [system](system::SystemEntry) or an
+//! experiment of their own adds it to the catalogue in a program of their own:
+//!
+//! ```no_run
+//! use std::process::ExitCode;
+//! use tolman::{Build, Catalogue};
+//!
+//! fn main() -> ExitCode {
+//!     let catalogue = Catalogue::tolman().program("mine");
+//!     tolman::run(&catalogue, &Build::current("unknown", "unknown"))
+//! }
+//! ```
 
-pub use tolman_papers::catalogue;
+extern crate alloc;
+
+mod catalogue;
+mod cli;
+mod start;
+pub mod system;
+pub mod systems;
+
+pub use catalogue::Catalogue;
+pub use cli::run;
+pub use start::Start;
+pub use tolman_experiment::Build;

@@ -1,11 +1,10 @@
 //! The `tolman` command: `tolman --help`.
 
-extern crate alloc;
-
-mod cli;
-
 use std::process::ExitCode;
 
+use tolman::{Build, Catalogue};
+
 fn main() -> ExitCode {
-    cli::main()
+    let build = Build::current(env!("TOLMAN_COMMIT"), env!("TOLMAN_COMPILER"));
+    tolman::run(&Catalogue::tolman(), &build)
 }

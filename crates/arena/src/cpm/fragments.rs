@@ -210,7 +210,7 @@ impl TrueFragments {
     }
 
     /// How many there are.
-    pub(super) fn count(&self) -> u32 {
+    pub fn count(&self) -> u32 {
         let forward = self.ways.values().filter(|way| way.is_forward);
         forward.count() as u32
     }

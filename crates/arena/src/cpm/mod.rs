@@ -2,7 +2,7 @@
 //! learned there. The system is `tolman_systems::cpm`.
 //!
 //! A [`Trial`] plays both episodes on a [course](epuck_course) and scores them by its
-//! [`TrueFragments`]. An [`Errand`] is one episode; a [`Layout`] says where the parts of a map lie.
+//! [`TrueFragments`]. A [`Layout`] says where the parts of a map lie.
 //! An [`Exploration`] is a maze walked to its end. A [`PutDown`] is a trial of a robot that has to find out where
 //! it is. A [`RoundTrip`] is the way to the goal, back by untried fragments, and there again. [`world`] has
 //! mazes without a robot.
@@ -12,12 +12,12 @@ mod adversity;
 mod bends;
 mod course;
 mod distinctness;
-mod errand;
 mod exploration;
 mod fragments;
 mod known_map;
 mod layout;
 mod map_right;
+mod patience;
 #[cfg(test)]
 mod pioneer;
 mod put_down;
@@ -34,11 +34,11 @@ pub mod world;
 pub use bends::Likeness;
 pub use course::{CORRIDOR_WIDTH, epuck_course};
 pub use distinctness::{Distinctness, Pair, distinctness};
-pub use errand::{DriveFrom, Errand, Learned, Progress};
 pub use exploration::Exploration;
 pub use fragments::{TrueFragments, Way};
 pub use layout::{Fit, Layout, Lie, OpenPort};
 pub use map_right::is_whole_map_right;
+pub use patience::patience;
 pub use put_down::{KnownMaze, PutDown, PutDownRecord};
 pub use robots::{
     SimulatedEpuck, epuck, idealized_epuck, ring_measures, slow_epuck, walker_config,

@@ -23,7 +23,7 @@ mod surveyor_config;
 pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, EpuckSurveyError, survey_maze};
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
 pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
-pub use office_robot::{OfficeRobot, OfficeSurveyor, surveyor};
+pub use office_robot::{OfficeRobot, OfficeSurveyor, office_robot, surveyor};
 pub use score::{MapScore, Visit, score};
 pub use survey::{Drawn, Past, PlanTrial, RunError, Survey, SurveyConfig, Surveyed, mapper};
 pub use survey_file::{SurveyFile, SurveyFileError};

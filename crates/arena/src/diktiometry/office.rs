@@ -92,6 +92,13 @@ pub enum OfficeError {
 }
 
 impl Office {
+    /// Returns the office with this name of its maze.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.course.name);
+        self
+    }
+
     /// Raises the walls of a maze.
     ///
     /// # Errors
@@ -151,6 +158,9 @@ impl Office {
         });
         let walls = walls.collect();
         let mut world = World::from_segments(walls)?;
+        for zone in bare.zones() {
+            world = world.with_zone(zone.clone())?;
+        }
         for (number, (cell, direction)) in doorways.iter().enumerate() {
             for door in config.leaves(number, *cell, *direction) {
                 world = world.with_door(door)?;

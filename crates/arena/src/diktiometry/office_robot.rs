@@ -25,6 +25,21 @@ pub(super) fn set_doorway(
     leaves.try_for_each(|leaf| robot.set_door(&format!("{number} {leaf}"), state))
 }
 
+/// Returns a robot at `at`, m, in `office`, facing north. `seed` is that of all noise.
+///
+/// # Errors
+/// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
+pub fn office_robot(
+    office: &Office,
+    config: &SurveyorConfig,
+    at: Point,
+    seed: u64,
+) -> Result<OfficeRobot, RunError> {
+    let robot = CameraPioneer::new(config.camera_robot())?;
+    let pose = Pose::new(at, Heading::NORTH);
+    Ok(office.course.robot_at(pose, robot, seed)?)
+}
+
 /// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` is that of all noise.
 ///
 /// # Errors
@@ -39,9 +54,7 @@ pub fn surveyor(
     let routines = config
         .routines(furniture.corridor_width)
         .with_doorways(furniture.doorway_width());
-    let robot = CameraPioneer::new(config.camera_robot())?;
-    let pose = Pose::new(at, Heading::NORTH);
-    let robot = office.course.robot_at(pose, robot, seed)?;
+    let robot = office_robot(office, config, at, seed)?;
     Ok(Surveyor::new(robot, config.sight, routines)?)
 }
 

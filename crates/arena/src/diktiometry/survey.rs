@@ -1,5 +1,7 @@
 //! One run: a robot walks an office, its observer maps it, and the truth is kept beside.
 
+use alloc::sync::Arc;
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
@@ -89,8 +91,8 @@ pub struct Past {
 
 /// A run under way, or ended.
 #[derive(Debug)]
-pub struct Survey<'a> {
-    office: &'a Office,
+pub struct Survey {
+    office: Arc<Office>,
     config: SurveyConfig,
     rover: OfficeSurveyor,
     mapping: Mapping,
@@ -184,12 +186,12 @@ pub enum RunError {
     },
 }
 
-impl<'a> Survey<'a> {
+impl Survey {
     /// A robot at a random place of an office, with a map of that place alone.
     ///
     /// # Errors
     /// [`RunError`] if robot or observer cannot be had.
-    pub fn new(office: &'a Office, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
+    pub fn new(office: &Arc<Office>, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
         let truth = office.places(&[]);
         let first = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
         let start = truth.values().nth(first).copied();
@@ -215,7 +217,7 @@ impl<'a> Survey<'a> {
     /// # Errors
     /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
     pub fn resumed(
-        office: &'a Office,
+        office: &Arc<Office>,
         config: SurveyConfig,
         past: Past,
         observer: Observer,
@@ -229,14 +231,14 @@ impl<'a> Survey<'a> {
     /// The run of a robot that has this past.
     fn after(
         past: Past,
-        office: &'a Office,
+        office: &Arc<Office>,
         config: SurveyConfig,
         rover: OfficeSurveyor,
         mapping: Mapping,
         seed: u64,
     ) -> Result<Self, RunError> {
         let mut survey = Self {
-            office,
+            office: Arc::clone(office),
             planner: Planner::new(config.heed),
             rover,
             mapping,
@@ -340,6 +342,12 @@ impl<'a> Survey<'a> {
             Some((distance, site)) if distance < 0.5 * self.office.separation() => Ok(site),
             _ => Err(RunError::OffPlace { at: here }),
         }
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub const fn office(&self) -> &Arc<Office> {
+        &self.office
     }
 
     /// What it depends on but the office and the seed.
@@ -474,14 +482,14 @@ mod tests {
     use super::super::{OfficeConfig, blocks};
     use super::*;
 
-    fn office(side: u16, doorway_share: f64, colours: u32) -> Office {
+    fn office(side: u16, doorway_share: f64, colours: u32) -> Arc<Office> {
         let maze = blocks(side, 0.3, &mut ChaCha8Rng::seed_from_u64(1));
         let config = OfficeConfig {
             doorway_share,
             colours,
             ..OfficeConfig::bare()
         };
-        Office::new(&maze, &config).unwrap()
+        Arc::new(Office::new(&maze, &config).unwrap())
     }
 
     #[test]
@@ -509,7 +517,7 @@ mod tests {
             colours: 6,
             ..OfficeConfig::bare()
         };
-        let office = Office::new(&file.maze, &furniture).unwrap();
+        let office = Arc::new(Office::new(&file.maze, &furniture).unwrap());
         let config = SurveyConfig::paper(&office, 30);
         let run = Survey::new(&office, config, 1).unwrap().finish().unwrap();
         let score = run.score();

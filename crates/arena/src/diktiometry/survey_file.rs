@@ -9,7 +9,11 @@ use tolman_maze::{Direction, MazeError, MazeFile};
 use super::{
     Office, OfficeConfig, OfficeError, Past, RunError, Survey, SurveyConfig, SurveyorConfig, Visit,
 };
-use tolman_systems::{FileError, MapSystem, Origin};
+use tolman_systems::{FileError, MapFiles, Origin};
+
+const FILES: MapFiles = MapFiles {
+    system: "diktiometry",
+};
 
 /// A survey as it lies in a file: JSON, read back to the bit. It holds the world and where the robot is in it, so that the
 /// survey can go on; the map is the journal of all moves.
@@ -71,10 +75,12 @@ struct Body {
 impl SurveyFile {
     /// Returns what is to be written of a survey of the maze `world` that began from `seed`.
     #[must_use]
-    pub fn of(world: &str, seed: u64, office: &Arc<Office>, survey: &Survey<'_>) -> Self {
+    pub fn of(world: &str, seed: u64, survey: &Survey) -> Self {
+        let office = survey.office();
         Self {
             origin: Origin {
                 world: world.to_owned(),
+                drawing: Some(office.course.drawing()),
                 robot: survey.config().robot.name().to_owned(),
                 seed,
             },
@@ -103,7 +109,7 @@ impl SurveyFile {
             gone: past.gone.clone(),
             map: MapFile::of(&self.observer)?,
         };
-        Ok(MapSystem::Diktiometry.write(&self.origin, &body)?)
+        Ok(FILES.write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -111,18 +117,18 @@ impl SurveyFile {
     /// # Errors
     /// [`SurveyFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
-        let (origin, body): (_, Body) = MapSystem::Diktiometry.read(text)?;
+        let (origin, body): (_, Body) = FILES.read(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
             return Err(SurveyFileError::Heed { found: body.heed });
         }
         // Nobody need have a goal in it.
         let MazeFile { maze, .. } = tolman_maze::parse(&body.maze)?;
         let observer = body.map.observer()?;
+        let office = Office::new(&maze, &body.office)?;
         let visits = body.visits.into_iter();
         let visits = visits.map(|(site, place)| Visit { site, place });
         Ok(Self {
-            origin,
-            office: Arc::new(Office::new(&maze, &body.office)?),
+            office: Arc::new(office.named(&origin.world)),
             config: SurveyConfig {
                 robot: body.surveyor,
                 mapper: observer.config().clone(),
@@ -130,6 +136,7 @@ impl SurveyFile {
                 moves: 0,
                 door_period: 0,
             },
+            origin,
             past: Past {
                 start: Point::from(body.start),
                 at: Point::from(body.at),
@@ -140,11 +147,23 @@ impl SurveyFile {
         })
     }
 
+    /// Returns the place of the map where the robot came to a goal of the maze, if it did.
+    #[must_use]
+    pub fn goal(&self) -> Option<PlaceId> {
+        let maze = &self.office.course.maze;
+        let is_goal = |visit: &&Visit| {
+            let mut goals = maze.goals().iter();
+            goals.any(|goal| maze.grid().index(*goal) as u32 == visit.site)
+        };
+        let visit = self.past.visits.iter().rev().find(is_goal)?;
+        self.observer.map().paths.resolve(visit.place)
+    }
+
     /// The survey, to go on with. `seed` is that of all chance from now on.
     ///
     /// # Errors
     /// [`RunError`] if the robot cannot stand where the file has it.
-    pub fn survey(&self, seed: u64) -> Result<Survey<'_>, RunError> {
+    pub fn survey(&self, seed: u64) -> Result<Survey, RunError> {
         let past = self.past.clone();
         let observer = self.observer.clone();
         Survey::resumed(&self.office, self.config.clone(), past, observer, seed)
@@ -171,7 +190,7 @@ mod tests {
         let mut config = SurveyConfig::paper(&office, moves);
         config.mapper.journal = JournalLength::All;
         let survey = Survey::new(&office, config, 3).unwrap().finish().unwrap();
-        SurveyFile::of("blocks", 3, &office, &survey)
+        SurveyFile::of("blocks", 3, &survey)
     }
 
     #[test]

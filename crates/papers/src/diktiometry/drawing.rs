@@ -14,7 +14,7 @@ const MOST_BOXES: usize = 100;
 /// The places with the boxes that hold them, as seen from where the robot began, and the links, over the walls. Maps of more
 /// than a hundred places are drawn without boxes.
 #[must_use]
-pub fn map_over_world(office: &Office, survey: &Survey<'_>) -> Drawing {
+pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
     let mut plan = Plan::of_world(&office.course.world, WIDTH);
     let drawn = survey.drawn();
     for place in drawn.iter().filter(|_| drawn.len() <= MOST_BOXES) {

@@ -74,7 +74,7 @@ struct Watch {
 }
 
 impl Watch {
-    fn new(survey: &Survey<'_>) -> Self {
+    fn new(survey: &Survey) -> Self {
         let mut watch = Self {
             start: survey.past().start,
             home: survey.observer().place(),
@@ -90,7 +90,7 @@ impl Watch {
         watch
     }
 
-    fn see(&mut self, survey: &Survey<'_>, surveyed: &Surveyed) {
+    fn see(&mut self, survey: &Survey, surveyed: &Surveyed) {
         let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
         let best = surveyed.report.tracks.first();
         let before = best.and_then(|track| self.nodes.get(&track.from));
@@ -130,7 +130,7 @@ impl Watch {
     }
 
     /// What has changed on the map.
-    fn map(&mut self, survey: &Survey<'_>, step: u32) {
+    fn map(&mut self, survey: &Survey, step: u32) {
         let map = survey.observer().map();
         for drawn in map.layout(self.home) {
             let position = self.start + drawn.bounds.middle().coords;

@@ -4,6 +4,7 @@ use tolman_robot::{Body, CameraSensing, ColumnImage, TurnTranslate};
 use super::{ConfigError, LaserPioneer, LaserPioneerConfig};
 use crate::noise::{Fault, Faults, FaultsError};
 use crate::sensors::{CameraError, ColumnCamera, Sensor};
+use crate::trace::Recordable;
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
 /// A [`LaserPioneer`] with a [`ColumnCamera`].
@@ -24,10 +25,10 @@ pub struct CameraPioneerConfig {
 /// A robot built to a [`CameraPioneerConfig`].
 #[derive(Clone, Debug)]
 pub struct CameraPioneer {
+    config: CameraPioneerConfig,
     pioneer: LaserPioneer,
     camera: ColumnCamera,
     image: Faults<ColumnImage>,
-    columns: u32,
 }
 
 impl CameraPioneer {
@@ -37,12 +38,11 @@ impl CameraPioneer {
     /// If a field of the configuration has no sense.
     pub fn new(config: CameraPioneerConfig) -> Result<Self, CameraPioneerError> {
         Fault::check_all("image", &config.image)?;
-        let camera = ColumnCamera::new(config.columns, config.reach)?;
         Ok(Self {
-            pioneer: LaserPioneer::new(config.pioneer)?,
-            camera,
-            image: Faults::new("image", config.image),
-            columns: config.columns,
+            pioneer: LaserPioneer::new(config.pioneer.clone())?,
+            camera: ColumnCamera::new(config.columns, config.reach)?,
+            image: Faults::new("image", config.image.clone()),
+            config,
         })
     }
 }
@@ -74,7 +74,7 @@ impl Model for CameraPioneer {
     fn silent(&self) -> CameraSensing {
         CameraSensing {
             laser: self.pioneer.silent(),
-            image: Some(ColumnImage::black(self.columns)),
+            image: Some(ColumnImage::black(self.config.columns)),
         }
     }
 
@@ -82,6 +82,19 @@ impl Model for CameraPioneer {
         self.pioneer.sense(around, chance, &mut sensing.laser);
         self.camera.sense(around, chance, &mut sensing.image);
         self.image.disturb(&mut sensing.image, chance);
+    }
+}
+
+impl Recordable for CameraPioneer {
+    type Config = CameraPioneerConfig;
+    type ConfigError = CameraPioneerError;
+
+    fn config(&self) -> &CameraPioneerConfig {
+        &self.config
+    }
+
+    fn from_config(config: CameraPioneerConfig) -> Result<Self, CameraPioneerError> {
+        Self::new(config)
     }
 }
 

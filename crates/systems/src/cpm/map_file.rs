@@ -3,8 +3,10 @@ use thiserror::Error;
 use tolman_maps::cpm::{self, CpMap};
 
 use super::common_patterns::CommonPatterns;
-use super::preset::Preset;
-use crate::{FileError, MapSystem, Origin};
+use super::mode::Mode;
+use crate::{FileError, MapFiles, Origin};
+
+const FILES: MapFiles = MapFiles { system: "cpm" };
 
 /// A learned map as it lies in a file, with the patterns it is written in: JSON, read back to the bit.
 #[derive(Clone, Debug)]
@@ -12,7 +14,7 @@ pub struct MapFile {
     /// Where it was learned, by which robot and from which seed.
     pub origin: Origin,
     /// How the robot mapped.
-    pub preset: Preset,
+    pub mode: Mode,
     /// What it knew of patterns.
     pub patterns: CommonPatterns,
     /// The map.
@@ -33,7 +35,7 @@ pub enum MapFileError {
 
 #[derive(Serialize, Deserialize)]
 struct Body {
-    preset: Preset,
+    mode: Mode,
     /// Of SOINN.
     units: u32,
     clusters: u32,
@@ -48,12 +50,12 @@ impl MapFile {
     /// If the map was learned with other patterns, or cannot be written.
     pub fn to_json(&self) -> Result<String, MapFileError> {
         let body = Body {
-            preset: self.preset,
+            mode: self.mode,
             units: self.patterns.unit_count(),
             clusters: self.patterns.cluster_count(),
             map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
         };
-        Ok(MapSystem::Cpm.write(&self.origin, &body)?)
+        Ok(FILES.write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -61,12 +63,12 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let (origin, body): (_, Body) = MapSystem::Cpm.read(text)?;
+        let (origin, body): (_, Body) = FILES.read(text)?;
         let dictionary = body.map.dictionary()?;
         let map = body.map.map(&dictionary)?;
         Ok(Self {
             origin,
-            preset: body.preset,
+            mode: body.mode,
             patterns: CommonPatterns::restored(dictionary, body.units, body.clusters),
             map,
         })

@@ -33,6 +33,10 @@ use super::whereabouts::Approach;
 pub struct Cpm {
     walker: WalkerConfig,
     config: CpmConfig,
+    /// The maps that it may be on; none where it learns one of its own.
+    known: Vec<CpMap>,
+    /// The one of them that it is on.
+    on: usize,
     /// What it learned before its first map.
     patterns: CommonPatterns,
     novelty: Option<f64>,
@@ -68,6 +72,8 @@ impl Cpm {
         Self {
             walker,
             config,
+            known: Vec::new(),
+            on: 0,
             patterns,
             novelty: None,
             layer: None,
@@ -93,8 +99,7 @@ impl Cpm {
         })
     }
 
-    /// Returns a robot that has a map, written in these `patterns`, and stands somewhere on it. Unless it is told to
-    /// explore, it finds out where first.
+    /// Returns a robot that has a map, written in these `patterns`, and stands somewhere on it. It finds out where first.
     ///
     /// # Errors
     /// [`CpmError`] if the map has no place.
@@ -105,10 +110,27 @@ impl Cpm {
         map: CpMap,
         seed: u64,
     ) -> Result<Self, CpmError> {
+        Self::with_maps(walker, patterns, config, vec![map], seed)
+    }
+
+    /// Returns a robot that has maps of several mazes, written in these `patterns`, and stands somewhere on one of them. It
+    /// finds out on which and where first.
+    ///
+    /// # Errors
+    /// [`CpmError`] if the first map has no place.
+    pub fn with_maps(
+        walker: WalkerConfig,
+        patterns: CommonPatterns,
+        config: CpmConfig,
+        maps: Vec<CpMap>,
+        seed: u64,
+    ) -> Result<Self, CpmError> {
+        let map = maps.first().cloned().unwrap_or_default();
         let somewhere = map.junctions().next().map_or(JunctionId(0), |(id, _)| id);
         let layer = Layer3::resume_at(patterns.clone(), config, map, somewhere.port(0))?;
         Ok(Self {
             layer: Some(layer),
+            known: maps,
             ..Self::new(walker, patterns, config, seed)
         })
     }
@@ -116,6 +138,12 @@ impl Cpm {
     /// Tells it that the robot was carried elsewhere: it has to find out where it is.
     pub fn carried(&mut self) {
         self.standing = Stance::Anywhere;
+    }
+
+    /// Returns which of its maps it takes itself to be on.
+    #[must_use]
+    pub const fn on(&self) -> usize {
+        self.on
     }
 
     /// Returns the map and what decides by it; `None` before the first action.
@@ -152,10 +180,16 @@ impl Cpm {
                 (Walker::wake(robot, self.walker.clone(), resting), search)
             }
             Stance::Anywhere | Stance::AtPlace(_) => {
-                let (maps, patterns) = ([layer.map().clone()], layer.patterns());
+                let here = layer.map().clone();
+                let mut maps = self.known.clone();
+                // It may have grown since.
+                match maps.get_mut(self.on) {
+                    Some(known) => *known = here,
+                    None => maps = vec![here],
+                }
                 (
                     Walker::new(robot, self.walker.clone()),
-                    Search::new(&maps, patterns, Approach::ToAndFro, MOST_PLACES)?,
+                    Search::new(&maps, layer.patterns(), Approach::ToAndFro, MOST_PLACES)?,
                 )
             }
         };
@@ -165,8 +199,17 @@ impl Cpm {
         match (flow, here) {
             (ControlFlow::Break(()), Some(here)) => {
                 let is_sure = search.found().is_sure();
-                let is_like = layer.map().degree(here.ahead.junction) as usize == ways;
-                layer.explorer_mut().mapper.place(here.ahead)?;
+                let other = self.known.get(here.map).filter(|_| here.map != self.on);
+                let map = other.unwrap_or(layer.map());
+                let is_like = map.degree(here.ahead.junction) as usize == ways;
+                match other {
+                    None => layer.explorer_mut().mapper.place(here.ahead)?,
+                    Some(map) => {
+                        let (patterns, map) = (self.patterns.clone(), map.clone());
+                        *layer = Layer3::resume_at(patterns, self.config, map, here.ahead)?;
+                        self.on = here.map;
+                    }
+                }
                 self.standing = Stance::AtPlace(walker);
                 Ok(if is_sure && is_like {
                     Standing::Done

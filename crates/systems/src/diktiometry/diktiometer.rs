@@ -1,10 +1,10 @@
 use core::error::Error;
 
 use thiserror::Error as ThisError;
-use tolman_maps::diktiometry::{Config, Move, Observer, Start, StartError, StepError};
+use tolman_maps::diktiometry::{Config, Move, Observer, PlaceId, Start, StartError, StepError};
 use tolman_robot::{
-    Compass, Guess, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing, System, Task,
-    TurnTranslate,
+    Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
+    System, Task, TurnTranslate,
 };
 
 use super::{
@@ -109,6 +109,11 @@ impl<E> Diktiometer<E> {
     #[must_use]
     pub const fn config(&self) -> &DiktiometerConfig {
         &self.config
+    }
+
+    /// Tells it the place of its map where a landmark was sensed before.
+    pub fn remember(&mut self, landmark: Landmark, place: PlaceId) {
+        self.guide.remember(landmark, place);
     }
 
     /// Returns the observer with its map, or `None` before the first action.

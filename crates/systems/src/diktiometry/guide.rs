@@ -117,8 +117,13 @@ impl Guide {
     pub(super) fn recognize(&mut self, landmark: Option<Landmark>) {
         if let (Some(landmark), Some(observer)) = (landmark, self.observer()) {
             let place = observer.place();
-            self.landmarks.insert(landmark, place);
+            self.remember(landmark, place);
         }
+    }
+
+    /// Remembers that `landmark` is at `place`.
+    pub(super) fn remember(&mut self, landmark: Landmark, place: PlaceId) {
+        self.landmarks.insert(landmark, place);
     }
 
     /// Lets `rover` go in `direction`, and the map take it in.

@@ -55,6 +55,16 @@ impl Mslst {
         }
     }
 
+    /// Returns how many nodes its graph has so far. Their ids count up from 0.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        match &self.phase {
+            Phase::Scans(_) => 0,
+            Phase::Topology(topology) => topology.nodes().len(),
+            Phase::Navigation(navigator) => navigator.knows().graph.len(),
+        }
+    }
+
     /// The phase under way.
     fn brain(&self) -> &dyn Brain<Error = Infallible> {
         match &self.phase {

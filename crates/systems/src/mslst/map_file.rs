@@ -5,7 +5,9 @@ use tolman_maps::mslst_graph::{Edge, GraphError, MslstGraph, Node, Zone};
 use tolman_maze::Direction;
 
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
-use crate::{FileError, MapSystem, Origin};
+use crate::{FileError, MapFiles, Origin};
+
+const FILES: MapFiles = MapFiles { system: "mslst" };
 
 /// A learned map as it lies in a file: JSON, read back to the bit.
 #[derive(Clone, Debug)]
@@ -90,7 +92,7 @@ impl MapFile {
                 })
                 .collect(),
         };
-        Ok(MapSystem::Mslst.write(&self.origin, &body)?)
+        Ok(FILES.write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -98,7 +100,7 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and what to do about it.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let (origin, body): (_, Body) = MapSystem::Mslst.read(text)?;
+        let (origin, body): (_, Body) = FILES.read(text)?;
         let count = body.states.len();
         for (index, node) in body.nodes.iter().enumerate() {
             if node.state as usize >= count {
@@ -123,16 +125,16 @@ impl MapFile {
     }
 }
 
-/// Returns what a watcher saw; nothing where it did not see every node.
+/// Returns what a watcher saw; nothing of what it did not see of every node.
 fn surveyed(nodes: &[SavedNode]) -> Survey {
     let positions: Option<Vec<Point>> = nodes
         .iter()
         .map(|node| node.made_at.map(Point::from))
         .collect();
     let made_by: Option<Vec<u32>> = nodes.iter().map(|node| node.made_by).collect();
-    match (positions, made_by) {
-        (Some(positions), Some(made_by)) => Survey { positions, made_by },
-        _ => Survey::default(),
+    Survey {
+        positions: positions.unwrap_or_default(),
+        made_by: made_by.unwrap_or_default(),
     }
 }
 

@@ -5,13 +5,12 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use tolman::catalogue;
 use tolman_experiment::{
-    Build, Error, Measured, Metric, Options, Program, Table, Terminal, compare, execute, open,
+    Error, Measured, Metric, Options, Program, Table, Terminal, compare, execute, open,
     tables_as_text, write_replay,
 };
 
-use super::{Failure, ink, interrupt};
+use super::{App, Failure, ink, interrupt};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results
 #[derive(clap::Args)]
@@ -69,9 +68,13 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
     if arguments.list {
-        for entry in catalogue() {
+        for entry in &app.catalogue.experiments {
             writeln!(out, "{:<12} {}", entry.name, entry.title)?;
         }
         return Ok(());
@@ -84,16 +87,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Err(Failure::Failed(anyhow!("{differences}")));
     }
     if let [table, row, run] = &arguments.replay[..] {
-        return replay(arguments, table, row, run, out);
+        return replay(app, arguments, table, row, run, out);
     }
-    let build = Build::current(env!("TOLMAN_COMMIT"), env!("TOLMAN_COMPILER"));
     // The first Ctrl-C lets the runs that are being played finish.
     let stop = interrupt::flag()?;
     let mut disagreements = Vec::new();
-    for (name, options) in arguments.chosen() {
-        let experiment = open(catalogue(), name, &options).map_err(classify)?;
+    for (name, options) in arguments.chosen(app) {
+        let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
         let progress = Terminal::new(Arc::clone(&stop));
-        let outcome = execute(&experiment, &options, &build, &progress).map_err(classify)?;
+        let outcome = execute(&experiment, &options, app.build, &progress).map_err(classify)?;
         if arguments.json {
             let summary = outcome.summary.to_json().map_err(classify)?;
             out.write_all(summary.as_bytes())?;
@@ -114,6 +116,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 
 /// Writes the replay of one run.
 fn replay(
+    app: &App<'_>,
     arguments: &Arguments,
     table: &str,
     row: &str,
@@ -125,8 +128,8 @@ fn replay(
             "{run:?} is no index of a run; give a whole number from 0 on"
         ))
     })?;
-    for (name, options) in arguments.chosen() {
-        let experiment = open(catalogue(), name, &options).map_err(classify)?;
+    for (name, options) in arguments.chosen(app) {
+        let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
         let file = write_replay(&experiment, &options, table, row, run).map_err(classify)?;
         writeln!(out, "The replay: {}", file.display())?;
     }
@@ -135,7 +138,7 @@ fn replay(
 
 impl Arguments {
     /// The experiments asked for, each with its options.
-    fn chosen(&self) -> Vec<(&str, Options)> {
+    fn chosen<'a>(&'a self, app: &App<'a>) -> Vec<(&'a str, Options)> {
         let options = Options {
             seed: self.seed,
             runs: self.runs,
@@ -144,12 +147,12 @@ impl Arguments {
             tables: self.tables.clone(),
             out: self.out.clone(),
             quick: self.quick,
-            program: Program::current(),
+            program: Program::current(app.catalogue.program),
         };
         if let Some(name) = &self.name {
             return vec![(name, options)];
         }
-        let names = catalogue().iter().map(|entry| entry.name);
+        let names = app.catalogue.experiments.iter().map(|entry| entry.name);
         let chosen = names.map(|name| {
             let out = self.out.as_ref().map(|out| out.join(name));
             let options = options.clone();

@@ -1,69 +1,132 @@
-//! `tolman learn`: MSLST wanders and learns a map.
+//! `tolman learn`: a system learns a map of a maze.
 
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::Context;
-use tolman_arena::mslst::learn;
-use tolman_arena::pioneer::{LASER_PIONEER, calibrated};
-use tolman_systems::Origin;
-use tolman_systems::mslst::{MapFile, MslstConfig};
+use anyhow::anyhow;
+use serde_json::{Value, json};
+use tolman_arena::run::End;
+use tolman_robot::{Goal, Landmark, Task};
 
-use super::{Failure, OrBadInput, file, run};
+use super::looks::Looks;
+use super::map::map_text;
+use super::send::{check_origin, send, tell_replay, told};
+use super::sent_out::SentOut;
+use super::words::words;
+use super::{App, Failure, OrBadInput, file};
 
-/// Lets MSLST wander through a maze, learn its states and its graph, and writes both down
+/// Lets a system learn a map of a maze, and writes the map down
 #[derive(clap::Args)]
 #[command(after_help = "\
-The paper has a threshold of 100 and a memory of 6 for its J maze, 20 or 50 and 8 for its Large one.
+Exit code 1 says that no map was learned, or that the one that was written is known to be wrong or unfinished. Which presets
+a system has, and what --set can change, `tolman systems` tells.
 
 Examples:
-  tolman learn --maze mazes/j.maze --threshold 100 --memory 6 --out j-map.json
-  tolman map show j-map.json --maze mazes/j.maze --svg j-map.svg")]
+  tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
+  tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json --replay learned.html
+  tolman learn --system diktiometry --maze mazes/j.maze --set moves=300 --out j-survey.json
+  tolman learn --system diktiometry --maze mazes/j.maze --from j-survey.json --out j-survey.json")]
 pub(super) struct Arguments {
-    /// The maze file, of any format; - reads standard input
+    /// Who learns
+    #[arg(long, value_name = "NAME")]
+    system: String,
+    #[command(flatten)]
+    sent_out: SentOut,
+    /// When it has learned enough
+    #[arg(long, default_value = "explored", value_parser = words(UNTIL))]
+    until: Task,
+    /// Go on with a map that was learned before
     #[arg(long, value_name = "FILE")]
-    maze: PathBuf,
-    /// What all chance follows from
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Phase I: the error threshold of the equilibrium GNG, squared robot units
-    #[arg(long, value_name = "ERROR", default_value_t = 50.0)]
-    threshold: f64,
-    /// Phase I: how long to wander for scans, time steps
-    #[arg(long, value_name = "N", default_value_t = MslstConfig::large(50.0).scan_steps, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    steps: u32,
-    /// Phase II: how long to wander for the graph, actions
-    #[arg(long, value_name = "N", default_value_t = MslstConfig::large(50.0).graph_actions, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    actions: u32,
-    /// Phase III: how many pairs of state and action to remember
-    #[arg(long, value_name = "N", default_value_t = MslstConfig::large(50.0).memory, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    memory: u32,
+    from: Option<PathBuf>,
+    /// Go on with it in another maze, or with another robot, too
+    #[arg(long, requires = "from")]
+    anyway: bool,
     /// The file to write the map to
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+    #[command(flatten)]
+    looks: Looks,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let course = run::course(&arguments.maze)?;
-    let config = MslstConfig {
-        scan_steps: arguments.steps,
-        graph_actions: arguments.actions,
-        memory: arguments.memory,
-        ..MslstConfig::large(arguments.threshold)
-    };
-    let learned = learn(&course, &calibrated(), &config, arguments.seed)
-        .context("no map was learned: choose other --threshold or --steps")
+/// When a system has learned enough.
+const UNTIL: [(&str, &str, Task); 2] = [
+    ("explored", "It has nothing left to learn", Task::Explore),
+    (
+        "goal",
+        "The goal is found",
+        Task::Reach(Goal::Landmark(Landmark::Goal)),
+    ),
+];
+
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let system = app.system(&arguments.system)?;
+    let from = arguments.from.as_deref().map(map_text).transpose()?;
+    let maze = arguments.sent_out.maze()?;
+    let mut setup = arguments.sent_out.setup(&maze);
+    setup.from = from.as_ref();
+    let context = || format!("{} cannot learn {}", system.name(), setup.world);
+    let outing = system.learner(&setup);
+    let mut outing = outing
+        .map_err(|error| error.context(context()))
         .or_bad_input()?;
-    let (states, nodes) = (learned.map.states.models().len(), learned.map.graph.len());
-    let map = MapFile {
-        origin: Origin {
-            world: course.name,
-            robot: LASER_PIONEER.to_owned(),
-            seed: arguments.seed,
-        },
-        config,
-        learned,
+    if let (Some(from), false) = (&from, arguments.anyway) {
+        check_origin(from, &*outing)?;
+    }
+    let task = arguments.until;
+    let ended = send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
+    let told = told(&ended, &*outing, system.name());
+    let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
+    let complaint = match &ended.end {
+        End::Done => outing.complaint(task),
+        End::OutOfTime => {
+            Some("the time was up before it had learned all: give it more --steps".to_owned())
+        }
+        End::GaveUp { why } => Some(why.clone()),
     };
-    file::write(&arguments.out, map.to_json()?)?;
-    Ok(writeln!(out, "{states} states, a graph of {nodes} nodes")?)
+    let Some(text) = text else {
+        let why = complaint.unwrap_or_else(|| "it keeps none".to_owned());
+        return Err(Failure::Failed(anyhow!(
+            "no map of {} was learned: {why}",
+            setup.world
+        )));
+    };
+    let lines = {
+        let map = super::map::of_text(&arguments.out, text.clone())?;
+        let map = system.map(&map)?;
+        (map.lines(), map.json())
+    };
+    file::write(&arguments.out, text)?;
+    if arguments.looks.json {
+        let json = json!({
+            "system": system.name(),
+            "maze": setup.world,
+            "seed": setup.seed,
+            "steps": ended.steps,
+            "actions": ended.actions,
+            "bumps": outing.bumped().len(),
+            "complaint": complaint.clone().map_or(Value::Null, Value::String),
+            "map": lines.1,
+        });
+        writeln!(out, "{json:#}")?;
+    } else {
+        writeln!(out, "{told}")?;
+        for line in lines.0.iter().take(MOST_LINES) {
+            writeln!(out, "{line}")?;
+        }
+        tell_replay(&arguments.looks, out)?;
+    }
+    match complaint {
+        None => Ok(()),
+        Some(complaint) => Err(Failure::Failed(anyhow!(
+            "the map in {} is wrong or unfinished: {complaint}",
+            arguments.out.display()
+        ))),
+    }
 }
+
+/// So many lines of a map are told; `tolman map show` tells all.
+const MOST_LINES: usize = 4;

@@ -1,74 +1,166 @@
 //! `tolman map`: looks at learned maps.
 
-mod plan;
-mod show;
-mod show_cpm;
-mod show_mslst;
-mod show_survey;
-
-use core::error::Error;
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use clap::Subcommand;
-use tolman_maps::diktiometry::Action;
-use tolman_maze::Direction;
+use tolman_draw::Figure;
+use tolman_systems::origin_of;
 
-use super::{Failure, OrBadInput};
+use super::{App, Failure, OrBadInput, file, maze};
+use crate::system::{LearnedMap, MapText};
 
 /// Looks at learned maps
 #[derive(Subcommand)]
 pub(super) enum Verb {
-    Show(show::Arguments),
-    Plan(plan::Arguments),
+    Show(Show),
+    Plan(Plan),
+    Check(Check),
+}
+
+/// Tells what a learned map holds, and draws it over the maze
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
+  tolman map show map.json --maze mazes/cpm-1.maze --svg map.svg")]
+pub(super) struct Show {
+    /// The map, made by `tolman learn`
+    file: PathBuf,
+    /// The maze it was learned in
+    #[arg(long, value_name = "FILE", requires = "svg")]
+    maze: Option<PathBuf>,
+    /// Draw the map over the maze
+    #[arg(long, value_name = "FILE", requires = "maze")]
+    svg: Option<PathBuf>,
+    /// Write the figures as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Plans a way over a learned map, from place to place or to the goal; exits 1 if none is known
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman learn --system diktiometry --maze mazes/j.maze --out j-survey.json
+  tolman map plan j-survey.json --from 0 --to 3")]
+pub(super) struct Plan {
+    /// The map, made by `tolman learn`
+    file: PathBuf,
+    /// The place to go to, by its number, instead of the goal
+    #[arg(long, value_name = "PLACE")]
+    to: Option<u32>,
+    /// The place to begin at, instead of where the robot is or began
+    #[arg(long, value_name = "PLACE")]
+    from: Option<u32>,
+}
+
+/// Holds a learned map against the maze; exits 1 if it is wrong or unfinished
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
+  tolman map check map.json --maze mazes/cpm-1.maze")]
+pub(super) struct Check {
+    /// The map, made by `tolman learn`
+    file: PathBuf,
+    /// The maze it was learned in
+    #[arg(long, value_name = "FILE")]
+    maze: PathBuf,
 }
 
 impl Verb {
-    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+    pub(super) fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
-            Self::Show(arguments) => show::carry_out(&arguments, out),
-            Self::Plan(arguments) => plan::carry_out(&arguments, out),
+            Self::Show(arguments) => show(app, &arguments, out),
+            Self::Plan(arguments) => plan(app, &arguments, out),
+            Self::Check(arguments) => check(app, &arguments, out),
         }
     }
 }
 
-/// Reads a learned map with `from_json`, the reader of its system.
+fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
+    let (text, map) = read(app, &arguments.file)?;
+    if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
+        let read = maze::read(maze)?;
+        let drawing = map.drawing(&read).or_bad_input()?;
+        let figure = Figure::new("map", &text.origin.world, drawing);
+        file::write(path, figure.standalone())?;
+    }
+    if arguments.json {
+        return Ok(writeln!(out, "{:#}", map.json())?);
+    }
+    for line in map.lines() {
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Failure> {
+    let (_, map) = read(app, &arguments.file)?;
+    let plan = map.plan(arguments.from, arguments.to).or_bad_input()?;
+    let Some(lines) = plan else {
+        return Err(Failure::Failed(anyhow!(
+            "no way is known on the map in {}; learn longer",
+            arguments.file.display()
+        )));
+    };
+    if lines.is_empty() {
+        writeln!(out, "the plan ends where it begins")?;
+    }
+    for line in lines {
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Failure> {
+    let (text, map) = read(app, &arguments.file)?;
+    let maze = maze::read(&arguments.maze)?;
+    match map.complaint(&maze).or_bad_input()? {
+        None => Ok(writeln!(out, "{} is right", text.name)?),
+        Some(complaint) => Err(Failure::Failed(anyhow!(
+            "the map in {} is wrong or unfinished: {complaint}",
+            text.name
+        ))),
+    }
+}
+
+fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Failure> {
+    let text = map_text(path)?;
+    let map = app.system_of(&text)?.map(&text).or_bad_input()?;
+    Ok((text, map))
+}
+
+/// Reads the text of a file with a learned map of whichever system.
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(super) fn read<T, E: Error + Send + Sync + 'static>(
-    path: &Path,
-    from_json: fn(&str) -> Result<T, E>,
-) -> Result<T, Failure> {
-    parse(path, &text(path)?, from_json)
-}
-
-fn parse<T, E: Error + Send + Sync + 'static>(
-    path: &Path,
-    text: &str,
-    from_json: fn(&str) -> Result<T, E>,
-) -> Result<T, Failure> {
-    from_json(text)
-        .with_context(|| path.display().to_string())
-        .or_bad_input()
-}
-
-/// The name of the way an action of a survey goes.
-fn way(action: Action) -> String {
-    let direction = Direction::ALL.get(action.0 as usize);
-    direction.map_or_else(String::new, ToString::to_string)
-}
-
-/// Returns the text of a file with a learned map of whichever system.
-fn text(path: &Path) -> Result<String, Failure> {
-    fs::read_to_string(path)
+pub(super) fn map_text(path: &Path) -> Result<MapText, Failure> {
+    let text = fs::read_to_string(path)
         .with_context(|| {
             let path = path.display();
-            format!(
-                "cannot read {path}; give a file that `tolman learn`, `tolman cpm learn` or `tolman survey` wrote"
-            )
+            format!("cannot read {path}; give a file that `tolman learn` wrote")
         })
-        .or_bad_input()
+        .or_bad_input()?;
+    of_text(path, text)
+}
+
+/// Returns the text of a file with a learned map.
+///
+/// # Errors
+/// Bad input with the file's name.
+pub(super) fn of_text(path: &Path, text: String) -> Result<MapText, Failure> {
+    let name = path.display().to_string();
+    let (system, origin) = origin_of(&text)
+        .with_context(|| name.clone())
+        .or_bad_input()?;
+    Ok(MapText {
+        name,
+        system,
+        origin,
+        text,
+    })
 }

@@ -6,34 +6,43 @@
 mod bar;
 mod called;
 mod completions;
-mod cpm;
 mod demo;
+mod drive;
 mod experiment;
 mod failure;
 mod file;
+mod film;
+mod former;
 mod interrupt;
 mod learn;
+mod live;
+mod looks;
 mod man;
 mod map;
 mod maze;
 mod mms_host;
 mod mouse;
+mod picture;
 mod replay;
 mod replay_file;
 mod run;
+mod send;
+mod sent_out;
 mod share;
-mod solve;
-mod start;
 mod stdout;
-mod survey;
+mod systems;
 mod words;
 
 use std::io::Write;
 use std::process::ExitCode;
 
+use anyhow::anyhow;
 use clap::{Parser, Subcommand};
 use failure::{Failure, OrBadInput};
 use stdout::{Stdout, ink};
+
+use crate::system::{MapText, SystemEntry};
+use crate::{Build, Catalogue};
 
 /// Robots with laser rings in mazes: runs them, measures them, and sets them beside the papers.
 #[derive(Parser)]
@@ -48,10 +57,10 @@ Examples:
   tolman demo
   tolman run wall-follow --maze mazes/large.maze --replay run.html
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
-  tolman learn --maze mazes/j.maze --out j-map.json
-  tolman solve --map j-map.json --maze mazes/j.maze --seed 7
-  tolman cpm learn --maze mazes/cpm-3.maze --out map.json
-  tolman survey --maze mazes/j.maze --out j-survey.json
+  tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
+  tolman drive --map j-map.json --maze mazes/j.maze --seed 7
+  tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
+  tolman learn --system diktiometry --maze mazes/j.maze --out j-survey.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid --worst 3
   tolman experiment baselines --quick
@@ -62,30 +71,84 @@ Results are written to stdout, progress and errors to stderr.";
 
 #[derive(Subcommand)]
 enum Verb {
-    Run(run::Arguments),
     Learn(learn::Arguments),
-    Solve(solve::Arguments),
-    Survey(survey::Arguments),
+    Drive(drive::Arguments),
     #[command(subcommand)]
     Map(map::Verb),
+    Systems(systems::Arguments),
+    Run(run::Arguments),
     Replay(replay::Arguments),
     Demo(demo::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
-    #[command(subcommand)]
-    Cpm(cpm::Verb),
     Mouse(mouse::Arguments),
     MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
+    #[command(hide = true)]
+    Solve(former::Arguments),
+    #[command(hide = true)]
+    Survey(former::Arguments),
+    #[command(hide = true)]
+    Cpm(former::Arguments),
 }
 
-/// Parses the command line, does what it says and returns the exit code.
-pub(crate) fn main() -> ExitCode {
+/// What the verbs are given beside their arguments.
+struct App<'a> {
+    catalogue: &'a Catalogue,
+    build: &'a Build,
+}
+
+impl App<'_> {
+    /// The system of that name.
+    ///
+    /// # Errors
+    /// Bad input if there is none.
+    fn system(&self, name: &str) -> Result<&'static dyn SystemEntry, Failure> {
+        let mut systems = self.catalogue.systems.iter();
+        let named = systems.find(|system| system.name() == name);
+        named.copied().ok_or_else(|| {
+            let names: Vec<&str> = self
+                .catalogue
+                .systems
+                .iter()
+                .map(|system| system.name())
+                .collect();
+            Failure::BadInput(anyhow!(
+                "there is no system {name}; choose one of: {}",
+                names.join(", ")
+            ))
+        })
+    }
+
+    /// The system that learned a map.
+    ///
+    /// # Errors
+    /// Bad input if it is unknown.
+    fn system_of(&self, map: &MapText) -> Result<&'static dyn SystemEntry, Failure> {
+        let mut systems = self.catalogue.systems.iter();
+        let named = systems.find(|system| system.name() == map.system);
+        named.copied().ok_or_else(|| {
+            Failure::BadInput(anyhow!(
+                "{}: its system, {}, is not known here",
+                map.name,
+                map.system
+            ))
+        })
+    }
+}
+
+/// The command: parses the command line, does what it says by what `catalogue` knows, and returns the exit code. `build` is
+/// what reports say they were made by.
+#[must_use]
+pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
+    called::set(catalogue.program);
     let arguments = Arguments::parse();
     let mut out = Stdout::lock();
-    let done = arguments.verb.carry_out(&mut out);
+    let done = arguments
+        .verb
+        .carry_out(&App { catalogue, build }, &mut out);
     // What was found stands before what failed, wherever the two streams end up.
     let written = out.flush();
     let done = done.and_then(|()| Ok(written?));
@@ -101,22 +164,24 @@ pub(crate) fn main() -> ExitCode {
 }
 
 impl Verb {
-    fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+    fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
+            Self::Learn(arguments) => learn::carry_out(app, &arguments, out),
+            Self::Drive(arguments) => drive::carry_out(app, &arguments, out),
+            Self::Map(verb) => verb.carry_out(app, out),
+            Self::Systems(_) => systems::carry_out(app, out),
             Self::Run(arguments) => run::carry_out(&arguments, out),
-            Self::Learn(arguments) => learn::carry_out(&arguments, out),
-            Self::Solve(arguments) => solve::carry_out(&arguments, out),
-            Self::Survey(arguments) => survey::carry_out(&arguments, out),
-            Self::Map(verb) => verb.carry_out(out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(out),
-            Self::Cpm(verb) => verb.carry_out(out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
-            Self::Experiment(arguments) => experiment::carry_out(&arguments, out),
+            Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),
             Self::Completions(arguments) => completions::carry_out(&arguments, out),
             Self::Man(arguments) => man::carry_out(&arguments, out),
+            Self::Solve(_) => Err(former::refuse("solve", "drive")),
+            Self::Survey(_) => Err(former::refuse("survey", "learn --system diktiometry")),
+            Self::Cpm(arguments) => Err(former::refuse_cpm(&arguments)),
         }
     }
 }

@@ -1,8 +1,6 @@
 //! `tolman run`: one robot, one maze, one seed.
 
-mod live;
 mod outing;
-mod picture;
 mod trace;
 
 use std::io::Write;
@@ -11,7 +9,7 @@ use tolman_arena::cast::{Agent, Cast};
 
 use super::Failure;
 use super::words::words;
-pub(super) use outing::{Name, Outing, carry_out as send, course};
+pub(super) use outing::{Name, Outing, carry_out as send};
 
 /// Sends one robot through a maze and tells what became of it
 #[derive(clap::Args)]

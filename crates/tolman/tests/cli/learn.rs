@@ -3,14 +3,16 @@ use std::fs;
 use crate::{CORRIDOR, folder, tolman_in};
 
 /// Learns a little of the corridor and keeps it in `map.json`.
-const LEARN: [&str; 9] = [
+const LEARN: [&str; 11] = [
     "learn",
+    "--system",
+    "mslst",
     "--maze",
     "corridor.maze",
-    "--steps",
-    "300",
-    "--actions",
-    "60",
+    "--set",
+    "scan_steps=300",
+    "--set",
+    "graph_actions=60",
     "--out",
     "map.json",
 ];
@@ -53,7 +55,7 @@ fn a_map_is_learned_looked_at_and_followed() {
     );
 
     let solve = [
-        "solve",
+        "drive",
         "--map",
         "map.json",
         "--maze",
@@ -62,17 +64,21 @@ fn a_map_is_learned_looked_at_and_followed() {
         "2000",
     ];
     let told = tolman_in(&folder, &solve).done();
-    assert!(told.contains("mslst reached the destination"), "{told}");
+    assert!(told.contains("mslst is done"), "{told}");
 }
 
 #[test]
 fn what_is_no_map_is_refused() {
     let folder = folder("no-map");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
-    let solve = ["solve", "--map", "corridor.maze", "--maze", "corridor.maze"];
+    let solve = ["drive", "--map", "corridor.maze", "--maze", "corridor.maze"];
     tolman_in(&folder, &solve).refused(2, &["corridor.maze", "tolman learn", "line 1"]);
     tolman_in(&folder, &["map", "show", "nothing.json"]).refused(2, &["nothing.json"]);
-    let threshold = [&LEARN[..], &["--threshold", "NaN"]].concat();
-    tolman_in(&folder, &threshold).refused(2, &["NaN", "--threshold"]);
+    let unknown = [&LEARN[..], &["--set", "patience=3"]].concat();
+    tolman_in(&folder, &unknown).refused(2, &["no setting patience", "threshold"]);
+    let wrong = [&LEARN[..], &["--set", "memory=much"]].concat();
+    tolman_in(&folder, &wrong).refused(2, &["memory=much"]);
+    let other = [&LEARN[..2], &["mlsts"], &LEARN[3..]].concat();
+    tolman_in(&folder, &other).refused(2, &["no system mlsts", "mslst, cpm"]);
     assert!(!folder.join("map.json").exists());
 }

@@ -20,37 +20,58 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
     let folder = folder("survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();
     let survey = [
-        "survey",
+        "learn",
+        "--system",
+        "diktiometry",
         "--maze",
         "ring.maze",
-        "--colours",
-        "6",
-        "--moves",
-        "80",
+        "--set",
+        "colours=6",
+        "--set",
+        "moves=80",
         "--out",
         "ring.json",
     ];
     let told = tolman_in(&folder, &survey).done();
-    assert!(told.contains("after 80 moves, purity 1.000"), "{told}");
+    assert!(
+        told.contains("80 moves:") && told.contains("purity 1.000"),
+        "{told}"
+    );
     let first = fs::read(folder.join("ring.json")).unwrap();
     tolman_in(&folder, &survey).done();
     assert_eq!(fs::read(folder.join("ring.json")).unwrap(), first);
 
     let on = [
-        "survey",
+        "learn",
+        "--system",
+        "diktiometry",
+        "--maze",
+        "ring.maze",
         "--from",
         "ring.json",
-        "--moves",
-        "60",
+        "--set",
+        "moves=60",
         "--seed",
         "2",
         "--out",
         "on.json",
     ];
     let told = tolman_in(&folder, &on).done();
-    assert!(told.contains("after 140 moves, purity 1.000"), "{told}");
+    assert!(
+        told.contains("140 moves:") && told.contains("purity 1.000"),
+        "{told}"
+    );
 
-    let show = ["map", "show", "on.json", "--svg", "on.svg", "--json"];
+    let show = [
+        "map",
+        "show",
+        "on.json",
+        "--maze",
+        "ring.maze",
+        "--svg",
+        "on.svg",
+        "--json",
+    ];
     let shown = tolman_in(&folder, &show).done();
     let shown: serde_json::Value = serde_json::from_str(&shown).unwrap();
     let places = shown["places"].as_array().unwrap();
@@ -70,7 +91,7 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
         let end = plan.lines().last().map(str::to_owned).unwrap_or_default();
         assert!(
             end.contains(&format!("to place {id} ("))
-                || id == "0" && end.contains("place 0, where"),
+                || id == "0" && end.contains("ends where it begins"),
             "{plan}"
         );
     }
@@ -82,15 +103,12 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
 fn a_plan_to_where_no_way_is_known_is_a_failure() {
     let folder = folder("no plan");
     fs::write(folder.join("ring.maze"), RING).unwrap();
-    let survey = "survey --maze ring.maze --moves 1 --out ring.json";
+    let survey = "learn --system diktiometry --maze ring.maze --set moves=1 --out ring.json";
     let survey: Vec<&str> = survey.split(' ').collect();
-    tolman_in(&folder, &survey).done();
+    tolman_in(&folder, &survey).failed(1, &["wrong or unfinished", "places were visited"]);
     let back = "map plan ring.json --from 1 --to 0";
     let back: Vec<&str> = back.split(' ').collect();
-    let told = [
-        "no way is known from place 1 to place 0",
-        "survey --from ring.json",
-    ];
+    let told = ["no way is known on the map in ring.json"];
     tolman_in(&folder, &back).refused(1, &told);
 }
 
@@ -99,31 +117,46 @@ fn a_file_that_is_no_sound_survey_is_refused() {
     let folder = folder("no survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();
     let survey = [
-        "survey",
+        "learn",
+        "--system",
+        "diktiometry",
         "--maze",
         "ring.maze",
-        "--moves",
-        "5",
+        "--set",
+        "moves=5",
         "--out",
         "ring.json",
     ];
-    tolman_in(&folder, &survey).done();
+    tolman_in(&folder, &survey).failed(1, &["wrong or unfinished"]);
     let text = fs::read_to_string(folder.join("ring.json")).unwrap();
     let check = |changed: &str, expect: &str| {
         fs::write(folder.join("changed.json"), changed).unwrap();
-        let on = ["survey", "--from", "changed.json", "--out", "never.json"];
+        let on = "learn --system diktiometry --maze ring.maze --from changed.json --out never.json";
+        let on: Vec<&str> = on.split(' ').collect();
         tolman_in(&folder, &on).refused(2, &["changed.json", expect]);
         assert!(!folder.join("never.json").exists());
     };
     check("{}", "no learned map");
     check(&text[..text.len() - 40], "this map is cut off");
     check(
-        &text.replacen("\"version\":1", "\"version\":7", 1),
+        &text.replacen("\"version\":2", "\"version\":7", 1),
         "version is 7",
     );
     check(
         &text.replacen("\"moves\":5,", "\"moves\":9,", 1),
         "cut off: 5 of 9",
     );
-    tolman_in(&folder, &["survey", "--out", "never.json"]).refused(2, &["--maze"]);
+    tolman_in(&folder, &["learn", "--out", "never.json"]).refused(2, &["--maze"]);
+    for (former, now) in [
+        (
+            &["survey", "--maze", "ring.maze"][..],
+            "tolman learn --system diktiometry",
+        ),
+        (&["solve", "--map", "map.json"], "tolman drive"),
+        (&["cpm", "solve", "--map", "map.json"], "tolman drive"),
+        (&["cpm", "learn"], "tolman learn --system cpm"),
+        (&["cpm", "distinct", "a.maze"], "tolman maze distinct"),
+    ] {
+        tolman_in(&folder, former).refused(2, &[now]);
+    }
 }

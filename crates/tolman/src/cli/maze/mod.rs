@@ -3,6 +3,7 @@
 mod check;
 mod collection;
 mod convert;
+mod distinct;
 mod generate;
 mod input;
 mod output;
@@ -24,6 +25,7 @@ pub(super) enum Verb {
     Check(check::Arguments),
     Convert(convert::Arguments),
     Generate(generate::Arguments),
+    Distinct(distinct::Arguments),
 }
 
 impl Verb {
@@ -33,6 +35,7 @@ impl Verb {
             Self::Check(arguments) => check::carry_out(&arguments, out),
             Self::Convert(arguments) => convert::carry_out(&arguments, out),
             Self::Generate(arguments) => generate::carry_out(&arguments, out),
+            Self::Distinct(arguments) => distinct::carry_out(&arguments, out),
         }
     }
 }

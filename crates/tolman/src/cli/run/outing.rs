@@ -14,11 +14,13 @@ use tolman_papers::Recorder;
 use tolman_replay::Fact;
 use tolman_sim::robots::LaserPioneerConfig;
 
-use super::live::Live;
-use super::{picture, trace};
-use crate::cli::replay_file::{self, Overwrite};
-use crate::cli::start::Start;
+use super::trace;
+use crate::cli::live::{self, Live, Scene};
+use crate::cli::looks::Looks;
+use crate::cli::picture;
+use crate::cli::replay_file;
 use crate::cli::{Failure, OrBadInput, file, maze};
+use crate::start::Start;
 
 /// Where and how a robot runs, and what is kept of it.
 #[derive(clap::Args)]
@@ -42,25 +44,8 @@ pub(in crate::cli) struct Outing {
     /// many for each metre as the Large maze's 500
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
-    /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops looking
-    #[arg(long)]
-    live: bool,
-    /// Draw its way over the maze
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
-    /// Write the run down step by step, as JSON lines: world, robot, and every command, true pose, bump and
-    /// scan
-    #[arg(long, value_name = "FILE")]
-    trace: Option<PathBuf>,
-    /// Write a replay: one HTML file that plays the run in any browser
-    #[arg(long, value_name = "FILE")]
-    replay: Option<PathBuf>,
-    /// Overwrite the replay's file even if it is no replay
-    #[arg(long, requires = "replay")]
-    force: bool,
-    /// Write the outcome as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    looks: Looks,
 }
 
 /// What a brain is called.
@@ -95,13 +80,12 @@ pub(in crate::cli) fn carry_out(
     mind: impl FnOnce(&Course, &LaserPioneerConfig) -> Result<Mind, Failure>,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let overwrite = Overwrite::if_forced(arguments.force);
-    if let Some(path) = &arguments.replay {
-        replay_file::check(path, overwrite)?;
-    }
+    let looks = &arguments.looks;
+    let overwrite = looks.overwrite()?;
     let robot = calibrated();
     let course = course(&arguments.maze)?;
-    let start = arguments.start.on(&course, arguments.seed)?;
+    let random = || Some(episode::random_start(&course, &body(), arguments.seed));
+    let start = arguments.start.on(&course, random).or_bad_input()?;
     let trial = Trial {
         course: &course,
         robot: robot.clone(),
@@ -110,8 +94,8 @@ pub(in crate::cli) fn carry_out(
         seed: arguments.seed,
     };
     let mut mind = mind(&course, &robot)?;
-    let mut live = match arguments.live {
-        true => Some(Live::open(&trial, name.word)?),
+    let mut live = match looks.live {
+        true => Some(Live::open(Scene::of(&trial, name.word))?),
         false => None,
     };
     let mut commands = Vec::new();
@@ -120,7 +104,7 @@ pub(in crate::cli) fn carry_out(
         commands.push(step.command);
         recorder.see(step);
         if let Some(live) = &mut live {
-            live.watch(step);
+            live::see(step, |now| live.watch(now));
         }
     })
     .map_err(classify)?;
@@ -128,20 +112,20 @@ pub(in crate::cli) fn carry_out(
     if let Some(live) = live {
         live.close(&told).context("the terminal has gone")?;
     }
-    if let Some(path) = &arguments.trace {
+    if let Some(path) = &looks.trace {
         file::write(path, trace::of(&trial, &commands)?)?;
     }
-    if let Some(path) = &arguments.svg {
-        file::write(path, picture::of(&course, &episode, &told))?;
+    if let Some(path) = &looks.svg {
+        file::write(path, picture::of(&course, &episode.path, &told))?;
     }
-    if let Some(path) = &arguments.replay {
+    if let Some(path) = &looks.replay {
         let title = format!("{} in {}", name.title, course.name);
         let mut replay = recorder.finish(title, &episode);
         let brain = Fact::new("brain", name.title);
         replay.facts.insert(1, brain);
         replay_file::write(path, replay, overwrite)?;
     }
-    if arguments.json {
+    if looks.json {
         let json = json!({
             "brain": name.word,
             "maze": course.name,
@@ -163,7 +147,7 @@ pub(in crate::cli) fn carry_out(
         if episode.reached {
             writeln!(out, "{told}")?;
         }
-        if let Some(path) = &arguments.replay {
+        if let Some(path) = &looks.replay {
             writeln!(out, "replay: {}", replay_file::address(path))?;
         }
     }

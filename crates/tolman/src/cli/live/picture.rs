@@ -25,8 +25,8 @@ const FLOOR_SPACING: f64 = 3.0;
 /// Of the laser's beams so many are drawn at most.
 const BEAMS: usize = 24;
 
-pub(super) fn draw(view: &View<'_>, frame: &mut Frame<'_>, area: Rect) {
-    let course = view.trial.course;
+pub(super) fn draw(view: &View, frame: &mut Frame<'_>, area: Rect) {
+    let course = &view.scene.course;
     let window = Window::on(
         course.world.bounds(),
         course.corridor_width,
@@ -43,8 +43,8 @@ pub(super) fn draw(view: &View<'_>, frame: &mut Frame<'_>, area: Rect) {
 }
 
 /// From below to above; what shares a character has the colour of the last.
-fn paint(view: &View<'_>, window: Window, context: &mut Context<'_>) {
-    let course = view.trial.course;
+fn paint(view: &View, window: Window, context: &mut Context<'_>) {
+    let course = &view.scene.course;
     let inked = |color| palette::inked(color, view.ink);
     if let Some(destination) = course.destination() {
         floor(context, destination, window, inked(palette::DESTINATION));
@@ -71,7 +71,7 @@ fn paint(view: &View<'_>, window: Window, context: &mut Context<'_>) {
     context.draw(&Circle::new(
         position.x,
         position.y,
-        view.trial.robot.radius,
+        view.scene.radius,
         inked(palette::ROBOT),
     ));
     let arrow = arrow(heading.radians());

@@ -2,17 +2,13 @@
 
 use core::str::FromStr;
 
-use anyhow::anyhow;
+use anyhow::{Error, anyhow};
 use tolman_arena::course::Course;
-use tolman_arena::episode::random_start;
-use tolman_arena::pioneer::body;
-use tolman_geom::{Heading, Point, Pose, Vector};
-
-use super::Failure;
+use tolman_geom::{Heading, Point, Pose};
 
 /// What `--start` can say.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Start {
+pub enum Start {
     /// Anywhere, as in the experiments.
     Random,
     /// In the middle of the cell that the maze marks.
@@ -22,30 +18,24 @@ pub(super) enum Start {
 }
 
 impl Start {
-    /// The pose on a course that this says.
+    /// Returns the pose on a course that this says; a random one is what `random` makes.
     ///
     /// # Errors
-    /// If the maze was to mark the start and does not, or no way leads on from there.
-    pub(super) fn on(self, course: &Course, seed: u64) -> Result<Pose, Failure> {
+    /// If the maze marks no start, or no way leads on from there.
+    pub fn on(self, course: &Course, random: impl FnOnce() -> Option<Pose>) -> Result<Pose, Error> {
+        let name = &course.name;
         match self {
-            Self::Random => Ok(random_start(course, &body(), seed)),
+            Self::Random => random().ok_or_else(|| anyhow!("{name} has no way to a goal")),
             Self::Marked => {
-                let Some((cell, direction)) = course.maze.start() else {
-                    let error =
-                        anyhow!("{} marks no start; give --start random or X,Y", course.name);
-                    return Err(Failure::BadInput(error));
-                };
-                let (east, north) = direction.step();
-                let heading = Heading::of(Vector::new(f64::from(east), f64::from(north)));
-                Ok(Pose::new(course.world.cell_centre(cell), heading))
+                let start = course.start();
+                start.map_err(|_| anyhow!("{name} marks no start; give --start random or X,Y"))
             }
             Self::At(pose) if course.leads_on(pose.position) => Ok(pose),
-            Self::At(Pose { position, .. }) => Err(Failure::BadInput(anyhow!(
-                "no way leads from ({}, {}) m to the destination of {}; start in a corridor that leads there",
+            Self::At(Pose { position, .. }) => Err(anyhow!(
+                "no way leads from ({}, {}) m to the destination of {name}; start in a corridor that leads there",
                 position.x,
-                position.y,
-                course.name
-            ))),
+                position.y
+            )),
         }
     }
 }

@@ -17,28 +17,29 @@ use std::io::{self, IsTerminal};
 use indicatif::ProgressBar;
 use ratatui::crossterm::terminal;
 use screen::Screen;
-use tolman_arena::episode::{Step, Trial};
 use view::{LEAST_COLUMNS, LEAST_ROWS, View};
+pub(super) use view::{Now, Scene, see};
 
 use crate::cli::bar::bar;
 use crate::cli::{Failure, ink, interrupt};
 
 /// Somebody's view of a run.
 #[derive(Debug)]
-pub(super) enum Live<'a> {
+pub(super) enum Live {
     /// On the whole terminal, at the pace of who looks.
-    Screen(Box<Screen<'a>>),
+    Screen(Box<Screen>),
     /// As a line on stderr, as fast as it goes.
     Line(ProgressBar),
     /// No more: who looked has seen enough, or the terminal has gone.
     Closed(io::Result<()>),
 }
 
-impl<'a> Live<'a> {
-    /// A view of the run that is about to be made of `trial`.
-    pub(super) fn open(trial: &'a Trial<'a>, brain: &str) -> Result<Self, Failure> {
+impl Live {
+    /// A view of the run that is about to be made.
+    pub(super) fn open(scene: Scene) -> Result<Self, Failure> {
+        let limit = scene.step_limit;
         if on_terminal() {
-            let view = View::new(trial, brain, ink());
+            let view = View::new(scene, ink());
             // A terminal that cannot be drawn on, as without a keyboard, gets the line.
             if let Ok(screen) = Screen::open(view, interrupt::flag()?) {
                 let mut live = Self::Screen(Box::new(screen));
@@ -46,19 +47,22 @@ impl<'a> Live<'a> {
                 return Ok(live);
             }
         }
-        let template = "{bar:30} step {pos} of {len}, at {msg}";
-        Ok(Self::Line(bar(trial.step_limit, template)))
+        let (length, template) = match limit {
+            Some(limit) => (limit, "{bar:30} step {pos} of {len}, at {msg}"),
+            None => (0, "{spinner} step {pos}, at {msg}"),
+        };
+        Ok(Self::Line(bar(length, template)))
     }
 
     /// Shows one more step until the next is due.
-    pub(super) fn watch(&mut self, step: &Step<'_>) {
+    pub(super) fn watch(&mut self, now: &Now<'_>) {
         match self {
             Self::Screen(screen) => {
-                screen.view().take(step);
+                screen.view().take(now);
                 self.wait();
             }
             Self::Line(line) => {
-                let position = step.robot.truth().pose.position;
+                let position = now.pose.position;
                 line.set_message(format!("{:.2}, {:.2} m", position.x, position.y));
                 line.inc(1);
             }

@@ -7,11 +7,11 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Style, Stylize};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Borders, Padding, Paragraph, Wrap};
+use tolman_arena::course::Course;
 use tolman_arena::episode::{Step, Trial};
 use tolman_control::Outcome;
 use tolman_experiment::Ink;
 use tolman_geom::{Point, Pose};
-use tolman_maze::Direction;
 use tolman_robot::{Robot, Scan};
 
 use super::pace::{Motion, Pace};
@@ -29,12 +29,53 @@ const PANEL: u16 = 27;
 /// So many steps back the trail goes.
 const TRAIL: usize = 2000;
 
+/// What a run is made of, for whoever looks.
+#[derive(Clone, Debug)]
+pub(in crate::cli) struct Scene {
+    pub(in crate::cli) course: Course,
+    /// Who chooses the actions.
+    pub(in crate::cli) word: String,
+    pub(in crate::cli) seed: u64,
+    pub(in crate::cli) start: Pose,
+    pub(in crate::cli) step_us: u64,
+    /// The robot's radius, m.
+    pub(in crate::cli) radius: f64,
+    /// Time steps after which it ends; `None` if they are not counted.
+    pub(in crate::cli) step_limit: Option<u32>,
+}
+
+impl Scene {
+    /// The run of a trial.
+    pub(in crate::cli) fn of(trial: &Trial<'_>, word: &str) -> Self {
+        Self {
+            course: trial.course.clone(),
+            word: word.to_owned(),
+            seed: trial.seed,
+            start: trial.start,
+            step_us: trial.robot.step_us,
+            radius: trial.robot.radius,
+            step_limit: Some(trial.step_limit),
+        }
+    }
+}
+
+/// A time step that has just been made.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::cli) struct Now<'a> {
+    pub(in crate::cli) pose: Pose,
+    /// Whether it ended at a wall.
+    pub(in crate::cli) bump: bool,
+    /// The action under way, or what the robot thinks.
+    pub(in crate::cli) action: &'a str,
+    /// How an action ended with this step.
+    pub(in crate::cli) ended: Option<&'a str>,
+    pub(in crate::cli) scan: Option<&'a Scan>,
+}
+
 /// A run so far.
 #[derive(Debug)]
-pub(super) struct View<'a> {
-    pub(super) trial: &'a Trial<'a>,
-    /// Who chooses the actions.
-    brain: String,
+pub(super) struct View {
+    pub(super) scene: Scene,
     pub(super) ink: Ink,
     /// Steps made.
     step: u32,
@@ -44,9 +85,9 @@ pub(super) struct View<'a> {
     /// Whether the last step ended at a wall.
     pub(super) bump: bool,
     /// The action under way, or just ended.
-    action: Option<Direction>,
+    action: String,
     /// How the last one that ended did.
-    ended: Option<(Direction, Outcome)>,
+    ended: String,
     pub(super) scan: Option<Scan>,
     pub(super) trail: VecDeque<Point>,
     pub(super) beams: Beams,
@@ -61,44 +102,43 @@ pub(super) enum Beams {
     Hidden,
 }
 
-impl<'a> View<'a> {
+impl View {
     /// A run that has not begun.
-    pub(super) fn new(trial: &'a Trial<'a>, brain: &str, ink: Ink) -> Self {
+    pub(super) fn new(scene: Scene, ink: Ink) -> Self {
+        let start = scene.start;
         Self {
-            trial,
-            brain: brain.to_owned(),
+            scene,
             ink,
             step: 0,
             time_us: 0,
             bumps: 0,
-            pose: trial.start,
+            pose: start,
             bump: false,
-            action: None,
-            ended: None,
+            action: none(),
+            ended: none(),
             scan: None,
-            trail: VecDeque::from([trial.start.position]),
+            trail: VecDeque::from([start.position]),
             beams: Beams::Hidden,
             told: None,
         }
     }
 
     /// Takes in one more step.
-    pub(super) fn take(&mut self, step: &Step<'_>) {
-        let truth = step.robot.truth();
+    pub(super) fn take(&mut self, now: &Now<'_>) {
         self.step += 1;
-        self.time_us = truth.time_us;
-        self.bumps += u32::from(truth.bump);
-        self.bump = truth.bump;
-        self.pose = truth.pose;
-        self.action = Some(step.action);
-        if let Some(outcome) = step.ends {
-            self.ended = Some((step.action, outcome));
+        self.time_us += self.scene.step_us;
+        self.bumps += u32::from(now.bump);
+        self.bump = now.bump;
+        self.pose = now.pose;
+        now.action.clone_into(&mut self.action);
+        if let Some(ended) = now.ended {
+            ended.clone_into(&mut self.ended);
         }
-        self.scan.clone_from(&step.robot.sensing().scan);
+        self.scan = now.scan.cloned();
         if self.trail.len() > TRAIL {
             self.trail.pop_front();
         }
-        self.trail.push_back(truth.pose.position);
+        self.trail.push_back(now.pose.position);
     }
 
     pub(super) fn show_or_hide_beams(&mut self) {
@@ -163,18 +203,18 @@ impl<'a> View<'a> {
         };
         let line = |label: &str, value: String| field(label, Span::raw(value));
         vec![
-            Line::from(format!(" {}", tail(&self.trial.course.name))).bold(),
-            Line::from(format!(" {}, seed {}", self.brain, self.trial.seed)),
+            Line::from(format!(" {}", tail(&self.scene.course.name))).bold(),
+            Line::from(format!(" {}, seed {}", self.scene.word, self.scene.seed)),
             line(
                 "step",
-                format!("{} of {}", self.step, self.trial.step_limit),
+                match self.scene.step_limit {
+                    Some(limit) => format!("{} of {limit}", self.step),
+                    None => self.step.to_string(),
+                },
             ),
             line("time", format!("{:.1} s", self.time_us as f64 / 1e6)),
-            line(
-                "action",
-                self.action.map_or_else(none, |action| action.to_string()),
-            ),
-            line("last", self.ended.map_or_else(none, ended)),
+            line("action", self.action.clone()),
+            line("last", self.ended.clone()),
             line("pose", format!("{:.2}, {:.2} m", at.x, at.y)),
             line("heading", format!("{:.0}°", self.pose.heading.degrees())),
             field("bumps", Span::styled(self.bumps.to_string(), bumps)),
@@ -203,13 +243,25 @@ fn none() -> String {
     "–".to_owned()
 }
 
-fn ended((action, outcome): (Direction, Outcome)) -> String {
-    let outcome = match outcome {
-        Outcome::Completed => "done",
-        Outcome::CutShort => "cut short",
-        Outcome::Failed => "failed",
-    };
-    format!("{action}: {outcome}")
+/// Shows a step of a trial.
+pub(in crate::cli) fn see(step: &Step<'_>, mut show: impl FnMut(&Now<'_>)) {
+    let action = step.action.to_string();
+    let ended = step.ends.map(|outcome| {
+        let outcome = match outcome {
+            Outcome::Completed => "done",
+            Outcome::CutShort => "cut short",
+            Outcome::Failed => "failed",
+        };
+        format!("{action}: {outcome}")
+    });
+    let truth = step.robot.truth();
+    show(&Now {
+        pose: truth.pose,
+        bump: truth.bump,
+        action: &action,
+        ended: ended.as_deref(),
+        scan: step.robot.sensing().scan.as_ref(),
+    });
 }
 
 #[cfg(test)]
@@ -218,7 +270,6 @@ mod tests {
     use ratatui::backend::TestBackend;
     use ratatui::style::Color;
     use tolman_arena::cast::{Agent, Cast};
-    use tolman_arena::course::Course;
     use tolman_arena::episode;
     use tolman_arena::pioneer::{body, calibrated};
     use tolman_geom::Heading;
@@ -256,8 +307,8 @@ o---o---o
         let mut mind = Cast::default()
             .mind(Agent::WallFollow, trial.course, &trial.robot)
             .unwrap();
-        let mut view = View::new(trial, "wall-follow", ink);
-        episode::run(trial, &mut mind, |step| view.take(step)).unwrap();
+        let mut view = View::new(Scene::of(trial, "wall-follow"), ink);
+        episode::run(trial, &mut mind, |step| see(step, |now| view.take(now))).unwrap();
         view.told = Some("wall-follow reached the destination".to_owned());
         let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
         terminal

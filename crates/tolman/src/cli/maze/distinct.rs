@@ -1,22 +1,22 @@
-//! `tolman cpm distinct`: can an e-puck tell the fragments of these mazes apart?
+//! `tolman maze distinct`: can an e-puck tell the fragments of these mazes apart?
 
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::anyhow;
-use tolman_arena::cpm::{Pair, distinctness};
+use anyhow::{Context, anyhow};
+use tolman_arena::cpm::{Pair, distinctness, epuck_course};
 use tolman_maps::cpm::Sense;
 
-use super::{course, learned_patterns};
+use super::{Failure, OrBadInput, name, read};
 use crate::cli::share::share;
-use crate::cli::{Failure, OrBadInput};
+use crate::systems;
 
 /// Lets an e-puck walk every fragment of mazes both ways, and exits 2 if two of them look alike
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  tolman cpm distinct mazes/cpm-1.maze mazes/cpm-2.maze mazes/cpm-3.maze")]
-pub(in crate::cli) struct Arguments {
+  tolman maze distinct mazes/cpm-1.maze mazes/cpm-2.maze mazes/cpm-3.maze")]
+pub(crate) struct Arguments {
     /// The maze files, of any format, with a start
     #[arg(required = true)]
     mazes: Vec<PathBuf>,
@@ -32,9 +32,10 @@ pub(in crate::cli) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let patterns = learned_patterns(arguments.seed)?;
+    let patterns = systems::patterns_of_epuck(arguments.seed)?;
     for path in &arguments.mazes {
-        let course = course(path)?;
+        let course = epuck_course(&name(path), read(path)?);
+        let course = course.with_context(|| name(path)).or_bad_input()?;
         let (name, seeds) = (&course.name, 0..u64::from(arguments.walks));
         let found = distinctness(&course, &patterns, seeds).or_bad_input()?;
         if let Some(most) = found.most_alike {

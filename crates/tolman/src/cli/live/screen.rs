@@ -23,9 +23,9 @@ const GLANCE: Duration = Duration::from_millis(100);
 
 /// A run on the terminal, which is given back when this is dropped.
 #[derive(Debug)]
-pub(in crate::cli::run) struct Screen<'a> {
+pub(in crate::cli) struct Screen {
     terminal: DefaultTerminal,
-    view: View<'a>,
+    view: View,
     pace: Pace,
     /// When the next step is due.
     due: Instant,
@@ -35,12 +35,12 @@ pub(in crate::cli::run) struct Screen<'a> {
     interrupted: Arc<AtomicBool>,
 }
 
-impl<'a> Screen<'a> {
+impl Screen {
     /// Takes the terminal and shows the run before its first step. A panic gives the terminal back too.
     ///
     /// # Errors
     /// If there is no terminal that can be drawn on; it is then as it was.
-    pub(super) fn open(view: View<'a>, interrupted: Arc<AtomicBool>) -> io::Result<Self> {
+    pub(super) fn open(view: View, interrupted: Arc<AtomicBool>) -> io::Result<Self> {
         let terminal = ratatui::try_init().inspect_err(|_| give_back())?;
         let now = Instant::now();
         Ok(Self {
@@ -54,7 +54,7 @@ impl<'a> Screen<'a> {
         })
     }
 
-    pub(super) const fn view(&mut self) -> &mut View<'a> {
+    pub(super) const fn view(&mut self) -> &mut View {
         self.stale = true;
         &mut self.view
     }
@@ -154,7 +154,7 @@ impl<'a> Screen<'a> {
     }
 }
 
-impl Drop for Screen<'_> {
+impl Drop for Screen {
     fn drop(&mut self) {
         give_back();
         // Nobody asks any more: from here on the first Ctrl-C ends the program.

@@ -1,0 +1,349 @@
+use alloc::fmt;
+
+use tolman_geom::{Point, Pose};
+use tolman_robot::{
+    Body, Guess, Landmark, MapView, Ring, Robot, Scan, SensesLandmarks, Standing, System, Task,
+};
+use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer};
+use tolman_sim::trace::Recordable;
+use tolman_systems::cpm::RingAsEpuck;
+
+use crate::course::Course;
+use crate::run::{InRun, Limited};
+use crate::{BoxError, Simulated};
+
+/// A system that was sent out with its robot on a course, whichever they are.
+pub trait Outing: InRun {
+    /// Returns where it is.
+    fn course(&self) -> &Course;
+
+    /// Returns what its robot is.
+    fn robot(&self) -> Portrait;
+
+    /// Returns where the robot truly was after every time step.
+    fn path(&self) -> &[Pose];
+
+    /// Returns the time steps in which the robot touched something.
+    fn bumped(&self) -> &[u32];
+
+    /// Returns the landmark that the robot senses.
+    fn landmark(&self) -> Option<Landmark>;
+
+    /// Returns what its laser sees; `None` of a robot without one.
+    fn scan(&self) -> Option<&Scan>;
+
+    /// Makes the next action of `task`.
+    ///
+    /// # Errors
+    /// If the robot fails or the system cannot go on with it.
+    fn act(&mut self, task: Task) -> Result<Standing, BoxError>;
+
+    /// Returns in a few words what the system makes of its situation.
+    fn words(&self) -> String;
+
+    /// Returns the map of the system.
+    fn map(&self) -> MapView;
+
+    /// Returns where the system believes to be.
+    fn belief(&self) -> Vec<Guess>;
+
+    /// Returns where a place of the map truly lies, for pictures; `None` where nobody knows.
+    fn site(&self, place: u32) -> Option<Point>;
+
+    /// Returns which of several maps that it was given it takes for that of the maze, counted from 0.
+    fn chosen(&self) -> usize {
+        0
+    }
+
+    /// Returns the map as a file; `None` if the system keeps none, or has none yet.
+    ///
+    /// # Errors
+    /// If the map has no such form.
+    fn map_file(&self) -> Result<Option<String>, BoxError>;
+
+    /// Returns why the map is known to be wrong or unfinished after `task`, by the truth too, which no system sees.
+    fn complaint(&self, task: Task) -> Option<String>;
+
+    /// Returns the trace of the run so far.
+    ///
+    /// # Errors
+    /// If the run cannot be repeated or written.
+    fn trace(&self) -> Result<Vec<u8>, BoxError>;
+}
+
+/// What a simulated robot is, for whoever draws it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Portrait {
+    /// Its name, as in the files of maps.
+    pub name: &'static str,
+    /// Its outline.
+    pub body: Body,
+    /// Its laser's beams.
+    pub ring: Option<Ring>,
+    /// How long a time step takes, µs.
+    pub step_us: u64,
+}
+
+impl Portrait {
+    /// Returns what a simulated robot is.
+    pub fn of<M: Depicted>(robot: &Simulated<M>) -> Self {
+        let model = robot.model();
+        Self {
+            name: M::NAME,
+            body: model.body().clone(),
+            ring: model.ring(),
+            step_us: model.step_us(),
+        }
+    }
+}
+
+/// How a place of a map was made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Where the robot truly was, m.
+    pub position: Point,
+    /// After how many actions since the first place.
+    pub action: u32,
+}
+
+/// A robot that is simulated, however it is dressed up.
+pub trait HasSimulated {
+    /// The simulated robot.
+    type Model: Depicted;
+
+    /// Returns the simulated robot.
+    fn simulated(&self) -> &Simulated<Self::Model>;
+}
+
+impl<M: Depicted> HasSimulated for Simulated<M> {
+    type Model = M;
+
+    fn simulated(&self) -> &Self {
+        self
+    }
+}
+
+impl HasSimulated for RingAsEpuck<Simulated<LaserPioneer>> {
+    type Model = LaserPioneer;
+
+    fn simulated(&self) -> &Simulated<LaserPioneer> {
+        self.robot()
+    }
+}
+
+/// A model of a robot that can be drawn and written down.
+pub trait Depicted: Recordable {
+    /// The robot's name, as in the files of maps.
+    const NAME: &'static str;
+
+    /// Returns its laser's beams.
+    fn ring(&self) -> Option<Ring> {
+        None
+    }
+
+    /// Returns what its laser sees.
+    fn scan(_sensing: &Self::Sensing) -> Option<&Scan> {
+        None
+    }
+}
+
+impl Depicted for LaserPioneer {
+    const NAME: &'static str = crate::pioneer::LASER_PIONEER;
+
+    fn ring(&self) -> Option<Ring> {
+        Some(self.config().ring)
+    }
+
+    fn scan(sensing: &Self::Sensing) -> Option<&Scan> {
+        sensing.scan.as_ref()
+    }
+}
+
+impl Depicted for CameraPioneer {
+    const NAME: &'static str = "camera Pioneer";
+
+    fn ring(&self) -> Option<Ring> {
+        Some(self.config().pioneer.ring)
+    }
+
+    fn scan(sensing: &Self::Sensing) -> Option<&Scan> {
+        sensing.laser.scan.as_ref()
+    }
+}
+
+impl Depicted for Epuck {
+    const NAME: &'static str = "e-puck";
+}
+
+/// Any [`System`] with any simulated robot, as an [`Outing`].
+///
+/// What it does with its map is said by [`keeping`](Self::keeping), [`judged`](Self::judged),
+/// [`counting`](Self::counting), [`choosing`](Self::choosing) and [`lying`](Self::lying); without them it keeps none.
+pub struct Sent<R: Robot, S> {
+    course: Course,
+    robot: Limited<R>,
+    system: S,
+    /// How each place of the map was made, by id.
+    sites: Vec<Site>,
+    /// Actions made since the map has a place.
+    actions: u32,
+    count: Count<S>,
+    keep: Keep<S>,
+    judge: Judge<S>,
+    lie: Lie<S>,
+    choice: Count<S>,
+}
+
+type Count<S> = Box<dyn Fn(&S) -> usize>;
+type Keep<S> = Box<dyn Fn(&S, &[Site]) -> Result<Option<String>, BoxError>>;
+type Judge<S> = Box<dyn Fn(&S, Task) -> Option<String>>;
+type Lie<S> = Box<dyn Fn(&S, u32) -> Option<Point>>;
+
+impl<R: Robot, S> fmt::Debug for Sent<R, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sent")
+            .field("course", &self.course.name)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<R: Robot, S> Sent<R, S> {
+    /// Sends `system` out with `robot`, which stands on `course` and may make so many time steps.
+    pub fn new(course: Course, robot: R, step_limit: u32, system: S) -> Self {
+        Self {
+            course,
+            robot: Limited::new(robot, step_limit),
+            system,
+            sites: Vec::new(),
+            actions: 0,
+            count: Box::new(|_| 0),
+            keep: Box::new(|_, _| Ok(None)),
+            judge: Box::new(|_, _| None),
+            lie: Box::new(|_, _| None),
+            choice: Box::new(|_| 0),
+        }
+    }
+
+    /// Notes where the robot truly is whenever `count`, the number of places on the map, has grown.
+    #[must_use]
+    pub fn counting(self, count: impl Fn(&S) -> usize + 'static) -> Self {
+        let count = Box::new(count);
+        Self { count, ..self }
+    }
+
+    /// Keeps the map as `keep` writes it, which is told how each place was made, by id.
+    #[must_use]
+    pub fn keeping(
+        self,
+        keep: impl Fn(&S, &[Site]) -> Result<Option<String>, BoxError> + 'static,
+    ) -> Self {
+        let keep = Box::new(keep);
+        Self { keep, ..self }
+    }
+
+    /// Lets `judge` say why the map is known to be wrong or unfinished after a task.
+    #[must_use]
+    pub fn judged(self, judge: impl Fn(&S, Task) -> Option<String> + 'static) -> Self {
+        let judge = Box::new(judge);
+        Self { judge, ..self }
+    }
+
+    /// Lets `choice` say which of several maps the system takes for that of the maze.
+    #[must_use]
+    pub fn choosing(self, choice: impl Fn(&S) -> usize + 'static) -> Self {
+        let choice = Box::new(choice);
+        Self { choice, ..self }
+    }
+
+    /// Lets `lie` say where a place of the map truly lies.
+    #[must_use]
+    pub fn lying(self, lie: impl Fn(&S, u32) -> Option<Point> + 'static) -> Self {
+        let lie = Box::new(lie);
+        Self { lie, ..self }
+    }
+}
+
+impl<R: Robot, S> InRun for Sent<R, S> {
+    fn steps(&self) -> u32 {
+        self.robot.steps()
+    }
+
+    fn is_out_of_time(&self) -> bool {
+        self.robot.is_out_of_time()
+    }
+}
+
+impl<R, S> Outing for Sent<R, S>
+where
+    R: SensesLandmarks + HasSimulated,
+    S: System<Limited<R>, Failure: Into<BoxError>>,
+{
+    fn course(&self) -> &Course {
+        &self.course
+    }
+
+    fn robot(&self) -> Portrait {
+        Portrait::of(self.robot.robot().simulated())
+    }
+
+    fn path(&self) -> &[Pose] {
+        self.robot.robot().simulated().path()
+    }
+
+    fn bumped(&self) -> &[u32] {
+        self.robot.robot().simulated().bumped()
+    }
+
+    fn landmark(&self) -> Option<Landmark> {
+        self.robot.landmark()
+    }
+
+    fn scan(&self) -> Option<&Scan> {
+        R::Model::scan(self.robot.robot().simulated().sensing())
+    }
+
+    fn act(&mut self, task: Task) -> Result<Standing, BoxError> {
+        let standing = self.system.act(&mut self.robot, task);
+        let made = Site {
+            position: self.robot.robot().simulated().truth().pose.position,
+            action: self.actions,
+        };
+        let count = (self.count)(&self.system);
+        self.sites.resize(count, made);
+        self.actions += u32::from(count > 0);
+        standing.map_err(Into::into)
+    }
+
+    fn words(&self) -> String {
+        self.system.words()
+    }
+
+    fn map(&self) -> MapView {
+        self.system.map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.system.belief()
+    }
+
+    fn site(&self, place: u32) -> Option<Point> {
+        let noted = self.sites.get(place as usize).map(|site| site.position);
+        noted.or_else(|| (self.lie)(&self.system, place))
+    }
+
+    fn chosen(&self) -> usize {
+        (self.choice)(&self.system)
+    }
+
+    fn map_file(&self) -> Result<Option<String>, BoxError> {
+        (self.keep)(&self.system, &self.sites)
+    }
+
+    fn complaint(&self, task: Task) -> Option<String> {
+        (self.judge)(&self.system, task)
+    }
+
+    fn trace(&self) -> Result<Vec<u8>, BoxError> {
+        self.robot.robot().simulated().trace()
+    }
+}

@@ -1,0 +1,48 @@
+use tolman_experiment::Entry;
+
+use crate::system::SystemEntry;
+use crate::systems::{Cpm, Diktiometry, Mslst};
+
+/// What the command knows by name.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Catalogue {
+    /// What the program is called, which reports and replays say they were made by.
+    pub program: &'static str,
+    /// The systems that learn maps.
+    pub systems: Vec<&'static dyn SystemEntry>,
+    /// The experiments.
+    pub experiments: Vec<Entry>,
+}
+
+impl Catalogue {
+    /// Returns what is known here.
+    #[must_use]
+    pub fn tolman() -> Self {
+        Self {
+            program: "tolman",
+            systems: vec![&Mslst, &Cpm, &Diktiometry],
+            experiments: tolman_papers::catalogue().to_vec(),
+        }
+    }
+
+    /// Returns it with another name of the program.
+    #[must_use]
+    pub fn program(self, program: &'static str) -> Self {
+        Self { program, ..self }
+    }
+
+    /// Returns it with one more system.
+    #[must_use]
+    pub fn system(mut self, system: &'static dyn SystemEntry) -> Self {
+        self.systems.push(system);
+        self
+    }
+
+    /// Returns it with one more experiment.
+    #[must_use]
+    pub fn experiment(mut self, experiment: Entry) -> Self {
+        self.experiments.push(experiment);
+        self
+    }
+}

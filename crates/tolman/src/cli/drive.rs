@@ -1,0 +1,111 @@
+//! `tolman drive`: a robot goes to the goal by a learned map.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use serde_json::json;
+use tolman_arena::run::End;
+use tolman_robot::{Goal, Landmark, Task};
+
+use super::looks::Looks;
+use super::map::map_text;
+use super::send::{check_origin, send, tell_replay, told};
+use super::sent_out::SentOut;
+use super::{App, Failure, OrBadInput};
+use crate::system::MapText;
+
+/// Puts a robot down in a maze and sends it to the goal by a learned map; exits 1 if it does not arrive
+///
+/// It finds out where it is, goes, and plans anew where something is not as the map has it. Of the maps of several mazes it
+/// finds out which is that of this one.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
+  tolman drive --map map.json --maze mazes/cpm-3.maze --seed 7 --replay drive.html
+  tolman learn --system cpm --maze mazes/cpm-2.maze --out other.json
+  tolman drive --map map.json --map other.json --maze mazes/cpm-3.maze")]
+pub(super) struct Arguments {
+    /// The map, made by `tolman learn`; may be given several times, if the system can tell maps apart
+    #[arg(long, value_name = "FILE", required = true)]
+    map: Vec<PathBuf>,
+    #[command(flatten)]
+    sent_out: SentOut,
+    /// Drive in another maze than the map is of, or with another robot, too
+    #[arg(long)]
+    anyway: bool,
+    #[command(flatten)]
+    looks: Looks,
+}
+
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let maps: Result<Vec<MapText>, Failure> =
+        arguments.map.iter().map(|path| map_text(path)).collect();
+    let maps = maps?;
+    let system = app.system_of(&maps[0])?;
+    for map in &maps {
+        let other = app.system_of(map)?;
+        if other.name() != system.name() {
+            return Err(Failure::BadInput(anyhow!(
+                "{} is a map of {}, and {} one of {}: give maps of one system",
+                maps[0].name,
+                system.name(),
+                map.name,
+                other.name()
+            )));
+        }
+    }
+    let maze = arguments.sent_out.maze()?;
+    let mut setup = arguments.sent_out.setup(&maze);
+    // The robot that learned the map, if nothing else is said.
+    setup.robot = setup.robot.or(Some(&maps[0].origin.robot));
+    let context = || format!("{} cannot drive in {}", system.name(), setup.world);
+    let outing = system.driver(&maps, &setup);
+    let mut outing = outing
+        .map_err(|error| error.context(context()))
+        .or_bad_input()?;
+    if !arguments.anyway {
+        let fitting = maps.iter().find(|map| check_origin(map, &*outing).is_ok());
+        match fitting {
+            Some(_) => {}
+            None => check_origin(&maps[0], &*outing)?,
+        }
+    }
+    let task = Task::Reach(Goal::Landmark(Landmark::Goal));
+    let ended = send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
+    let arrived = ended.end == End::Done && outing.landmark() == Some(Landmark::Goal);
+    let told = told(&ended, &*outing, system.name());
+    if arguments.looks.json {
+        let json = json!({
+            "system": system.name(),
+            "maze": setup.world,
+            "seed": setup.seed,
+            "map": maps[outing.chosen()].name,
+            "reached": arrived,
+            "steps": ended.steps,
+            "actions": ended.actions,
+            "bumps": outing.bumped().len(),
+        });
+        writeln!(out, "{json:#}")?;
+    } else {
+        if let (true, Some(map)) = (maps.len() > 1, maps.get(outing.chosen())) {
+            writeln!(out, "{} is taken for the map of this maze", map.name)?;
+        }
+        if arrived {
+            writeln!(out, "{told}")?;
+        }
+        tell_replay(&arguments.looks, out)?;
+    }
+    if arrived {
+        return Ok(());
+    }
+    Err(Failure::Failed(anyhow!(
+        "{told}: the robot is not at the goal of {}; give it more --steps, another --seed, or learn the map anew",
+        setup.world
+    )))
+}

@@ -1,0 +1,153 @@
+//! A replay of any outing.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+
+use tolman_arena::Outing;
+use tolman_geom::Point;
+use tolman_replay::{
+    Belief, BeliefAt, Edge, Floor, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series,
+    Shape, Track,
+};
+use tolman_robot::{Landmark, Position};
+
+/// Nodes that moved less than this are left where they are, m.
+const STILL: f64 = 0.05;
+
+/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
+const SHOWN_GUESSES: usize = 8;
+
+/// What is believed less is not shown.
+const LEAST_WEIGHT: f64 = 0.01;
+
+/// After each of the first so many actions the map is looked at, then more and more rarely.
+const DENSE: u32 = 200;
+
+/// What was noted of an outing: after every action what the system thinks, where it believes to be, and its map.
+#[derive(Debug)]
+pub(super) struct Film {
+    actions: u32,
+    thoughts: Notes,
+    belief: Belief,
+    nodes: BTreeMap<u32, Node>,
+    edges: BTreeMap<(u32, u32), Edge>,
+    places: Series,
+}
+
+impl Film {
+    pub(super) fn new() -> Self {
+        Self {
+            actions: 0,
+            thoughts: Notes::new("thinks"),
+            belief: Belief::new("belief"),
+            nodes: BTreeMap::new(),
+            edges: BTreeMap::new(),
+            places: Series::new("places on the map", ""),
+        }
+    }
+
+    /// Sees what an action came to.
+    pub(super) fn see(&mut self, outing: &dyn Outing) {
+        let step = outing.path().len().saturating_sub(1) as u32;
+        self.actions += 1;
+        if self.actions <= DENSE || self.actions.is_multiple_of(self.actions / DENSE) {
+            self.map(outing, step);
+        }
+        let words = outing.words();
+        if !words.is_empty() {
+            self.thoughts.say(step, words);
+        }
+        let belief = outing.belief().into_iter();
+        let likely = belief.filter(|guess| guess.weight >= LEAST_WEIGHT);
+        let shapes = likely.take(SHOWN_GUESSES).filter_map(|guess| {
+            let position = match guess.at {
+                Position::Point(position) => position,
+                Position::Place(id) => self.position(outing, id)?,
+            };
+            let weight = guess.weight;
+            Some(Shape::Point { position, weight })
+        });
+        let shapes: Vec<Shape> = shapes.collect();
+        let before = self.belief.entries.last().map(|entry| &entry.shapes);
+        if before.map_or(!shapes.is_empty(), |before| *before != shapes) {
+            self.belief.entries.pop_if(|entry| entry.step >= step);
+            self.belief.entries.push(BeliefAt { step, shapes });
+        }
+    }
+
+    /// Where a place is drawn.
+    fn position(&self, outing: &dyn Outing, id: u32) -> Option<Point> {
+        let node = self.nodes.get(&id).map(Node::latest);
+        node.or_else(|| outing.site(id))
+    }
+
+    /// Notes what has changed on the map.
+    fn map(&mut self, outing: &dyn Outing, step: u32) {
+        let map = outing.map();
+        self.places.sample(step, map.places.len() as f64);
+        let there: BTreeSet<u32> = map.places.iter().map(|place| place.id).collect();
+        for (id, node) in &mut self.nodes {
+            if node.died.is_none() && !there.contains(id) {
+                node.died = Some(step);
+            }
+        }
+        for place in &map.places {
+            let Some(at) = outing.site(place.id).or(place.position) else {
+                continue;
+            };
+            let node = self.nodes.entry(place.id);
+            let node = node.or_insert_with(|| Node::new(place.id, at, step));
+            node.move_to(step, at, STILL);
+            if place.landmark == Some(Landmark::Goal) {
+                node.label = "goal".to_owned();
+            }
+        }
+        let wanted: BTreeSet<(u32, u32)> = map
+            .links
+            .iter()
+            .map(|link| (link.from.min(link.to), link.from.max(link.to)))
+            .filter(|(a, b)| self.nodes.contains_key(a) && self.nodes.contains_key(b))
+            .collect();
+        for (ends, edge) in &mut self.edges {
+            if edge.died.is_none() && !wanted.contains(ends) {
+                edge.died = Some(step);
+            }
+        }
+        for (a, b) in wanted {
+            let edge = self.edges.entry((a, b));
+            edge.or_insert_with(|| Edge::new(a, b, step));
+        }
+    }
+
+    /// Returns the replay of the outing that was seen.
+    pub(super) fn replay(mut self, outing: &dyn Outing, title: String) -> Replay {
+        let path = outing.path();
+        let step = path.len().saturating_sub(1) as u32;
+        self.map(outing, step);
+        let robot = outing.robot();
+        let mut track = Track::new(robot.name, robot.body, path.to_vec());
+        track.ring = robot.ring;
+        let world = &outing.course().world;
+        let mut scenery = Scenery::of_world(world);
+        if let Some(floor) = Floor::from(world, path[0].position) {
+            scenery.zones.extend(floor.solid());
+            let places = path.iter().map(|pose| pose.position);
+            track.series.push(floor.coverage(places));
+        }
+        track.maps = vec![MapGrowth {
+            name: "map".to_owned(),
+            nodes: self.nodes.into_values().collect(),
+            edges: self.edges.into_values().collect(),
+        }];
+        track.series.push(self.places);
+        if !self.thoughts.notes.is_empty() {
+            track.notes = vec![self.thoughts];
+        }
+        if !self.belief.entries.is_empty() {
+            track.beliefs = vec![self.belief];
+        }
+        let bumped = outing.bumped().iter().copied();
+        track.marks = vec![Marks::new(Mark::Bump, "bump", bumped)];
+        let step_s = robot.step_us as f64 * 1e-6;
+        Replay::new(title, step_s, scenery, vec![track]).fact("maze", &outing.course().name)
+    }
+}

@@ -1,0 +1,69 @@
+use std::path::PathBuf;
+
+use tolman_maze::MazeFile;
+
+use super::{Failure, maze};
+use crate::start::Start;
+use crate::system::{Settings, Setup};
+
+/// Where and how a system is sent out.
+#[derive(clap::Args)]
+pub(super) struct SentOut {
+    /// The maze file, of any format; - reads standard input
+    #[arg(long, value_name = "FILE")]
+    maze: PathBuf,
+    /// What all chance follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// The robot, if the system can drive several
+    #[arg(long, value_name = "NAME")]
+    robot: Option<String>,
+    /// How the system is set: one of its presets
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// Change a setting of the preset; may be given several times
+    #[arg(long, value_name = "SETTING=VALUE", value_parser = setting)]
+    set: Vec<(String, String)>,
+    /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
+    /// and degrees from the south-west corner, counter-clockwise from east
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
+    start: Option<Start>,
+    /// Give up after so many time steps
+    #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
+    steps: Option<u32>,
+}
+
+impl SentOut {
+    /// Reads the maze, with its name.
+    ///
+    /// # Errors
+    /// Bad input if there is none.
+    pub(super) fn maze(&self) -> Result<(String, MazeFile), Failure> {
+        let read = maze::read(&self.maze)?;
+        Ok((maze::world_name(&self.maze, &read), read))
+    }
+
+    /// Returns what a robot is sent out with.
+    pub(super) fn setup<'a>(&'a self, (world, maze): &'a (String, MazeFile)) -> Setup<'a> {
+        Setup {
+            world,
+            maze,
+            seed: self.seed,
+            start: self.start,
+            steps: self.steps,
+            robot: self.robot.as_deref(),
+            from: None,
+            settings: Settings {
+                preset: self.preset.as_deref(),
+                set: &self.set,
+            },
+        }
+    }
+}
+
+fn setting(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or_else(|| "expected SETTING=VALUE".to_owned())?;
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}

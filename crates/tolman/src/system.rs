@@ -1,0 +1,262 @@
+//! Systems by name: what `tolman learn`, `tolman drive` and `tolman map` know of one.
+
+use alloc::fmt;
+
+use anyhow::{Context, Error, anyhow};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use tolman_arena::Outing;
+use tolman_arena::course::Course;
+use tolman_draw::Drawing;
+use tolman_geom::Pose;
+use tolman_maze::MazeFile;
+use tolman_systems::Origin;
+
+use crate::start::Start;
+
+/// A system by its name, with the robots that it can drive.
+///
+/// An implementation makes the system and its robot ready; the command lets it act, watches it, and keeps its map. To
+/// add one, put it into the [`Catalogue`](crate::Catalogue).
+pub trait SystemEntry: Sync {
+    /// Returns its name, as in `--system NAME` and in the files of its maps.
+    fn name(&self) -> &'static str;
+
+    /// Returns what it is, in one line.
+    fn about(&self) -> &'static str;
+
+    /// Returns the names of its presets, the first of which is taken where nothing is said, each with what it is.
+    fn presets(&self) -> &'static [(&'static str, &'static str)];
+
+    /// Returns the names of the robots that it can drive, the first of which is taken where nothing is said.
+    fn robots(&self) -> &'static [&'static str];
+
+    /// Makes it ready to learn a maze.
+    ///
+    /// # Errors
+    /// If maze, start or settings do not serve.
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
+
+    /// Makes it ready to go to the goal by a map, or by whichever of several maps is that of the maze.
+    ///
+    /// # Errors
+    /// If maps, maze, start or settings do not serve.
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
+
+    /// Reads a map.
+    ///
+    /// # Errors
+    /// If it is not sound.
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error>;
+}
+
+/// A file that holds a learned map.
+#[derive(Clone, Debug)]
+pub struct MapText {
+    /// What messages call it.
+    pub name: String,
+    /// The name of its system.
+    pub system: String,
+    /// Where the map was learned.
+    pub origin: Origin,
+    /// All of it.
+    pub text: String,
+}
+
+/// A map as the command shows it.
+pub trait LearnedMap {
+    /// Returns what it holds, line by line.
+    fn lines(&self) -> Vec<String>;
+
+    /// Returns the same as JSON.
+    fn json(&self) -> Value;
+
+    /// Draws it over the maze it was learned in, for a robot as that which learned it.
+    ///
+    /// # Errors
+    /// If the maze does not serve.
+    fn drawing(&self, maze: &MazeFile) -> Result<Drawing, Error>;
+
+    /// Returns the way from one place to another, a line a step: from where it believes to be or where the maze begins, if
+    /// nothing is said, to the goal. `None` if it knows no way.
+    ///
+    /// # Errors
+    /// If there is no such place.
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error>;
+
+    /// Returns why it is wrong or unfinished as a map of this maze; `None` if it is right.
+    ///
+    /// # Errors
+    /// If the maze does not serve.
+    fn complaint(&self, maze: &MazeFile) -> Result<Option<String>, Error>;
+}
+
+/// What a robot is sent out with.
+#[derive(Clone, Debug)]
+pub struct Setup<'a> {
+    /// The name of the maze.
+    pub world: &'a str,
+    /// The maze.
+    pub maze: &'a MazeFile,
+    /// What all chance follows from.
+    pub seed: u64,
+    /// Where the robot starts; `None` for what the system has for it.
+    pub start: Option<Start>,
+    /// Time steps after which it has failed; `None` for what the system has for it.
+    pub steps: Option<u32>,
+    /// Which of the system's robots; `None` for the first.
+    pub robot: Option<&'a str>,
+    /// The map that it goes on with when it learns.
+    pub from: Option<&'a MapText>,
+    /// How the system is set.
+    pub settings: Settings<'a>,
+}
+
+impl Setup<'_> {
+    /// Returns where a map that is learned now comes from.
+    #[must_use]
+    pub fn origin(&self, course: &Course, robot: &str) -> Origin {
+        Origin {
+            world: self.world.to_owned(),
+            drawing: Some(course.drawing()),
+            robot: robot.to_owned(),
+            seed: self.seed,
+        }
+    }
+
+    /// Returns the one of `robots` that is meant.
+    ///
+    /// # Errors
+    /// If it is none of them.
+    pub fn robot(&self, robots: &[&'static str]) -> Result<&'static str, Error> {
+        choose(
+            self.robot,
+            robots.iter().map(|name| (*name, *name)),
+            "robot",
+        )
+    }
+
+    /// Returns where the robot starts on `course`: what was said, else `usual`. A random start is what `random` makes.
+    ///
+    /// # Errors
+    /// If the maze marks no start, or no way leads on from there.
+    pub fn start(
+        &self,
+        course: &Course,
+        usual: Start,
+        random: impl FnOnce() -> Option<Pose>,
+    ) -> Result<Pose, Error> {
+        self.start.unwrap_or(usual).on(course, random)
+    }
+
+    /// Refuses to go on with a map.
+    ///
+    /// # Errors
+    /// If there is one.
+    pub fn anew(&self, system: &str) -> Result<(), Error> {
+        match self.from {
+            Some(map) => Err(anyhow!(
+                "{system} learns a maze in one go and cannot go on with {}: leave --from out",
+                map.name
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// How a system is set: a preset, and what is changed of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Settings<'a> {
+    /// The preset; `None` for the first.
+    pub preset: Option<&'a str>,
+    /// Fields by their path, with what they are set to, as TOML has it.
+    pub set: &'a [(String, String)],
+}
+
+impl Settings<'_> {
+    /// Returns the one of `presets` that is meant.
+    ///
+    /// # Errors
+    /// If it is none of them.
+    pub fn preset<T>(
+        &self,
+        presets: impl IntoIterator<Item = (&'static str, T)>,
+    ) -> Result<T, Error> {
+        choose(self.preset, presets, "preset")
+    }
+
+    /// Returns `preset` with the fields that are set changed.
+    ///
+    /// # Errors
+    /// If there is no such field, or it cannot have that value.
+    pub fn over<C: Serialize + DeserializeOwned>(&self, preset: &C) -> Result<C, Error> {
+        let mut table = toml::Table::try_from(preset).context("the preset has no TOML form")?;
+        for (path, value) in self.set {
+            set(&mut table, path, value)?;
+        }
+        table.try_into().with_context(|| {
+            let set = self
+                .set
+                .iter()
+                .map(|(path, value)| format!("{path}={value}"));
+            format!("--set {}", set.collect::<Vec<_>>().join(" --set "))
+        })
+    }
+}
+
+/// Changes one field of a table.
+fn set(table: &mut toml::Table, path: &str, value: &str) -> Result<(), Error> {
+    let (name, rest) = path.split_once('.').unwrap_or((path, ""));
+    let Some(field) = table.get_mut(name) else {
+        let known: Vec<&str> = table.keys().map(String::as_str).collect();
+        return Err(anyhow!(
+            "--set {path}={value}: there is no setting {name}; choose one of: {}",
+            known.join(", ")
+        ));
+    };
+    if let (false, Some(inner)) = (rest.is_empty(), field.as_table_mut()) {
+        return set(inner, rest, value);
+    }
+    let whole: Result<toml::Table, _> = toml::from_str(&format!("value = {value}"));
+    let read = whole.ok().and_then(|mut whole| whole.remove("value"));
+    let read = read.unwrap_or_else(|| toml::Value::String(value.to_owned()));
+    // A whole number is a real one too.
+    *field = match (&field, &read) {
+        (toml::Value::Float(_), toml::Value::Integer(number)) => toml::Value::Float(*number as f64),
+        _ => read,
+    };
+    Ok(())
+}
+
+/// Returns what `name` stands for, or the first.
+fn choose<T>(
+    name: Option<&str>,
+    known: impl IntoIterator<Item = (&'static str, T)>,
+    what: &str,
+) -> Result<T, Error> {
+    let mut names = Vec::new();
+    for (known, thing) in known {
+        // "laser-pioneer" is the laser Pioneer.
+        if name.is_none_or(|name| slug(name) == slug(known)) {
+            return Ok(thing);
+        }
+        names.push(slug(known));
+    }
+    Err(anyhow!(
+        "there is no {what} {}; choose one of: {}",
+        name.unwrap_or_default(),
+        names.join(", ")
+    ))
+}
+
+/// A name as it is typed.
+pub(crate) fn slug(name: &str) -> String {
+    name.to_lowercase().replace(' ', "-")
+}
+
+impl fmt::Debug for dyn SystemEntry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,402 @@
+use anyhow::{Context, Error, anyhow};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde_json::{Value, json};
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{
+    Layout, SimulatedEpuck, TrueFragments, epuck, epuck_course, is_whole_map_right, learn,
+    patience, ring_measures, walker_config,
+};
+use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
+use tolman_arena::{BoxError, HasSimulated, Outing, Sent};
+use tolman_draw::Drawing;
+use tolman_geom::Pose;
+use tolman_maps::cpm::{CpMap, JunctionId, PlanLeg, Turn};
+use tolman_maze::{Cell, Maze, MazeFile};
+use tolman_papers::cpm::drawing;
+use tolman_robot::{Landmark, Task};
+use tolman_sim::robots::{Epuck, LaserPioneer};
+use tolman_systems::Origin;
+use tolman_systems::cpm::{
+    self, CommonPatterns, CpmConfig, CpmRobot, Lesson, MapFile, Mode, RingAsEpuck, Walker,
+    WalkerConfig, soinn, wander,
+};
+
+use crate::start::Start;
+use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
+
+/// [`cpm`] on the e-puck, or on the laser Pioneer taken for one.
+#[derive(Clone, Copy, Debug)]
+pub struct Cpm;
+
+const PRESETS: [(&str, &str); 3] = [
+    (
+        "better",
+        "By dead reckoning too, for fragments that look alike",
+    ),
+    (
+        "faithful",
+        "As the paper's robot, online: by common patterns alone",
+    ),
+    (
+        "unlearned",
+        "As better, without a learning maze: patterns are learned on the way",
+    ),
+];
+
+const EPUCK: &str = "e-puck";
+
+/// Where common patterns are learned.
+const LEARNING_MAZE: &str = include_str!("../../../../mazes/cpm-learning.maze");
+
+impl SystemEntry for Cpm {
+    fn name(&self) -> &'static str {
+        "cpm"
+    }
+
+    fn about(&self) -> &'static str {
+        "Turns paths into sequences of common patterns, and reasons about junctions"
+    }
+
+    fn presets(&self) -> &'static [(&'static str, &'static str)] {
+        &PRESETS
+    }
+
+    fn robots(&self) -> &'static [&'static str] {
+        &[EPUCK, LASER_PIONEER]
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        setup.anew(self.name())?;
+        let modes: [fn(CpmConfig) -> Mode; 3] = [Mode::Reckoned, Mode::Paper, Mode::Unlearned];
+        let names = PRESETS.map(|(name, _)| name);
+        let mode = setup.settings.preset(names.into_iter().zip(modes))?;
+        let config = match mode(CpmConfig::online()) {
+            Mode::Paper(config) => config,
+            Mode::Reckoned(_) | Mode::Unlearned(_) => CpmConfig::robust(),
+        };
+        let config = CpmConfig {
+            most_traversals: patience(&setup.maze.maze),
+            ..config
+        };
+        let config = setup.settings.over(&config)?;
+        let mode = mode(config);
+        let ground = Ground::of(setup, mode, Start::Marked)?;
+        let walker = ground.walker.clone();
+        let cpm = match mode {
+            Mode::Unlearned(_) => cpm::Cpm::unlearned(walker, config, setup.seed)?,
+            Mode::Paper(_) | Mode::Reckoned(_) => {
+                let patterns = ground.patterns(setup.seed)?;
+                cpm::Cpm::new(walker, patterns, config, setup.seed)
+            }
+        };
+        ground.send(setup, mode, cpm)
+    }
+
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        let files = read_all(maps)?;
+        let first = files.first().ok_or_else(|| anyhow!("no map is given"))?;
+        let mode = first.mode;
+        let config = setup.settings.over(&mode.config())?;
+        let ground = Ground::of(setup, mode, Start::Random)?;
+        let known = files.iter().map(|file| file.map.clone()).collect();
+        let (walker, patterns) = (ground.walker.clone(), first.patterns.clone());
+        let cpm = cpm::Cpm::with_maps(walker, patterns, config, known, setup.seed)?;
+        ground.send(setup, mode, cpm)
+    }
+
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+        let file = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        Ok(Box::new(file))
+    }
+}
+
+/// Reads maps that are written in the same patterns.
+fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, Error> {
+    let mut files: Vec<MapFile> = Vec::new();
+    for map in maps {
+        let file = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        let version = |file: &MapFile| file.patterns.dictionary().version();
+        if files
+            .first()
+            .is_some_and(|first| version(first) != version(&file))
+        {
+            return Err(anyhow!(
+                "{} is written in other patterns than {}: learn both with the same --seed, and no --preset unlearned",
+                map.name,
+                maps[0].name
+            ));
+        }
+        files.push(file);
+    }
+    Ok(files)
+}
+
+/// Where a robot is sent out, and how it walks there.
+struct Ground {
+    robot: &'static str,
+    course: Course,
+    start: Pose,
+    walker: WalkerConfig,
+}
+
+impl Ground {
+    fn of(setup: &Setup<'_>, mode: Mode, usual: Start) -> Result<Self, Error> {
+        let robot = setup.robot(Cpm.robots())?;
+        let course = match robot {
+            EPUCK => epuck_course(setup.world, setup.maze.clone())?,
+            _ => Course::for_body(setup.world, setup.maze, &body())?,
+        };
+        let walker = WalkerConfig {
+            heading: mode.heading(),
+            ..walker(robot, course.corridor_width)?
+        };
+        let start = setup.start(&course, usual, || course.anywhere(setup.seed))?;
+        Ok(Self {
+            robot,
+            course,
+            start,
+            walker,
+        })
+    }
+
+    /// The common patterns that its robot learns in the learning maze (section 4.1).
+    fn patterns(&self, seed: u64) -> Result<CommonPatterns, Error> {
+        match self.robot {
+            EPUCK => patterns_of_epuck(seed),
+            _ => {
+                let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
+                let course = Course::new("learning", maze, self.course.corridor_width)?;
+                let robot = pioneer_at(&course, course.start()?, seed)?;
+                let config = walker(self.robot, course.corridor_width)?;
+                let mut walker = Walker::new(robot, config);
+                let mut rng = ChaCha8Rng::seed_from_u64(seed);
+                let seen = wander(&mut walker, Lesson::Observations(300), &mut rng)?;
+                Ok(CommonPatterns::learn(&seen, soinn())?)
+            }
+        }
+    }
+
+    fn send(self, setup: &Setup<'_>, mode: Mode, cpm: cpm::Cpm) -> Result<Box<dyn Outing>, Error> {
+        let (start, seed) = (self.start, setup.seed);
+        match self.robot {
+            EPUCK => {
+                let robot = epuck_at(&self.course, start, seed)?;
+                Ok(self.send_with(robot, setup, mode, cpm))
+            }
+            _ => {
+                let robot = pioneer_at(&self.course, start, seed)?;
+                Ok(self.send_with(robot, setup, mode, cpm))
+            }
+        }
+    }
+
+    fn send_with<R>(self, robot: R, setup: &Setup<'_>, mode: Mode, cpm: cpm::Cpm) -> Box<dyn Outing>
+    where
+        R: CpmRobot<Error: core::error::Error + Send + Sync + 'static> + HasSimulated + 'static,
+    {
+        let origin = setup.origin(&self.course, self.robot);
+        let course = self.course;
+        let (world, maze) = (course.world.clone(), course.maze.clone());
+        let at_start = course.start().is_ok_and(|start| start == self.start);
+        let ours = maze.clone();
+        let steps = setup.steps.unwrap_or(u32::MAX);
+        let sent = Sent::new(course, robot, steps, cpm)
+            .choosing(cpm::Cpm::on)
+            .keeping(move |cpm, _| keep(cpm, mode, &origin))
+            .judged(move |cpm, task| {
+                let map = cpm.explorer()?.mapper.map();
+                (task == Task::Explore).then(|| complaint(map, &maze, at_start))?
+            })
+            .lying(move |cpm, place| {
+                let map = cpm.explorer()?.mapper.map();
+                let cell = Layout::of(map, &ours).place(JunctionId(place))?;
+                Some(world.cell_centre(cell))
+            });
+        Box::new(sent)
+    }
+}
+
+fn walker(robot: &str, width: f64) -> Result<WalkerConfig, Error> {
+    Ok(match robot {
+        EPUCK => walker_config(&epuck(), width)?,
+        _ => ring_measures(&calibrated(), width).walker_config(),
+    })
+}
+
+fn epuck_at(course: &Course, start: Pose, seed: u64) -> Result<SimulatedEpuck, Error> {
+    Ok(course.robot_at(start, Epuck::new(epuck())?, seed)?)
+}
+
+fn pioneer_at(
+    course: &Course,
+    start: Pose,
+    seed: u64,
+) -> Result<RingAsEpuck<CoursePioneer>, Error> {
+    let pioneer = course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?;
+    let measures = ring_measures(&calibrated(), course.corridor_width);
+    Ok(RingAsEpuck::new(pioneer, measures)?)
+}
+
+/// The common patterns that the e-puck learns in the learning maze (section 4.1).
+pub(crate) fn patterns_of_epuck(seed: u64) -> Result<CommonPatterns, Error> {
+    let course = epuck_course("learning", tolman_maze::read(LEARNING_MAZE)?)?;
+    Ok(learn(&course, seed)?)
+}
+
+fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, BoxError> {
+    let Some(explorer) = cpm.explorer() else {
+        return Ok(None);
+    };
+    let file = MapFile {
+        origin: origin.clone(),
+        mode,
+        patterns: cpm.patterns().clone(),
+        map: explorer.mapper.map().clone(),
+    };
+    Ok(Some(file.to_json()?))
+}
+
+/// Why a map is not that of the whole maze, where the robot began as the maze says or elsewhere.
+fn complaint(map: &CpMap, maze: &Maze, at_start: bool) -> Option<String> {
+    let (found, there_are) = (map.fragments().len(), TrueFragments::of(maze).count());
+    if found != there_are as usize {
+        let mut cells = maze.grid().cells();
+        let room = cells.find(|cell| maze.is_room(*cell)).map(|Cell { x, y }| {
+            format!(", which has an open room at cell {x}, {y}, where the robot finds no corridors")
+        });
+        return Some(format!(
+            "{found} fragments for the {there_are} of the maze{}: the robot took some for others, or overlooked them; try \
+             --preset better, or another --seed",
+            room.unwrap_or_default()
+        ));
+    }
+    if at_start && !is_whole_map_right(map, maze) {
+        return Some(format!(
+            "its {found} fragments are not joined as those of the maze: try --preset better, or another --seed"
+        ));
+    }
+    None
+}
+
+impl LearnedMap for MapFile {
+    fn lines(&self) -> Vec<String> {
+        let Self {
+            origin: Origin { world, seed, .. },
+            patterns,
+            map,
+            ..
+        } = self;
+        let way = match self.plan_from_start() {
+            Some(length) => format!("the goal is {length} observations from the start"),
+            None => "no way to the goal is known: learn until it is found".to_owned(),
+        };
+        vec![
+            format!("{world}, seed {seed}"),
+            format!(
+                "a dictionary of {} patterns, of {} units in {} clusters",
+                patterns.dictionary().len(),
+                patterns.unit_count(),
+                patterns.cluster_count()
+            ),
+            format!(
+                "{} fragments, {} junctions, {} ports nobody has been through",
+                map.fragments().len(),
+                map.junctions().len(),
+                map.open_ports().count()
+            ),
+            way,
+        ]
+    }
+
+    fn json(&self) -> Value {
+        let Self {
+            origin: Origin { world, seed, .. },
+            mode,
+            patterns,
+            map,
+        } = self;
+        json!({
+            "system": Cpm.name(),
+            "maze": world,
+            "seed": seed,
+            "mode": mode,
+            "units": patterns.unit_count(),
+            "clusters": patterns.cluster_count(),
+            "fragments": map.fragments().len(),
+            "junctions": map.junctions().len(),
+            "unexplored_ports": map.open_ports().count(),
+            "observations_to_goal": self.plan_from_start(),
+        })
+    }
+
+    fn drawing(&self, maze: &MazeFile) -> Result<Drawing, Error> {
+        Ok(drawing::over_maze(&self.map, &self.course(maze)?))
+    }
+
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+        let map = &self.map;
+        let known = |id: u32| match map.junction(JunctionId(id)) {
+            Some(_) => Ok(JunctionId(id)),
+            None => {
+                let ids: Vec<String> = map.junctions().map(|(id, _)| id.0.to_string()).collect();
+                Err(anyhow!(
+                    "there is no junction {id}; choose one of: {}",
+                    ids.join(", ")
+                ))
+            }
+        };
+        let from = match from {
+            Some(id) => known(id)?.port(0),
+            None => map
+                .start()
+                .ok_or_else(|| anyhow!("the map has no start: give --from"))?,
+        };
+        let to = to.map(known).transpose()?;
+        let plan = map.plan(from, |id| match to {
+            Some(to) => id == to,
+            None => map.has(id, Landmark::Goal),
+        });
+        let step = |leg: &PlanLeg| {
+            let (observations, to) = (leg.observations, leg.arrive.junction.0);
+            match leg.turn {
+                Turn::BACK => format!("back, {observations} observations to junction {to}"),
+                Turn(way) => {
+                    format!(
+                        "way {way} from the right, {observations} observations to junction {to}"
+                    )
+                }
+            }
+        };
+        Ok(plan.map(|plan| plan.legs.iter().map(step).collect()))
+    }
+
+    fn complaint(&self, maze: &MazeFile) -> Result<Option<String>, Error> {
+        let course = self.course(maze)?;
+        Ok(complaint(&self.map, &course.maze, true))
+    }
+}
+
+/// What a map says of the maze it was learned in.
+trait Of {
+    fn course(&self, maze: &MazeFile) -> Result<Course, Error>;
+    fn plan_from_start(&self) -> Option<u32>;
+}
+
+impl Of for MapFile {
+    fn course(&self, maze: &MazeFile) -> Result<Course, Error> {
+        Ok(match &*self.origin.robot {
+            EPUCK => epuck_course(&self.origin.world, maze.clone())?,
+            _ => Course::for_body(&self.origin.world, maze, &body())?,
+        })
+    }
+
+    fn plan_from_start(&self) -> Option<u32> {
+        let is_goal = |junction| self.map.has(junction, Landmark::Goal);
+        let plan = self
+            .map
+            .start()
+            .and_then(|from| self.map.plan(from, is_goal));
+        plan.map(|plan| plan.length)
+    }
+}

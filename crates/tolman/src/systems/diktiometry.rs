@@ -1,0 +1,421 @@
+use alloc::sync::Arc;
+
+use anyhow::{Context, Error, anyhow};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use tolman_arena::course::Course;
+use tolman_arena::diktiometry::{
+    MapScore, Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig, office_robot,
+};
+use tolman_arena::run::InRun;
+use tolman_arena::{BoxError, Outing, Portrait, Sent};
+use tolman_draw::Drawing;
+use tolman_geom::{Point, Pose};
+use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId, Use};
+use tolman_maze::{Direction, MazeFile};
+use tolman_papers::diktiometry::drawing::map_over_world;
+use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
+use tolman_sim::Bounds;
+use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig};
+
+use crate::start::Start;
+use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
+
+/// The [diktiometry](tolman_systems::diktiometry) on a Pioneer in an office.
+#[derive(Clone, Copy, Debug)]
+pub struct Diktiometry;
+
+const PRESETS: [(&str, &str); 1] = [(
+    "paper",
+    "As the paper's robot, which heeds advice in 30 % of the cases",
+)];
+
+/// What can be set: of the robot's walk, and of the world, which is made of the maze.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Walk {
+    /// How many moves to make, each from a place to the next.
+    moves: u32,
+    /// How likely the robot begins a script when the map advises one, 0 … 1.
+    heed: f64,
+    /// How many colours the walls have.
+    colours: u32,
+    /// Which share of the passages are doorways, 0 … 1.
+    doorways: f64,
+}
+
+const WALK: Walk = Walk {
+    moves: 500,
+    heed: 0.3,
+    colours: 1,
+    doorways: 0.0,
+};
+
+impl SystemEntry for Diktiometry {
+    fn name(&self) -> &'static str {
+        "diktiometry"
+    }
+
+    fn about(&self) -> &'static str {
+        "Maps places that look alike, with bounds on where they lie, and advises the planner"
+    }
+
+    fn presets(&self) -> &'static [(&'static str, &'static str)] {
+        &PRESETS
+    }
+
+    fn robots(&self) -> &'static [&'static str] {
+        &["camera Pioneer", "laser Pioneer"]
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        setup.settings.preset(PRESETS)?;
+        if setup.start.is_some_and(|start| start != Start::Random) {
+            return Err(anyhow!(
+                "the diktiometry begins at a place that chance chooses: leave --start out"
+            ));
+        }
+        if let Some(map) = setup.from {
+            let before = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
+            let walk = Walk {
+                heed: before.config.heed,
+                colours: before.office.config().colours,
+                doorways: before.office.config().doorway_share,
+                ..WALK
+            };
+            let walk: Walk = setup.settings.over(&walk)?;
+            let mut before = before;
+            before.config.heed = walk.heed;
+            let survey = before.survey(setup.seed)?;
+            return Ok(Box::new(Surveying::new(
+                survey,
+                walk,
+                before.origin.world,
+                before.origin.seed,
+            )));
+        }
+        let walk: Walk = setup.settings.over(&WALK)?;
+        let robot = match setup.robot(self.robots())? {
+            "laser Pioneer" => SurveyorConfig::mslst(),
+            _ => SurveyorConfig::paper(),
+        };
+        let furniture = OfficeConfig {
+            doorway_share: walk.doorways,
+            colours: walk.colours,
+            seed: setup.seed,
+            ..OfficeConfig::bare()
+        };
+        let office = Office::new(&setup.maze.maze, &furniture)?;
+        let office = Arc::new(office.named(setup.world));
+        let mut config = SurveyConfig::of(&office, robot, walk.moves);
+        config.heed = walk.heed;
+        config.mapper.journal = JournalLength::All;
+        config.mapper.restructuring.look_merge = Use::On;
+        let survey = Survey::new(&office, config, setup.seed)?;
+        Ok(Box::new(Surveying::new(
+            survey,
+            walk,
+            setup.world.to_owned(),
+            setup.seed,
+        )))
+    }
+
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        let [map] = maps else {
+            return Err(anyhow!(
+                "the diktiometry drives by one map: give --map once"
+            ));
+        };
+        if setup.start.is_some() {
+            return Err(anyhow!(
+                "the diktiometry follows a robot and cannot be put down elsewhere: leave --start out, it goes on where the map has it"
+            ));
+        }
+        let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        let walk: Walk = setup.settings.over(&Walk {
+            heed: file.config.heed,
+            ..WALK
+        })?;
+        let SurveyFile {
+            config,
+            past,
+            observer,
+            ..
+        } = &file;
+        // The maze that is given, furnished as that which was learned.
+        let office = Office::new(&setup.maze.maze, file.office.config())?;
+        let office = office.named(setup.world);
+        let robot = &config.robot;
+        let routines = robot
+            .routines(office.config().corridor_width)
+            .with_doorways(office.config().doorway_width());
+        let mut paper = DiktiometerConfig::paper(routines, observer.config().clone());
+        paper.heed = walk.heed;
+        let mut system = Diktiometer::with_map(paper, robot.sight, observer.clone(), setup.seed);
+        // Where it sensed the goal when it learned.
+        if let Some(goal) = file.goal() {
+            system.remember(Landmark::Goal, goal);
+        }
+        let body = office_robot(&office, robot, past.at, setup.seed)?;
+        let steps = setup.steps.unwrap_or(100_000);
+        let course = office.course;
+        Ok(Box::new(Sent::new(course, body, steps, system)))
+    }
+
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+        let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        // Chance has no part in looking.
+        let survey = file.survey(0)?;
+        Ok(Box::new(Surveyed { file, survey }))
+    }
+}
+
+/// A survey under way: a move is an action.
+struct Surveying {
+    survey: Survey,
+    walk: Walk,
+    world: String,
+    seed: u64,
+    /// Moves made.
+    made: u32,
+}
+
+impl Surveying {
+    const fn new(survey: Survey, walk: Walk, world: String, seed: u64) -> Self {
+        Self {
+            survey,
+            walk,
+            world,
+            seed,
+            made: 0,
+        }
+    }
+}
+
+impl InRun for Surveying {
+    fn steps(&self) -> u32 {
+        self.path().len().saturating_sub(1) as u32
+    }
+
+    /// A survey counts its moves, each of which has a bound.
+    fn is_out_of_time(&self) -> bool {
+        false
+    }
+}
+
+impl Outing for Surveying {
+    fn course(&self) -> &Course {
+        &self.survey.office().course
+    }
+
+    fn robot(&self) -> Portrait {
+        Portrait::of(self.survey.robot())
+    }
+
+    fn path(&self) -> &[Pose] {
+        self.survey.robot().path()
+    }
+
+    fn bumped(&self) -> &[u32] {
+        self.survey.robot().bumped()
+    }
+
+    fn landmark(&self) -> Option<Landmark> {
+        self.survey.robot().landmark()
+    }
+
+    fn scan(&self) -> Option<&Scan> {
+        None
+    }
+
+    fn act(&mut self, task: Task) -> Result<Standing, BoxError> {
+        if task != Task::Explore {
+            return Ok(Standing::gave_up(
+                "a survey is made until all its moves are made: leave --until out",
+            ));
+        }
+        if self.made == self.walk.moves {
+            return Ok(Standing::Done);
+        }
+        self.survey.step()?;
+        self.made += 1;
+        Ok(Standing::UnderWay)
+    }
+
+    fn words(&self) -> String {
+        format!("at place {}", self.survey.observer().place().0)
+    }
+
+    fn map(&self) -> MapView {
+        Mapper::map(self.survey.observer())
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.survey.observer().belief()
+    }
+
+    fn site(&self, place: u32) -> Option<Point> {
+        site(&self.survey, place)
+    }
+
+    fn map_file(&self) -> Result<Option<String>, BoxError> {
+        let file = SurveyFile::of(&self.world, self.seed, &self.survey);
+        Ok(Some(file.to_json()?))
+    }
+
+    fn complaint(&self, _task: Task) -> Option<String> {
+        complaint(&self.survey)
+    }
+
+    fn trace(&self) -> Result<Vec<u8>, BoxError> {
+        self.survey.robot().trace()
+    }
+}
+
+/// Where a place of the map is drawn over the world.
+fn site(survey: &Survey, place: u32) -> Option<Point> {
+    let drawn = survey.drawn().into_iter().find(|drawn| drawn.id == place)?;
+    let Bounds { min, max } = drawn.bounds;
+    Some(min + (max - min) * 0.5)
+}
+
+fn complaint(survey: &Survey) -> Option<String> {
+    let MapScore {
+        places,
+        visited,
+        purity,
+        is_isomorphic,
+        ..
+    } = survey.score();
+    let there_are = survey.office().places(&[]).len();
+    if !is_isomorphic {
+        return Some(format!(
+            "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike; try walls of more colours, --set colours=8"
+        ));
+    }
+    if visited < there_are {
+        return Some(format!(
+            "{visited} of {there_are} places were visited: give it more moves, --set moves=2000"
+        ));
+    }
+    None
+}
+
+/// A survey that was read.
+struct Surveyed {
+    file: SurveyFile,
+    survey: Survey,
+}
+
+impl LearnedMap for Surveyed {
+    fn lines(&self) -> Vec<String> {
+        let score = self.survey.score();
+        let observer = &self.file.observer;
+        let first = format!(
+            "{}, {} moves: {} places for {} true ones, purity {:.3}; the robot is at place {}",
+            self.file.origin.world,
+            observer.moves(),
+            score.places,
+            score.visited,
+            score.purity,
+            observer.place().0
+        );
+        let mut lines = vec![first];
+        let paths = &observer.map().paths;
+        for place in self.survey.drawn() {
+            let links = paths.outgoing(PlaceId(place.id)).map(|(_, link)| link);
+            let ways = links.map(|link| format!("{} to {}", direction(link), link.to.0));
+            let ways: Vec<String> = ways.collect();
+            lines.push(format!("{}: {}", place.label, ways.join(", ")));
+        }
+        lines
+    }
+
+    fn json(&self) -> Value {
+        let (file, score) = (&self.file, self.survey.score());
+        let paths = &file.observer.map().paths;
+        let links_of = |id: u32| paths.outgoing(PlaceId(id)).map(|(_, link)| link);
+        let drawn = self.survey.drawn();
+        let places = drawn.iter().map(|place| {
+            let Bounds { min, max } = place.bounds;
+            let links: Vec<Value> = links_of(place.id)
+                .map(|link| json!({ "action": direction(link), "to": link.to.0, "traversed": link.traversed }))
+                .collect();
+            json!({
+                "id": place.id,
+                "box": { "west": min.x, "south": min.y, "east": max.x, "north": max.y },
+                "visits": paths.place(PlaceId(place.id)).map(|place| place.visits),
+                "links": links,
+            })
+        });
+        json!({
+            "system": Diktiometry.name(),
+            "maze": file.origin.world,
+            "moves": file.observer.moves(),
+            "here": file.observer.place().0,
+            "true_places": score.visited,
+            "purity": score.purity,
+            "link_precision": score.link_precision,
+            "places": places.collect::<Vec<Value>>(),
+        })
+    }
+
+    fn drawing(&self, _maze: &MazeFile) -> Result<Drawing, Error> {
+        Ok(map_over_world(&self.file.office, &self.survey))
+    }
+
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+        let observer = &self.file.observer;
+        let paths = &observer.map().paths;
+        let place = |number: u32| {
+            paths.resolve(PlaceId(number)).ok_or_else(|| {
+                let known: Vec<String> = paths.places().map(|(id, _)| id.0.to_string()).collect();
+                anyhow!(
+                    "there is no place {number}; choose one of: {}",
+                    known.join(", ")
+                )
+            })
+        };
+        let from = from.map_or(Ok(observer.place()), place)?;
+        let to = match to {
+            Some(to) => place(to)?,
+            None => self
+                .file
+                .goal()
+                .ok_or_else(|| anyhow!("the goal is not on this map: give --to PLACE"))?,
+        };
+        let Some(plan) = observer.plan(from, to) else {
+            return Ok(None);
+        };
+        let mut at = from;
+        let steps = plan.iter().map(|step| {
+            let predicted = observer.predict(at, step.action);
+            let likely = predicted
+                .iter()
+                .find(|predicted| predicted.place == step.to);
+            let likely = likely.map_or(0.0, |predicted| predicted.probability);
+            at = step.to;
+            format!(
+                "{} to place {} ({:.0} %)",
+                way(step.action),
+                step.to.0,
+                100.0 * likely
+            )
+        });
+        Ok(Some(steps.collect()))
+    }
+
+    fn complaint(&self, _maze: &MazeFile) -> Result<Option<String>, Error> {
+        Ok(complaint(&self.survey))
+    }
+}
+
+fn direction(link: &Link) -> String {
+    way(link.action)
+}
+
+/// What an action of a survey's map is called.
+fn way(Action(action): Action) -> String {
+    let direction = Direction::ALL.get(action as usize);
+    direction.map_or_else(|| format!("action {action}"), ToString::to_string)
+}
