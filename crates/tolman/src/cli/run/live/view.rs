@@ -208,6 +208,7 @@ fn ended((action, outcome): (Direction, Outcome)) -> String {
         Outcome::Completed => "done",
         Outcome::CutShort => "cut short",
         Outcome::Failed => "failed",
+        Outcome::TimedOut => "timed out",
     };
     format!("{action}: {outcome}")
 }
