@@ -29,7 +29,7 @@
 //! The gains are fractions of a full motor command, so the drive decides what they do. One full turn
 //! command should turn less than 108° in a time step: Move's 0.0105 and Orient's 0.008 a degree add up,
 //! and twice the error is where a swing no longer dies out (the calibrated robot turns 91°). Beams wider
-//! than 5° can swing earlier. [`Settle`] ends these swings, at the price of a dozen time steps, as long as a
+//! than 5° can swing earlier. [`Settle`] ends these swings, at the price of some 25 time steps, as long as a
 //! full command turns less than half a circle. Two steps at a translation of 0.25 should cover about one
 //! robot diameter.
 //!

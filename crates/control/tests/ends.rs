@@ -228,7 +228,7 @@ fn halved(layer: &mut Settle, changes: u32) -> f64 {
 #[test]
 fn each_change_beyond_patience_halves_the_turn_until_the_next_action() {
     let mut layer = Settle::ours();
-    for (changes, expected) in [(0, 0.5), (12, 0.5), (13, 0.25), (15, 0.0625)] {
+    for (changes, expected) in [(0, 0.5), (20, 0.5), (21, 0.25), (23, 0.0625)] {
         layer.begin(Direction::North);
         assert!(
             (halved(&mut layer, changes) - expected).abs() < 1e-12,
