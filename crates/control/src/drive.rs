@@ -64,8 +64,8 @@ pub struct Driven<'a, R> {
 }
 
 impl<G: Rng> Drive<G> {
-    /// Time steps after which an action that has not ended has failed, such as that of a robot without a
-    /// compass. Not in the paper.
+    /// Time steps after which an action that no layer has ended [times out](Outcome::TimedOut), such as
+    /// that of a robot without a compass. Not in the paper.
     pub const LONGEST_ACTION: u32 = 100;
 
     /// Returns a drive by the layers of `stack`, which draw from `rng`. An action takes at most
@@ -79,7 +79,8 @@ impl<G: Rng> Drive<G> {
         }
     }
 
-    /// Returns this drive, whose actions take at most `steps` time steps, at least 1.
+    /// Returns this drive, whose actions take at most `steps` time steps, at least 1. The last step of
+    /// an action that no layer has ended by then ends it as [`Outcome::TimedOut`].
     #[must_use]
     pub const fn longest_action(mut self, steps: u32) -> Self {
         self.longest_action = steps;
@@ -113,7 +114,7 @@ impl<G: Rng> Drive<G> {
             step += 1;
             let Proposal { command, ends } = self.propose(robot);
             robot.step(&command)?;
-            let ends = ends.or_else(|| (step >= self.longest_action).then_some(Outcome::Failed));
+            let ends = ends.or_else(|| (step >= self.longest_action).then_some(Outcome::TimedOut));
             let driven = Driven {
                 action,
                 command,
@@ -190,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn an_action_that_never_ends_fails() {
+    fn an_action_that_never_ends_times_out() {
         for longest in [1, 7, Drive::<ChaCha8Rng>::LONGEST_ACTION] {
             let (mut robot, drive) = blind();
             let mut drive = drive.longest_action(longest);
@@ -199,8 +200,8 @@ mod tests {
                 ends = step.ends;
                 ControlFlow::Continue(())
             });
-            assert_eq!(outcome, Ok(Some(Outcome::Failed)));
-            assert_eq!(ends, Some(Outcome::Failed));
+            assert_eq!(outcome, Ok(Some(Outcome::TimedOut)));
+            assert_eq!(ends, Some(Outcome::TimedOut));
             assert_eq!(robot.steps, longest);
         }
     }

@@ -13,10 +13,12 @@
 //! 3. [`Orient`]: in a corridor, face along it; an action that turns away from it fails.
 //! 4. [`Center`]: in a corridor, steer to its middle.
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
+//! 6. [`Settle`], which is ours: make a turn to and fro die out, so that every action ends.
 //!
 //! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`].
 //!
 //! A [`Drive`] carries out whole actions by a stack, with any robot that senses ranges and its heading.
+//! An action that its layers do not end ends as [`Outcome::TimedOut`].
 //!
 //! Each layer stands alone behind [`Layer`]; a stack is any list of them. Lengths are metres; the
 //! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which [`Stack::paper`]
@@ -25,9 +27,11 @@
 //! # On your own robot
 //!
 //! The gains are fractions of a full motor command, so the drive decides what they do. One full turn
-//! command must turn less than 108° in a time step: Move's 0.0105 and Orient's 0.008 a degree add up,
-//! and twice the error is where a swing no longer dies out (the calibrated robot turns 91°). Two steps
-//! at a translation of 0.25 should cover about one robot diameter.
+//! command should turn less than 108° in a time step: Move's 0.0105 and Orient's 0.008 a degree add up,
+//! and twice the error is where a swing no longer dies out (the calibrated robot turns 91°). Beams wider
+//! than 5° can swing earlier. [`Settle`] ends these swings, at the price of some 25 time steps, as long as a
+//! full command turns less than half a circle. Two steps at a translation of 0.25 should cover about one
+//! robot diameter.
 //!
 //! ```
 //! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
@@ -68,6 +72,7 @@ mod layer;
 mod move_layer;
 mod orient;
 mod outcome;
+mod settle;
 mod stack;
 
 pub use avoid::Avoid;
@@ -78,4 +83,5 @@ pub use layer::{Layer, Proposal, Situation, View};
 pub use move_layer::{Move, heading_of};
 pub use orient::Orient;
 pub use outcome::Outcome;
+pub use settle::Settle;
 pub use stack::Stack;

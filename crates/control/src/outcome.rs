@@ -7,12 +7,15 @@ pub enum Outcome {
     CutShort,
     /// Not carried out: no step was made in the direction of travel.
     Failed,
+    /// Not ended by any layer: [`Drive`](crate::Drive) broke it off after its
+    /// [longest action](crate::Drive::longest_action). Counts as not carried out.
+    TimedOut,
 }
 
 impl Outcome {
-    /// Whether the robot got anywhere: everything but [`Outcome::Failed`].
+    /// Returns whether the robot got anywhere: [`Outcome::Completed`] or [`Outcome::CutShort`].
     #[must_use]
     pub const fn moved(self) -> bool {
-        !matches!(self, Self::Failed)
+        matches!(self, Self::Completed | Self::CutShort)
     }
 }

@@ -7,8 +7,8 @@ use tolman_maze::Direction;
 use tolman_robot::Ring;
 
 use crate::{
-    Avoid, Center, CorridorDetector, Layer, Move, Orient, Outcome, Proposal, RingError, Situation,
-    View,
+    Avoid, Center, CorridorDetector, Layer, Move, Orient, Outcome, Proposal, RingError, Settle,
+    Situation, View,
 };
 
 /// The layers in their order, the highest first.
@@ -19,14 +19,20 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// Any layers, the highest first, round one detector.
+    /// Returns a stack of any layers, the highest first, round one detector.
+    ///
+    /// Whether every action ends is up to the layers. [`Stack::paper`] ends them all; a stack without
+    /// [`Settle`] can turn to and fro for ever, and one without [`Move`] has no end of its own. A
+    /// [`Drive`](crate::Drive) breaks such an action off as [`Outcome::TimedOut`]; whoever calls
+    /// [`correct`](Self::correct) counts the time steps.
     #[must_use]
     pub fn new(detector: CorridorDetector, layers: Vec<Box<dyn Layer + Send>>) -> Self {
         Self { detector, layers }
     }
 
-    /// The paper's four layers with the paper's gains, for a robot `robot_unit` metres in diameter
-    /// that sees through `ring`, in corridors `width` metres wide.
+    /// Returns the paper's four layers with the paper's gains, and [`Settle`] below them, which ends
+    /// what would swing without end. The robot is `robot_unit` metres in diameter and sees through
+    /// `ring`, in corridors `width` metres wide.
     ///
     /// # Errors
     /// [`RingError`] if the ring is no full circle of quarters or a length is none.
@@ -41,6 +47,7 @@ impl Stack {
                 Box::new(Orient::paper(ring.beams, width)),
                 Box::new(Center::paper()),
                 Box::new(Avoid::paper(ring.beams, robot_unit)),
+                Box::new(Settle::ours()),
             ],
         ))
     }

@@ -14,7 +14,7 @@
 //! let goals = [Cell::new(7, 7), Cell::new(7, 8), Cell::new(8, 7), Cell::new(8, 8)];
 //! let mut mouse = Mouse::new(&times, &goals)?;
 //! // In the start, open ahead only:
-//! let command = mouse.arrive(Sides { left: false, ahead: true, right: false });
+//! let command = mouse.arrive(Sides { left: false, ahead: true, right: false })?;
 //! assert_eq!(command, Command::Drive(Direction::North));
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```

@@ -86,8 +86,11 @@ impl<'a> Mouse<'a> {
         })
     }
 
-    /// What to do after what is seen on arrival in a cell.
-    pub fn arrive(&mut self, seen: Sides) -> Command {
+    /// Returns what to do after what is seen on arrival in a cell.
+    ///
+    /// # Errors
+    /// Never, as the maze is as large as the map.
+    pub fn arrive(&mut self, seen: Sides) -> Result<Command, TooLarge> {
         if let Task::Localize { poses, patience } = &mut self.task {
             for (side, is_open) in seen.all() {
                 poses.see(&self.walls, side, is_open);
@@ -96,8 +99,8 @@ impl<'a> Mouse<'a> {
                 Location::Found { cell, heading } => {
                     self.task = explore(self.times, self.goals, (cell, heading));
                 }
-                Location::Among { .. } => return look_around(poses, patience, &self.walls),
-                Location::Nowhere => return Command::CarryBack,
+                Location::Among { .. } => return Ok(look_around(poses, patience, &self.walls)),
+                Location::Nowhere => return Ok(Command::CarryBack),
             }
         }
         let Task::Explore {
@@ -106,12 +109,12 @@ impl<'a> Mouse<'a> {
             heading,
         } = &mut self.task
         else {
-            return Command::CarryBack;
+            return Ok(Command::CarryBack);
         };
         if self.walls.observe(*cell, &seen.rays(*heading)).is_err() {
-            return Command::CarryBack;
+            return Ok(Command::CarryBack);
         }
-        match explorer.decide(&self.walls, *cell, *heading) {
+        Ok(match explorer.decide(&self.walls, *cell, *heading)? {
             Decision::Drive(direction) => {
                 let side = direction.seen_from(*heading);
                 *cell = self
@@ -124,17 +127,21 @@ impl<'a> Mouse<'a> {
             }
             Decision::Finished { run_ms } => Command::Ready { run_ms },
             Decision::Stuck => Command::GiveUp,
-        }
+        })
     }
 
     /// Says that the mouse has crashed and lost its way. What it saw last may be wrong and is forgotten.
     /// It has to stand in some cell, with an open side behind it.
-    pub fn crash(&mut self) {
+    ///
+    /// # Errors
+    /// Never, as the maze is as large as the map.
+    pub fn crash(&mut self) -> Result<(), TooLarge> {
         self.walls.undo(DOUBTFUL);
         self.task = Task::Localize {
-            poses: PoseSet::anywhere(self.walls.grid()),
+            poses: PoseSet::anywhere(self.walls.grid())?,
             patience: PATIENCE,
         };
+        Ok(())
     }
 
     /// Says that the mouse was carried back to the start. What it saw last is forgotten, in case it was
@@ -145,11 +152,15 @@ impl<'a> Mouse<'a> {
     }
 
     /// Hands out the moves of the fastest run on the walls known to be open, once the mouse is ready.
-    pub fn run(&self, each: impl FnMut(RunStep)) {
+    ///
+    /// # Errors
+    /// Never, as the maze is as large as the map.
+    pub fn run(&self, each: impl FnMut(RunStep)) -> Result<(), TooLarge> {
         if let Task::Explore { explorer, .. } = &self.task {
-            let known = Passages::new(&self.walls, Unknown::Closed);
+            let known = Passages::new(&self.walls, Unknown::Closed)?;
             explorer.planner().run(&known).for_each(each);
         }
+        Ok(())
     }
 }
 

@@ -37,11 +37,12 @@ fn drive(maze: &Maze, crashes: &[usize]) -> Option<u16> {
     let mut trail = vec![(at, heading)];
     for cells in 0..5000 {
         let open = |side| maze.is_open(at, seen_as(heading, side));
-        let command = mouse.arrive(Sides {
+        let arrived = mouse.arrive(Sides {
             left: open(Direction::West),
             ahead: open(Direction::North),
             right: open(Direction::East),
         });
+        let command = arrived.unwrap();
         match command {
             Command::Drive(side) => {
                 heading = seen_as(heading, side);
@@ -51,7 +52,7 @@ fn drive(maze: &Maze, crashes: &[usize]) -> Option<u16> {
             }
             Command::Ready { run_ms } => {
                 let mut moves = 0;
-                mouse.run(|_: RunStep| moves += 1);
+                mouse.run(|_: RunStep| moves += 1).unwrap();
                 assert!(moves > 0 && at == Cell::new(0, 0));
                 return Some(run_ms);
             }
@@ -64,7 +65,7 @@ fn drive(maze: &Maze, crashes: &[usize]) -> Option<u16> {
             Command::GiveUp => return None,
         }
         if crashes.contains(&cells) {
-            mouse.crash();
+            mouse.crash().unwrap();
             // Where it came in: the side behind it is open.
             (at, heading) = trail[1 + cells * 7 % (trail.len() - 1)];
         }

@@ -44,7 +44,7 @@ fn measure<const N: usize>(criterion: &mut Criterion, folder: &str, config: &Spe
     let mut map = SpeedRunMap::<N>::new();
     let passages: Vec<Passages<N>> = mazes
         .iter()
-        .map(|maze| Passages::new(maze, Unknown::Closed))
+        .map(|maze| Passages::new(maze, Unknown::Closed).unwrap())
         .collect();
     let numbers = 0..mazes.len();
 
@@ -169,7 +169,7 @@ fn explore<const N: usize>(maze: &Maze, times: &SpeedRunTimes<N>) -> Vec<f64> {
         });
         walls.observe(at, &rays).unwrap();
         let begin = Instant::now();
-        let decision = explorer.decide(&walls, at, looks);
+        let decision = explorer.decide(&walls, at, looks).unwrap();
         decisions.push(1e6 * begin.elapsed().as_secs_f64());
         let Decision::Drive(direction) = decision else {
             return decisions;

@@ -79,13 +79,17 @@ fn look(map: &mut WallMap<16>, maze: &Maze, at: Cell, heading: Direction) {
 /// Explores `maze`; what is known in the end, the steps it took, the steps of the run that is proven.
 fn explore(maze: &Maze) -> (WallMap<16>, u32, u16) {
     let mut explorer = explorer(maze);
-    explore_by(maze, |map, at| explorer.decide(map, maze.goals(), at))
+    explore_by(maze, |map, at| {
+        explorer.decide(map, maze.goals(), at).unwrap()
+    })
 }
 
 /// The same, every stop of the proof chosen by rollouts.
 fn explore_by_rollouts(maze: &Maze) -> (WallMap<16>, u32, u16) {
     let mut rollouts = Rollouts::new(explorer(maze), RolloutConfig::tuned()).unwrap();
-    explore_by(maze, |map, at| rollouts.decide(map, maze.goals(), at))
+    explore_by(maze, |map, at| {
+        rollouts.decide(map, maze.goals(), at).unwrap()
+    })
 }
 
 fn explorer(maze: &Maze) -> MoveExplorer<16> {
@@ -104,7 +108,7 @@ fn explore_by(
         match decide(&map, at) {
             MoveDecision::Drive(leap) => {
                 let _ = MouseStep::of_leap(&mut heading, leap);
-                let known = Passages::<16>::new(&map, Unknown::Closed);
+                let known = Passages::<16>::new(&map, Unknown::Closed).unwrap();
                 assert!(
                     Leap::all(&known, at).any(|known| known == leap),
                     "drives through no unknown wall"
@@ -164,7 +168,7 @@ proptest! {
     #[test]
     fn the_map_of_moves_counts_fewest_steps(maze in mazes(), target in any::<usize>()) {
         let target = maze.grid().cells().nth(target % maze.grid().cell_count()).unwrap();
-        let passages = Passages::<16>::new(&maze, Unknown::Closed);
+        let passages = Passages::<16>::new(&maze, Unknown::Closed).unwrap();
         let map = MoveMap::new(&passages, [target]);
         // A leap can be driven back, so the steps there are those from there.
         let expect = fewest_steps(&maze, target);
@@ -242,7 +246,7 @@ fn rollouts_go_on_where_walls_are_forgotten() {
             // It stands in a cell that it has driven to, and sees where it stands.
             look(&mut map, &maze, at, heading);
         }
-        match rollouts.decide(&map, maze.goals(), at) {
+        match rollouts.decide(&map, maze.goals(), at).unwrap() {
             MoveDecision::Drive(leap) => {
                 let _ = MouseStep::of_leap(&mut heading, leap);
                 at = leap.end;

@@ -122,6 +122,7 @@ impl<'a> Recorder<'a> {
                 Outcome::Completed => "completed",
                 Outcome::CutShort => "cut short",
                 Outcome::Failed => "failed",
+                Outcome::TimedOut => "timed out",
             };
             self.ended
                 .say(step, format!("{}: {outcome_word}", seen.action));

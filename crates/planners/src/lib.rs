@@ -45,11 +45,13 @@ mod path;
 mod pose_set;
 pub mod speed_run;
 mod step_map;
+mod too_large;
 
 pub use graph::Graph;
 pub use passages::{Passages, Unknown};
 pub use pose_set::{Location, PoseSet};
 pub use step_map::StepMap;
+pub use too_large::TooLarge;
 #[cfg(feature = "alloc")]
 pub use {
     arcs::Arcs,

@@ -1,4 +1,6 @@
-use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+use tolman_maze::{Cell, Direction, Knowledge, Walls};
+
+use crate::TooLarge;
 
 /// Which edges of a maze of up to `N` × `N` cells a plan may cross: what planners search on. One byte a cell.
 ///
@@ -8,10 +10,11 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 ///
 /// let mut maze = Maze::open(Grid::new(3, 1));
 /// maze.set_wall(Cell::new(1, 0), Direction::East, true);
-/// let passages = Passages::<16>::new(&maze, Unknown::Closed);
+/// let passages = Passages::<16>::new(&maze, Unknown::Closed)?;
 /// assert!(passages.is_open(Cell::new(1, 0), Direction::West));
 /// assert!(!passages.is_open(Cell::new(1, 0), Direction::East));
 /// assert!(!passages.is_open(Cell::new(0, 0), Direction::West), "the border is closed");
+/// # Ok::<(), tolman_planners::TooLarge>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Passages<const N: usize> {
@@ -28,42 +31,43 @@ pub enum Unknown {
     Closed,
 }
 
-/// The sides that a plan may cross, each as the northern or eastern one of a cell; none in a maze of more than `N` columns or
-/// rows: rather no plan than a wrong one.
+/// Returns the sides that a plan may cross, each as the northern or eastern one of a cell.
+///
+/// # Errors
+/// If the maze has more than `N` columns or rows.
 pub(crate) fn open_sides<const N: usize>(
     walls: &impl Walls,
     unknown: Unknown,
-) -> impl Iterator<Item = (Cell, Direction)> {
+) -> Result<impl Iterator<Item = (Cell, Direction)>, TooLarge> {
     let grid = walls.grid();
-    let fits = usize::from(grid.width().max(grid.height())) <= N;
-    let grid = if fits { grid } else { Grid::new(0, 0) };
+    TooLarge::check(grid, N)?;
     let sides = grid
         .cells()
         .flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)]);
-    sides.filter(move |(cell, direction)| {
+    Ok(sides.filter(move |(cell, direction)| {
         let open = match walls.knowledge(*cell, *direction) {
             Knowledge::Open => true,
             Knowledge::Wall => false,
             Knowledge::Unknown => unknown == Unknown::Open,
         };
         open && grid.neighbour(*cell, *direction).is_some()
-    })
+    }))
 }
 
 impl<const N: usize> Passages<N> {
-    /// The passages of a maze as far as it is known. O(N²).
+    /// Returns the passages of a maze as far as it is known. O(N²).
     ///
-    /// A maze of more than `N` columns or rows has none: rather no plan than a wrong one.
-    #[must_use]
-    pub fn new(walls: &impl Walls, unknown: Unknown) -> Self {
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub fn new(walls: &impl Walls, unknown: Unknown) -> Result<Self, TooLarge> {
         let mut passages = Self { sides: [[0; N]; N] };
-        for (cell, direction) in open_sides::<N>(walls, unknown) {
+        for (cell, direction) in open_sides::<N>(walls, unknown)? {
             passages.open_side(cell, direction);
             if let Some(next) = cell.beyond(direction) {
                 passages.open_side(next, direction.opposite());
             }
         }
-        passages
+        Ok(passages)
     }
 
     fn open_side(&mut self, cell: Cell, direction: Direction) {

@@ -1,5 +1,7 @@
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
+use crate::TooLarge;
+
 /// Everywhere a mouse can be that has lost its way in a maze it knows in part, of up to `N` × `N` cells, `N` ≤ 32.
 ///
 /// Every cell and heading is possible at first. What the mouse sees and does then rules poses out: those
@@ -15,7 +17,7 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 /// maze.set_wall(Cell::new(1, 0), Direction::North, true);
 /// maze.set_wall(Cell::new(2, 0), Direction::North, true);
 /// maze.set_wall(Cell::new(0, 1), Direction::East, true);
-/// let mut poses = PoseSet::<16>::anywhere(maze.grid());
+/// let mut poses = PoseSet::<16>::anywhere(maze.grid())?;
 ///
 /// // Walls on both sides, and open ahead:
 /// let (ahead, right, left) = (Direction::North, Direction::East, Direction::West);
@@ -30,6 +32,7 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 /// }
 /// let found = Location::Found { cell: Cell::new(0, 0), heading: Direction::West };
 /// assert_eq!(poses.location(), found);
+/// # Ok::<(), tolman_planners::TooLarge>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PoseSet<const N: usize> {
@@ -61,14 +64,15 @@ pub enum Location {
 }
 
 impl<const N: usize> PoseSet<N> {
-    /// Every pose in the maze; none in one of more than `N` columns or rows.
-    #[must_use]
-    pub fn anywhere(grid: Grid) -> Self {
+    /// Returns the set of every pose in the maze.
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub fn anywhere(grid: Grid) -> Result<Self, TooLarge> {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
-        let fits = usize::from(grid.width().max(grid.height())) <= N;
-        let grid = if fits { grid } else { Grid::new(0, 0) };
+        TooLarge::check(grid, N)?;
         let headings = |cell| Direction::ALL.map(|heading| (cell, heading));
-        Self::of(grid, grid.cells().flat_map(headings), None)
+        Ok(Self::of(grid, grid.cells().flat_map(headings), None))
     }
 
     fn of(

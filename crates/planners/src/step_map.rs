@@ -11,10 +11,11 @@ use crate::Passages;
 /// use tolman_planners::{Passages, StepMap, Unknown};
 ///
 /// let maze = Maze::open(Grid::new(3, 2));
-/// let passages = Passages::<16>::new(&maze, Unknown::Closed);
+/// let passages = Passages::<16>::new(&maze, Unknown::Closed)?;
 /// let steps = StepMap::new(&passages, [Cell::new(2, 1)]);
 /// assert_eq!(steps.steps(Cell::new(0, 0)), Some(3));
 /// assert_eq!(steps.steps(Cell::new(3, 0)), None, "not in the maze");
+/// # Ok::<(), tolman_planners::TooLarge>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StepMap<const N: usize> {

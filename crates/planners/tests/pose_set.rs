@@ -74,7 +74,7 @@ proptest! {
         let maze = braided.generate(&mut rng).unwrap();
         let partly = Partly { maze: &maze, known: known.iter().map(|known| all || *known).collect() };
         let (mut at, mut looks) = (Cell::new(x % width, y % height), heading);
-        let mut poses = PoseSet::<16>::anywhere(maze.grid());
+        let mut poses = PoseSet::<16>::anywhere(maze.grid()).unwrap();
         for _ in 0..400 {
             for side in Direction::ALL {
                 poses.see(&partly, side, maze.is_open(at, seen_as(looks, side)));
@@ -110,7 +110,7 @@ proptest! {
 #[test]
 fn a_wrong_wall_leaves_nowhere_to_be() {
     let maze = Maze::open(Grid::new(2, 2));
-    let mut poses = PoseSet::<16>::anywhere(maze.grid());
+    let mut poses = PoseSet::<16>::anywhere(maze.grid()).unwrap();
     poses.see(&maze, Direction::North, false);
     poses.see(&maze, Direction::South, false);
     assert_eq!(poses.location(), Location::Nowhere);

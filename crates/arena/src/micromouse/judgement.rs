@@ -3,8 +3,8 @@
 use serde::Serialize;
 use tolman_maze::Maze;
 use tolman_planners::moves::MoveMap;
-use tolman_planners::{Passages, Unknown};
-use tolman_systems::micromouse::{Driver, SIDE, Search, Searcher};
+use tolman_planners::{Passages, TooLarge, Unknown};
+use tolman_systems::micromouse::{Driver, MouseError, SIDE, Search, Searcher};
 
 use super::{Trial, TrialError, brief, check};
 
@@ -28,9 +28,11 @@ pub struct Judgement {
 
 impl Judgement {
     /// Judges a trial that `mouse` has played in `maze`.
-    #[must_use]
-    pub fn of(maze: &Maze, mouse: &Driver<impl Search>, trial: &Trial) -> Self {
-        let passages = Passages::<SIDE>::new(maze, Unknown::Closed);
+    ///
+    /// # Errors
+    /// If the maze has more than [`SIDE`] columns or rows.
+    pub fn of(maze: &Maze, mouse: &Driver<impl Search>, trial: &Trial) -> Result<Self, TooLarge> {
+        let passages = Passages::<SIDE>::new(maze, Unknown::Closed)?;
         let map = MoveMap::new(&passages, maze.goals().iter().copied());
         let optimum = maze.start().and_then(|(start, _)| map.moves(start));
         let optimum = optimum.map_or(0, u32::from);
@@ -38,14 +40,14 @@ impl Judgement {
         let certified = mouse.certificate().is_some_and(|certificate| {
             Some(certificate.closed_cost) == verdict.run_2 && check(certificate, maze).is_ok()
         });
-        Self {
+        Ok(Self {
             run_1: verdict.run_1,
             run_2: verdict.run_2,
             score: verdict.score(),
             optimum,
             floor: f64::from(optimum) + f64::from(optimum + 1) / 30.0,
             certified,
-        }
+        })
     }
 
     /// How far the score lies above the floor; none if the mouse did not finish.
@@ -67,6 +69,6 @@ pub fn try_on(
 ) -> Result<(Trial, Judgement), TrialError> {
     let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
     let trial = Trial::play(maze, &mut mouse)?;
-    let judgement = Judgement::of(maze, &mouse, &trial);
+    let judgement = Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?;
     Ok((trial, judgement))
 }

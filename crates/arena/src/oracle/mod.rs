@@ -60,7 +60,7 @@ impl Oracle {
     /// one.
     pub fn choose(&mut self, pose: Pose, last: Option<(Direction, Outcome)>) -> Direction {
         match last {
-            Some((action, Outcome::Failed)) => self.failed.push(action),
+            Some((action, outcome)) if !outcome.moved() => self.failed.push(action),
             _ => self.failed.clear(),
         }
         if self.failed.len() == Direction::ALL.len() {

@@ -1,6 +1,6 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_control::{Outcome, Stack, View};
+use tolman_control::{Stack, View};
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Direction;
 use tolman_planners::{Arcs, costs_from};
@@ -37,7 +37,7 @@ const COARSEST: f64 = 0.125;
 /// What fits a few hundred megabytes and a minute.
 const MOST_NODES: usize = 2_000_000;
 
-/// An action that has not ended by then oscillates; the policy leaves it out.
+/// An action that has not ended by then swings to and fro for long; the policy leaves it out.
 const LONGEST_ACTION: u32 = 40;
 
 impl Policy {
@@ -151,8 +151,8 @@ fn carry_out(
             return Ok(Some((pose, step)));
         }
         match proposal.ends {
-            Some(Outcome::Failed) => return Ok(None),
-            Some(_) => return Ok(Some((pose, step))),
+            Some(outcome) if outcome.moved() => return Ok(Some((pose, step))),
+            Some(_) => return Ok(None),
             None => {}
         }
     }

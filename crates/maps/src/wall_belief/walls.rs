@@ -4,8 +4,7 @@ use core::iter;
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
-
-use crate::wall_map::TooLarge;
+use tolman_planners::TooLarge;
 
 /// What speaks for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
@@ -77,9 +76,7 @@ impl<const N: usize> WallBelief<N> {
     /// # Errors
     /// If the maze has more than `N` columns or rows.
     pub fn new(grid: Grid, pitch: f64, thickness: f64) -> Result<Self, TooLarge> {
-        if grid.width() as usize > N || grid.height() as usize > N {
-            return Err(TooLarge { grid, side: N });
-        }
+        TooLarge::check(grid, N)?;
         Ok(Self {
             grid,
             pitch,

@@ -1,4 +1,5 @@
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Wall, Walls};
+use tolman_planners::TooLarge;
 
 use super::log::Log;
 use super::{Ray, RayEnd};
@@ -57,19 +58,6 @@ pub enum ClosedCells {
     Possible,
     /// No cell is walled in: where three walls are known to stand, the fourth does not.
     Impossible,
-}
-
-/// The maze does not fit into the map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the maze is {} × {} cells and the map holds {side} × {side}: use a larger map",
-    grid.width(), grid.height()
-)]
-pub struct TooLarge {
-    /// The size of the maze.
-    pub grid: Grid,
-    /// The most columns and rows.
-    pub side: usize,
 }
 
 /// An observation that cannot be true; the map is as before.
@@ -145,8 +133,8 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
     /// If the maze has more than `N` columns or rows.
     pub const fn new(grid: Grid, closed_cells: ClosedCells) -> Result<Self, TooLarge> {
         const { assert!(N <= 32, "a row of a map is 32 bits wide") };
-        if grid.width() as usize > N || grid.height() as usize > N {
-            return Err(TooLarge { grid, side: N });
+        if let Err(error) = TooLarge::check(grid, N) {
+            return Err(error);
         }
         Ok(Self {
             grid,

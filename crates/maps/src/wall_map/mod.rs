@@ -11,5 +11,6 @@ mod log;
 mod map;
 mod ray;
 
-pub use map::{ClosedCells, ObserveError, TooLarge, WallMap};
+pub use map::{ClosedCells, ObserveError, WallMap};
 pub use ray::{Ray, RayEnd};
+pub use tolman_planners::TooLarge;

@@ -6,7 +6,7 @@ use tolman_geom::Point;
 use tolman_maps::wall_map::WallMap;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
-use tolman_planners::{Passages, Unknown};
+use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::Micromouse;
 use tolman_arena::micromouse::{Event, Referee, brief};
@@ -112,8 +112,8 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
             break;
         }
         let map = mouse.map();
-        let open = run(map, Unknown::Open, maze, start);
-        let closed = run(map, Unknown::Closed, maze, start);
+        let open = run(map, Unknown::Open, maze, start)?;
+        let closed = run(map, Unknown::Closed, maze, start)?;
         if closed.len() > 1 && open.len() < closed.len() {
             let mut plan = Plan::of_walls(&walls(map), WIDTH);
             plan.trajectory(&open, Series(1));
@@ -134,11 +134,16 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
 }
 
 /// The stops of the best run, if there is one.
-fn run(map: &WallMap<SIDE>, unknown: Unknown, maze: &Maze, start: Cell) -> Vec<Point> {
-    let passages = Passages::<SIDE>::new(map, unknown);
+fn run(
+    map: &WallMap<SIDE>,
+    unknown: Unknown,
+    maze: &Maze,
+    start: Cell,
+) -> Result<Vec<Point>, TooLarge> {
+    let passages = Passages::<SIDE>::new(map, unknown)?;
     let moves = MoveMap::new(&passages, maze.goals().iter().copied());
     let stops = moves.way(&passages, start).map(|leap| middle(leap.end));
-    core::iter::once(middle(start)).chain(stops).collect()
+    Ok(core::iter::once(middle(start)).chain(stops).collect())
 }
 
 fn values(map: &WallMap<SIDE>, shade: &Shade, value: impl Fn(Cell) -> f64) -> Drawing {

@@ -6,7 +6,7 @@ use super::cell_set::CellSet;
 use super::map::Wave;
 use super::sides::Sides;
 use super::{Leap, MoveMap};
-use crate::Unknown;
+use crate::{TooLarge, Unknown};
 
 /// What is known of a maze, and how long runs through it can be.
 ///
@@ -30,12 +30,12 @@ pub(super) struct Chart<const N: usize> {
 }
 
 impl<const N: usize> Chart<N> {
-    pub(super) fn new(walls: &impl Walls, start: Cell, goals: &[Cell]) -> Self {
-        let hoped = Sides::new(walls, Unknown::Open);
-        let certain = Sides::new(walls, Unknown::Closed);
+    pub(super) fn new(walls: &impl Walls, start: Cell, goals: &[Cell]) -> Result<Self, TooLarge> {
+        let hoped = Sides::new(walls, Unknown::Open)?;
+        let certain = Sides::new(walls, Unknown::Closed)?;
         let goals = CellSet::of(goals.iter().copied());
         let from = CellSet::of([start]);
-        Self {
+        Ok(Self {
             start,
             goals,
             hoped,
@@ -44,7 +44,7 @@ impl<const N: usize> Chart<N> {
             to_goal: MoveMap::over(&hoped, &goals),
             closed: Wave::new(from).moves_to(&goals, &certain),
             learned: 0,
-        }
+        })
     }
 
     /// The paper's open path: steps of the best run that can be hoped for.

@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn what_is_known_stays_and_the_rest_differs() {
         let goals: [Cell; 4] = [(3, 3), (3, 4), (4, 3), (4, 4)].map(|(x, y)| Cell::new(x, y));
-        let chart = Chart::<16>::new(&TwoRows, Cell::new(0, 0), &goals);
+        let chart = Chart::<16>::new(&TwoRows, Cell::new(0, 0), &goals).unwrap();
         let mut completions = Completions::new(&chart, SplitMix::new(7));
         let (one, other) = (completions.draw(), completions.draw());
         assert_ne!(one, other);

@@ -6,6 +6,7 @@ use super::chart::Chart;
 use super::outlook::Outlook;
 use super::stops::Stops;
 use super::{Leap, MoveExplorerConfig, MoveExplorerConfigError, MoveMap};
+use crate::TooLarge;
 
 /// Explores a maze until the best run is known for certain.
 ///
@@ -91,21 +92,33 @@ impl<const N: usize> MoveExplorer<N> {
         })
     }
 
-    /// What to do in the cell `at`, once what is seen from there is in `walls`, to reach one of `goals`. O(N²).
-    #[must_use]
-    pub fn decide(&mut self, walls: &impl Walls, goals: &[Cell], at: Cell) -> MoveDecision {
-        let chart = self.chart(walls, goals, at);
+    /// Returns what to do in the cell `at`, once what is seen from there is in `walls`, to reach one of `goals`. O(N²).
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub fn decide(
+        &mut self,
+        walls: &impl Walls,
+        goals: &[Cell],
+        at: Cell,
+    ) -> Result<MoveDecision, TooLarge> {
+        let chart = self.chart(walls, goals, at)?;
         let target = match self.task(&chart, at) {
-            Task::Decided(decision) => return decision,
+            Task::Decided(decision) => return Ok(decision),
             Task::DriveTo(target) => Some(target),
             Task::Prove { closed } => self.proofs::<1>(&chart, at, closed).best(),
         };
         let leap = target.and_then(|target| chart.leap_towards(target, at));
-        leap.map_or(MoveDecision::Stuck, MoveDecision::Drive)
+        Ok(leap.map_or(MoveDecision::Stuck, MoveDecision::Drive))
     }
 
     /// What is known, from where the mouse is now.
-    pub(super) fn chart(&mut self, walls: &impl Walls, goals: &[Cell], at: Cell) -> Chart<N> {
+    pub(super) fn chart(
+        &mut self,
+        walls: &impl Walls,
+        goals: &[Cell],
+        at: Cell,
+    ) -> Result<Chart<N>, TooLarge> {
         if goals.contains(&at) {
             self.goal = Goal::Visited;
         }

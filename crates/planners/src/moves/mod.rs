@@ -19,7 +19,7 @@
 //!
 //! // Four cells to the north, then one to the west: three steps.
 //! let maze = Maze::open(Grid::new(16, 16));
-//! let passages = Passages::<16>::new(&maze, Unknown::Closed);
+//! let passages = Passages::<16>::new(&maze, Unknown::Closed)?;
 //! let map = MoveMap::new(&passages, [Cell::new(7, 8)]);
 //! let start = Cell::new(8, 4);
 //! assert_eq!(map.moves(start), Some(3));
@@ -33,6 +33,7 @@
 //!     MouseStep { turn: Turn::Right, cells: 1 },
 //! ];
 //! assert!(steps.eq(expect));
+//! # Ok::<(), tolman_planners::TooLarge>(())
 //! ```
 //!
 //! Nothing here allocates and nothing panics: sizes are const generics.

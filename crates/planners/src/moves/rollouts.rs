@@ -6,6 +6,7 @@ use super::explorer::Task;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
 use super::{MoveDecision, MoveExplorer, MoveExplorerConfigError};
+use crate::TooLarge;
 
 /// How [`Rollouts`] choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,17 +136,24 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// What to do in the cell `at`: see [`MoveExplorer::decide`]. O(completions × stops of the rest of the proof × N²).
-    #[must_use]
-    pub fn decide(&mut self, walls: &impl Walls, goals: &[Cell], at: Cell) -> MoveDecision {
-        let chart = self.base.chart(walls, goals, at);
+    /// Returns what to do in the cell `at`: see [`MoveExplorer::decide`]. O(completions × stops of the rest of the proof × N²).
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub fn decide(
+        &mut self,
+        walls: &impl Walls,
+        goals: &[Cell],
+        at: Cell,
+    ) -> Result<MoveDecision, TooLarge> {
+        let chart = self.base.chart(walls, goals, at)?;
         let target = match self.base.task(&chart, at) {
-            Task::Decided(decision) => return decision,
+            Task::Decided(decision) => return Ok(decision),
             Task::DriveTo(target) => Some(target),
             Task::Prove { closed } => self.aim(&chart, at, closed),
         };
         let leap = target.and_then(|target| chart.leap_towards(target, at));
-        leap.map_or(MoveDecision::Stuck, MoveDecision::Drive)
+        Ok(leap.map_or(MoveDecision::Stuck, MoveDecision::Drive))
     }
 
     fn aim(&mut self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {

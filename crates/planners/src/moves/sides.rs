@@ -4,7 +4,7 @@ use super::Leap;
 use super::cell_set::CellSet;
 use super::split_mix::SplitMix;
 use crate::passages::open_sides;
-use crate::{Passages, Unknown};
+use crate::{Passages, TooLarge, Unknown};
 
 /// A set of sides of cells: those that are open. A side is in it for both its cells. What [`Passages`] is for one cell at a time, this is
 /// for all cells at once.
@@ -22,9 +22,12 @@ impl<const N: usize> Sides<N> {
         east: CellSet::EMPTY,
     };
 
-    /// The open sides of a maze as far as it is known; none where it has more than `N` columns or rows. O(N²).
-    pub(super) fn new(walls: &impl Walls, unknown: Unknown) -> Self {
-        Self::of(open_sides::<N>(walls, unknown))
+    /// Returns the open sides of a maze as far as it is known. O(N²).
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub(super) fn new(walls: &impl Walls, unknown: Unknown) -> Result<Self, TooLarge> {
+        Ok(Self::of(open_sides::<N>(walls, unknown)?))
     }
 
     fn of(sides: impl Iterator<Item = (Cell, Direction)>) -> Self {

@@ -1,7 +1,7 @@
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 use super::{RunState, SpeedRunPlanner, SpeedRunTimes};
-use crate::{Passages, StepMap, Unknown};
+use crate::{Passages, StepMap, TooLarge, Unknown};
 
 /// Explores a maze cell by cell until the best speed run is known for certain, and comes back.
 ///
@@ -60,17 +60,24 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         }
     }
 
-    /// What to do in the cell `at`, looking to `heading`, once its walls are in `walls`. O(N²), plus a
+    /// Returns what to do in the cell `at`, looking to `heading`, once its walls are in `walls`. O(N²), plus a
     /// search if no best run hoped for so far can be driven any more.
-    #[must_use]
-    pub fn decide(&mut self, walls: &impl Walls, at: Cell, heading: Direction) -> Decision {
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub fn decide(
+        &mut self,
+        walls: &impl Walls,
+        at: Cell,
+        heading: Direction,
+    ) -> Result<Decision, TooLarge> {
         if self.planner.goals().contains(&at) {
             self.goal = Goal::Visited;
         }
-        let hoped = Passages::new(walls, Unknown::Open);
+        let hoped = Passages::new(walls, Unknown::Open)?;
         self.planner.update(&hoped);
         let Some(run_ms) = self.planner.time_ms() else {
-            return Decision::Stuck;
+            return Ok(Decision::Stuck);
         };
         let unseen = self
             .planner
@@ -88,16 +95,16 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         } else if targets.peek().is_some() {
             StepMap::new(&hoped, targets)
         } else if at == self.home {
-            return Decision::Finished { run_ms };
+            return Ok(Decision::Finished { run_ms });
         } else {
-            StepMap::new(&Passages::new(walls, Unknown::Closed), [self.home])
+            StepMap::new(&Passages::new(walls, Unknown::Closed)?, [self.home])
         };
         let order = [heading, heading.left(), heading.right(), heading.opposite()];
         let open = order
             .into_iter()
             .filter(|direction| walls.knowledge(at, *direction) == Knowledge::Open);
         let next = steps.descend(&hoped, at, open);
-        next.map_or(Decision::Stuck, Decision::Drive)
+        Ok(next.map_or(Decision::Stuck, Decision::Drive))
     }
 
     /// The planner: which run is hoped for, and in the end known to be the best.

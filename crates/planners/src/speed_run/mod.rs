@@ -25,7 +25,7 @@
 //! # #[cfg(feature = "alloc")] {
 //! let maze = tolman_maze::read(text)?.maze;
 //! let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic())?;
-//! let passages = Passages::new(&maze, Unknown::Closed);
+//! let passages = Passages::new(&maze, Unknown::Closed)?;
 //! let mut map = SpeedRunMap::new();
 //! map.search(&passages, &times, maze.goals(), Extent::Everywhere);
 //!

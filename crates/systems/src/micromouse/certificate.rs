@@ -3,7 +3,7 @@
 use tolman_maps::wall_map::WallMap;
 use tolman_maze::{Cell, Grid, Knowledge, Wall, Walls};
 use tolman_planners::moves::{Leap, MoveMap};
-use tolman_planners::{Passages, Unknown};
+use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::SIDE;
 
@@ -36,20 +36,25 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// The proof that `run` is the best, if it is one.
+    /// Returns the proof that `run` is the best, if it is one.
+    ///
+    /// # Errors
+    /// If the maze has more than [`SIDE`] columns or rows.
     pub(super) fn of(
         map: &WallMap<SIDE>,
         start: Cell,
         goals: &[Cell],
         run: &[Leap],
-    ) -> Option<Self> {
+    ) -> Result<Option<Self>, TooLarge> {
         let grid = map.grid();
-        let hoped = Passages::<SIDE>::new(map, Unknown::Open);
+        let hoped = Passages::<SIDE>::new(map, Unknown::Open)?;
         let to_goal = MoveMap::new(&hoped, goals.iter().copied());
-        let open_cost = u32::from(to_goal.moves(start)?);
-        let closed_cost = u32::try_from(run.len()).ok()?;
+        let Some(open_cost) = to_goal.moves(start).map(u32::from) else {
+            return Ok(None);
+        };
+        let closed_cost = run.len() as u32;
         if open_cost < closed_cost {
-            return None;
+            return Ok(None);
         }
         let walls = (0..grid.wall_count() as u32)
             .map(|id| (Wall(id), map.wall(Wall(id))))
@@ -58,7 +63,7 @@ impl Certificate {
         let at_least = grid
             .cells()
             .map(|cell| to_goal.moves(cell).map_or(open_cost, u32::from));
-        Some(Self {
+        Ok(Some(Self {
             grid,
             start,
             goals: goals.to_vec(),
@@ -69,6 +74,6 @@ impl Certificate {
             closed_cost,
             open_cost,
             at_least: at_least.map(|steps| steps.min(open_cost)).collect(),
-        })
+        }))
     }
 }

@@ -1,3 +1,4 @@
+use tolman_planners::TooLarge;
 use tolman_planners::moves::{
     MoveDecision, MoveExplorer, MoveExplorerConfig, RolloutConfig, Rollouts,
 };
@@ -46,17 +47,17 @@ impl Certify {
 }
 
 impl Search for Certify {
-    fn next(&mut self, view: &View<'_>) -> Next {
+    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
         let decision = match &mut self.0 {
             Explorer::Plain(explorer) => explorer.decide(view.map, view.goals, view.at),
             Explorer::Small(explorer) => explorer.decide(view.map, view.goals, view.at),
             Explorer::Large(explorer) => explorer.decide(view.map, view.goals, view.at),
         };
-        match decision {
+        Ok(match decision? {
             MoveDecision::Drive(leap) => Next::Drive(leap),
             MoveDecision::Turn => Next::Turn,
             MoveDecision::Finished { .. } => Next::Reset,
             MoveDecision::Stuck => Next::Stuck,
-        }
+        })
     }
 }

@@ -122,10 +122,10 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     /// If the walls contradict what was seen before, or no way leads to a goal.
     pub fn next(&mut self, open: [bool; 4]) -> Result<CompetitionNext, ExploreError> {
         self.walls.observe(self.at, &rays(open))?;
-        match self.explorer.decide(&self.walls, self.at, self.heading) {
+        match self.explorer.decide(&self.walls, self.at, self.heading)? {
             Decision::Drive(side) => self.drive(side),
             Decision::Finished { run_ms } => {
-                Ok(CompetitionNext::Finished(self.exploration(run_ms)))
+                Ok(CompetitionNext::Finished(self.exploration(run_ms)?))
             }
             Decision::Stuck => Err(ExploreError::NoWay { at: self.at }),
         }
@@ -139,14 +139,14 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         Ok(CompetitionNext::Drive(side))
     }
 
-    fn exploration(&self, run_ms: u16) -> Exploration {
+    fn exploration(&self, run_ms: u16) -> Result<Exploration, TooLarge> {
         let Brief {
             start,
             heading,
             ref goals,
             ..
         } = *self.brief;
-        let known = Passages::new(&self.walls, Unknown::Closed);
+        let known = Passages::new(&self.walls, Unknown::Closed)?;
         let run = self.explorer.planner().run(&known);
         let certificate = SpeedRunCertificate {
             start,
@@ -154,11 +154,11 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
             moves: run.map(|step| step.run_move).collect(),
             time_ms: run_ms.into(),
         };
-        Exploration {
+        Ok(Exploration {
             cells: self.cells,
             verdict: certificate.check(&self.walls, self.config, goals),
             certificate,
-        }
+        })
     }
 }
 

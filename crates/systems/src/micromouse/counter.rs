@@ -2,7 +2,7 @@ use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Walls};
 use tolman_planners::moves::Leap;
-use tolman_planners::{Passages, Unknown};
+use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::SIDE;
 use super::driver::{Next, Search, View};
@@ -33,22 +33,22 @@ impl CounterSearch {
 }
 
 impl Search for CounterSearch {
-    fn next(&mut self, view: &View<'_>) -> Next {
+    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
         self.arrived |= view.goals.contains(&view.at);
         let cells = view.map.grid().cell_count();
         let visited = view.map.visited_count();
         if self.arrived && 100 * visited >= self.threshold_percent as usize * cells {
-            return Next::Reset;
+            return Ok(Next::Reset);
         }
-        let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
+        let known = Passages::<SIDE>::new(view.map, Unknown::Closed)?;
         let dead = |cell: Cell| view.map.is_dead_end(cell) && !view.goals.contains(&cell);
         let beside = || Leap::all(&known, view.at).filter(|leap| leap.cells == 1);
         let rank = |leap: &Leap| (dead(leap.end), view.map.visits(leap.end));
         let Some(least) = beside().map(|leap| rank(&leap)).min() else {
-            return Next::Turn;
+            return Ok(Next::Turn);
         };
         let ties: Vec<Leap> = beside().filter(|leap| rank(leap) == least).collect();
-        pick(&ties, &mut self.rng).map_or(Next::Turn, Next::Drive)
+        Ok(pick(&ties, &mut self.rng).map_or(Next::Turn, Next::Drive))
     }
 }
 

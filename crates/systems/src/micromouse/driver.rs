@@ -3,18 +3,21 @@
 use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::{Leap, MouseStep};
-use tolman_planners::{Passages, Unknown};
+use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::{Brief, Certificate, MouseError, Order, RunTwo, SIDE, Sight};
 
 /// How to explore.
 pub trait Search {
-    /// What to do next in the first run.
-    fn next(&mut self, view: &View<'_>) -> Next;
+    /// Returns what to do next in the first run.
+    ///
+    /// # Errors
+    /// If the maze is larger than what the search holds.
+    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge>;
 }
 
 impl<S: Search + ?Sized> Search for Box<S> {
-    fn next(&mut self, view: &View<'_>) -> Next {
+    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
         (**self).next(view)
     }
 }
@@ -107,12 +110,12 @@ impl<S: Search> Driver<S> {
 
     /// The first run is over.
     fn reset(&mut self) -> Result<Order, MouseError> {
-        let known = Passages::new(&self.map, Unknown::Closed);
+        let known = Passages::new(&self.map, Unknown::Closed)?;
         let plan = self
             .run_two
             .plan(&known, self.brief.start, &self.brief.goals);
         let mut plan = plan.ok_or(MouseError::Stuck)?;
-        self.certificate = Certificate::of(&self.map, self.brief.start, &self.brief.goals, &plan);
+        self.certificate = Certificate::of(&self.map, self.brief.start, &self.brief.goals, &plan)?;
         plan.reverse();
         self.plan = Some(plan);
         (self.at, self.heading) = (self.brief.start, self.brief.heading);
@@ -135,7 +138,7 @@ impl<S: Search> Driver<S> {
             start: self.brief.start,
             goals: &self.brief.goals,
         };
-        match self.search.next(&view) {
+        match self.search.next(&view)? {
             Next::Drive(leap) => Ok(self.drive(leap)),
             Next::Turn => {
                 self.heading = self.heading.right();

@@ -1,7 +1,7 @@
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::Walls;
 use tolman_planners::moves::Leap;
-use tolman_planners::{Passages, Unknown};
+use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::SIDE;
 use super::counter::pick;
@@ -31,15 +31,15 @@ impl RandomSearch {
 }
 
 impl Search for RandomSearch {
-    fn next(&mut self, view: &View<'_>) -> Next {
+    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
         self.arrived |= view.goals.contains(&view.at);
         let grid = view.map.grid();
         let inner = (grid.wall_count() - grid.border().count()) as u32;
         if self.arrived && 100 * (inner - view.map.unknown_count()) >= KNOWN_PERCENT * inner {
-            return Next::Reset;
+            return Ok(Next::Reset);
         }
-        let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
+        let known = Passages::<SIDE>::new(view.map, Unknown::Closed)?;
         let leaps: Vec<Leap> = Leap::all(&known, view.at).collect();
-        pick(&leaps, &mut self.rng).map_or(Next::Turn, Next::Drive)
+        Ok(pick(&leaps, &mut self.rng).map_or(Next::Turn, Next::Drive))
     }
 }

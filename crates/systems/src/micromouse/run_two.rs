@@ -84,7 +84,7 @@ mod tests {
         }
         maze.set_wall(Cell::new(3, 2), Direction::North, false);
         maze.set_wall(Cell::new(2, 2), Direction::East, false);
-        let known = Passages::new(&maze, Unknown::Closed);
+        let known = Passages::new(&maze, Unknown::Closed).unwrap();
         let steps = |run_two: RunTwo, goal| {
             let plan = run_two.plan(&known, Cell::new(0, 0), &[goal]);
             plan.map(|leaps| leaps.len())

@@ -1,6 +1,6 @@
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::Leap;
-use tolman_planners::{Passages, StepMap, Unknown};
+use tolman_planners::{Passages, StepMap, TooLarge, Unknown};
 
 use super::SIDE;
 use super::driver::{Next, Search, View};
@@ -25,35 +25,33 @@ impl TargetSearch {
 }
 
 impl Search for TargetSearch {
-    fn next(&mut self, view: &View<'_>) -> Next {
+    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
         self.arrived |= view.goals.contains(&view.at);
         let cells = |unknown| {
-            let passages = Passages::<SIDE>::new(view.map, unknown);
-            StepMap::new(&passages, view.goals.iter().copied()).steps(view.start)
+            let passages = Passages::<SIDE>::new(view.map, unknown)?;
+            let steps = StepMap::new(&passages, view.goals.iter().copied());
+            Ok(steps.steps(view.start))
         };
-        let Some(open) = cells(Unknown::Open) else {
-            return Next::Stuck;
+        let Some(open) = cells(Unknown::Open)? else {
+            return Ok(Next::Stuck);
         };
-        let path = if cells(Unknown::Closed) == Some(open) {
+        let path = if cells(Unknown::Closed)? == Some(open) {
             if self.arrived {
-                return Next::Reset;
+                return Ok(Next::Reset);
             }
             // "let the robot goes to any of the goal location if the goal is never actually visited"
-            let known = Passages::new(view.map, Unknown::Closed);
+            let known = Passages::new(view.map, Unknown::Closed)?;
             path(&known, view.at, view.goals)
         } else {
-            path_to_target(view)
+            path_to_target(view)?
         };
-        match leap(view, &path) {
-            Some(leap) => Next::Drive(leap),
-            None => Next::Turn,
-        }
+        Ok(leap(view, &path)?.map_or(Next::Turn, Next::Drive))
     }
 }
 
 /// The path to the nearest of the cells of largest uncertainty.
-fn path_to_target(view: &View<'_>) -> Vec<Direction> {
-    let hoped = Passages::<SIDE>::new(view.map, Unknown::Open);
+fn path_to_target(view: &View<'_>) -> Result<Vec<Direction>, TooLarge> {
+    let hoped = Passages::<SIDE>::new(view.map, Unknown::Open)?;
     let steps = StepMap::new(&hoped, [view.at]);
     let cells = view.map.grid().cells();
     let reached = cells.filter_map(|cell| Some((steps.steps(cell)?, cell)));
@@ -61,16 +59,18 @@ fn path_to_target(view: &View<'_>) -> Vec<Direction> {
     let target = reached
         .filter(|(_, cell)| view.map.uncertainty(*cell) > 0)
         .min_by_key(|(steps, cell)| (u8::MAX - view.map.uncertainty(*cell), *steps));
-    target.map_or_else(Vec::new, |(_, cell)| path(&hoped, view.at, &[cell]))
+    Ok(target.map_or_else(Vec::new, |(_, cell)| path(&hoped, view.at, &[cell])))
 }
 
 /// As far along the path as one step goes.
-fn leap(view: &View<'_>, path: &[Direction]) -> Option<Leap> {
-    let known = Passages::<SIDE>::new(view.map, Unknown::Closed);
-    let direction = *path.first()?;
+fn leap(view: &View<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLarge> {
+    let known = Passages::<SIDE>::new(view.map, Unknown::Closed)?;
+    let Some(&direction) = path.first() else {
+        return Ok(None);
+    };
     let straight = path.iter().take_while(|side| **side == direction);
     let leaps = Leap::along(&known, view.at, direction).zip(straight);
-    leaps.map(|(leap, _)| leap).last()
+    Ok(leaps.map(|(leap, _)| leap).last())
 }
 
 /// A shortest path to the nearest of `targets`, straight on where it can: the sides by which it leaves its cells.

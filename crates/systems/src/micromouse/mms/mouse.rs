@@ -4,7 +4,7 @@ use std::io::{BufRead, Write};
 
 use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
-use tolman_planners::{Passages, StepMap, Unknown, costs_from};
+use tolman_planners::{Passages, StepMap, TooLarge, Unknown, costs_from};
 
 use super::link::{Driven, Link};
 use super::plan::{Plan, ends_run, plan, score};
@@ -118,7 +118,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             if self.explore()? == Course::Lost {
                 continue;
             }
-            let (Some(run), Some(hoped)) = (self.best_run(Unknown::Closed), &self.hoped) else {
+            let (Some(run), Some(hoped)) = (self.best_run(Unknown::Closed)?, &self.hoped) else {
                 return Err(PlayError::NoWay);
             };
             let possible = hoped.cost;
@@ -128,7 +128,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
                 score(possible)
             ))?;
             self.show_stage("home")?;
-            let home = self.way_home().ok_or(PlayError::NoWay)?;
+            let home = self.way_home()?.ok_or(PlayError::NoWay)?;
             if self.follow(&home.stands)? == Course::Lost {
                 continue;
             }
@@ -159,7 +159,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             let Some(targets) = self.targets()? else {
                 return Ok(Course::Kept);
             };
-            let way = self.way_to(&targets).ok_or(PlayError::NoWay)?;
+            let way = self.way_to(&targets)?.ok_or(PlayError::NoWay)?;
             if self.follow(&way.stands)? == Course::Lost {
                 return Ok(Course::Lost);
             }
@@ -216,10 +216,10 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     /// The cells to stop in next, or none if the mouse has been at the goal and knows enough.
     fn targets(&mut self) -> Result<Option<Vec<Cell>>, PlayError> {
         if self.goal == Goal::Visited && self.until == Until::Goal {
-            self.replan();
+            self.replan()?;
             return Ok(None);
         }
-        let run = self.replan().ok_or(PlayError::NoWay)?;
+        let run = self.replan()?.ok_or(PlayError::NoWay)?;
         let mut targets = Vec::new();
         for (cell, side) in run.edges(self.walls.grid()) {
             if self.walls.knowledge(cell, side) == Knowledge::Unknown {
@@ -235,19 +235,22 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
 
     /// The best run that can be hoped for. Walls make no run better, so one that is not blocked
     /// stays the best.
-    fn replan(&mut self) -> Option<Plan> {
+    fn replan(&mut self) -> Result<Option<Plan>, TooLarge> {
         let walls = &self.walls;
         let is_wall = |(cell, side): (Cell, _)| walls.knowledge(cell, side) == Knowledge::Wall;
         let hoped = self.hoped.take();
         let still = hoped.filter(|plan| !plan.edges(walls.grid()).any(is_wall));
-        self.hoped = still.or_else(|| self.best_run(Unknown::Open));
-        self.hoped.clone()
+        self.hoped = match still {
+            Some(plan) => Some(plan),
+            None => self.best_run(Unknown::Open)?,
+        };
+        Ok(self.hoped.clone())
     }
 
-    fn best_run(&self, unknown: Unknown) -> Option<Plan> {
-        let passages = Passages::<N>::new(&self.walls, unknown);
+    fn best_run(&self, unknown: Unknown) -> Result<Option<Plan>, TooLarge> {
+        let passages = Passages::<N>::new(&self.walls, unknown)?;
         let roads = Roads::new(self.walls.grid(), &passages, TurnsAtStart::Free);
-        plan(&roads, Stand::START, |stand| self.is_goal(stand))
+        Ok(plan(&roads, Stand::START, |stand| self.is_goal(stand)))
     }
 
     fn is_goal(&self, stand: Stand) -> bool {
@@ -255,11 +258,11 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 
     /// To where the mouse can look on, on known ground: the place from which a target is near.
-    fn way_to(&self, targets: &[Cell]) -> Option<Plan> {
+    fn way_to(&self, targets: &[Cell]) -> Result<Option<Plan>, TooLarge> {
         let grid = self.walls.grid();
-        let hoped = Passages::<N>::new(&self.walls, Unknown::Open);
+        let hoped = Passages::<N>::new(&self.walls, Unknown::Open)?;
         let beyond = StepMap::new(&hoped, targets.iter().copied());
-        let known = Passages::<N>::new(&self.walls, Unknown::Closed);
+        let known = Passages::<N>::new(&self.walls, Unknown::Closed)?;
         let roads = Roads::new(grid, &known, TurnsAtStart::Count);
         let costs = costs_from(&roads, [roads.node(self.at)]);
         let cost_to = |cell: Cell| {
@@ -283,16 +286,18 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
                 let on = u32::from(beyond.steps(cell)?);
                 Some((cost_to(cell)? + ONE_CELL * on, cell))
             })
-            .min_by_key(|(cost, _)| *cost)?;
-        let place = Place::middle_of(stop.1);
-        plan(&roads, self.at, |stand| stand.place == place)
+            .min_by_key(|(cost, _)| *cost);
+        Ok(stop.and_then(|(_, cell)| {
+            let place = Place::middle_of(cell);
+            plan(&roads, self.at, |stand| stand.place == place)
+        }))
     }
 
     /// Home on known ground.
-    fn way_home(&self) -> Option<Plan> {
-        let known = Passages::<N>::new(&self.walls, Unknown::Closed);
+    fn way_home(&self) -> Result<Option<Plan>, TooLarge> {
+        let known = Passages::<N>::new(&self.walls, Unknown::Closed)?;
         let roads = Roads::new(self.walls.grid(), &known, TurnsAtStart::Count);
-        plan(&roads, self.at, |stand| stand.place == Place::START)
+        Ok(plan(&roads, self.at, |stand| stand.place == Place::START))
     }
 
     /// Drives from stand to stand, the first of which is a turn away at most.

@@ -1,5 +1,5 @@
 use tolman_maze::{Cell, Direction, Grid, Walls};
-use tolman_planners::{Found, Passages, Unknown, a_star};
+use tolman_planners::{Found, Passages, TooLarge, Unknown, a_star};
 
 use super::Place;
 use super::roads::{Roads, Stand, TurnsAtStart, edges};
@@ -7,14 +7,16 @@ use super::roads::{Roads, Stand, TurnsAtStart, edges};
 /// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in
 /// half-steps, without the tenth of all movements. Walls that are unknown count as standing; `None`
 /// if no way leads there. O(n log n) for n cells.
-#[must_use]
-pub fn best_score(walls: &impl Walls) -> Option<f32> {
+///
+/// # Errors
+/// If the maze has more than 32 columns or rows.
+pub fn best_score(walls: &impl Walls) -> Result<Option<f32>, TooLarge> {
     let grid = walls.grid();
-    let passages = Passages::<32>::new(walls, Unknown::Closed);
+    let passages = Passages::<32>::new(walls, Unknown::Closed)?;
     let roads = Roads::new(grid, &passages, TurnsAtStart::Free);
     let goals: Vec<Cell> = grid.middle().collect();
-    let run = plan(&roads, Stand::START, |stand| ends_run(stand, &goals))?;
-    Some(score(run.cost))
+    let run = plan(&roads, Stand::START, |stand| ends_run(stand, &goals));
+    Ok(run.map(|run| score(run.cost)))
 }
 
 /// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the

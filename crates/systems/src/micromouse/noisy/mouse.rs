@@ -123,7 +123,8 @@ impl NoisyMouse {
     pub fn explore<R: NoisyBody>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error> {
         let at = self.cell();
         let decision = self.explorer.decide(&self.belief, &self.brief.goals, at);
-        match decision {
+        // `new` has refused a maze that is too large.
+        match decision.unwrap_or(MoveDecision::Stuck) {
             MoveDecision::Drive(leap) => self.leap(robot, leap)?,
             MoveDecision::Turn => self.turn_to(robot, self.looks_to().right())?,
             MoveDecision::Finished { .. } => return Ok(NoisyNext::Done),
@@ -153,7 +154,8 @@ impl NoisyMouse {
         [Unknown::Closed, Unknown::Open]
             .into_iter()
             .find_map(|unknown| {
-                let passages = Passages::<SIDE>::new(&self.belief, unknown);
+                // `new` has refused a maze that is too large.
+                let passages = Passages::<SIDE>::new(&self.belief, unknown).ok()?;
                 let map = MoveMap::new(&passages, self.brief.goals.iter().copied());
                 map.way(&passages, self.cell()).next()
             })

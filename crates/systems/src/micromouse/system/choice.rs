@@ -2,7 +2,7 @@
 
 use tolman_maze::{Cell, Direction};
 use tolman_planners::moves::Leap;
-use tolman_planners::{Passages, Unknown};
+use tolman_planners::{Passages, TooLarge, Unknown};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::MazeMouse;
@@ -20,49 +20,64 @@ pub(super) enum Choice {
 
 impl<S: Search> MazeMouse<S> {
     pub(super) fn choose(&mut self, task: Task) -> Choice {
-        match task {
+        let choice = match task {
             Task::Explore => self.choose_to_explore(),
             Task::Reach(goal) => match self.cells_of(goal) {
                 Some(targets) => self.choose_to_reach(&targets),
-                None => give_up("the mouse knows the start, the goals, and cells of the maze"),
+                None => Ok(give_up(
+                    "the mouse knows the start, the goals, and cells of the maze",
+                )),
             },
-            Task::Localize => give_up("the mouse is told where it starts, and cannot find out"),
-        }
+            Task::Localize => Ok(give_up(
+                "the mouse is told where it starts, and cannot find out",
+            )),
+        };
+        choice.unwrap_or_else(|too_large| give_up(too_large.to_string()))
     }
 
-    fn choose_to_explore(&mut self) -> Choice {
+    fn choose_to_explore(&mut self) -> Result<Choice, TooLarge> {
         let view = View {
             map: &self.walls,
             at: self.at,
             start: self.brief.start,
             goals: &self.brief.goals,
         };
-        match self.search.next(&view) {
+        Ok(match self.search.next(&view)? {
             Next::Drive(leap) => Choice::Drive(sides(&[leap])),
             Next::Turn => Choice::Turn,
             Next::Reset => Choice::End(Standing::Done),
             Next::Stuck => give_up("no way leads to a goal"),
-        }
+        })
     }
 
-    fn choose_to_reach(&self, targets: &[Cell]) -> Choice {
+    fn choose_to_reach(&self, targets: &[Cell]) -> Result<Choice, TooLarge> {
         if targets.contains(&self.at) {
-            return Choice::End(Standing::Done);
+            return Ok(Choice::End(Standing::Done));
         }
-        if let Some(run) = self.run(Unknown::Closed, self.at, targets) {
-            return Choice::Drive(sides(&run));
+        if let Some(run) = self.run(Unknown::Closed, self.at, targets)? {
+            return Ok(Choice::Drive(sides(&run)));
         }
         // What it sees at the end of the first leap may change the rest.
-        match self.run(Unknown::Open, self.at, targets).as_deref() {
-            Some([leap, ..]) => Choice::Drive(sides(&[*leap])),
-            _ => give_up("no way leads there"),
-        }
+        Ok(
+            match self.run(Unknown::Open, self.at, targets)?.as_deref() {
+                Some([leap, ..]) => Choice::Drive(sides(&[*leap])),
+                _ => give_up("no way leads there"),
+            },
+        )
     }
 
-    /// The best run that is certain, or that can be hoped for.
-    pub(super) fn run(&self, unknown: Unknown, from: Cell, targets: &[Cell]) -> Option<Vec<Leap>> {
-        let passages = Passages::new(&self.walls, unknown);
-        self.run_two.plan(&passages, from, targets)
+    /// Returns the best run that is certain, or that can be hoped for, if there is one.
+    ///
+    /// # Errors
+    /// If the maze has more than [`SIDE`](crate::micromouse::SIDE) columns or rows.
+    pub(super) fn run(
+        &self,
+        unknown: Unknown,
+        from: Cell,
+        targets: &[Cell],
+    ) -> Result<Option<Vec<Leap>>, TooLarge> {
+        let passages = Passages::new(&self.walls, unknown)?;
+        Ok(self.run_two.plan(&passages, from, targets))
     }
 
     /// The cells where a goal is reached, if there are any.
@@ -79,7 +94,7 @@ impl<S: Search> MazeMouse<S> {
     }
 }
 
-fn give_up(why: &str) -> Choice {
+fn give_up(why: impl Into<String>) -> Choice {
     Choice::End(Standing::gave_up(why))
 }
 

@@ -112,8 +112,9 @@ impl<S: Search> MazeMouse<S> {
     #[must_use]
     pub fn certificate(&self) -> Option<Certificate> {
         let Brief { start, goals, .. } = &self.brief;
-        let run = self.run(Unknown::Closed, *start, goals)?;
-        Certificate::of(&self.walls, *start, goals, &run)
+        // `new` has refused a maze that is too large.
+        let run = self.run(Unknown::Closed, *start, goals).ok()??;
+        Certificate::of(&self.walls, *start, goals, &run).ok()?
     }
 }
 

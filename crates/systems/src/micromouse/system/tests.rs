@@ -217,7 +217,7 @@ fn moves(walk: &[Cell]) -> u16 {
 }
 
 fn fewest_moves(maze: &Maze) -> u16 {
-    let passages = Passages::<SIDE>::new(maze, Unknown::Closed);
+    let passages = Passages::<SIDE>::new(maze, Unknown::Closed).unwrap();
     let map = MoveMap::new(&passages, maze.goals().iter().copied());
     map.moves(maze.start().unwrap().0).unwrap()
 }

@@ -251,6 +251,7 @@ pub(in crate::cli) fn see(step: &Step<'_>, mut show: impl FnMut(&Now<'_>)) {
             Outcome::Completed => "done",
             Outcome::CutShort => "cut short",
             Outcome::Failed => "failed",
+            Outcome::TimedOut => "timed out",
         };
         format!("{action}: {outcome}")
     });

@@ -1,0 +1,27 @@
+use tolman_maze::Grid;
+
+/// The maze does not fit into the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the maze is {} × {} cells and the map holds {side} × {side}: use a larger map",
+    grid.width(), grid.height()
+)]
+pub struct TooLarge {
+    /// The size of the maze.
+    pub grid: Grid,
+    /// The most columns and rows.
+    pub side: usize,
+}
+
+impl TooLarge {
+    /// Returns the error if a maze of the size of `grid` has more than `side` columns or rows.
+    ///
+    /// # Errors
+    /// That one.
+    pub const fn check(grid: Grid, side: usize) -> Result<(), Self> {
+        if grid.width() as usize > side || grid.height() as usize > side {
+            return Err(Self { grid, side });
+        }
+        Ok(())
+    }
+}
