@@ -8,6 +8,7 @@
 mod bodies;
 mod camera;
 mod casters;
+mod disturbances;
 mod epuck;
 mod leaks;
 mod noise;
