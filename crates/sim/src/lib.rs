@@ -19,6 +19,8 @@
 //!
 //! Mappers that see places alone have a world of their own, without bodies and time: [`abstract_world`].
 //!
+//! The feature `parry2d`, on by default, adds a reference to hold the ray casters to: see [`casters`].
+//!
 //! Metres, radians, microseconds; x is east, y is north, angles grow counter-clockwise.
 //!
 //! ```

@@ -7,6 +7,7 @@
 
 mod bodies;
 mod camera;
+#[cfg(feature = "parry2d")]
 mod casters;
 mod disturbances;
 mod epuck;
