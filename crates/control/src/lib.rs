@@ -59,6 +59,12 @@
 
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+pub use tolman_geom as geom;
+pub use tolman_maze as maze;
+pub use tolman_robot as robot;
+
 mod avoid;
 mod center;
 mod corridor;

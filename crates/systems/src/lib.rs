@@ -8,6 +8,17 @@
 
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+pub use rand_chacha;
+pub use tolman_control as control;
+pub use tolman_geom as geom;
+pub use tolman_maps as maps;
+pub use tolman_maze as maze;
+pub use tolman_planners as planners;
+pub use tolman_quantizers as quantizers;
+pub use tolman_robot as robot;
+
 mod actor;
 pub mod baselines;
 mod brain;

@@ -15,4 +15,5 @@ mod leaks;
 mod noise;
 mod sensing;
 mod traces;
+mod two_crates;
 mod worlds;
