@@ -22,6 +22,9 @@
 //! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which [`Stack::paper`]
 //! takes and converts once.
 //!
+//! With the feature `serde` layers and configurations can be saved and loaded. What is read is checked: a number without
+//! sense or an unknown field is refused. Of a layer its gains are saved, not the action it is in.
+//!
 //! # On your own robot
 //!
 //! The gains are fractions of a full motor command, so the drive decides what they do. One full turn
@@ -74,6 +77,8 @@ mod layer;
 mod move_layer;
 mod orient;
 mod outcome;
+#[cfg(feature = "serde")]
+mod read;
 mod stack;
 
 pub use avoid::Avoid;
