@@ -51,7 +51,7 @@ fn pilot() -> PilotConfig {
         step_us: 10_000,
         samples: 100,
         sweep_speed: 4.9,
-        most_wheel_speed: 6.28,
+        most_wheel_speed: 6.0,
         turn_tolerance: 1e-6,
         curve: RangeCurve::cpm(),
         forward: ForwardConfig::for_width(0.2),
