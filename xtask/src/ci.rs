@@ -44,6 +44,12 @@ const STEPS: &[Step] = &[
     ("mazes", || passed(mazes::check_with(|| built("tolman")))),
     // What a user builds: without the features that nobody but the steps above switches on.
     ("plain build", || passes("check --workspace --quiet")),
+    // A workspace's members switch one another's default features on.
+    ("no parry2d", || {
+        passes(
+            "clippy --package tolman-sim --no-default-features --all-targets --quiet -- --deny warnings",
+        )
+    }),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run(false))),
     ("bare metal", bare_metal::check),

@@ -3,6 +3,7 @@
 //! The page's tables are the rule, `cargo metadata` is the fact; [`rules::faults`] compares them.
 
 mod page;
+mod reexports;
 mod rules;
 mod size;
 
@@ -21,7 +22,9 @@ pub(crate) fn run() -> Result<()> {
     let page = read_page()?;
     let packages = packages()?;
     let mut faults = rules::faults(&page, &packages);
-    faults.extend(size::faults(&workspace::root().join("crates"))?);
+    let crates = workspace::root().join("crates");
+    faults.extend(reexports::faults(&page.stable, &packages, &crates)?);
+    faults.extend(size::faults(&crates)?);
     if faults.is_empty() {
         let edges: usize = packages
             .iter()

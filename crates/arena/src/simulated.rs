@@ -100,8 +100,16 @@ impl<M: Recordable> Simulated<M> {
     /// The run is made once more for it: the same commands make the same run, if nobody lifted the robot or moved a door.
     ///
     /// # Errors
-    /// If the robot cannot be built again, or a line has no JSON form.
+    /// If the robot cannot be built again by its configuration alone, or a line has no JSON form.
     pub fn trace(&self) -> Result<Vec<u8>, BoxError> {
+        let disturbances = self.model().disturbances();
+        if !disturbances.is_empty() {
+            let disturbances = disturbances.join(", ");
+            return Err(format!(
+                "a robot with {disturbances} is not built by its configuration alone"
+            )
+            .into());
+        }
         let model = M::from_config(self.model().config().clone())?;
         let mut lines = Vec::new();
         let world = Arc::clone(self.solo.simulation().world());

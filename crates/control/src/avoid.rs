@@ -10,19 +10,33 @@ use crate::{Layer, Outcome, Proposal, Situation};
 /// already made, failed if not. The eight beside them end it only when far below the buffer, and
 /// otherwise add a small turn away from the nearest wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Avoid {
     /// Clear distance wanted ahead, from the robot's centre, m. Paper: 0.9 units.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub buffer: f64,
     /// A range this near beside the middle ends the action too, m. Paper: "much less than the
     /// buffer"; here half of it.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub far_below: f64,
     /// Turn command added away from a wall beside. Paper: "a small rotation"; here 0.05, as Center's.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn: f64,
     /// Beams from the middle one that are "directly in front" on either side. Paper: 1 of 72.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::beams"))]
     pub ahead: usize,
     /// Beams beyond those, on either side, that are watched. Paper: 4 of 72.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::beams"))]
     pub beside: usize,
     /// Whether this action has made a step ahead, and one back.
+    #[cfg_attr(feature = "serde", serde(skip))]
     stepped: Steps,
 }
 

@@ -4,10 +4,14 @@ use crate::{Layer, Proposal, Situation};
 
 /// Steers to the middle of a corridor while the robot moves (MSLST, "Center").
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Center {
     /// Ratio of the distances to the two walls above which it steers. Paper: 1.25.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub ratio: f64,
     /// Turn command added towards the middle. Paper: 0.05.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn: f64,
 }
 

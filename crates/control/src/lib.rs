@@ -24,6 +24,9 @@
 //! paper's own figures are in *robot units* (1 unit = 1 robot diameter), which [`Stack::paper`]
 //! takes and converts once.
 //!
+//! With the feature `serde` layers and configurations can be saved and loaded. What is read is checked: a number without
+//! sense or an unknown field is refused. Of a layer its gains are saved, not the action it is in.
+//!
 //! # On your own robot
 //!
 //! The gains are fractions of a full motor command, so the drive decides what they do. One full turn
@@ -63,6 +66,12 @@
 
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+pub use tolman_geom as geom;
+pub use tolman_maze as maze;
+pub use tolman_robot as robot;
+
 mod avoid;
 mod center;
 mod corridor;
@@ -72,6 +81,8 @@ mod layer;
 mod move_layer;
 mod orient;
 mod outcome;
+#[cfg(feature = "serde")]
+mod read;
 mod settle;
 mod stack;
 

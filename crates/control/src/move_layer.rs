@@ -22,16 +22,26 @@ pub const fn heading_of(direction: Direction) -> Heading {
 /// tolerance, then translates for a fixed number of steps without checking the distance covered or
 /// the heading any more. Forward and backward are the same to it: it takes whichever turns less.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Move {
     /// Turn command per degree of heading error. Paper: 0.0105.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn_per_degree: f64,
     /// Heading error at which turning ends, degrees. Paper: 4.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub tolerance_deg: f64,
     /// Translation command. Paper: 0.25.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub translate: f64,
     /// Steps of translation that make an action. Paper: 2.
     pub translate_steps: u32,
+    #[cfg_attr(feature = "serde", serde(skip, default = "north"))]
     target: Heading,
+    #[cfg_attr(feature = "serde", serde(skip, default = "turning"))]
     phase: Phase,
 }
 
@@ -39,6 +49,16 @@ pub struct Move {
 enum Phase {
     Turning,
     Translating { ahead: bool, steps_left: u32 },
+}
+
+#[cfg(feature = "serde")]
+const fn north() -> Heading {
+    Heading::NORTH
+}
+
+#[cfg(feature = "serde")]
+const fn turning() -> Phase {
+    Phase::Turning
 }
 
 impl Move {

@@ -13,17 +13,33 @@ use crate::{Layer, Outcome, Proposal, Situation};
 /// - **Stuck**: where the walls are noticeably nearer than the corridor is wide, the robot stands in a
 ///   corner: a small random translation is added instead.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Orient {
     /// Turn command per beam of misalignment. Paper: 0.04 at 72 beams.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn_per_beam: f64,
     /// Move's turn command for an eighth of a circle: its 0.0105 a degree times 45.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub across_above: f64,
     /// Misalignment at which the robot stands square across the corridor, beams: a quarter circle.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub square_beams: f64,
     /// Narrower than this is a corner, m. Paper: "noticeably less than the width"; here 0.95 widths,
     /// since in a corridor the least sum is the width to within half a percent.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub corner_below: f64,
     /// Largest random translation out of a corner. Paper: "small"; here 0.1.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub nudge: f64,
 }
 

@@ -32,6 +32,12 @@
 //! assert!(figure.standalone().starts_with("<svg xmlns="));
 //! ```
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use tolman_geom as geom;
+pub use tolman_robot as robot;
+pub use tolman_sim as sim;
+pub use tolman_stats as stats;
+
 mod boxplot;
 mod chart;
 mod figure;

@@ -28,6 +28,9 @@
 //! ```
 #![no_std]
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use nalgebra;
+
 mod heading;
 mod interval;
 mod point_box;

@@ -14,6 +14,18 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+#[cfg(feature = "alloc")]
+pub use rand;
+#[cfg(feature = "alloc")]
+pub use tolman_geom as geom;
+pub use tolman_maze as maze;
+pub use tolman_planners as planners;
+#[cfg(feature = "alloc")]
+pub use tolman_quantizers as quantizers;
+#[cfg(feature = "alloc")]
+pub use tolman_robot as robot;
+
 #[cfg(feature = "alloc")]
 pub mod cpm;
 #[cfg(feature = "alloc")]

@@ -55,6 +55,10 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+#[cfg(feature = "alloc")]
+pub use rand;
+
 mod cell;
 #[cfg(feature = "alloc")]
 mod check_error;

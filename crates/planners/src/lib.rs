@@ -27,6 +27,9 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use tolman_maze as maze;
+
 #[cfg(feature = "alloc")]
 mod arcs;
 #[cfg(feature = "alloc")]

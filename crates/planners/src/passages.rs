@@ -24,6 +24,8 @@ pub struct Passages<const N: usize> {
 
 /// What to take a wall for that nobody has looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Unknown {
     /// Open: what can be hoped for. No way in the maze is shorter than the shortest hoped for.
     Open,

@@ -40,6 +40,9 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+
 mod associative_memory;
 mod error;
 mod event;

@@ -27,6 +27,12 @@
 
 extern crate alloc;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use tolman_geom as geom;
+pub use tolman_maze as maze;
+pub use tolman_robot as robot;
+pub use tolman_sim as sim;
+
 mod blob;
 mod difference;
 mod encode;

@@ -13,6 +13,9 @@ extern crate alloc;
 #[cfg(feature = "epuck-serial")]
 extern crate std;
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use tolman_geom as geom;
+
 mod body;
 mod capabilities;
 mod column_image;

@@ -76,8 +76,13 @@ impl Channel {
     #[must_use]
     pub const fn named(name: &str) -> Self {
         // FNV-1a: constant at compile time, and names are few.
-        let bytes = name.as_bytes();
-        let mut hash: u32 = 0x811C_9DC5;
+        Self(0x811C_9DC5).joined(name)
+    }
+
+    /// The channel of this one's name with `more` behind it.
+    pub(crate) const fn joined(self, more: &str) -> Self {
+        let bytes = more.as_bytes();
+        let mut hash = self.0;
         let mut index = 0;
         while index < bytes.len() {
             hash = (hash ^ bytes[index] as u32).wrapping_mul(0x0100_0193);

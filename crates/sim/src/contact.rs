@@ -28,6 +28,8 @@ const CUT: f64 = 1e-12;
 
 /// The longest turn along one chord, rad.
 const CHORD_TURN: f64 = 0.1;
+/// Chords of one motion at most, so that a step ends whatever turn a disturbance makes.
+const MOST_CHORDS: f64 = 10_000.0;
 
 /// Whether `body` overlaps no wall of `world` and none of the doors that are `shut`.
 pub(crate) fn is_clear(world: &World, shut: &[Wall], body: &Placed) -> bool {
@@ -164,7 +166,9 @@ pub(crate) fn advance(
 /// Moves a body along an arc as far as the obstacles let it; gives how much of the motion was cut, m.
 fn follow(body: &mut Placed, obstacles: &Obstacles, motion: Motion, contact: Contact) -> f64 {
     let start = body.pose();
-    let chords = (motion.turn.abs() / CHORD_TURN).ceil().max(1.0);
+    let chords = (motion.turn.abs() / CHORD_TURN)
+        .ceil()
+        .clamp(1.0, MOST_CHORDS);
     let along = |chord: u32| {
         let share = f64::from(chord) / chords;
         start

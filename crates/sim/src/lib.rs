@@ -19,12 +19,17 @@
 //!
 //! Mappers that see places alone have a world of their own, without bodies and time: [`abstract_world`].
 //!
+//! With [`tolman_robot`] this crate suffices for a robot in a world: [`geom`], [`maze`] and [`rand`], which its signatures
+//! need, are re-exported.
+//!
+//! The feature `parry2d`, on by default, adds a reference to hold the ray casters to: see [`casters`].
+//!
 //! Metres, radians, microseconds; x is east, y is north, angles grow counter-clockwise.
 //!
 //! ```
-//! use tolman_maze::{Cell, Direction, Grid, Maze};
-//! use tolman_geom::{Heading, Pose};
 //! use tolman_robot::{Robot, TurnTranslate};
+//! use tolman_sim::geom::{Heading, Pose};
+//! use tolman_sim::maze::{Cell, Grid, Maze};
 //! use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 //! use tolman_sim::{CorridorSize, Solo, World};
 //!
@@ -44,6 +49,12 @@
 //! ```
 
 extern crate alloc;
+
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+pub use tolman_geom as geom;
+pub use tolman_maze as maze;
+pub use tolman_robot as robot;
 
 mod body;
 mod chance;

@@ -4,16 +4,22 @@
 //! [`Faults`] are several of one value, one after the other. Every fault draws from a
 //! [`Channel`](crate::Channel) of its own, so none shifts another one's numbers.
 //!
-//! To add one: give [`Fault`] a variant. Kidnapping is no fault of the robot: see
+//! To add one to a configuration: give [`Fault`] a variant. To add one from another crate: implement
+//! [`Disturbance`], and give it to the robot after it was built. [`Noise`] makes one of any distribution of
+//! `rand` or `rand_distr`.
+//!
+//! Kidnapping is no fault of the robot: see
 //! [`Simulation::place`](crate::Simulation::place).
 
 use tolman_geom::Heading;
 use tolman_robot::{ColumnImage, Scan};
 
+mod disturbance;
 mod fault;
 mod faults;
 mod gaussian;
 
+pub use disturbance::{CloneDisturbance, Disturbance, Disturbances, Noise};
 pub use fault::{Fault, FaultError, FaultsError};
 pub use faults::Faults;
 pub use gaussian::Gaussian;
@@ -22,6 +28,17 @@ pub use gaussian::Gaussian;
 pub trait Values: Clone {
     /// Replaces every number by what `change` makes of it.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
+
+    /// Whether the value is one that a sensor or a motor can give: all its numbers are finite, and as many and as
+    /// large as its type promises.
+    fn is_sound(&self) -> bool {
+        let mut is_sound = true;
+        self.clone().change(|number| {
+            is_sound &= number.is_finite();
+            number
+        });
+        is_sound
+    }
 }
 
 impl Values for f64 {
@@ -53,6 +70,13 @@ impl Values for Scan {
             *range = change(*range).clamp(0.0, max_range);
         }
     }
+
+    /// One range per beam of the ring, each from 0 to its maximum.
+    fn is_sound(&self) -> bool {
+        let within = 0.0..=self.ring.max_range;
+        self.ranges.len() == self.ring.beams as usize
+            && self.ranges.iter().all(|range| within.contains(range))
+    }
 }
 
 impl Values for ColumnImage {
@@ -61,6 +85,12 @@ impl Values for ColumnImage {
         for value in self.columns.iter_mut().flatten() {
             *value = change(*value).clamp(0.0, 1.0);
         }
+    }
+
+    /// Each measurement from 0 to 1.
+    fn is_sound(&self) -> bool {
+        let mut all = self.columns.iter().flatten();
+        all.all(|value| (0.0..=1.0).contains(value))
     }
 }
 

@@ -1,11 +1,24 @@
 //! The robots, one file each, reading like their data sheets.
 
+use crate::noise::{Faults, Values};
+
 mod camera_pioneer;
 mod epuck;
 mod laser_pioneer;
 
-pub use camera_pioneer::{CameraPioneer, CameraPioneerConfig, CameraPioneerError};
-pub use epuck::{Epuck, EpuckConfig, EpuckError};
-pub use laser_pioneer::{
-    ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise,
+pub use camera_pioneer::{
+    CameraPioneer, CameraPioneerConfig, CameraPioneerDisturbances, CameraPioneerError,
 };
+pub use epuck::{Epuck, EpuckConfig, EpuckDisturbances, EpuckError};
+pub use laser_pioneer::{
+    ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, LaserPioneerFaults,
+    MotorNoise,
+};
+
+/// What a trace calls the disturbances of one value: the name of the value, and how each prints itself.
+fn names<V: Values>(value: &str, faults: &Faults<V>) -> impl Iterator<Item = String> {
+    faults
+        .disturbances()
+        .iter()
+        .map(move |disturbance| format!("{value}: {disturbance:?}"))
+}

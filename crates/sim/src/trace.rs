@@ -5,6 +5,9 @@
 //! lifted and every door that was moved from outside. [`replay`] simulates the commands again and
 //! compares every number; a [`Reader`] only reads.
 //!
+//! A [`Disturbance`](crate::noise::Disturbance) is code, which no file can hold. The trace of a robot that has one
+//! names it in the first line; [`replay`] then refuses, and [`replay_with`] asks for the robot.
+//!
 //! ```
 //! use tolman_geom::{Heading, Point, Pose};
 //! use tolman_robot::TurnTranslate;
@@ -43,7 +46,7 @@ pub use error::{RecordError, ReplayError};
 pub use lines::{Event, StepRecord};
 pub use reader::Reader;
 pub use recording::{Detail, Recording};
-pub use replay::replay;
+pub use replay::{replay, replay_with};
 
 use crate::Model;
 
@@ -66,4 +69,10 @@ pub trait Recordable:
     fn from_config(config: Self::Config) -> Result<Self, Self::ConfigError>
     where
         Self: Sized;
+
+    /// What disturbs this one from outside its configuration, each as a text that tells it from others; see
+    /// [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since it cannot keep the code.
+    fn disturbances(&self) -> Vec<String> {
+        Vec::new()
+    }
 }

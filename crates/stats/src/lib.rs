@@ -4,6 +4,9 @@
 //! logarithms ([`PValue`]), so the deep tails of large samples do not underflow. All functions are
 //! deterministic on every platform; the bootstrap draws from the caller's generator.
 
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+
 mod beta;
 mod bootstrap;
 mod effect;

@@ -5,8 +5,37 @@
 //!
 //! MSLST and its [`baselines`] share a body: a [`Brain`] observes a [`TimeStep`] at a time and chooses compass
 //! directions, and an [`Actor`] lets it drive a robot through the layers of `tolman-control`.
+//!
+//! With `tolman-robot` this crate suffices for a system on a robot: what its signatures need of other crates is
+//! re-exported.
+//!
+//! ```
+//! use tolman_systems::control::{RingError, Stack};
+//! use tolman_systems::cpm::{Cpm, CpmConfig, RingMeasures};
+//! use tolman_systems::maps::cpm::CpmError;
+//! use tolman_systems::robot::Ring;
+//!
+//! fn cpm(measures: &RingMeasures) -> Result<Cpm, CpmError> {
+//!     Cpm::unlearned(measures.walker_config(), CpmConfig::robust(), 1)
+//! }
+//!
+//! fn layers(ring: Ring) -> Result<Stack, RingError> {
+//!     Stack::paper(ring, 0.3, 0.57)
+//! }
+//! ```
 
 extern crate alloc;
+
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use rand;
+pub use rand_chacha;
+pub use tolman_control as control;
+pub use tolman_geom as geom;
+pub use tolman_maps as maps;
+pub use tolman_maze as maze;
+pub use tolman_planners as planners;
+pub use tolman_quantizers as quantizers;
+pub use tolman_robot as robot;
 
 mod actor;
 pub mod baselines;

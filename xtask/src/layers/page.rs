@@ -1,4 +1,4 @@
-//! The two tables of the architecture page that are read by machine.
+//! What is read by machine of the architecture page: two tables and the list of stable crates.
 
 use anyhow::{Context, Result, bail, ensure};
 
@@ -9,6 +9,8 @@ pub(crate) struct Page {
     pub(crate) crates: Vec<CrateRow>,
     /// The table `outside crate | seen by | why`.
     pub(super) outside: Vec<OutsideRow>,
+    /// The crates to which semantic versioning applies, without `tolman-`; empty if the page has no such sentence.
+    pub(super) stable: Vec<String>,
 }
 
 /// One crate of the workspace.
@@ -58,8 +60,19 @@ impl Page {
         Ok(Self {
             crates: rows(text, crates, crate_row)?,
             outside: rows(text, outside, outside_row)?,
+            stable: stable(text),
         })
     }
+}
+
+/// The names in backticks between "Semantic versioning applies" and "The rest".
+fn stable(text: &str) -> Vec<String> {
+    let sentence = text
+        .split_once("Semantic versioning applies")
+        .and_then(|(_, after)| after.split_once("The rest"))
+        .map_or("", |(sentence, _)| sentence);
+    let names = sentence.split('`').skip(1).step_by(2);
+    names.map(str::to_owned).collect()
 }
 
 fn outside_row([pattern, seen_by, _]: [&str; 3]) -> Result<OutsideRow> {

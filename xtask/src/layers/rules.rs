@@ -19,7 +19,7 @@ pub(super) enum Kind {
 
 impl Package {
     /// What is needed to build it.
-    fn uses(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn uses(&self) -> impl Iterator<Item = &str> {
         let normal = self
             .dependencies
             .iter()

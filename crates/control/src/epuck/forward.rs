@@ -24,16 +24,29 @@ enum Side {
 
 /// The gains of layer 1. The paper gives none.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ForwardConfig {
     /// How fast it drives, m/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub speed: f64,
     /// How fast it turns in a bend, rad/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub turn: f64,
     /// Half the width of a corridor, m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub half_width: f64,
     /// Turn for a metre off the middle, rad/s.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub to_middle: f64,
     /// Turn for a radian off the direction of the walls, rad/s.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub along: f64,
 }
 

@@ -8,6 +8,8 @@ use super::Echoes;
 /// It slows the proposal down as something comes near ahead, and turns away from it.
 /// The paper gives no values.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 pub struct KeepOff {
     /// Between body and wall, m: where slowing down begins.
     pub margin: f64,
@@ -15,6 +17,43 @@ pub struct KeepOff {
     pub least: f64,
     /// How fast it turns away where driving ends, rad/s.
     pub turn: f64,
+}
+
+/// A layer 0 as it stands in a file.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    #[serde(deserialize_with = "crate::read::positive")]
+    margin: f64,
+    #[serde(deserialize_with = "crate::read::at_least_zero")]
+    least: f64,
+    #[serde(deserialize_with = "crate::read::finite")]
+    turn: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for KeepOff {
+    type Error = alloc::string::String;
+
+    fn try_from(unchecked: Unchecked) -> Result<Self, Self::Error> {
+        let Unchecked {
+            margin,
+            least,
+            turn,
+        } = unchecked;
+        if least < margin {
+            Ok(Self {
+                margin,
+                least,
+                turn,
+            })
+        } else {
+            Err(alloc::format!(
+                "`least` is {least} m: give less than the `margin` of {margin} m"
+            ))
+        }
+    }
 }
 
 impl KeepOff {

@@ -6,11 +6,41 @@ use super::{Profile, RangeCurve};
 
 /// Where the middle of a junction is looked for. The paper does not say how a junction is entered.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 pub struct MeetPointConfig {
     /// How far from the robot it may be, m.
     pub reach: f64,
     /// How fine positions are told apart, m.
     pub resolution: f64,
+}
+
+/// A configuration as it stands in a file.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    #[serde(deserialize_with = "crate::read::at_least_zero")]
+    reach: f64,
+    #[serde(deserialize_with = "crate::read::positive")]
+    resolution: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for MeetPointConfig {
+    type Error = alloc::string::String;
+
+    /// The search takes (reach / resolution)² steps, so a file may not ask for any number of them.
+    fn try_from(unchecked: Unchecked) -> Result<Self, Self::Error> {
+        let Unchecked { reach, resolution } = unchecked;
+        if reach <= 1000.0 * resolution {
+            Ok(Self { reach, resolution })
+        } else {
+            Err(alloc::format!(
+                "`reach` is {reach} m: give at most 1000 times the `resolution` of {resolution} m"
+            ))
+        }
+    }
 }
 
 impl MeetPointConfig {

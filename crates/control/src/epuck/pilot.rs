@@ -23,17 +23,33 @@ const PATIENCE: u32 = 10;
 
 /// What a pilot holds to.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PilotConfig {
     /// Length of the robot's time step, µs.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_one_long")
+    )]
     pub step_us: u64,
     /// Samples of a sweep; the paper takes 100.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_one")
+    )]
     pub samples: u32,
     /// How fast the robot turns in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real robot had 3π/5.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub sweep_speed: f64,
     /// How fast the wheels are told to turn at most, rad/s: what they can, 6.28.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub most_wheel_speed: f64,
     /// How far a turn may end from where it should, rad: no less than the encoders can tell, [`TURN_STEP`] on the real robot, next to
     /// nothing where they are exact. What is left of a sample's turn is made up for by the next.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_zero")
+    )]
     pub turn_tolerance: f64,
     /// What the raw values of the proximity sensors mean.
     pub curve: RangeCurve,

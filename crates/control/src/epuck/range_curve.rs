@@ -13,6 +13,11 @@ use thiserror::Error;
 /// # Ok::<(), tolman_control::epuck::RangeCurveError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")
+)]
 pub struct RangeCurve {
     /// Range, m, and value there.
     points: Vec<(f64, f64)>,
@@ -107,6 +112,21 @@ impl RangeCurve {
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.0)
+    }
+}
+
+impl TryFrom<Vec<(f64, f64)>> for RangeCurve {
+    type Error = RangeCurveError;
+
+    fn try_from(points: Vec<(f64, f64)>) -> Result<Self, RangeCurveError> {
+        Self::new(points)
+    }
+}
+
+impl From<RangeCurve> for Vec<(f64, f64)> {
+    /// The ranges, m, and the values there.
+    fn from(curve: RangeCurve) -> Self {
+        curve.points
     }
 }
 

@@ -44,19 +44,30 @@ pub struct Segment {
 /// How a profile is segmented.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SegmentConfig {
     /// δ: over how many samples a change is averaged, at least 1. The paper calls it the estimated error and gives no value.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_one")
+    )]
     pub window: u32,
     /// Raw values are cut to this before steps between them are taken, so that the sharp edge of a near wall does not hide all other
     /// boundaries. The paper cuts nothing, which is `f64::INFINITY`.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::positive_or_infinite")
+    )]
     pub ceiling: f64,
     /// A segment whose mean lies below this raw value is a space: a way on. The paper gives no value.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub space_below: f64,
     /// Fewer samples than this are no space but the foot of a wall's edge, or a gap between walls far away. The paper says nothing of it,
     /// which is 1.
     pub narrowest_space: u32,
     /// Neighbouring segments whose means lie both below this, or both not, are made one, so that ways and walls alternate. The paper joins
     /// none, which is 0.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub way_below: f64,
 }
 

@@ -6,6 +6,8 @@ use tolman_planners::{Graph, path_to, steps_from};
 
 /// Where a node was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Zone {
     /// While the robot was in the destination zone: a destination node.
     Destination,
@@ -15,6 +17,8 @@ pub enum Zone {
 
 /// One node: a state met at some place. The same state at another place is another node.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Node {
     /// The number of the quantizer's state.
     pub state: u32,
@@ -26,6 +30,8 @@ pub struct Node {
 
 /// "If node A has an east connection to node B …, then node B also has a west connection to node A."
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Edge {
     /// The action that leads along it.
     pub action: Direction,
@@ -89,10 +95,33 @@ pub enum GraphError {
 /// Every edge between nodes is entered both ways with opposite actions. Two edges of a node that bear one
 /// action lead to nodes of different states, so that an action and the state it led to name at most one
 /// edge.
+///
+/// With the feature `serde` it is saved as its nodes. Reading checks them as [`from_nodes`](Self::from_nodes) does.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Saved"))]
 pub struct MslstGraph {
     nodes: Vec<Node>,
+    /// They follow from the nodes.
+    #[cfg_attr(feature = "serde", serde(skip))]
     distances: Vec<Option<u32>>,
+}
+
+/// A graph as it lies in a file.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Saved {
+    nodes: Vec<Node>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Saved> for MslstGraph {
+    type Error = GraphError;
+
+    fn try_from(saved: Saved) -> Result<Self, GraphError> {
+        Self::from_nodes(saved.nodes)
+    }
 }
 
 impl MslstGraph {

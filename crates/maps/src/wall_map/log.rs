@@ -2,7 +2,7 @@ use tolman_maze::Wall;
 
 /// The walls learned last, so that they can be forgotten again: a ring of at most `LOG` walls. When it is
 /// full the oldest entries give way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Eq)]
 pub(super) struct Log<const LOG: usize> {
     entries: [Entry; LOG],
     /// Where the next entry goes.
@@ -51,10 +51,49 @@ impl<const LOG: usize> Log<LOG> {
         Some((Wall(u32::from(last.wall)), last.place == 0))
     }
 
+    /// The observations that are there as a whole, the oldest first.
+    #[cfg(feature = "serde")]
+    pub(super) fn observations(&self) -> alloc::vec::Vec<alloc::vec::Vec<Wall>> {
+        let mut left = *self;
+        let mut observations = alloc::vec::Vec::new();
+        while left.holds_last() {
+            let mut walls = alloc::vec::Vec::new();
+            while let Some((wall, first)) = left.pop() {
+                walls.push(wall);
+                if first {
+                    break;
+                }
+            }
+            walls.reverse();
+            observations.push(walls);
+        }
+        observations.reverse();
+        observations
+    }
+
     fn last(&self) -> Option<Entry> {
         if self.len == 0 {
             return None;
         }
         self.entries.get((self.next + LOG - 1) % LOG).copied()
+    }
+}
+
+/// Alike if the same would be taken out; what gave way, wholly or in part, does not count.
+impl<const LOG: usize> PartialEq for Log<LOG> {
+    fn eq(&self, other: &Self) -> bool {
+        let (mut left, mut right) = (*self, *other);
+        while left.holds_last() && right.holds_last() {
+            loop {
+                let (one, two) = (left.pop(), right.pop());
+                if one != two {
+                    return false;
+                }
+                if one.is_none_or(|(_, first)| first) {
+                    break;
+                }
+            }
+        }
+        left.holds_last() == right.holds_last()
     }
 }

@@ -29,7 +29,14 @@ use super::{Ray, RayEnd};
 /// assert_eq!(map.uncertainty(Cell::new(0, 11)), 3);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+///
+/// Two maps are equal if they know the same, count the same visits and would forget the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::SavedWallMap", into = "super::SavedWallMap")
+)]
 pub struct WallMap<const N: usize, const LOG: usize = 64> {
     grid: Grid,
     closed_cells: ClosedCells,
@@ -53,6 +60,8 @@ struct Plane<const N: usize> {
 
 /// Whether the maze's rules allow cells with four walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum ClosedCells {
     /// Some cell may be walled in: nothing is known that was not seen.
     Possible,
@@ -206,8 +215,11 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         observations
     }
 
-    /// Counts a visit.
+    /// Counts a visit to a cell of the maze; of others there are none.
     pub fn visit(&mut self, cell: Cell) {
+        if !self.grid.contains(cell) {
+            return;
+        }
         let row = self.visits.get_mut(usize::from(cell.y));
         if let Some(visits) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
             *visits = visits.saturating_add(1);
@@ -311,6 +323,37 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
             Some((cell, Direction::East)) => self.east.set(cell, knowledge),
             Some((cell, _)) => self.north.set(cell, knowledge),
             None => {}
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
+    pub(super) const fn closed_cells(&self) -> ClosedCells {
+        self.closed_cells
+    }
+
+    /// The walls that can be forgotten again, by observation.
+    pub(super) fn remembered(&self) -> alloc::vec::Vec<alloc::vec::Vec<Wall>> {
+        self.log.observations()
+    }
+
+    /// Writes down what was saved of an inner wall.
+    pub(super) fn restore_wall(&mut self, wall: Wall, knowledge: Knowledge) {
+        if let Some((cell, direction)) = self.grid.side(wall) {
+            self.set(cell, direction, knowledge);
+        }
+    }
+
+    /// Remembers the `place`-th wall of an observation after all others.
+    pub(super) fn restore_log(&mut self, wall: Wall, place: u16) {
+        self.log.push(wall, place);
+    }
+
+    pub(super) fn restore_visits(&mut self, cell: Cell, count: u8) {
+        let row = self.visits.get_mut(usize::from(cell.y));
+        if let Some(visits) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
+            *visits = count;
         }
     }
 }

@@ -4,13 +4,19 @@
 //! that it stands, that it does not, or nothing. Differences: a wall is one thing, so that both cells beside
 //! it always agree; the size is any rectangle; and what was observed can be taken back.
 //!
+//! With the feature `serde` a map is saved and loaded as a `SavedWallMap`, whatever its `N` and `LOG`.
+//!
 //! Two bits a wall and no allocation: `WallMap<16>` holds mazes up to 16 × 16, `WallMap<32>` up to 32 × 32.
 
 mod draw;
 mod log;
 mod map;
 mod ray;
+#[cfg(feature = "serde")]
+mod saved;
 
 pub use map::{ClosedCells, ObserveError, WallMap};
 pub use ray::{Ray, RayEnd};
+#[cfg(feature = "serde")]
+pub use saved::{SavedWallMap, SavedWallMapError};
 pub use tolman_planners::TooLarge;

@@ -2,6 +2,8 @@ use tolman_maze::Direction;
 
 /// What a range sensor tells of the walls along one direction, in whole cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Ray {
     /// Where it looks.
     pub direction: Direction,
@@ -13,6 +15,8 @@ pub struct Ray {
 
 /// What a ray ends at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum RayEnd {
     /// A wall stands.
     Wall,

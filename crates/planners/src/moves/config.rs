@@ -6,6 +6,7 @@ use thiserror::Error;
 /// possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MoveExplorerConfig {
     /// While no way to the goal is known: how much a step on known ground counts against a step of the way
     /// that is hoped for beyond it. > 0.

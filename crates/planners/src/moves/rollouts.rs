@@ -11,6 +11,7 @@ use crate::TooLarge;
 /// How [`Rollouts`] choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct RolloutConfig {
     /// At most so many mazes are drawn for a decision. ≥ 1.
     pub completions: u16,

@@ -5,6 +5,8 @@ use thiserror::Error;
 /// There is no default: take the preset of the kind of maze, [`SpeedRunConfig::classic`] or
 /// [`SpeedRunConfig::half_size`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SpeedRunConfig {
     /// Distance between the middles of two neighbouring cells. Millimetres, above 0. Rules of the
     /// competitions: 180 (classic), 90 (half-size).
@@ -23,6 +25,8 @@ pub struct SpeedRunConfig {
 /// How a straight is driven: faster with constant acceleration up to the top speed, and slower again
 /// with the same deceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Drive {
     /// mm/s², above 0.
     pub acceleration_mm_s2: f64,
@@ -33,6 +37,8 @@ pub struct Drive {
 /// How long each slalom turn takes, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom) says from where to where
 /// they lead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SlalomTimes {
     /// 45° from a straight into a diagonal, or out of one.
     pub f45_ms: u16,

@@ -1,12 +1,15 @@
 use super::fault::Past;
-use super::{Fault, Values};
+use super::{Disturbance, Disturbances, Fault, Values};
 use crate::{Chance, Channel};
 
-/// Faults of one value, one after the other, each with its memory and its channel.
+/// Faults of one value, one after the other, each with its memory and its channel; then what comes from
+/// outside.
 #[derive(Clone, Debug)]
 pub struct Faults<V> {
     each: Vec<(Fault, Past<V>)>,
     channel: Channel,
+    outside: Disturbances<V>,
+    outside_channel: Channel,
 }
 
 impl<V: Values> Faults<V> {
@@ -18,16 +21,38 @@ impl<V: Values> Faults<V> {
             .into_iter()
             .map(|fault| (fault, Past::default()))
             .collect();
+        let channel = Channel::named(name);
         Self {
             each,
-            channel: Channel::named(name),
+            channel,
+            outside: Vec::new(),
+            // Of its own, so that a further fault shifts no disturbance.
+            outside_channel: channel.joined(" from outside"),
         }
     }
 
-    /// Lets all of them happen to `value`.
+    /// Adds disturbances, which come after all faults and disturbances so far.
+    pub fn add(&mut self, disturbances: impl IntoIterator<Item = Box<dyn Disturbance<V>>>) {
+        self.outside.extend(disturbances);
+    }
+
+    /// Returns the disturbances from outside, in order.
+    #[must_use]
+    pub fn disturbances(&self) -> &[Box<dyn Disturbance<V>>] {
+        &self.outside
+    }
+
+    /// Lets all of them happen to `value`. What a disturbance leaves [broken](Values::is_sound) is taken away.
     pub fn disturb(&mut self, value: &mut Option<V>, chance: &Chance) {
         for (index, (fault, past)) in (0..).zip(&mut self.each) {
             fault.disturb(value, past, &mut chance.draws(self.channel.nth(index)));
+        }
+        for (index, disturbance) in (0..).zip(&mut self.outside) {
+            let mut draws = chance.draws(self.outside_channel.nth(index));
+            disturbance.disturb(value, &mut draws);
+            if value.as_ref().is_some_and(|value| !value.is_sound()) {
+                *value = None;
+            }
         }
     }
 }

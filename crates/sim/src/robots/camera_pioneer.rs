@@ -1,8 +1,8 @@
 use thiserror::Error;
 use tolman_robot::{Body, CameraSensing, ColumnImage, TurnTranslate};
 
-use super::{ConfigError, LaserPioneer, LaserPioneerConfig};
-use crate::noise::{Fault, Faults, FaultsError};
+use super::{ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, names};
+use crate::noise::{Disturbances, Fault, Faults, FaultsError};
 use crate::sensors::{CameraError, ColumnCamera, Sensor};
 use crate::trace::Recordable;
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
@@ -20,6 +20,15 @@ pub struct CameraPioneerConfig {
     pub image: Vec<Fault>,
     /// All else.
     pub pioneer: LaserPioneerConfig,
+}
+
+/// What a crate of your own does to the robot's motors and sensors, after the faults.
+#[derive(Clone, Debug, Default)]
+pub struct CameraPioneerDisturbances {
+    /// Of the camera's image, as shares of full light.
+    pub image: Disturbances<ColumnImage>,
+    /// Of all else.
+    pub pioneer: LaserPioneerDisturbances,
 }
 
 /// A robot built to a [`CameraPioneerConfig`].
@@ -44,6 +53,14 @@ impl CameraPioneer {
             image: Faults::new("image", config.image.clone()),
             config,
         })
+    }
+
+    /// Adds disturbances from outside.
+    #[must_use]
+    pub fn with_disturbances(mut self, outside: CameraPioneerDisturbances) -> Self {
+        self.pioneer = self.pioneer.with_disturbances(outside.pioneer);
+        self.image.add(outside.image);
+        self
     }
 }
 
@@ -95,6 +112,12 @@ impl Recordable for CameraPioneer {
 
     fn from_config(config: CameraPioneerConfig) -> Result<Self, CameraPioneerError> {
         Self::new(config)
+    }
+
+    fn disturbances(&self) -> Vec<String> {
+        let mut all = self.pioneer.disturbances();
+        all.extend(names("image", &self.image));
+        all
     }
 }
 

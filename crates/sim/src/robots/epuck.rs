@@ -6,7 +6,8 @@ use tolman_robot::epuck::{
     WheelSpeeds, WheelTurns, proximity_mounts,
 };
 
-use crate::noise::{Fault, Faults, FaultsError};
+use super::names;
+use crate::noise::{Disturbances, Fault, Faults, FaultsError};
 use crate::sensors::{Infrared, ResponseCurve, ResponseError, Sensor};
 use crate::trace::Recordable;
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
@@ -63,6 +64,18 @@ impl EpuckConfig {
     }
 }
 
+/// What a crate of your own does to an e-puck's wheels and sensors; each list happens in order, after the faults. No
+/// part of the configuration, since code cannot be written to a file.
+#[derive(Clone, Debug, Default)]
+pub struct EpuckDisturbances {
+    /// Of how far the left wheel rolls over the ground, m; a missing one rolls nowhere.
+    pub left_wheel: Disturbances<f64>,
+    /// Of how far the right wheel rolls over the ground, m; a missing one rolls nowhere.
+    pub right_wheel: Disturbances<f64>,
+    /// Of the raw proximity values.
+    pub proximity: Disturbances<[f64; PROXIMITY_SENSORS]>,
+}
+
 /// A robot built to an [`EpuckConfig`].
 #[derive(Clone, Debug)]
 pub struct Epuck {
@@ -99,6 +112,16 @@ impl Epuck {
             proximity: Faults::new("proximity", config.proximity.iter().copied()),
             config,
         })
+    }
+
+    /// Adds disturbances from outside. A trace of the robot names them, and replays only with
+    /// [`replay_with`](crate::trace::replay_with).
+    #[must_use]
+    pub fn with_disturbances(mut self, outside: EpuckDisturbances) -> Self {
+        self.left.add(outside.left_wheel);
+        self.right.add(outside.right_wheel);
+        self.proximity.add(outside.proximity);
+        self
     }
 }
 
@@ -173,6 +196,13 @@ impl Recordable for Epuck {
 
     fn from_config(config: EpuckConfig) -> Result<Self, EpuckError> {
         Self::new(config)
+    }
+
+    fn disturbances(&self) -> Vec<String> {
+        names("left_wheel", &self.left)
+            .chain(names("right_wheel", &self.right))
+            .chain(names("proximity", &self.proximity))
+            .collect()
     }
 }
 

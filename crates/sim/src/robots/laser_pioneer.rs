@@ -2,7 +2,8 @@ use thiserror::Error;
 use tolman_geom::Heading;
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, Scan, TurnTranslate};
 
-use crate::noise::{Fault, Faults, FaultsError, Gaussian};
+use super::names;
+use crate::noise::{Disturbances, Fault, Faults, FaultsError, Gaussian};
 use crate::sensors::{Laser, LaserError, Sensor};
 use crate::trace::Recordable;
 use crate::{BodyError, Chance, Channel, CommandError, Contact, Model, Motion, Surroundings, body};
@@ -68,6 +69,24 @@ pub struct LaserPioneerFaults {
     pub odometry_distance: Vec<Fault>,
     /// Of the rolled turn, rad; a drop-out takes the whole odometry.
     pub odometry_turn: Vec<Fault>,
+}
+
+/// What a crate of your own does to a robot's motors and sensors; each list happens in order, after the faults. No
+/// part of the configuration, since code cannot be written to a file.
+#[derive(Clone, Debug, Default)]
+pub struct LaserPioneerDisturbances {
+    /// Of the turn the motors make, rad; a missing one is none.
+    pub motor_turn: Disturbances<f64>,
+    /// Of the distance the motors make, m; a missing one is none.
+    pub motor_distance: Disturbances<f64>,
+    /// Of the scan, m.
+    pub scan: Disturbances<Scan>,
+    /// Of the compass, rad.
+    pub compass: Disturbances<Heading>,
+    /// Of the rolled distance, m; a missing one takes the whole odometry.
+    pub odometry_distance: Disturbances<f64>,
+    /// Of the rolled turn, rad; a missing one takes the whole odometry.
+    pub odometry_turn: Disturbances<f64>,
 }
 
 impl LaserPioneerConfig {
@@ -188,6 +207,19 @@ impl LaserPioneer {
         })
     }
 
+    /// Adds disturbances from outside. A trace of the robot names them, and replays only with
+    /// [`replay_with`](crate::trace::replay_with).
+    #[must_use]
+    pub fn with_disturbances(mut self, outside: LaserPioneerDisturbances) -> Self {
+        self.motor_turn.add(outside.motor_turn);
+        self.motor_distance.add(outside.motor_distance);
+        self.scan.add(outside.scan);
+        self.compass.add(outside.compass);
+        self.odometry_distance.add(outside.odometry_distance);
+        self.odometry_turn.add(outside.odometry_turn);
+        self
+    }
+
     /// What it was built to.
     #[must_use]
     pub fn config(&self) -> &LaserPioneerConfig {
@@ -275,6 +307,16 @@ impl Recordable for LaserPioneer {
 
     fn from_config(config: LaserPioneerConfig) -> Result<Self, ConfigError> {
         Self::new(config)
+    }
+
+    fn disturbances(&self) -> Vec<String> {
+        names("motor_turn", &self.motor_turn)
+            .chain(names("motor_distance", &self.motor_distance))
+            .chain(names("scan", &self.scan))
+            .chain(names("compass", &self.compass))
+            .chain(names("odometry_distance", &self.odometry_distance))
+            .chain(names("odometry_turn", &self.odometry_turn))
+            .collect()
     }
 }
 

@@ -71,6 +71,8 @@ impl Sensor for ColumnCamera {
             return;
         }
         let image = reading.get_or_insert_with(|| ColumnImage::black(self.columns));
+        // A disturbance may have left an image of another camera.
+        image.columns.resize(self.columns as usize, [0.0; 3]);
         for (index, column) in (0..self.columns).zip(&mut image.columns) {
             *column = self.column(around, index);
         }

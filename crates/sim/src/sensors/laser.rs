@@ -51,7 +51,12 @@ impl Sensor for Laser {
     type Reading = Scan;
 
     fn sense(&mut self, around: &Surroundings<'_>, _: &Chance, reading: &mut Option<Scan>) {
-        let scan = reading.get_or_insert_with(|| Scan::clear(self.ring()));
+        let ring = self.ring();
+        let scan = reading.get_or_insert_with(|| Scan::clear(ring));
+        if scan.ring != ring {
+            // A disturbance may have left the scan of another laser.
+            *scan = Scan::clear(ring);
+        }
         self.sweep.aim(around.truth.pose);
         around.scan(&mut self.sweep);
         for (range, read) in scan.ranges.iter_mut().zip(self.sweep.ranges()) {

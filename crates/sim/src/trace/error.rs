@@ -74,6 +74,19 @@ pub enum ReplayError {
         /// Why.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
+    /// A robot was disturbed from outside its configuration, and the one built for the replay is disturbed otherwise.
+    #[error(
+        "line 1: robot {robot} ran with disturbances {recorded:?}, the robot built for the replay has {built:?}; \
+         a trace holds no code, so build the same robot and give it to `replay_with`"
+    )]
+    Disturbances {
+        /// Which robot.
+        robot: u32,
+        /// Those of the robot that was recorded.
+        recorded: Vec<String>,
+        /// Those of the robot that was built.
+        built: Vec<String>,
+    },
     /// The lines of a tick are not one per robot in order.
     #[error(
         "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order"

@@ -29,6 +29,9 @@ pub(super) struct Header<M: Recordable> {
 pub(super) struct Start<M: Recordable> {
     pub(super) config: M::Config,
     pub(super) pose: Pose,
+    /// What disturbed it from outside its configuration.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) disturbances: Vec<String>,
 }
 
 /// Any line of a trace but the first.

@@ -3,7 +3,7 @@ use std::io::{BufRead, Lines};
 use serde::de::DeserializeOwned;
 use tolman_geom::Pose;
 
-use super::lines::{FORMAT, Header, Start, VERSION};
+use super::lines::{FORMAT, Header, VERSION};
 use super::{Event, Recordable, ReplayError};
 use crate::World;
 use crate::world::Head;
@@ -97,7 +97,13 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
         self.header
             .robots
             .iter()
-            .map(|Start { config, pose }| (config, *pose))
+            .map(|start| (&start.config, start.pose))
+    }
+
+    /// What disturbed each robot from outside its configuration: see [`Recordable::disturbances`].
+    pub fn disturbances(&self) -> impl ExactSizeIterator<Item = &[String]> {
+        let robots = self.header.robots.iter();
+        robots.map(|start| start.disturbances.as_slice())
     }
 
     /// Checks that a line stands where it may.

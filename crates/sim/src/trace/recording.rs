@@ -47,6 +47,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
             starts.push(Start {
                 config: model.config().clone(),
                 pose,
+                disturbances: model.disturbances(),
             });
             simulation.add(model, pose)?;
         }

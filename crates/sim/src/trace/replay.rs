@@ -1,16 +1,30 @@
 use std::io::{self, BufRead};
 
 use super::{Detail, Event, Reader, Recordable, Recording, ReplayError, StepRecord};
-use crate::Simulation;
+use crate::{RobotId, Simulation};
 
 /// Simulates a trace again and compares every number of every line; gives the simulation as it stands
 /// at the end.
 ///
 /// # Errors
-/// If the trace cannot be read, or the first line that differs.
+/// If the trace cannot be read, a robot was disturbed from outside its configuration, or the first line that
+/// differs.
 pub fn replay<M: Recordable>(trace: impl BufRead) -> Result<Simulation<M>, ReplayError> {
+    replay_with(trace, |_, config| M::from_config(config))
+}
+
+/// Replays a trace as [`replay`] does, with robots that `build` makes from their configurations: for robots that
+/// are [disturbed](crate::noise::Disturbance) by code which the trace cannot hold.
+///
+/// # Errors
+/// If the trace cannot be read, a robot cannot be built or is not disturbed as the trace says, or the first line
+/// that differs.
+pub fn replay_with<M: Recordable, E: core::error::Error + Send + Sync + 'static>(
+    trace: impl BufRead,
+    build: impl FnMut(RobotId, M::Config) -> Result<M, E>,
+) -> Result<Simulation<M>, ReplayError> {
     let reader = Reader::<M, _>::open(trace)?;
-    let mut recording = start(&reader)?;
+    let mut recording = start(&reader, build)?;
     let robots = reader.robots().len();
     // One tick's lines, gathered until there is one per robot.
     let mut tick: Vec<(usize, StepRecord<M>)> = Vec::new();
@@ -38,12 +52,22 @@ pub fn replay<M: Recordable>(trace: impl BufRead) -> Result<Simulation<M>, Repla
 }
 
 /// The robots of a trace where it begins.
-fn start<M: Recordable, R: BufRead>(
+fn start<M: Recordable, R: BufRead, E: core::error::Error + Send + Sync + 'static>(
     reader: &Reader<M, R>,
+    mut build: impl FnMut(RobotId, M::Config) -> Result<M, E>,
 ) -> Result<Recording<M, io::Sink>, ReplayError> {
     let mut robots = Vec::new();
-    for (config, pose) in reader.robots() {
-        let model = M::from_config(config.clone()).map_err(|source| refused(1, source))?;
+    for (index, ((config, pose), recorded)) in (0..).zip(reader.robots().zip(reader.disturbances()))
+    {
+        let model = build(RobotId(index), config.clone()).map_err(|source| refused(1, source))?;
+        let built = model.disturbances();
+        if built != recorded {
+            return Err(ReplayError::Disturbances {
+                robot: index,
+                recorded: recorded.to_vec(),
+                built,
+            });
+        }
         robots.push((model, pose));
     }
     let world = reader.world().clone();

@@ -7,10 +7,13 @@
 
 mod bodies;
 mod camera;
+#[cfg(feature = "parry2d")]
 mod casters;
+mod disturbances;
 mod epuck;
 mod leaks;
 mod noise;
 mod sensing;
 mod traces;
+mod two_crates;
 mod worlds;
