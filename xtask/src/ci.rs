@@ -3,6 +3,7 @@
 mod bare_metal;
 mod firmware;
 mod msrv;
+mod outside;
 
 use core::time::Duration;
 use std::process::Command;
@@ -50,6 +51,7 @@ const STEPS: &[Step] = &[
             "clippy --package tolman-sim --no-default-features --all-targets --quiet -- --deny warnings",
         )
     }),
+    ("outside", || passed(outside::check())),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run(false))),
     ("bare metal", bare_metal::check),

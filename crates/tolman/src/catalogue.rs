@@ -1,5 +1,6 @@
 use tolman_experiment::Entry;
 
+use crate::Family;
 use crate::system::SystemEntry;
 use crate::systems::{Cpm, Diktiometry, Mslst};
 
@@ -11,6 +12,8 @@ pub struct Catalogue {
     pub program: &'static str,
     /// The systems that learn maps.
     pub systems: Vec<&'static dyn SystemEntry>,
+    /// The families of worlds.
+    pub families: Vec<Family>,
     /// The experiments.
     pub experiments: Vec<Entry>,
 }
@@ -22,6 +25,7 @@ impl Catalogue {
         Self {
             program: "tolman",
             systems: vec![&Mslst, &Cpm, &Diktiometry],
+            families: Family::ALL.to_vec(),
             experiments: tolman_papers::catalogue().to_vec(),
         }
     }
@@ -36,6 +40,13 @@ impl Catalogue {
     #[must_use]
     pub fn system(mut self, system: &'static dyn SystemEntry) -> Self {
         self.systems.push(system);
+        self
+    }
+
+    /// Returns it with one more family of worlds.
+    #[must_use]
+    pub fn family(mut self, family: Family) -> Self {
+        self.families.push(family);
         self
     }
 

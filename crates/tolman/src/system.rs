@@ -8,10 +8,14 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tolman_arena::Outing;
 use tolman_arena::course::Course;
+use tolman_arena::episode::layers;
+use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
+use tolman_control::Stack;
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
 use tolman_maze::MazeFile;
-use tolman_systems::Origin;
+use tolman_sim::robots::LaserPioneer;
+use tolman_systems::{Origin, stream};
 
 use crate::start::Start;
 
@@ -24,13 +28,19 @@ pub trait SystemEntry: Sync {
     fn name(&self) -> &'static str;
 
     /// Returns what it is, in one line.
-    fn about(&self) -> &'static str;
+    fn about(&self) -> &'static str {
+        "A system of one's own"
+    }
 
     /// Returns the names of its presets, the first of which is taken where nothing is said, each with what it is.
-    fn presets(&self) -> &'static [(&'static str, &'static str)];
+    fn presets(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
 
     /// Returns the names of the robots that it can drive, the first of which is taken where nothing is said.
-    fn robots(&self) -> &'static [&'static str];
+    fn robots(&self) -> &'static [&'static str] {
+        &[]
+    }
 
     /// Makes it ready to learn a maze.
     ///
@@ -38,17 +48,22 @@ pub trait SystemEntry: Sync {
     /// If maze, start or settings do not serve.
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
 
-    /// Makes it ready to go to the goal by a map, or by whichever of several maps is that of the maze.
+    /// Makes it ready to go to the goal by a map, or by whichever of several maps is that of the maze. If nothing is said, it
+    /// cannot.
     ///
     /// # Errors
     /// If maps, maze, start or settings do not serve.
-    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error>;
+    fn driver(&self, _maps: &[MapText], _setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        Err(anyhow!("{} does not drive by a map", self.name()))
+    }
 
-    /// Reads a map.
+    /// Reads a map. If nothing is said, it is one of which no more is known than where it was learned.
     ///
     /// # Errors
     /// If it is not sound.
-    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error>;
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+        Ok(Box::new(map.clone()))
+    }
 }
 
 /// A file that holds a learned map.
@@ -75,21 +90,45 @@ pub trait LearnedMap {
     /// Draws it over the maze it was learned in, for a robot as that which learned it.
     ///
     /// # Errors
-    /// If the maze does not serve.
-    fn drawing(&self, maze: &MazeFile) -> Result<Drawing, Error>;
+    /// If the maze does not serve, or there is no picture of such a map.
+    fn drawing(&self, _maze: &MazeFile) -> Result<Drawing, Error> {
+        Err(anyhow!(
+            "there is no picture of such a map: leave --svg out"
+        ))
+    }
 
     /// Returns the way from one place to another, a line a step: from where it believes to be or where the maze begins, if
     /// nothing is said, to the goal. `None` if it knows no way.
     ///
     /// # Errors
     /// If there is no such place.
-    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error>;
+    fn plan(&self, _from: Option<u32>, _to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+        Err(anyhow!("nobody plans on such a map"))
+    }
 
     /// Returns why it is wrong or unfinished as a map of this maze; `None` if it is right.
     ///
     /// # Errors
     /// If the maze does not serve.
-    fn complaint(&self, maze: &MazeFile) -> Result<Option<String>, Error>;
+    fn complaint(&self, _maze: &MazeFile) -> Result<Option<String>, Error> {
+        Err(anyhow!("nobody can tell whether such a map is right"))
+    }
+}
+
+impl LearnedMap for MapText {
+    fn lines(&self) -> Vec<String> {
+        let Origin {
+            world, robot, seed, ..
+        } = &self.origin;
+        vec![format!(
+            "a map of {} of {world}, learned by the {robot}, seed {seed}",
+            self.system
+        )]
+    }
+
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.text).unwrap_or_default()
+    }
 }
 
 /// What a robot is sent out with.
@@ -249,6 +288,26 @@ fn choose<T>(
         names.join(", ")
     ))
 }
+
+/// Puts the calibrated laser Pioneer on the course of the maze, by chance if nothing is said, and returns the layers that drive
+/// it there.
+///
+/// # Errors
+/// If maze, robot or start do not serve.
+pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack), Error> {
+    setup.robot(&[LASER_PIONEER])?;
+    let course = Course::for_body(setup.world, setup.maze, &body())?;
+    let start = setup.start(&course, Start::Random, || {
+        let mut rng = stream(setup.seed, START_STREAM);
+        Some(course.random_start(&body(), &mut rng))
+    })?;
+    let robot = course.robot_at(start, LaserPioneer::new(calibrated())?, setup.seed)?;
+    let layers = layers(&course, &calibrated())?;
+    Ok((course, robot, layers))
+}
+
+/// The stream of random starts.
+const START_STREAM: u64 = 3;
 
 /// A name as it is typed.
 pub(crate) fn slug(name: &str) -> String {

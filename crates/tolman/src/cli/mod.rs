@@ -42,7 +42,7 @@ use failure::{Failure, OrBadInput};
 use stdout::{Stdout, ink};
 
 use crate::system::{MapText, SystemEntry};
-use crate::{Build, Catalogue};
+use crate::{Build, Catalogue, Family};
 
 /// Robots with laser rings in mazes: runs them, measures them, and sets them beside the papers.
 #[derive(Parser)]
@@ -122,6 +122,22 @@ impl App<'_> {
         })
     }
 
+    /// The family of worlds of that name.
+    ///
+    /// # Errors
+    /// Bad input if there is none.
+    fn family(&self, name: &str) -> Result<&Family, Failure> {
+        let families = &self.catalogue.families;
+        let mut named = families.iter();
+        named.find(|family| family.name == name).ok_or_else(|| {
+            let names: Vec<&str> = families.iter().map(|family| family.name).collect();
+            Failure::BadInput(anyhow!(
+                "there is no family {name}; choose one of: {}",
+                names.join(", ")
+            ))
+        })
+    }
+
     /// The system that learned a map.
     ///
     /// # Errors
@@ -173,7 +189,7 @@ impl Verb {
             Self::Run(arguments) => run::carry_out(&arguments, out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),
-            Self::Maze(verb) => verb.carry_out(out),
+            Self::Maze(verb) => verb.carry_out(app, out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),

@@ -3,18 +3,15 @@ use alloc::sync::Arc;
 use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
 use tolman_arena::course::Course;
-use tolman_arena::episode::layers;
-use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
+use tolman_arena::pioneer::{LASER_PIONEER, body};
 use tolman_arena::{Outing, Sent};
 use tolman_draw::Drawing;
 use tolman_maze::MazeFile;
 use tolman_papers::mslst::drawing::graph_over_maze;
-use tolman_sim::robots::LaserPioneer;
 use tolman_systems::mslst::{self, Learned, MapFile, MslstConfig, Survey};
-use tolman_systems::{Actor, Origin, stream};
+use tolman_systems::{Actor, Origin};
 
-use crate::start::Start;
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
+use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
 
 /// [`mslst`] on the laser Pioneer.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +24,6 @@ const PRESETS: [(&str, &str); 2] = [
     ),
     ("j", "As in the paper's J maze"),
 ];
-
-/// The stream of random starts.
-const START_STREAM: u64 = 3;
 
 impl SystemEntry for Mslst {
     fn name(&self) -> &'static str {
@@ -54,9 +48,8 @@ impl SystemEntry for Mslst {
         let names = PRESETS.map(|(name, _)| name);
         let preset = setup.settings.preset(names.into_iter().zip(presets))?;
         let config: MslstConfig = setup.settings.over(&preset)?;
-        let (course, robot) = on_course(setup)?;
+        let (course, robot, stack) = laser_pioneer(setup)?;
         let origin = setup.origin(&course, LASER_PIONEER);
-        let stack = layers(&course, &calibrated())?;
         let actor = Actor::seeded(mslst::Mslst::new(config), stack, setup.seed);
         let steps = setup.steps.unwrap_or(u32::MAX);
         let sent = Sent::new(course, robot, steps, actor)
@@ -96,8 +89,7 @@ impl SystemEntry for Mslst {
             config, learned, ..
         } = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
         let config: MslstConfig = setup.settings.over(&config)?;
-        let (course, robot) = on_course(setup)?;
-        let stack = layers(&course, &calibrated())?;
+        let (course, robot, stack) = laser_pioneer(setup)?;
         let sites = learned.survey.positions;
         let mslst = mslst::Mslst::knowing(Arc::new(learned.map), config);
         let actor = Actor::seeded(mslst, stack, setup.seed);
@@ -111,18 +103,6 @@ impl SystemEntry for Mslst {
         let file = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
         Ok(Box::new(file))
     }
-}
-
-/// The calibrated robot on the maze's course.
-fn on_course(setup: &Setup<'_>) -> Result<(Course, CoursePioneer), Error> {
-    setup.robot(Mslst.robots())?;
-    let course = Course::for_body(setup.world, setup.maze, &body())?;
-    let start = setup.start(&course, Start::Random, || {
-        let mut rng = stream(setup.seed, START_STREAM);
-        Some(course.random_start(&body(), &mut rng))
-    })?;
-    let robot = course.robot_at(start, LaserPioneer::new(calibrated())?, setup.seed)?;
-    Ok((course, robot))
 }
 
 fn complaint(map: &mslst::MslstMap) -> Option<String> {

@@ -9,12 +9,14 @@ use tolman_maze::{Braided, Perfect, Rooms};
 
 use super::output::Output;
 use super::{Failure, OrBadInput};
+use crate::cli::App;
 
 /// Makes a maze by chance; the same seed makes the same maze
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  tolman maze generate braided --size 12x8 --share 0.5 --seed 3 --out mine.maze")]
+  tolman maze generate braided --size 12x8 --share 0.5 --seed 3 --out mine.maze
+  tolman maze generate family rooms --size 12x8")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     kind: Kind,
@@ -52,6 +54,13 @@ enum Kind {
         #[command(flatten)]
         common: Common,
     },
+    /// One of a family of worlds, by its name
+    Family {
+        /// The family
+        name: String,
+        #[command(flatten)]
+        common: Common,
+    },
 }
 
 #[derive(clap::Args)]
@@ -66,20 +75,31 @@ struct Common {
     output: Output,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let (Kind::Perfect { common } | Kind::Braided { common, .. } | Kind::Rooms { common, .. }) =
-        &arguments.kind;
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let (Kind::Perfect { common }
+    | Kind::Braided { common, .. }
+    | Kind::Rooms { common, .. }
+    | Kind::Family { common, .. }) = &arguments.kind;
     let (width, height) = common.size;
     let rng = &mut ChaCha8Rng::seed_from_u64(common.seed);
-    let maze = match arguments.kind {
+    let maze = match &arguments.kind {
+        Kind::Family { name, .. } => {
+            let drawn = (app.family(name)?.draw)(common.size, rng);
+            let maze = drawn.map_err(anyhow::Error::from_boxed).or_bad_input()?;
+            return common.output.write(&maze.into(), out);
+        }
         Kind::Perfect { .. } => Perfect { width, height }.generate(rng),
-        Kind::Braided { share, .. } => Braided {
+        &Kind::Braided { share, .. } => Braided {
             width,
             height,
             share,
         }
         .generate(rng),
-        Kind::Rooms {
+        &Kind::Rooms {
             attempts,
             smallest,
             largest,

@@ -14,7 +14,7 @@ use std::io::Write;
 
 use clap::Subcommand;
 
-use super::{Failure, OrBadInput, file};
+use super::{App, Failure, OrBadInput, file};
 pub(super) use collection::{Collection, all_solved, each};
 pub(super) use input::{name, read, world_name};
 
@@ -29,12 +29,12 @@ pub(super) enum Verb {
 }
 
 impl Verb {
-    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+    pub(super) fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
         match self {
             Self::Show(arguments) => show::carry_out(&arguments, out),
             Self::Check(arguments) => check::carry_out(&arguments, out),
             Self::Convert(arguments) => convert::carry_out(&arguments, out),
-            Self::Generate(arguments) => generate::carry_out(&arguments, out),
+            Self::Generate(arguments) => generate::carry_out(app, &arguments, out),
             Self::Distinct(arguments) => distinct::carry_out(&arguments, out),
         }
     }

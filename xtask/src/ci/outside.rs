@@ -1,0 +1,66 @@
+//! The program of somebody else in `tests/outside`: that it builds against the workspace, and does what it says.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Result, ensure};
+
+use crate::workspace;
+
+/// The commit that the program is told it is built from.
+const COMMIT: &str = "0123abcd";
+
+/// Builds the program with what the workspace has compiled, and lets it draw a world, learn it and run an experiment.
+///
+/// # Errors
+/// If it does not build, a command of it fails, or its report names another program or commit than its own.
+pub(crate) fn check() -> Result<()> {
+    let folder = workspace::root().join("tests/outside");
+    let target = workspace::target_folder()?;
+    for file in ["main", "system", "world", "experiment"] {
+        let source = folder.join("src").join(file).with_extension("rs");
+        let lines = fs::read_to_string(&source)?.lines().count();
+        ensure!(
+            lines <= 60,
+            "{}: {lines} lines, and 60 are to suffice",
+            source.display()
+        );
+    }
+    let mut build = Command::new(env!("CARGO"));
+    build.current_dir(&folder).env("OUTSIDE_COMMIT", COMMIT);
+    build
+        .args(["build", "--locked", "--quiet", "--target-dir"])
+        .arg(&target);
+    workspace::succeed(&mut build)?;
+    let work = target.join("tmp/outside");
+    if work.exists() {
+        fs::remove_dir_all(&work)?;
+    }
+    fs::create_dir_all(&work)?;
+    for line in [
+        "maze generate family comb --size 5x4 --seed 2 --out comb.maze",
+        "learn --system paces --maze comb.maze --out paces.json",
+        "map show paces.json",
+        "experiment combs --quick --out combs",
+    ] {
+        let mut command = Command::new(target.join("debug/outside"));
+        command.current_dir(&work).args(line.split(' '));
+        // As a user calls it, not Cargo.
+        command.env_remove("CARGO");
+        workspace::succeed(&mut command)?;
+    }
+    names_itself(&work.join("combs/config.toml"))
+}
+
+/// Asks what made a folder of results.
+fn names_itself(config: &Path) -> Result<()> {
+    let text = fs::read_to_string(config)?;
+    for part in [
+        "command = \"outside experiment combs",
+        &format!("commit = \"{COMMIT}\""),
+    ] {
+        ensure!(text.contains(part), "no `{part}` in {}", config.display());
+    }
+    Ok(())
+}
