@@ -54,6 +54,8 @@ const STEPS: &[Step] = &[
     ("outside", || passed(outside::check())),
     ("api docs", || passed(docs::api())),
     ("golden", || passed(golden::run(false))),
+    // With the command that the golden runs have just built.
+    ("commands", commands),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
     ("fuzz", fuzz_targets),
@@ -113,6 +115,14 @@ fn tests() -> Result<Outcome> {
         return passes("nextest run --workspace --all-features --status-level fail");
     }
     passes("test --workspace --all-features --lib --bins --tests --quiet")
+}
+
+/// Every command that README, pages and help texts show.
+fn commands() -> Result<Outcome> {
+    let release = workspace::target_folder()?.join("release/tolman");
+    let mut test =
+        cargo("test --package tolman --all-features --test commands --quiet -- --ignored");
+    passed(succeed(test.env("TOLMAN", release)))
 }
 
 /// A command of the workspace as the tests built it.

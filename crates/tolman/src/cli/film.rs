@@ -31,18 +31,24 @@ pub(super) struct Film {
     nodes: BTreeMap<u32, Node>,
     edges: BTreeMap<(u32, u32), Edge>,
     places: Series,
+    /// The place that is labelled as the goal.
+    goal: Option<u32>,
 }
 
 impl Film {
-    pub(super) fn new() -> Self {
-        Self {
+    /// Returns what is noted before the first action.
+    pub(super) fn new(outing: &dyn Outing) -> Self {
+        let mut film = Self {
             actions: 0,
             thoughts: Notes::new("thinks"),
             belief: Belief::new("belief"),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
             places: Series::new("places on the map", ""),
-        }
+            goal: None,
+        };
+        film.map(outing, 0);
+        film
     }
 
     /// Sees what an action came to.
@@ -97,7 +103,10 @@ impl Film {
             let node = self.nodes.entry(place.id);
             let node = node.or_insert_with(|| Node::new(place.id, at, step));
             node.move_to(step, at, STILL);
-            if place.landmark == Some(Landmark::Goal) {
+            // Many nodes may be at the goal: one of them says so.
+            if place.landmark == Some(Landmark::Goal)
+                && *self.goal.get_or_insert(place.id) == place.id
+            {
                 node.label = "goal".to_owned();
             }
         }

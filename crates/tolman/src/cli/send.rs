@@ -31,7 +31,7 @@ pub(super) fn send(
         true => Some(Live::open(scene(outing, setup, word))?),
         false => None,
     };
-    let mut film = looks.replay.as_ref().map(|_| Film::new());
+    let mut film = looks.replay.as_ref().map(|_| Film::new(outing));
     let mut shown = 1;
     let ended = run::until_done(outing, |outing| {
         let standing = outing.act(task)?;

@@ -76,7 +76,7 @@ impl SystemEntry for Diktiometry {
             ));
         }
         if let Some(map) = setup.from {
-            let before = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
+            let mut before = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
             let walk = Walk {
                 heed: before.config.heed,
                 colours: before.office.config().colours,
@@ -84,7 +84,9 @@ impl SystemEntry for Diktiometry {
                 ..WALK
             };
             let walk: Walk = setup.settings.over(&walk)?;
-            let mut before = before;
+            // The maze that is given, furnished as that which was learned.
+            let office = Office::new(&setup.maze.maze, before.office.config())?;
+            before.office = Arc::new(office.named(setup.world));
             before.config.heed = walk.heed;
             let survey = before.survey(setup.seed)?;
             return Ok(Box::new(Surveying::new(
