@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use core::convert::Infallible;
+use core::ops::ControlFlow;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -290,10 +291,11 @@ fn it_walks_as_with_a_body_of_its_own_and_whoever_watches_learns_the_same() {
     let began = Experience::Began(began.sighting());
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     let mut seen = vec![began];
-    let explored = layer.pursue(&mut walker, Aim::Explore, &mut rng, |_, _, step| {
-        seen.push(Experience::Walked(step.walked.clone()));
-    });
-    explored.unwrap();
+    while let ControlFlow::Continue(step) =
+        layer.advance(&mut walker, Aim::Explore, &mut rng).unwrap()
+    {
+        seen.push(Experience::Walked(step.walked));
+    }
     assert_eq!(walker.body().path, lent.path);
 
     assert_eq!(watcher.observe(&seen[1]), Err(ObserveError::NotBegun));

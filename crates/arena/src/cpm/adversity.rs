@@ -15,6 +15,7 @@ use tolman_systems::cpm::{
     Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, Walker, WalkerConfig,
 };
 
+use super::pursue::pursue;
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::trial::tests::{PATTERNS, maze_1};
 
@@ -87,7 +88,7 @@ fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), CpmFailur
     let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, config)?;
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let aim = Aim::Find(Landmark::Goal);
-    let episode = layer.pursue(&mut walker, aim, &mut rng, |_, _, _| {})?;
+    let episode = pursue(&mut layer, &mut walker, aim, &mut rng, |_, _, _| {})?;
     let is_there = walker.body().landmark() == Some(Landmark::Goal);
     Ok((episode, is_there))
 }

@@ -5,6 +5,7 @@ use tolman_maze::Maze;
 use tolman_systems::cpm::{Aim, Done, Layer3, Step, Walker};
 
 use super::fragments::TrueFragments;
+use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::score::Score;
 use super::trial::{Trial, TrialError};
@@ -64,7 +65,7 @@ impl Trial<'_> {
             ends_us.push(walker.time_us());
             known.push(score.lengths.len() as u32);
         };
-        match layer.pursue(&mut walker, Aim::Explore, &mut rng, see) {
+        match pursue(&mut layer, &mut walker, Aim::Explore, &mut rng, see) {
             Ok(episode) => found.done = Some(episode.done),
             Err(error) => found.trouble = Some(error.to_string()),
         }

@@ -20,6 +20,7 @@ mod map_right;
 mod patience;
 #[cfg(test)]
 mod pioneer;
+mod pursue;
 mod put_down;
 mod robots;
 mod round_trip;
@@ -39,6 +40,7 @@ pub use fragments::{TrueFragments, Way};
 pub use layout::{Fit, Layout, Lie, OpenPort};
 pub use map_right::is_whole_map_right;
 pub use patience::patience;
+pub use pursue::pursue;
 pub use put_down::{KnownMaze, PutDown, PutDownRecord};
 pub use robots::{
     SimulatedEpuck, epuck, idealized_epuck, ring_measures, slow_epuck, walker_config,

@@ -6,6 +6,7 @@ use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{Approach, CommonPatterns, Search, Walker, Whereabouts};
 
 use super::fragments::{TrueFragments, Way};
+use super::pursue::find_out;
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
 use super::trial::{Record, TrialError};
@@ -105,16 +106,17 @@ impl PutDown<'_> {
         let mut walker = Walker::new(body, config);
         let maps = self.known.iter().map(|known| known.learned.map.clone());
         let maps: Vec<CpMap> = maps.collect();
-        let search = Search::new(&maps, self.patterns, self.approach, self.most_places)?;
+        let mut search = Search::new(&maps, self.patterns, self.approach, self.most_places)?;
         // The ways that it came by to each place; to the first, from amid one, it is not told.
         let mut onward = Vec::new();
-        let whereabouts = search.find_out(&mut walker, &mut rng, |walker| {
+        find_out(&mut search, &mut walker, &mut rng, |walker| {
             let from = walker.departed_at(walker.body().path());
             onward.push(from.and_then(|from| {
                 let cell = course.world.cell_at(from.position)?;
                 fragments.way(cell, from.heading)
             }));
         })?;
+        let whereabouts = search.found().clone();
         let begun = Way {
             is_forward: spot.way.is_forward != whereabouts.has_turned_round,
             ..spot.way

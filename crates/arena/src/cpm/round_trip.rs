@@ -5,6 +5,7 @@ use tolman_maps::cpm::CpMap;
 use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Layer3, Step, Walker};
 
+use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::trial::TrialError;
 
@@ -53,7 +54,13 @@ impl RoundTrip {
     ) -> Result<Self, TrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut layer = Layer3::begin(walker, patterns.clone(), None, config)?;
-        let there = layer.pursue(walker, Aim::Find(Landmark::Goal), &mut rng, &mut see)?;
+        let there = pursue(
+            &mut layer,
+            walker,
+            Aim::Find(Landmark::Goal),
+            &mut rng,
+            &mut see,
+        )?;
         let mut trip = Self {
             there,
             back: None,
@@ -76,7 +83,7 @@ impl RoundTrip {
                 trip.tried += u32::from(step.leg.known.is_none());
                 trip.given_up += u32::from(step.walked.sighting.is_none());
             };
-            let back = layer.pursue(walker, Aim::WayBack, &mut rng, see)?;
+            let back = pursue(&mut layer, walker, Aim::WayBack, &mut rng, see)?;
             trip.back = Some(back);
             trip.again_from = walker.body().path().len();
             if let Some(plan) = layer.explorer().mapper.plan(Landmark::Goal) {

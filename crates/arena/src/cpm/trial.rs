@@ -17,6 +17,7 @@ use tolman_systems::cpm::{
 };
 
 use super::fragments::Way;
+use super::pursue::pursue;
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
 use crate::course::{Course, CourseError};
@@ -203,7 +204,7 @@ impl Trial<'_> {
         let mut score = Score::of(maze);
         score.begin(layer, walker);
         let aim = Aim::Find(Landmark::Goal);
-        let first = layer.pursue(walker, aim, &mut rng, |layer, walker, step| {
+        let first = pursue(layer, walker, aim, &mut rng, |layer, walker, step| {
             score.see(layer, walker, step);
             see(layer, walker, step);
         });

@@ -18,6 +18,7 @@ use tolman_systems::cpm::{
     Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, WalkError, Walker, WalkerConfig,
 };
 
+use super::pursue::pursue;
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::trial::tests::{PATTERNS, maze_1};
 
@@ -198,7 +199,7 @@ fn play<B: CpmRobot>(
     let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, CpmConfig::online())?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let aim = Aim::Find(Landmark::Goal);
-    let first = layer.pursue(&mut walker, aim, &mut rng, |_, _, _| {})?;
+    let first = pursue(&mut layer, &mut walker, aim, &mut rng, |_, _, _| {})?;
     layer.optimize()?;
     lift(walker.body_mut());
     layer.placed_at_start(&mut walker)?;

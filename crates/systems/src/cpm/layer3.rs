@@ -218,26 +218,6 @@ impl Layer3 {
         }))
     }
 
-    /// Walks until the aim is reached: the first episode, or the way back. `see` is told of every fragment.
-    ///
-    /// # Errors
-    /// [`CpmFailure`](super::CpmFailure).
-    pub fn pursue<B: CpmRobot>(
-        &mut self,
-        walker: &mut Walker<B>,
-        aim: Aim,
-        rng: &mut impl Rng,
-        mut see: impl FnMut(&Self, &Walker<B>, &Step),
-    ) -> CpmResult<Episode, B> {
-        let begun = Begun::now(walker);
-        loop {
-            match self.advance(walker, aim, rng)? {
-                ControlFlow::Continue(step) => see(self, walker, &step),
-                ControlFlow::Break(done) => return Ok(begun.ended(done, walker)),
-            }
-        }
-    }
-
     /// Drives one fragment of a plan, skipping observations, and returns what stands at its end.
     ///
     /// # Errors

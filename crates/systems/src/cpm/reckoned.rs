@@ -12,6 +12,8 @@ pub(super) struct Reckoned<B> {
     pub(super) pose: Pose,
     /// Way of the robot's middle so far, m, forward or backward.
     pub(super) driven: f64,
+    /// Time steps made.
+    pub(super) steps: u32,
 }
 
 impl<B: CpmRobot> Reckoned<B> {
@@ -32,6 +34,7 @@ impl<B: CpmRobot> Robot for Reckoned<B> {
 
     fn step(&mut self, command: &WheelSpeeds) -> Result<(), B::Error> {
         self.body.step(command)?;
+        self.steps += 1;
         if let Some(turns) = self.body.sensing().encoders {
             let roll = |turn: f64| turn * WHEEL_RADIUS;
             let Twist { linear, angular } =

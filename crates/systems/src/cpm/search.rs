@@ -53,7 +53,7 @@ impl Search {
         })
     }
 
-    /// Returns what it has found out.
+    /// Returns what it has found out. Where it is, [`Whereabouts::here`] says: `Location::ahead` is the port behind it.
     #[must_use]
     pub const fn found(&self) -> &Whereabouts {
         &self.found
@@ -81,28 +81,6 @@ impl Search {
             return Ok(ControlFlow::Break(()));
         }
         Ok(ControlFlow::Continue(()))
-    }
-
-    /// Lets a robot that was put down anywhere search until it knows where it is, or gives up. `see` is told of every
-    /// place it comes to.
-    ///
-    /// Where it is then, [`Whereabouts::here`] says: `Location::ahead` is the port behind it.
-    ///
-    /// # Errors
-    /// [`CpmFailure`](super::CpmFailure).
-    pub fn find_out<B: CpmRobot>(
-        mut self,
-        walker: &mut Walker<B>,
-        rng: &mut impl Rng,
-        mut see: impl FnMut(&Walker<B>),
-    ) -> CpmResult<Whereabouts, B> {
-        loop {
-            let flow = self.advance(walker, rng)?;
-            see(walker);
-            if flow.is_break() {
-                return Ok(self.found);
-            }
-        }
     }
 
     fn set_off<B: CpmRobot>(&mut self, walker: &mut Walker<B>) -> WalkResult<Walk, B> {

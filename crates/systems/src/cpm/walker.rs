@@ -189,6 +189,7 @@ impl<B: CpmRobot> Walker<B> {
             body,
             pose: resting.pose,
             driven: resting.driven,
+            steps: 0,
         };
         Self {
             pilot: Pilot::resume(reckoned, config.pilot.clone(), resting.forward),
@@ -225,6 +226,11 @@ impl<B: CpmRobot> Walker<B> {
     /// Microseconds since the robot was switched on.
     pub fn time_us(&self) -> u64 {
         self.pilot.robot().sensing().time_us
+    }
+
+    /// Returns the number of time steps made since it was given the robot.
+    pub fn steps(&self) -> u32 {
+        self.pilot.robot().steps
     }
 
     /// How many observations it has made.
