@@ -29,5 +29,5 @@ pub mod run;
 mod simulated;
 
 pub use mind::{AnyBrain, Mind};
-pub use outing::{Depicted, HasSimulated, Outing, Portrait, Sent, Site};
+pub use outing::{Depicted, HasSimulated, Outing, RobotFacts, Sent, Site};
 pub use simulated::Simulated;

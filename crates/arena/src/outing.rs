@@ -18,7 +18,7 @@ pub trait Outing: InRun {
     fn course(&self) -> &Course;
 
     /// Returns what its robot is.
-    fn robot(&self) -> Portrait;
+    fn robot(&self) -> RobotFacts;
 
     /// Returns where the robot truly was after every time step.
     fn path(&self) -> &[Pose];
@@ -73,7 +73,7 @@ pub trait Outing: InRun {
 
 /// What a simulated robot is, for whoever draws it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Portrait {
+pub struct RobotFacts {
     /// Its name, as in the files of maps.
     pub name: &'static str,
     /// Its outline.
@@ -84,7 +84,7 @@ pub struct Portrait {
     pub step_us: u64,
 }
 
-impl Portrait {
+impl RobotFacts {
     /// Returns what a simulated robot is.
     pub fn of<M: Depicted>(robot: &Simulated<M>) -> Self {
         let model = robot.model();
@@ -282,8 +282,8 @@ where
         &self.course
     }
 
-    fn robot(&self) -> Portrait {
-        Portrait::of(self.robot.robot().simulated())
+    fn robot(&self) -> RobotFacts {
+        RobotFacts::of(self.robot.robot().simulated())
     }
 
     fn path(&self) -> &[Pose] {

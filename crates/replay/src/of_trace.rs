@@ -5,8 +5,11 @@ use std::io::BufRead;
 
 use thiserror::Error;
 use tolman_geom::Pose;
+use tolman_robot::epuck::{MOST_WHEEL_SPEED, WheelSpeeds};
 use tolman_robot::{Ring, TurnTranslate};
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::robots::{
+    CameraPioneer, CameraPioneerConfig, Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig,
+};
 use tolman_sim::trace::{Event, Reader, Recordable, ReplayError};
 use tolman_sim::{DoorEvent, DoorState, World};
 
@@ -30,6 +33,30 @@ impl Portrait for LaserPioneer {
 
     fn parts(command: &TurnTranslate) -> Vec<(&'static str, f64)> {
         vec![("turn", command.turn), ("translate", command.translate)]
+    }
+}
+
+impl Portrait for CameraPioneer {
+    fn ring(config: &CameraPioneerConfig) -> Option<Ring> {
+        Some(config.pioneer.ring)
+    }
+
+    fn parts(command: &TurnTranslate) -> Vec<(&'static str, f64)> {
+        LaserPioneer::parts(command)
+    }
+}
+
+impl Portrait for Epuck {
+    fn ring(_config: &EpuckConfig) -> Option<Ring> {
+        None
+    }
+
+    fn parts(command: &WheelSpeeds) -> Vec<(&'static str, f64)> {
+        let share = |speed: f64| speed / MOST_WHEEL_SPEED;
+        vec![
+            ("left wheel", share(command.left)),
+            ("right wheel", share(command.right)),
+        ]
     }
 }
 

@@ -1,12 +1,13 @@
 //! `tolman replay`: traces made visible.
 
-use std::fs::File;
-use std::io::{BufReader, Write};
+use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman_replay::{Replay, Trace};
-use tolman_sim::robots::LaserPioneer;
+use serde_json::Value;
+use tolman_replay::{Portrait, Replay, Trace, Verdict};
+use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer};
 
 use super::replay_file::{self, Overwrite};
 use super::{Failure, OrBadInput, maze};
@@ -14,7 +15,7 @@ use super::{Failure, OrBadInput, maze};
 /// Makes a replay of a trace: one HTML file that plays it in any browser
 #[derive(clap::Args)]
 #[command(after_help = "\
-Traces are written by `tolman run --trace`. Several of the same world play side by side on one slider; then
+Traces are written by `--trace` of `tolman run`, `learn` and `drive`. Several of the same world play side by side on one slider; then
 it is told at which step each first differs from the first trace, and that step is marked.
 
 Examples:
@@ -43,11 +44,23 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         )));
     }
     replay_file::check(&path, overwrite)?;
-    let mut traces = Vec::new();
+    let mut texts = Vec::new();
     for path in &arguments.traces {
-        traces.push(read(path, arguments.short_name(path))?);
+        texts.push((path, text(path)?));
     }
-    let (replay, verdicts) = Replay::of_traces(&traces).or_bad_input()?;
+    // Each kind of robot has its own lines; the first trace says which.
+    let first = texts.first().and_then(|(_, text)| text.lines().next());
+    let has = |field: &str| {
+        let header: Option<Value> = first.and_then(|line| serde_json::from_str(line).ok());
+        header.is_some_and(|header| header["robots"][0]["config"].get(field).is_some())
+    };
+    let (replay, verdicts) = if has("response") {
+        of::<Epuck>(arguments, &texts)?
+    } else if has("pioneer") {
+        of::<CameraPioneer>(arguments, &texts)?
+    } else {
+        of::<LaserPioneer>(arguments, &texts)?
+    };
     replay_file::write(&path, replay, overwrite)?;
     for verdict in &verdicts {
         writeln!(out, "{verdict}")?;
@@ -78,16 +91,26 @@ impl Arguments {
     }
 }
 
-/// Reads the trace at `path`, which the replay calls `short`.
-fn read(path: &Path, short: String) -> Result<Trace<LaserPioneer>, Failure> {
-    let name = maze::name(path);
-    let trace = if path.as_os_str() == "-" {
-        Trace::read(short, std::io::stdin().lock())
+/// The replay of traces of one kind of robot.
+fn of<M: Portrait>(
+    arguments: &Arguments,
+    texts: &[(&PathBuf, String)],
+) -> Result<(Replay, Vec<Verdict>), Failure> {
+    let mut traces = Vec::new();
+    for (path, text) in texts {
+        let trace = Trace::<M>::read(arguments.short_name(path), text.as_bytes());
+        traces.push(trace.with_context(|| maze::name(path)).or_bad_input()?);
+    }
+    Replay::of_traces(&traces).or_bad_input()
+}
+
+/// Reads the trace at `path`.
+fn text(path: &Path) -> Result<String, Failure> {
+    let text = if path.as_os_str() == "-" {
+        std::io::read_to_string(std::io::stdin().lock())
     } else {
-        let file = File::open(path)
-            .with_context(|| format!("cannot read {name}; give the path of a trace"))
-            .or_bad_input()?;
-        Trace::read(short, BufReader::new(file))
+        fs::read_to_string(path)
     };
-    trace.context(name).or_bad_input()
+    text.with_context(|| format!("cannot read {}; give the path of a trace", maze::name(path)))
+        .or_bad_input()
 }

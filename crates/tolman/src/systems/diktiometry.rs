@@ -8,7 +8,7 @@ use tolman_arena::diktiometry::{
     MapScore, Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig, office_robot,
 };
 use tolman_arena::run::InRun;
-use tolman_arena::{BoxError, Outing, Portrait, Sent};
+use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
 use tolman_geom::{Point, Pose};
 use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId, Use};
@@ -210,8 +210,8 @@ impl Outing for Surveying {
         &self.survey.office().course
     }
 
-    fn robot(&self) -> Portrait {
-        Portrait::of(self.survey.robot())
+    fn robot(&self) -> RobotFacts {
+        RobotFacts::of(self.survey.robot())
     }
 
     fn path(&self) -> &[Pose] {

@@ -99,6 +99,12 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     tolman_in(&folder, &["map", "show", "former.json"]).refused(2, &refused);
     let told = tolman_in(&folder, &["map", "plan", "map.json"]).done();
     assert!(told.contains("observations to junction"), "{told}");
+    // A drive leaves a trace that plays.
+    let trace = [&drive("map.json", "fork.maze")[..], &["--trace", "drive.jsonl"]].concat();
+    tolman_in(&folder, &trace).done();
+    tolman_in(&folder, &["replay", "drive.jsonl"]).done();
+    let replay = fs::read_to_string(folder.join("drive.html")).unwrap();
+    assert!(replay.contains("left wheel"));
     let check = ["map", "check", "map.json", "--maze", "fork.maze"];
     assert_eq!(tolman_in(&folder, &check).done(), "map.json is right\n");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
