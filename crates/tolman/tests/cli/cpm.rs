@@ -100,7 +100,11 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     let told = tolman_in(&folder, &["map", "plan", "map.json"]).done();
     assert!(told.contains("observations to junction"), "{told}");
     // A drive leaves a trace that plays.
-    let trace = [&drive("map.json", "fork.maze")[..], &["--trace", "drive.jsonl"]].concat();
+    let trace = [
+        &drive("map.json", "fork.maze")[..],
+        &["--trace", "drive.jsonl"],
+    ]
+    .concat();
     tolman_in(&folder, &trace).done();
     tolman_in(&folder, &["replay", "drive.jsonl"]).done();
     let replay = fs::read_to_string(folder.join("drive.html")).unwrap();
