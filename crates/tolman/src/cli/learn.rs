@@ -18,8 +18,8 @@ use super::{App, Failure, OrBadInput, file};
 /// Lets a system learn a map of a maze, and writes the map down
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exit code 1 says that no map was learned, or that the one that was written is known to be wrong or unfinished. Which presets
-a system has, and what --set can change, `tolman systems` tells.
+Exit code 1 says that no map was learned, or that the one that was written is known to be wrong or unfinished. `tolman systems`
+lists systems, presets and robots; a --set that a system does not have is answered with those that it has.
 
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
