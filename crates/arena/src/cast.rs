@@ -7,7 +7,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 use tolman_systems::baselines::{Avoid, Random, WallFollow};
 
 use crate::course::Course;
-use crate::episode::EpisodeError;
+use crate::episode_error::EpisodeError;
 use crate::mind::Mind;
 use crate::oracle::{Chart, Oracle, Policy, UnlocalizedOracle};
 

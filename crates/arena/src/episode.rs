@@ -2,55 +2,20 @@
 
 mod step;
 
-use core::convert::Infallible;
-
-use thiserror::Error;
 use tolman_control::{Drive, RingError, Stack};
 use tolman_geom::Pose;
-use tolman_robot::{Body, Goal, Landmark, Robot, Task};
-use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig};
-use tolman_sim::{PlaceError, StepError};
+use tolman_robot::{Body, Goal, Landmark, Task};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::{Actor, ActorError, stream};
 
 use crate::course::Course;
+use crate::episode_error::broken;
 use crate::mind::Mind;
 use crate::oracle::Seer;
-use crate::run::{self, End, InRun, Limited, LimitedError};
+use crate::run::{self, End, Limited};
 
+pub use crate::episode_error::EpisodeError;
 pub use step::Step;
-
-/// Why a run could not be made.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum EpisodeError {
-    /// The robot cannot be built.
-    #[error("the robot cannot be built")]
-    Robot(#[from] ConfigError),
-    /// The robot cannot start where it was put.
-    #[error("the robot cannot start there")]
-    Start(#[from] PlaceError),
-    /// The layers do not fit the robot's ring.
-    #[error("the layers do not fit the robot's ring")]
-    Layers(#[from] RingError),
-    /// The course is too large for the oracle.
-    #[error(
-        "the oracle would have to plan on {nodes} nodes, and {most} are the most: choose a smaller maze"
-    )]
-    Policy {
-        /// How many nodes the course needs.
-        nodes: usize,
-        /// How many it may need.
-        most: usize,
-    },
-    /// A step could not be made.
-    #[error("step {step} could not be made")]
-    Step {
-        /// Which one, from 0.
-        step: u32,
-        /// Why.
-        source: ActorError<LimitedError<StepError>, Infallible>,
-    },
-}
 
 /// What a run is made of, beside the mind.
 #[derive(Clone, Debug)]
@@ -154,19 +119,4 @@ pub fn run(
         bumps: robot.robot().bumps(),
         path: robot.robot().path().to_vec(),
     })
-}
-
-/// Returns that the simulator refused the command of time step `step`.
-pub(crate) const fn step_failed(step: u32, source: StepError) -> EpisodeError {
-    let source = ActorError::Robot(LimitedError::Robot(source));
-    EpisodeError::Step { step, source }
-}
-
-/// Returns why a run broke off at the robot's next step.
-pub(crate) fn broken(
-    robot: &Limited<impl Robot>,
-    source: ActorError<LimitedError<StepError>, Infallible>,
-) -> EpisodeError {
-    let step = robot.steps();
-    EpisodeError::Step { step, source }
 }

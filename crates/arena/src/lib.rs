@@ -18,6 +18,7 @@ pub mod course;
 pub mod cpm;
 pub mod diktiometry;
 pub mod episode;
+mod episode_error;
 pub mod micromouse;
 mod mind;
 pub mod mms;

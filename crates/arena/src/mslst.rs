@@ -10,7 +10,8 @@ use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Su
 use tolman_systems::{Actor, Doing, TimeStep, stream};
 
 use crate::course::Course;
-use crate::episode::{EpisodeError, broken, layers};
+use crate::episode::layers;
+use crate::episode_error::{EpisodeError, broken};
 use crate::pioneer::CoursePioneer;
 use crate::run::{self, Limited};
 

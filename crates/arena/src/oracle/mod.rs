@@ -21,7 +21,7 @@ pub(crate) use seer::Seer;
 pub use unlocalized::{Chart, UnlocalizedOracle};
 
 use crate::course::Course;
-use crate::episode::EpisodeError;
+use crate::episode_error::EpisodeError;
 use crate::pioneer::without_noise;
 
 /// Returns the robot of a course without noise, to be set down anywhere.

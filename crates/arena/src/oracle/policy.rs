@@ -10,7 +10,7 @@ use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
 use super::perfect_robot;
 use crate::course::Course;
-use crate::episode::{EpisodeError, step_failed};
+use crate::episode_error::{EpisodeError, step_failed};
 
 /// What every action costs, in time steps to the destination, from every place of a course.
 ///

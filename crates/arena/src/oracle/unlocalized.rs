@@ -12,7 +12,7 @@ use tolman_systems::{Brain, Doing, TimeStep};
 
 use super::{Oracle, Policy, perfect_robot};
 use crate::course::Course;
-use crate::episode::{EpisodeError, step_failed};
+use crate::episode_error::{EpisodeError, step_failed};
 
 /// The ceiling for those who start they know not where: it has the true map, and finds out where it is by a
 /// Bayes filter over all positions; then it does what the [`Oracle`] would do at the most likely one.
