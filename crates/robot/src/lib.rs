@@ -4,7 +4,7 @@
 //! are written against this trait and these value types only, so a brain or a layer that was tried
 //! on the simulator runs on a driver without a change.
 //!
-//! A robot of one make has a module of its own with its measures: [`epuck`].
+//! A robot of one make has a module of its own with its measures: [`epuck`], [`pioneer_2dx`].
 //!
 //! Metres, radians, seconds; the robot's frame has x ahead and y to the left.
 #![no_std]
@@ -26,8 +26,12 @@ mod landmark;
 mod laser_robot;
 mod mapper;
 mod odometry;
+mod picture;
+pub mod pioneer_2dx;
 mod robot;
 mod scan;
+mod snapshot;
+mod sounding;
 mod stopping;
 mod system;
 mod turn_translate;
@@ -39,8 +43,11 @@ pub use landmark::{Landmark, Landmarked, SensesLandmarks};
 pub use laser_robot::LaserSensing;
 pub use mapper::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 pub use odometry::Odometry;
+pub use picture::{Picture, PinholeCamera};
 pub use robot::{Robot, Standstill};
 pub use scan::{Ring, Scan};
+pub use snapshot::{Snapshot, TakesSnapshots};
+pub use sounding::Sounding;
 pub use stopping::Stopping;
 pub use system::{Goal, Standing, System, Task};
 pub use turn_translate::TurnTranslate;
