@@ -4,6 +4,7 @@
 //! - [`wall_belief`]: the same walls for a mouse whose sensors and wheels err, and where on them it is.
 //! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how junctions join them.
 //! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of any robot's moves.
+//! - [`place_map`]: places as prototypes of what was seen, heard and rolled there.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
 //! A map takes in what is observed and answers what is known. What to do next is the business of planners,
@@ -32,6 +33,8 @@ pub mod cpm;
 pub mod diktiometry;
 #[cfg(feature = "alloc")]
 pub mod mslst_graph;
+#[cfg(feature = "alloc")]
+pub mod place_map;
 #[cfg(feature = "alloc")]
 pub mod wall_belief;
 pub mod wall_map;

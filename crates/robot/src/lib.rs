@@ -47,7 +47,7 @@ pub use picture::{Picture, PinholeCamera};
 pub use robot::{Robot, Standstill};
 pub use scan::{Ring, Scan};
 pub use snapshot::{Snapshot, TakesSnapshots};
-pub use sounding::Sounding;
+pub use sounding::{Sounding, Soundings};
 pub use stopping::Stopping;
 pub use system::{Goal, Standing, System, Task};
 pub use turn_translate::TurnTranslate;

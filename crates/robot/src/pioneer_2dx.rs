@@ -5,7 +5,8 @@ use core::f64::consts::PI;
 use tolman_geom::{Heading, Point, Pose};
 
 use crate::{
-    Bumps, Clock, Odometry, Picture, PinholeCamera, Rolls, Snapshot, Sounding, TakesSnapshots,
+    Bumps, Clock, Odometry, Picture, PinholeCamera, Rolls, Snapshot, Sounding, Soundings,
+    TakesSnapshots,
 };
 
 /// Length of the body, m.
@@ -114,20 +115,26 @@ impl Clock for Pioneer2dxSensing {
     }
 }
 
+impl Soundings for Pioneer2dxSensing {
+    fn soundings(&self) -> impl Iterator<Item = Sounding> + '_ {
+        self.sonars.iter().flat_map(|ranges| {
+            let readings = sonar_mounts().into_iter().zip(*ranges);
+            readings.map(|(mount, range)| Sounding {
+                mount,
+                half_width: SONAR_HALF_WIDTH,
+                range,
+                max_range: SONAR_MOST,
+            })
+        })
+    }
+}
+
 impl TakesSnapshots for Pioneer2dxSensing {
     fn snapshot(&self) -> Option<Snapshot> {
-        let ranges = self.sonars?;
-        let picture = self.picture.clone()?;
-        let readings = sonar_mounts().into_iter().zip(ranges);
-        let sounding = |(mount, range)| Sounding {
-            mount,
-            half_width: SONAR_HALF_WIDTH,
-            range,
-            max_range: SONAR_MOST,
-        };
+        self.sonars?;
         Some(Snapshot {
-            soundings: readings.map(sounding).collect(),
-            picture: Some(picture),
+            soundings: self.soundings().collect(),
+            picture: Some(self.picture.clone()?),
         })
     }
 }

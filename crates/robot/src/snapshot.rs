@@ -1,8 +1,6 @@
 use alloc::vec::Vec;
 
-use tolman_geom::{Heading, Point, Pose};
-
-use crate::{LaserSensing, Picture, Sounding};
+use crate::{LaserSensing, Picture, Sounding, Soundings};
 
 /// What a robot perceives from where it stands, whatever its sensors are.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,28 +13,18 @@ pub struct Snapshot {
 }
 
 /// Can take a snapshot: senses ranges, a picture, or both.
-pub trait TakesSnapshots {
+pub trait TakesSnapshots: Soundings {
     /// Returns what is perceived in this time step; `None` while there is nothing whole to be had, such as a picture
     /// while the robot moves.
     fn snapshot(&self) -> Option<Snapshot>;
 }
 
-/// The beams of the laser, from the middle of the robot.
+/// Of what the laser reads alone.
 impl<S: AsRef<LaserSensing>> TakesSnapshots for S {
     fn snapshot(&self) -> Option<Snapshot> {
-        let scan = self.as_ref().scan.as_ref()?;
-        let beams = (0..).zip(&scan.ranges);
-        let sounding = |(beam, range): (u32, &f64)| Sounding {
-            mount: Pose::new(
-                Point::origin(),
-                Heading::from_radians(scan.ring.bearing(beam)),
-            ),
-            half_width: 0.0,
-            range: *range,
-            max_range: scan.ring.max_range,
-        };
-        Some(Snapshot {
-            soundings: beams.map(sounding).collect(),
+        let soundings: Vec<Sounding> = self.soundings().collect();
+        (!soundings.is_empty()).then_some(Snapshot {
+            soundings,
             picture: None,
         })
     }

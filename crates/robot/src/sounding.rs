@@ -1,4 +1,6 @@
-use tolman_geom::Pose;
+use tolman_geom::{Heading, Point, Pose};
+
+use crate::LaserSensing;
 
 /// One reading of a range sensor, wherever it sits and however wide it hears: a sonar's cone or a laser's beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,4 +14,28 @@ pub struct Sounding {
     pub range: f64,
     /// The most it reads, m.
     pub max_range: f64,
+}
+
+/// Senses ranges by sensors anywhere on its body.
+pub trait Soundings {
+    /// Returns the readings of this time step; none for a drop-out.
+    fn soundings(&self) -> impl Iterator<Item = Sounding> + '_;
+}
+
+/// The beams of the laser, from the middle of the robot.
+impl<S: AsRef<LaserSensing>> Soundings for S {
+    fn soundings(&self) -> impl Iterator<Item = Sounding> + '_ {
+        let scan = self.as_ref().scan.iter();
+        scan.flat_map(|scan| {
+            (0..).zip(&scan.ranges).map(|(beam, range)| Sounding {
+                mount: Pose::new(
+                    Point::origin(),
+                    Heading::from_radians(scan.ring.bearing(beam)),
+                ),
+                half_width: 0.0,
+                range: *range,
+                max_range: scan.ring.max_range,
+            })
+        })
+    }
 }
