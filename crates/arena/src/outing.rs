@@ -1,3 +1,4 @@
+use alloc::collections::BTreeMap;
 use alloc::fmt;
 
 use tolman_geom::{Point, Pose};
@@ -47,8 +48,8 @@ pub trait Outing: InRun {
     /// Returns where the system believes to be.
     fn belief(&self) -> Vec<Guess>;
 
-    /// Returns where a place of the map truly lies, for pictures; `None` where nobody knows.
-    fn site(&self, place: u32) -> Option<Point>;
+    /// Returns where the places of the map truly lie, as far as that is known, for pictures. O(map).
+    fn sites(&self) -> BTreeMap<u32, Point>;
 
     /// Returns which of several maps that it was given it takes for that of the maze, counted from 0.
     fn chosen(&self) -> usize {
@@ -160,7 +161,7 @@ impl Depicted for LaserPioneer {
 }
 
 impl Depicted for CameraPioneer {
-    const NAME: &'static str = "camera Pioneer";
+    const NAME: &'static str = crate::pioneer::CAMERA_PIONEER;
 
     fn ring(&self) -> Option<Ring> {
         Some(self.config().pioneer.ring)
@@ -192,12 +193,14 @@ pub struct Sent<R: Robot, S> {
     judge: Judge<S>,
     lie: Lie<S>,
     choice: Count<S>,
+    /// What the robot is called, if not as its model.
+    name: Option<&'static str>,
 }
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
 type Keep<S> = Box<dyn Fn(&S, &[Site]) -> Result<Option<String>, BoxError>>;
 type Judge<S> = Box<dyn Fn(&S, Task) -> Option<String>>;
-type Lie<S> = Box<dyn Fn(&S, u32) -> Option<Point>>;
+type Lie<S> = Box<dyn Fn(&S) -> BTreeMap<u32, Point>>;
 
 impl<R: Robot, S> fmt::Debug for Sent<R, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -219,8 +222,9 @@ impl<R: Robot, S> Sent<R, S> {
             count: Box::new(|_| 0),
             keep: Box::new(|_, _| Ok(None)),
             judge: Box::new(|_, _| None),
-            lie: Box::new(|_, _| None),
+            lie: Box::new(|_| BTreeMap::new()),
             choice: Box::new(|_| 0),
+            name: None,
         }
     }
 
@@ -255,9 +259,16 @@ impl<R: Robot, S> Sent<R, S> {
         Self { choice, ..self }
     }
 
-    /// Lets `lie` say where a place of the map truly lies.
+    /// Calls the robot `name`, which is simulated by a model of another name.
     #[must_use]
-    pub fn lying(self, lie: impl Fn(&S, u32) -> Option<Point> + 'static) -> Self {
+    pub fn called(self, name: &'static str) -> Self {
+        let name = Some(name);
+        Self { name, ..self }
+    }
+
+    /// Lets `lie` say where the places of the map truly lie.
+    #[must_use]
+    pub fn lying(self, lie: impl Fn(&S) -> BTreeMap<u32, Point> + 'static) -> Self {
         let lie = Box::new(lie);
         Self { lie, ..self }
     }
@@ -283,7 +294,9 @@ where
     }
 
     fn robot(&self) -> RobotFacts {
-        RobotFacts::of(self.robot.robot().simulated())
+        let facts = RobotFacts::of(self.robot.robot().simulated());
+        let name = self.name.unwrap_or(facts.name);
+        RobotFacts { name, ..facts }
     }
 
     fn path(&self) -> &[Pose] {
@@ -326,9 +339,10 @@ where
         self.system.belief()
     }
 
-    fn site(&self, place: u32) -> Option<Point> {
-        let noted = self.sites.get(place as usize).map(|site| site.position);
-        noted.or_else(|| (self.lie)(&self.system, place))
+    fn sites(&self) -> BTreeMap<u32, Point> {
+        let mut sites = (self.lie)(&self.system);
+        sites.extend((0..).zip(self.sites.iter().map(|site| site.position)));
+        sites
     }
 
     fn chosen(&self) -> usize {

@@ -14,6 +14,9 @@ pub type CoursePioneer = Simulated<LaserPioneer>;
 /// Name of the robot in files of learned maps.
 pub const LASER_PIONEER: &str = "laser Pioneer";
 
+/// What the Pioneer with a camera beside its laser is called.
+pub const CAMERA_PIONEER: &str = "camera Pioneer";
+
 /// The width of a corridor where a maze says nothing of it: 1.9 robot units, in metres.
 ///
 /// Avoid's buffer of 0.9 units needs more than 1.8; the corridor test needs less than 2.0

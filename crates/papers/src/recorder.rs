@@ -2,10 +2,10 @@
 
 use tolman_control::{CorridorDetector, Outcome, View};
 use tolman_geom::Point;
-use tolman_robot::{Body, Guess, Position, Robot};
+use tolman_robot::{Body, Guess, Robot};
 
 use tolman_arena::episode::{Episode, Step, Trial};
-use tolman_replay::{Belief, BeliefAt, Floor, Mark, Marks, Notes, Replay, Scenery, Shape, Track};
+use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, Scenery, Track};
 
 /// Watches an episode and makes its replay: the robot's way, the action under way and how the last one
 /// ended, whether it is in a corridor, what it thinks and where it believes to be, how much of the maze it has seen, and
@@ -47,12 +47,6 @@ pub struct Recorder<'a> {
     failures: Marks,
 }
 
-/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
-const SHOWN_GUESSES: usize = 8;
-
-/// What is believed less is not shown.
-const LEAST_WEIGHT: f64 = 0.01;
-
 impl<'a> Recorder<'a> {
     /// Watches a run of this trial.
     #[must_use]
@@ -87,25 +81,8 @@ impl<'a> Recorder<'a> {
         if !words.is_empty() {
             self.thoughts.say(step, words);
         }
-        let shapes: Vec<Shape> = belief
-            .iter()
-            .filter(|guess| guess.weight >= LEAST_WEIGHT)
-            .take(SHOWN_GUESSES)
-            .filter_map(|guess| {
-                let position = match guess.at {
-                    Position::Point(position) => position,
-                    Position::Place(id) => *self.nodes.get(id as usize)?,
-                };
-                Some(Shape::Point {
-                    position,
-                    weight: guess.weight,
-                })
-            })
-            .collect();
-        let before = self.belief.entries.last().map(|entry| &entry.shapes);
-        if before.map_or(!shapes.is_empty(), |before| *before != shapes) {
-            self.belief.entries.push(BeliefAt { step, shapes });
-        }
+        let site = |id: u32| self.nodes.get(id as usize).copied();
+        self.belief.note(step, belief, site);
     }
 
     /// Sees one step.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use tolman_geom::{Heading, Point, Pose};
-use tolman_robot::Scan;
+use tolman_robot::{Guess, Position, Scan};
 
 use super::Fact;
 
@@ -153,7 +153,33 @@ impl Belief {
             entries: Vec::new(),
         }
     }
+
+    /// Notes what a system believes from `step` on, if it is something else than before: the likeliest few of its guesses, with
+    /// places where `site` says that they lie.
+    pub fn note(&mut self, step: u32, guesses: &[Guess], site: impl Fn(u32) -> Option<Point>) {
+        let likely = guesses.iter().filter(|guess| guess.weight >= LEAST_WEIGHT);
+        let shapes = likely.take(SHOWN_GUESSES).filter_map(|guess| {
+            let position = match guess.at {
+                Position::Point(position) => position,
+                Position::Place(id) => site(id)?,
+            };
+            let weight = guess.weight;
+            Some(Shape::Point { position, weight })
+        });
+        let shapes: Vec<Shape> = shapes.collect();
+        let before = self.entries.last().map(|entry| &entry.shapes);
+        if before.map_or(!shapes.is_empty(), |before| *before != shapes) {
+            self.entries.pop_if(|entry| entry.step >= step);
+            self.entries.push(BeliefAt { step, shapes });
+        }
+    }
 }
+
+/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
+const SHOWN_GUESSES: usize = 8;
+
+/// What is believed less is not shown.
+const LEAST_WEIGHT: f64 = 0.01;
 
 /// One state of a [`Belief`].
 #[derive(Clone, Debug, PartialEq)]

@@ -153,6 +153,11 @@ impl Layout {
         self.places.get(&junction).map(|(cell, _)| *cell)
     }
 
+    /// Returns all junctions that lie where the map has them, with their cells.
+    pub fn places(&self) -> impl Iterator<Item = (JunctionId, Cell)> {
+        self.places.iter().map(|(id, (cell, _))| (*id, *cell))
+    }
+
     /// Where a fragment lies.
     #[must_use]
     pub fn fragment(&self, fragment: FragmentId) -> Option<&Lie> {

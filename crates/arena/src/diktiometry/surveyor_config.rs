@@ -4,7 +4,7 @@ use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
 use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, RoutineConfig, SenseError};
 
-use crate::pioneer::{LASER_PIONEER, calibrated};
+use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
 
 /// A simulated Pioneer and the bounds of its errors. Where the paper names no number, ours stand in
 /// [`SurveyorConfig::paper`].
@@ -89,7 +89,7 @@ impl SurveyorConfig {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self.sight {
-            Sight::Camera { .. } => "camera Pioneer",
+            Sight::Camera { .. } => CAMERA_PIONEER,
             Sight::Laser { .. } => LASER_PIONEER,
         }
     }

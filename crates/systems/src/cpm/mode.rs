@@ -25,6 +25,16 @@ impl Mode {
         }
     }
 
+    /// Returns the same way of mapping with another `config`.
+    #[must_use]
+    pub const fn with(self, config: CpmConfig) -> Self {
+        match self {
+            Self::Paper(_) => Self::Paper(config),
+            Self::Reckoned(_) => Self::Reckoned(config),
+            Self::Unlearned(_) => Self::Unlearned(config),
+        }
+    }
+
     /// Returns what dead reckoning takes headings from.
     #[must_use]
     pub const fn heading(self) -> HeadingBy {

@@ -10,7 +10,7 @@ use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
 use super::map::map_text;
-use super::send::{check_origin, send, tell_replay, told};
+use super::send::{Pursued, check_origin, send, tell_replay};
 use super::sent_out::SentOut;
 use super::{App, Failure, OrBadInput};
 use crate::system::MapText;
@@ -60,6 +60,7 @@ pub(super) fn carry_out(
             )));
         }
     }
+    arguments.sent_out.refuse_preset()?;
     let maze = arguments.sent_out.maze()?;
     let mut setup = arguments.sent_out.setup(&maze);
     // The robot that learned the map, if nothing else is said.
@@ -70,16 +71,15 @@ pub(super) fn carry_out(
         .map_err(|error| error.context(context()))
         .or_bad_input()?;
     if !arguments.anyway {
-        let fitting = maps.iter().find(|map| check_origin(map, &*outing).is_ok());
-        match fitting {
-            Some(_) => {}
-            None => check_origin(&maps[0], &*outing)?,
+        let mut checked = maps.iter().map(|map| check_origin(map, &*outing));
+        if !checked.any(|checked| checked.is_ok()) {
+            check_origin(&maps[0], &*outing)?;
         }
     }
     let task = Task::Reach(Goal::Landmark(Landmark::Goal));
-    let ended = send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
+    let Pursued { ended, told } =
+        send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
     let arrived = ended.end == End::Done && outing.landmark() == Some(Landmark::Goal);
-    let told = told(&ended, &*outing, system.name());
     if arguments.looks.json {
         let json = json!({
             "system": system.name(),

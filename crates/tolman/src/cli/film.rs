@@ -3,21 +3,13 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_arena::Outing;
-use tolman_geom::Point;
 use tolman_replay::{
-    Belief, BeliefAt, Edge, Floor, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series,
-    Shape, Track,
+    Belief, Edge, Floor, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series, Track,
 };
-use tolman_robot::{Landmark, Position};
+use tolman_robot::Landmark;
 
 /// Nodes that moved less than this are left where they are, m.
 const STILL: f64 = 0.05;
-
-/// How many of the places where a robot may be are shown. More would be a blot, and make the file large.
-const SHOWN_GUESSES: usize = 8;
-
-/// What is believed less is not shown.
-const LEAST_WEIGHT: f64 = 0.01;
 
 /// After each of the first so many actions the map is looked at, then more and more rarely.
 const DENSE: u32 = 200;
@@ -62,28 +54,21 @@ impl Film {
         if !words.is_empty() {
             self.thoughts.say(step, words);
         }
-        let belief = outing.belief().into_iter();
-        let likely = belief.filter(|guess| guess.weight >= LEAST_WEIGHT);
-        let shapes = likely.take(SHOWN_GUESSES).filter_map(|guess| {
-            let position = match guess.at {
-                Position::Point(position) => position,
-                Position::Place(id) => self.position(outing, id)?,
-            };
-            let weight = guess.weight;
-            Some(Shape::Point { position, weight })
-        });
-        let shapes: Vec<Shape> = shapes.collect();
-        let before = self.belief.entries.last().map(|entry| &entry.shapes);
-        if before.map_or(!shapes.is_empty(), |before| *before != shapes) {
-            self.belief.entries.pop_if(|entry| entry.step >= step);
-            self.belief.entries.push(BeliefAt { step, shapes });
+        let belief = outing.belief();
+        if belief.is_empty() && self.belief.entries.is_empty() {
+            return;
         }
-    }
-
-    /// Where a place is drawn.
-    fn position(&self, outing: &dyn Outing, id: u32) -> Option<Point> {
-        let node = self.nodes.get(&id).map(Node::latest);
-        node.or_else(|| outing.site(id))
+        let sites = outing.sites();
+        let Self {
+            belief: shown,
+            nodes,
+            ..
+        } = self;
+        let site = |id: u32| {
+            let node = nodes.get(&id).map(Node::latest);
+            node.or_else(|| sites.get(&id).copied())
+        };
+        shown.note(step, &belief, site);
     }
 
     /// Notes what has changed on the map.
@@ -96,8 +81,10 @@ impl Film {
                 node.died = Some(step);
             }
         }
+        let sites = outing.sites();
         for place in &map.places {
-            let Some(at) = outing.site(place.id).or(place.position) else {
+            let site = sites.get(&place.id).copied();
+            let Some(at) = site.or(place.position) else {
                 continue;
             };
             let node = self.nodes.entry(place.id);

@@ -10,7 +10,7 @@ use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
 use super::map::map_text;
-use super::send::{check_origin, send, tell_replay, told};
+use super::send::{Pursued, check_origin, send, tell_replay};
 use super::sent_out::SentOut;
 use super::words::words;
 use super::{App, Failure, OrBadInput, file};
@@ -77,8 +77,8 @@ pub(super) fn carry_out(
         check_origin(from, &*outing)?;
     }
     let task = arguments.until;
-    let ended = send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
-    let told = told(&ended, &*outing, system.name());
+    let Pursued { ended, told } =
+        send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
     let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
     let complaint = match &ended.end {
         End::Done => outing.complaint(task),
@@ -94,11 +94,8 @@ pub(super) fn carry_out(
             setup.world
         )));
     };
-    let lines = {
-        let map = super::map::of_text(&arguments.out, text.clone())?;
-        let map = system.map(&map)?;
-        (map.lines(), map.json())
-    };
+    let map = super::map::of_text(&arguments.out, text.clone())?;
+    let map = system.map(&map)?;
     file::write(&arguments.out, text)?;
     if arguments.looks.json {
         let json = json!({
@@ -109,12 +106,12 @@ pub(super) fn carry_out(
             "actions": ended.actions,
             "bumps": outing.bumped().len(),
             "complaint": complaint.clone().map_or(Value::Null, Value::String),
-            "map": lines.1,
+            "map": map.json(),
         });
         writeln!(out, "{json:#}")?;
     } else {
         writeln!(out, "{told}")?;
-        for line in lines.0.iter().take(MOST_LINES) {
+        for line in map.lines().iter().take(MOST_LINES) {
             writeln!(out, "{line}")?;
         }
         tell_replay(&arguments.looks, out)?;

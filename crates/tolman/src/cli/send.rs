@@ -14,6 +14,13 @@ use super::looks::Looks;
 use super::{Failure, file, interrupt, picture, replay_file};
 use crate::system::{MapText, Setup, slug};
 
+/// What became of an outing.
+pub(super) struct Pursued {
+    pub(super) ended: Ended,
+    /// The same in words.
+    pub(super) told: String,
+}
+
 /// Lets a system pursue a task to its end, shows it to who looks, and writes down what was asked for.
 ///
 /// # Errors
@@ -24,7 +31,7 @@ pub(super) fn send(
     setup: &Setup<'_>,
     word: &str,
     looks: &Looks,
-) -> Result<Ended, Failure> {
+) -> Result<Pursued, Failure> {
     let overwrite = looks.overwrite()?;
     let stop = interrupt::flag()?;
     let mut live = match looks.live {
@@ -33,6 +40,7 @@ pub(super) fn send(
     };
     let mut film = looks.replay.as_ref().map(|_| Film::new(outing));
     let mut shown = 1;
+    let mut interrupted = false;
     let ended = run::until_done(outing, |outing| {
         let standing = outing.act(task)?;
         if let Some(film) = &mut film {
@@ -52,8 +60,9 @@ pub(super) fn send(
             }
             shown = path.len();
         }
-        match stop.load(Ordering::Relaxed) {
-            true => Ok(Standing::gave_up(INTERRUPTED)),
+        interrupted = stop.load(Ordering::Relaxed);
+        match interrupted {
+            true => Ok(Standing::gave_up("interrupted")),
             false => Ok::<_, tolman_arena::BoxError>(standing),
         }
     });
@@ -64,11 +73,8 @@ pub(super) fn send(
     if let Some(live) = live {
         live.close(&told).context("the terminal has gone")?;
     }
-    let gave_up = |why: &str| End::GaveUp {
-        why: why.to_owned(),
-    };
-    if ended.end == gave_up(INTERRUPTED) {
-        return Err(Failure::Interrupted(anyhow!("{word} was {INTERRUPTED}")));
+    if interrupted {
+        return Err(Failure::Interrupted(anyhow!("{word} was interrupted")));
     }
     if let Some(path) = &looks.trace {
         let lines = outing.trace().map_err(anyhow::Error::from_boxed)?;
@@ -81,13 +87,11 @@ pub(super) fn send(
         let title = format!("{word} in {}", setup.world);
         let replay = film.replay(outing, title);
         let replay = replay.fact("seed", setup.seed.to_string());
-        let replay = replay.fact("outcome", told);
+        let replay = replay.fact("outcome", told.clone());
         replay_file::write(path, replay, overwrite)?;
     }
-    Ok(ended)
+    Ok(Pursued { ended, told })
 }
-
-const INTERRUPTED: &str = "interrupted";
 
 fn scene(outing: &dyn Outing, setup: &Setup<'_>, word: &str) -> Scene {
     Scene {
@@ -102,7 +106,7 @@ fn scene(outing: &dyn Outing, setup: &Setup<'_>, word: &str) -> Scene {
 }
 
 /// The outcome in words.
-pub(super) fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
+fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     let end = match &ended.end {
         End::Done => "is done",
         End::OutOfTime => "is out of time",

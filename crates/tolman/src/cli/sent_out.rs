@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use anyhow::anyhow;
 use tolman_maze::MazeFile;
 
 use super::{Failure, maze};
@@ -41,6 +42,19 @@ impl SentOut {
     pub(super) fn maze(&self) -> Result<(String, MazeFile), Failure> {
         let read = maze::read(&self.maze)?;
         Ok((maze::world_name(&self.maze, &read), read))
+    }
+
+    /// Refuses a preset where a map says how the system was set.
+    ///
+    /// # Errors
+    /// Bad input if there is one.
+    pub(super) fn refuse_preset(&self) -> Result<(), Failure> {
+        match &self.preset {
+            Some(preset) => Err(Failure::BadInput(anyhow!(
+                "--preset {preset}: a map keeps the settings it was learned with; leave --preset out, or change single ones with --set"
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// Returns what a robot is sent out with.

@@ -44,6 +44,15 @@ const PRESETS: [(&str, &str); 3] = [
     ),
 ];
 
+/// What each preset stands for.
+fn modes() -> [Mode; 3] {
+    [
+        Mode::Reckoned(CpmConfig::robust()),
+        Mode::Paper(CpmConfig::online()),
+        Mode::Unlearned(CpmConfig::robust()),
+    ]
+}
+
 const EPUCK: &str = "e-puck";
 
 /// Where common patterns are learned.
@@ -68,19 +77,14 @@ impl SystemEntry for Cpm {
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
         setup.anew(self.name())?;
-        let modes: [fn(CpmConfig) -> Mode; 3] = [Mode::Reckoned, Mode::Paper, Mode::Unlearned];
         let names = PRESETS.map(|(name, _)| name);
-        let mode = setup.settings.preset(names.into_iter().zip(modes))?;
-        let config = match mode(CpmConfig::online()) {
-            Mode::Paper(config) => config,
-            Mode::Reckoned(_) | Mode::Unlearned(_) => CpmConfig::robust(),
-        };
+        let mode = setup.settings.preset(names.into_iter().zip(modes()))?;
         let config = CpmConfig {
             most_traversals: patience(&setup.maze.maze),
-            ..config
+            ..mode.config()
         };
         let config = setup.settings.over(&config)?;
-        let mode = mode(config);
+        let mode = mode.with(config);
         let ground = Ground::of(setup, mode, Start::Marked)?;
         let walker = ground.walker.clone();
         let cpm = match mode {
@@ -208,10 +212,14 @@ impl Ground {
                 let map = cpm.explorer()?.mapper.map();
                 (task == Task::Explore).then(|| complaint(map, &maze, at_start))?
             })
-            .lying(move |cpm, place| {
-                let map = cpm.explorer()?.mapper.map();
-                let cell = Layout::of(map, &ours).place(JunctionId(place))?;
-                Some(world.cell_centre(cell))
+            .lying(move |cpm| {
+                let layout = cpm
+                    .explorer()
+                    .map(|explorer| Layout::of(explorer.mapper.map(), &ours));
+                let places = layout.iter().flat_map(Layout::places);
+                places
+                    .map(|(JunctionId(id), cell)| (id, world.cell_centre(cell)))
+                    .collect()
             });
         Box::new(sent)
     }
@@ -287,7 +295,7 @@ impl LearnedMap for MapFile {
             map,
             ..
         } = self;
-        let way = match self.plan_from_start() {
+        let way = match observations_to_goal(map) {
             Some(length) => format!("the goal is {length} observations from the start"),
             None => "no way to the goal is known: learn until it is found".to_owned(),
         };
@@ -326,12 +334,12 @@ impl LearnedMap for MapFile {
             "fragments": map.fragments().len(),
             "junctions": map.junctions().len(),
             "unexplored_ports": map.open_ports().count(),
-            "observations_to_goal": self.plan_from_start(),
+            "observations_to_goal": observations_to_goal(map),
         })
     }
 
     fn drawing(&self, maze: &MazeFile) -> Result<Drawing, Error> {
-        Ok(drawing::over_maze(&self.map, &self.course(maze)?))
+        Ok(drawing::over_maze(&self.map, &course_of(self, maze)?))
     }
 
     fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
@@ -372,31 +380,21 @@ impl LearnedMap for MapFile {
     }
 
     fn complaint(&self, maze: &MazeFile) -> Result<Option<String>, Error> {
-        let course = self.course(maze)?;
+        let course = course_of(self, maze)?;
         Ok(complaint(&self.map, &course.maze, true))
     }
 }
 
-/// What a map says of the maze it was learned in.
-trait Of {
-    fn course(&self, maze: &MazeFile) -> Result<Course, Error>;
-    fn plan_from_start(&self) -> Option<u32>;
+/// The maze that a map was learned in, made ready for the robot that learned it.
+fn course_of(file: &MapFile, maze: &MazeFile) -> Result<Course, Error> {
+    Ok(match &*file.origin.robot {
+        EPUCK => epuck_course(&file.origin.world, maze.clone())?,
+        _ => Course::for_body(&file.origin.world, maze, &body())?,
+    })
 }
 
-impl Of for MapFile {
-    fn course(&self, maze: &MazeFile) -> Result<Course, Error> {
-        Ok(match &*self.origin.robot {
-            EPUCK => epuck_course(&self.origin.world, maze.clone())?,
-            _ => Course::for_body(&self.origin.world, maze, &body())?,
-        })
-    }
-
-    fn plan_from_start(&self) -> Option<u32> {
-        let is_goal = |junction| self.map.has(junction, Landmark::Goal);
-        let plan = self
-            .map
-            .start()
-            .and_then(|from| self.map.plan(from, is_goal));
-        plan.map(|plan| plan.length)
-    }
+/// Observations from the start of the map to the goal, by the best way it knows.
+fn observations_to_goal(map: &CpMap) -> Option<u32> {
+    let plan = map.plan(map.start()?, |junction| map.has(junction, Landmark::Goal));
+    plan.map(|plan| plan.length)
 }

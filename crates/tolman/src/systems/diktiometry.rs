@@ -1,3 +1,4 @@
+use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
 use anyhow::{Context, Error, anyhow};
@@ -7,6 +8,7 @@ use tolman_arena::course::Course;
 use tolman_arena::diktiometry::{
     MapScore, Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig, office_robot,
 };
+use tolman_arena::pioneer::{CAMERA_PIONEER, LASER_PIONEER};
 use tolman_arena::run::InRun;
 use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
@@ -30,10 +32,10 @@ const PRESETS: [(&str, &str); 1] = [(
     "As the paper's robot, which heeds advice in 30 % of the cases",
 )];
 
-/// What can be set: of the robot's walk, and of the world, which is made of the maze.
+/// What can be set when it learns: of the robot's walk, and of the world, which is made of the maze.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Walk {
+struct Learning {
     /// How many moves to make, each from a place to the next.
     moves: u32,
     /// How likely the robot begins a script when the map advises one, 0 … 1.
@@ -44,12 +46,27 @@ struct Walk {
     doorways: f64,
 }
 
-const WALK: Walk = Walk {
+const LEARNING: Learning = Learning {
     moves: 500,
     heed: 0.3,
     colours: 1,
     doorways: 0.0,
 };
+
+/// What can be set when it goes on with a map: the world is furnished as it was.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GoingOn {
+    moves: u32,
+    heed: f64,
+}
+
+/// What can be set when it drives.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Driving {
+    heed: f64,
+}
 
 impl SystemEntry for Diktiometry {
     fn name(&self) -> &'static str {
@@ -65,7 +82,7 @@ impl SystemEntry for Diktiometry {
     }
 
     fn robots(&self) -> &'static [&'static str] {
-        &["camera Pioneer", "laser Pioneer"]
+        &[CAMERA_PIONEER, LASER_PIONEER]
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
@@ -77,49 +94,51 @@ impl SystemEntry for Diktiometry {
         }
         if let Some(map) = setup.from {
             let mut before = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
-            let walk = Walk {
+            setup.robot(&[before.config.robot.name()])?;
+            let going_on: GoingOn = setup.settings.over(&GoingOn {
+                moves: LEARNING.moves,
                 heed: before.config.heed,
-                colours: before.office.config().colours,
-                doorways: before.office.config().doorway_share,
-                ..WALK
-            };
-            let walk: Walk = setup.settings.over(&walk)?;
+            })?;
             // The maze that is given, furnished as that which was learned.
             let office = Office::new(&setup.maze.maze, before.office.config())?;
             before.office = Arc::new(office.named(setup.world));
-            before.config.heed = walk.heed;
+            before.config.heed = going_on.heed;
             let survey = before.survey(setup.seed)?;
-            return Ok(Box::new(Surveying::new(
+            return Ok(Box::new(Surveying {
                 survey,
-                walk,
-                before.origin.world,
-                before.origin.seed,
-            )));
+                moves: going_on.moves,
+                most_steps: setup.steps.unwrap_or(u32::MAX),
+                world: before.origin.world,
+                seed: before.origin.seed,
+                made: 0,
+            }));
         }
-        let walk: Walk = setup.settings.over(&WALK)?;
+        let learning: Learning = setup.settings.over(&LEARNING)?;
         let robot = match setup.robot(self.robots())? {
-            "laser Pioneer" => SurveyorConfig::mslst(),
+            LASER_PIONEER => SurveyorConfig::mslst(),
             _ => SurveyorConfig::paper(),
         };
         let furniture = OfficeConfig {
-            doorway_share: walk.doorways,
-            colours: walk.colours,
+            doorway_share: learning.doorways,
+            colours: learning.colours,
             seed: setup.seed,
             ..OfficeConfig::bare()
         };
         let office = Office::new(&setup.maze.maze, &furniture)?;
         let office = Arc::new(office.named(setup.world));
-        let mut config = SurveyConfig::of(&office, robot, walk.moves);
-        config.heed = walk.heed;
+        let mut config = SurveyConfig::of(&office, robot, learning.moves);
+        config.heed = learning.heed;
         config.mapper.journal = JournalLength::All;
         config.mapper.restructuring.look_merge = Use::On;
         let survey = Survey::new(&office, config, setup.seed)?;
-        Ok(Box::new(Surveying::new(
+        Ok(Box::new(Surveying {
             survey,
-            walk,
-            setup.world.to_owned(),
-            setup.seed,
-        )))
+            moves: learning.moves,
+            most_steps: setup.steps.unwrap_or(u32::MAX),
+            world: setup.world.to_owned(),
+            seed: setup.seed,
+            made: 0,
+        }))
     }
 
     fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
@@ -134,10 +153,8 @@ impl SystemEntry for Diktiometry {
             ));
         }
         let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
-        let walk: Walk = setup.settings.over(&Walk {
-            heed: file.config.heed,
-            ..WALK
-        })?;
+        let heed = file.config.heed;
+        let Driving { heed } = setup.settings.over(&Driving { heed })?;
         let SurveyFile {
             config,
             past,
@@ -152,7 +169,7 @@ impl SystemEntry for Diktiometry {
             .routines(office.config().corridor_width)
             .with_doorways(office.config().doorway_width());
         let mut paper = DiktiometerConfig::paper(routines, observer.config().clone());
-        paper.heed = walk.heed;
+        paper.heed = heed;
         let mut system = Diktiometer::with_map(paper, robot.sight, observer.clone(), setup.seed);
         // Where it sensed the goal when it learned.
         if let Some(goal) = file.goal() {
@@ -161,7 +178,8 @@ impl SystemEntry for Diktiometry {
         let body = office_robot(&office, robot, past.at, setup.seed)?;
         let steps = setup.steps.unwrap_or(100_000);
         let course = office.course;
-        Ok(Box::new(Sent::new(course, body, steps, system)))
+        let sent = Sent::new(course, body, steps, system).called(config.robot.name());
+        Ok(Box::new(sent))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
@@ -175,23 +193,14 @@ impl SystemEntry for Diktiometry {
 /// A survey under way: a move is an action.
 struct Surveying {
     survey: Survey,
-    walk: Walk,
+    /// Moves to make.
+    moves: u32,
+    /// Time steps after which it ends all the same.
+    most_steps: u32,
     world: String,
     seed: u64,
     /// Moves made.
     made: u32,
-}
-
-impl Surveying {
-    const fn new(survey: Survey, walk: Walk, world: String, seed: u64) -> Self {
-        Self {
-            survey,
-            walk,
-            world,
-            seed,
-            made: 0,
-        }
-    }
 }
 
 impl InRun for Surveying {
@@ -199,9 +208,8 @@ impl InRun for Surveying {
         self.path().len().saturating_sub(1) as u32
     }
 
-    /// A survey counts its moves, each of which has a bound.
     fn is_out_of_time(&self) -> bool {
-        false
+        self.steps() >= self.most_steps
     }
 }
 
@@ -211,7 +219,10 @@ impl Outing for Surveying {
     }
 
     fn robot(&self) -> RobotFacts {
-        RobotFacts::of(self.survey.robot())
+        RobotFacts {
+            name: self.survey.config().robot.name(),
+            ..RobotFacts::of(self.survey.robot())
+        }
     }
 
     fn path(&self) -> &[Pose] {
@@ -236,7 +247,7 @@ impl Outing for Surveying {
                 "a survey is made until all its moves are made: leave --until out",
             ));
         }
-        if self.made == self.walk.moves {
+        if self.made == self.moves {
             return Ok(Standing::Done);
         }
         self.survey.step()?;
@@ -256,8 +267,12 @@ impl Outing for Surveying {
         self.survey.observer().belief()
     }
 
-    fn site(&self, place: u32) -> Option<Point> {
-        site(&self.survey, place)
+    fn sites(&self) -> BTreeMap<u32, Point> {
+        let drawn = self.survey.drawn().into_iter();
+        let middle = |Bounds { min, max }| min + (max - min) * 0.5;
+        drawn
+            .map(|drawn| (drawn.id, middle(drawn.bounds)))
+            .collect()
     }
 
     fn map_file(&self) -> Result<Option<String>, BoxError> {
@@ -272,13 +287,6 @@ impl Outing for Surveying {
     fn trace(&self) -> Result<Vec<u8>, BoxError> {
         self.survey.robot().trace()
     }
-}
-
-/// Where a place of the map is drawn over the world.
-fn site(survey: &Survey, place: u32) -> Option<Point> {
-    let drawn = survey.drawn().into_iter().find(|drawn| drawn.id == place)?;
-    let Bounds { min, max } = drawn.bounds;
-    Some(min + (max - min) * 0.5)
 }
 
 fn complaint(survey: &Survey) -> Option<String> {

@@ -95,7 +95,7 @@ impl SystemEntry for Mslst {
         let actor = Actor::seeded(mslst, stack, setup.seed);
         let steps = setup.steps.unwrap_or_else(|| course.step_limit());
         let sent = Sent::new(course, robot, steps, actor)
-            .lying(move |_, place| sites.get(place as usize).copied());
+            .lying(move |_| (0..).zip(sites.iter().copied()).collect());
         Ok(Box::new(sent))
     }
 
@@ -111,17 +111,17 @@ fn complaint(map: &mslst::MslstMap) -> Option<String> {
         .ids()
         .filter(|id| graph.distance(*id).is_none())
         .count();
-    match graph.ids().any(|id| graph.is_destination(id)) {
-        false => Some(
-            "the robot never came to the destination: learn longer, --set graph_actions=20000"
-                .to_owned(),
-        ),
-        true if 2 * lost > graph.len() => Some(format!(
+    if !graph.ids().any(|id| graph.is_destination(id)) {
+        let why =
+            "the robot never came to the destination: learn longer, --set graph_actions=20000";
+        return Some(why.to_owned());
+    }
+    (2 * lost > graph.len()).then(|| {
+        format!(
             "no way to the destination is known from {lost} of {} nodes: learn longer, --set graph_actions=20000",
             graph.len()
-        )),
-        true => None,
-    }
+        )
+    })
 }
 
 impl LearnedMap for MapFile {

@@ -113,6 +113,28 @@ fn a_plan_to_where_no_way_is_known_is_a_failure() {
 }
 
 #[test]
+fn a_survey_is_gone_on_with_by_the_robot_that_made_it_and_furnished_as_it_was() {
+    let folder = folder("whose survey");
+    fs::write(folder.join("ring.maze"), RING).unwrap();
+    let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
+    let survey = "learn --system diktiometry --maze ring.maze";
+    let by_laser = format!("{survey} --robot laser-pioneer --set moves=5 --out laser.json");
+    carry_out(&by_laser).failed(1, &["wrong or unfinished"]);
+    let on = format!("{survey} --from laser.json --out on.json");
+    carry_out(&format!("{on} --set moves=2")).failed(1, &["wrong or unfinished"]);
+    for (wrong, told) in [
+        ("--robot camera-pioneer", "choose one of: laser-pioneer"),
+        ("--set colours=3", "choose one of: heed, moves"),
+    ] {
+        carry_out(&format!("{on} {wrong}")).refused(2, &[told]);
+    }
+    let drive = "drive --map laser.json --maze ring.maze --preset paper";
+    carry_out(drive).refused(2, &["leave --preset out"]);
+    let in_time = format!("{survey} --steps 500 --out short.json");
+    carry_out(&in_time).failed(1, &["the time was up"]);
+}
+
+#[test]
 fn a_file_that_is_no_sound_survey_is_refused() {
     let folder = folder("no survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();
