@@ -5,6 +5,7 @@
 //! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how junctions join them.
 //! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of any robot's moves.
 //! - [`place_map`]: places as prototypes of what was seen, heard and rolled there.
+//! - [`pose_graph`]: poses joined by what was measured between them, made to agree.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
 //! A map takes in what is observed and answers what is known. What to do next is the business of planners,
@@ -35,6 +36,8 @@ pub mod diktiometry;
 pub mod mslst_graph;
 #[cfg(feature = "alloc")]
 pub mod place_map;
+#[cfg(feature = "alloc")]
+pub mod pose_graph;
 #[cfg(feature = "alloc")]
 pub mod wall_belief;
 pub mod wall_map;

@@ -1,0 +1,42 @@
+use thiserror::Error;
+
+/// Why an edge cannot be added to a graph of poses.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PoseGraphError {
+    /// There is no such pose.
+    #[error("the edge from {from} to {to} needs a pose that is not there: the graph has {poses}")]
+    NoPose {
+        /// The pose it leaves.
+        from: u32,
+        /// The pose it leads to.
+        to: u32,
+        /// The number of poses.
+        poses: usize,
+    },
+    /// It joins a pose with itself.
+    #[error("an edge joins pose {pose} with itself: leave it out")]
+    Loop {
+        /// The pose.
+        pose: u32,
+    },
+    /// A number of the measurement or of the information is none.
+    #[error("the edge from {from} to {to} has a number that is not finite")]
+    NotFinite {
+        /// The pose it leaves.
+        from: u32,
+        /// The pose it leads to.
+        to: u32,
+    },
+    /// The information is no information: somewhere it is negative.
+    #[error(
+        "the information of the edge from {from} to {to} is not that of a measurement: give a symmetric matrix that is positive \
+         definite"
+    )]
+    Information {
+        /// The pose it leaves.
+        from: u32,
+        /// The pose it leads to.
+        to: u32,
+    },
+}

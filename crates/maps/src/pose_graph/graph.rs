@@ -1,0 +1,98 @@
+use alloc::vec::Vec;
+
+use tolman_geom::Pose;
+
+use super::{PoseEdge, PoseGraphError};
+
+/// Poses, and what was measured between them.
+///
+/// ```
+/// use tolman_maps::geom::nalgebra::Matrix3;
+/// use tolman_maps::geom::{Heading, Point, Pose};
+/// use tolman_maps::pose_graph::{EdgeKind, OptimizerConfig, PoseEdge, PoseGraph};
+///
+/// // Round a square of 1 m, by wheels that turn 5° too far at each corner.
+/// let side = |degrees: f64| Pose::new(Point::new(1.0, 0.0), Heading::from_degrees(degrees));
+/// let edge = |from, to, measured, kind| PoseEdge { from, to, measured, information: Matrix3::identity() * 100.0, kind };
+/// let mut graph = PoseGraph::new();
+/// graph.add_pose(Pose::IDENTITY);
+/// for corner in 0..4 {
+///     let reckoned = graph.poses()[corner as usize].compose(side(95.0));
+///     graph.add_pose(reckoned);
+///     graph.add_edge(edge(corner, corner + 1, side(95.0), EdgeKind::Odometry))?;
+/// }
+/// assert!(graph.poses()[4].position.coords.norm() > 0.1);
+/// // It is back where it was.
+/// graph.add_edge(edge(0, 4, Pose::IDENTITY, EdgeKind::Closure))?;
+/// let optimized = graph.optimize(&OptimizerConfig::robust());
+/// assert!(optimized.error_after < optimized.error_before);
+/// assert!(graph.poses()[4].position.coords.norm() < 0.1);
+/// # Ok::<(), tolman_maps::pose_graph::PoseGraphError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PoseGraph {
+    pub(super) poses: Vec<Pose>,
+    pub(super) edges: Vec<PoseEdge>,
+}
+
+impl PoseGraph {
+    /// Returns a graph without poses.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            poses: Vec::new(),
+            edges: Vec::new(),
+        }
+    }
+
+    /// Returns the poses, by id. The first never moves: all others are where they are seen from it.
+    #[must_use]
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
+    /// Returns what was measured, in the order it was added.
+    #[must_use]
+    pub fn edges(&self) -> &[PoseEdge] {
+        &self.edges
+    }
+
+    /// Adds a pose where it is believed to be, and returns its id.
+    pub fn add_pose(&mut self, pose: Pose) -> u32 {
+        self.poses.push(pose);
+        self.poses.len() as u32 - 1
+    }
+
+    /// Adds what was measured between two poses.
+    ///
+    /// # Errors
+    /// If there are no such poses, they are the same, a number is not finite, or the information is not positive definite.
+    pub fn add_edge(&mut self, edge: PoseEdge) -> Result<(), PoseGraphError> {
+        let PoseEdge { from, to, .. } = edge;
+        let poses = self.poses.len();
+        if from as usize >= poses || to as usize >= poses {
+            return Err(PoseGraphError::NoPose { from, to, poses });
+        }
+        if from == to {
+            return Err(PoseGraphError::Loop { pose: from });
+        }
+        let information = edge.information;
+        if !edge.measured.is_finite() || !information.iter().all(|number| number.is_finite()) {
+            return Err(PoseGraphError::NotFinite { from, to });
+        }
+        let asymmetry = (information - information.transpose()).abs().max();
+        if asymmetry > 1e-9 * information.abs().max() || information.cholesky().is_none() {
+            return Err(PoseGraphError::Information { from, to });
+        }
+        self.edges.push(edge);
+        Ok(())
+    }
+
+    /// Returns the squared error of an edge under the poses as they are, weighted by its information; `None` if there is no
+    /// such edge.
+    #[must_use]
+    pub fn squared_error(&self, edge: usize) -> Option<f64> {
+        let edge = self.edges.get(edge)?;
+        Some(edge.squared_error(self.poses[edge.from as usize], self.poses[edge.to as usize]))
+    }
+}
