@@ -94,6 +94,22 @@ impl Heading {
         Vector::new(cos, sin)
     }
 
+    /// Returns `vector` turned by this heading.
+    ///
+    /// ```
+    /// use tolman_geom::{Heading, Vector};
+    /// let north = Heading::NORTH.rotate(Vector::new(2.0, 0.0));
+    /// assert!((north - Vector::new(0.0, 2.0)).norm() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn rotate(self, vector: Vector) -> Vector {
+        let unit = self.unit();
+        Vector::new(
+            unit.x * vector.x - unit.y * vector.y,
+            unit.y * vector.x + unit.x * vector.y,
+        )
+    }
+
     /// The signed smallest turn, in (−π, π] radians, that takes this heading to `target`.
     #[must_use]
     pub fn turn_to(self, target: Self) -> f64 {

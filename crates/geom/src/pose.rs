@@ -46,7 +46,7 @@ impl Pose {
     pub fn inverse(self) -> Self {
         let heading = Heading::from_radians(-self.heading.radians());
         Self {
-            position: Point::from(-rotated(heading, self.position.coords)),
+            position: Point::from(-heading.rotate(self.position.coords)),
             heading,
         }
     }
@@ -60,7 +60,7 @@ impl Pose {
     /// A point of this pose's own frame, in the frame the pose is given in.
     #[must_use]
     pub fn transform(self, point: Point) -> Point {
-        self.position + rotated(self.heading, point.coords)
+        self.position + self.heading.rotate(point.coords)
     }
 
     /// Where a body that starts here and keeps `twist` for `seconds` arrives: the exact arc.
@@ -123,14 +123,6 @@ impl From<Isometry2<f64>> for Pose {
             Heading::of(Vector::new(isometry.rotation.re, isometry.rotation.im)),
         )
     }
-}
-
-fn rotated(heading: Heading, vector: Vector) -> Vector {
-    let unit = heading.unit();
-    Vector::new(
-        unit.x * vector.x - unit.y * vector.y,
-        unit.y * vector.x + unit.x * vector.y,
-    )
 }
 
 /// sin(x)/x, by its series where the quotient would lose digits.

@@ -5,6 +5,7 @@
 //! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how junctions join them.
 //! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of any robot's moves.
 //! - [`place_map`]: places as prototypes of what was seen, heard and rolled there.
+//! - [`place_graph`]: places and where they lie, learned while they correct the robot's pose.
 //! - [`pose_graph`]: poses joined by what was measured between them, made to agree.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
@@ -34,6 +35,8 @@ pub mod cpm;
 pub mod diktiometry;
 #[cfg(feature = "alloc")]
 pub mod mslst_graph;
+#[cfg(feature = "alloc")]
+pub mod place_graph;
 #[cfg(feature = "alloc")]
 pub mod place_map;
 #[cfg(feature = "alloc")]

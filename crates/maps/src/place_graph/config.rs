@@ -1,0 +1,49 @@
+use crate::pose_graph::OptimizerConfig;
+
+/// How places are kept and recognized.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PlaceGraphConfig {
+    /// A place is new if it lies at least this far from all others, m, …
+    pub place_distance: f64,
+    /// … or if none so near looks within this angle into the same direction, rad.
+    pub place_turn: f64,
+    /// Standard deviation of the scale error of a robot's wheels.
+    pub scale_deviation: f64,
+    /// Standard deviation of their curvature, rad/m.
+    pub curvature_deviation: f64,
+    /// The share of an outline's points that have to lie on surfaces of the map for a fit to be believed.
+    pub least_share: f64,
+    /// After so many fits in a row that were not believed the robot is lost.
+    pub most_misfits: u32,
+    /// Most hypotheses of where a lost robot is.
+    pub most_hypotheses: usize,
+    /// How often the graph is optimized, in new places.
+    pub optimize_every: u32,
+    /// How.
+    pub optimizer: OptimizerConfig,
+}
+
+impl PlaceGraphConfig {
+    /// Returns our values, for rooms and robots of some metres: tried in arenas of 3 to 7 m, with wheels 3 % out of
+    /// calibration 0.32 m apart.
+    #[must_use]
+    pub const fn indoors() -> Self {
+        Self {
+            place_distance: 0.6,
+            place_turn: 0.6,
+            scale_deviation: 0.03,
+            curvature_deviation: 0.15,
+            least_share: 0.5,
+            most_misfits: 8,
+            most_hypotheses: 60,
+            optimize_every: 5,
+            optimizer: OptimizerConfig {
+                most_steps: 5,
+                most_iterations: 100,
+                tolerance: 1e-4,
+                doubt: Some(16.0),
+            },
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Fits what the robot sees to what the map knows, from where its wheels have it.
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+
+use tolman_geom::nalgebra::{Matrix3, Vector3};
+use tolman_geom::{Pose, Vector};
+use tolman_robot::Sounding;
+
+use super::surfaces::Surface;
+use super::wheels::difference;
+use super::{Outline, OutlinePoint};
+
+/// Where a robot is that sees an outline.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fit {
+    /// Its pose, by the map and by its wheels.
+    pub(super) pose: Pose,
+    /// Information of that by the map alone: ahead, left, heading.
+    pub(super) information: Matrix3<f64>,
+    /// The same with what the wheels say.
+    pub(super) covariance: Matrix3<f64>,
+    /// The share of the outline's points that lie on surfaces of the map.
+    pub(super) share: f64,
+    /// How likely such a view is here: the logarithm, but for a constant.
+    pub(super) likelihood: f64,
+    /// Information by the place that first saw the surfaces.
+    pub(super) by_place: BTreeMap<u32, f64>,
+}
+
+/// Rounds of finding the nearest surfaces and moving there.
+const ROUNDS: u32 = 8;
+
+/// A surface is looked for within this distance at first, m, …
+const FIRST_GATE: f64 = 0.5;
+/// … and within this at last.
+const LAST_GATE: f64 = 0.12;
+/// What the gate is multiplied by from round to round.
+const GATE_SHRINKS: f64 = 0.75;
+
+/// Surfaces of colours farther apart are not the same; light changes.
+const COLOUR_GATE: f64 = 0.12;
+
+/// Nor are those whose normals have a smaller scalar product.
+const NORMAL_GATE: f64 = 0.6;
+
+/// A residual of so many standard deviations counts a quarter.
+const DOUBT: f64 = 2.5;
+
+/// A residual of more standard deviations is as good as none found.
+const MOST_OFF: f64 = 3.0;
+
+/// A sonar hears this much beyond its cone, rad, as its mount is not known better.
+const CONE_SLACK: f64 = 0.03;
+
+/// Points of one outline err together: each brings this share of what it would alone.
+const INDEPENDENT: f64 = 0.3;
+
+/// An arc, which may be a miss or another's echo, says this much beside a point.
+const ARC_SHARE: f64 = 0.3;
+
+/// One residual: how far a measurement is from the map, in standard deviations, and how that changes with the pose.
+struct Residual {
+    off: f64,
+    by_pose: Vector3<f64>,
+    place: u32,
+    share: f64,
+}
+
+/// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees `outline`; `None` if the covariance is
+/// none. O(rounds · outline · surfaces).
+pub(super) fn fit(
+    outline: &Outline,
+    surfaces: &[&Surface],
+    predicted: Pose,
+    covariance: &Matrix3<f64>,
+) -> Option<Fit> {
+    let prior = covariance.try_inverse()?;
+    let mut pose = predicted;
+    let mut gate = FIRST_GATE;
+    for _ in 0..ROUNDS {
+        let residuals = residuals(outline, surfaces, pose, gate);
+        let (information, pull) = normal_equations(&residuals);
+        let off = difference(predicted, pose);
+        let step = (information + prior).try_inverse()? * -(pull + prior * off);
+        pose = moved(pose, &step);
+        gate = (gate * GATE_SHRINKS).max(LAST_GATE);
+    }
+    let residuals = residuals(outline, surfaces, pose, LAST_GATE);
+    let (information, _) = normal_equations(&residuals);
+    let mut by_place = BTreeMap::new();
+    for residual in &residuals {
+        *by_place.entry(residual.place).or_insert(0.0) += residual.share;
+    }
+    let off = difference(predicted, pose);
+    let on_map = residuals
+        .iter()
+        .filter(|residual| residual.share >= 1.0 && residual.off.abs() < MOST_OFF);
+    Some(Fit {
+        pose,
+        information,
+        covariance: (information + prior).try_inverse()?,
+        share: on_map.count() as f64 / outline.points.len().max(1) as f64,
+        likelihood: likelihood(outline, &residuals) - 0.5 * (prior * off).dot(&off),
+        by_place,
+    })
+}
+
+fn moved(pose: Pose, step: &Vector3<f64>) -> Pose {
+    Pose::new(
+        pose.position + pose.heading.rotate(Vector::new(step.x, step.y)),
+        pose.heading.turned(step.z),
+    )
+}
+
+fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) -> Vec<Residual> {
+    let points = outline.points.iter();
+    let points = points.filter_map(|point| of_point(point, surfaces, pose, gate));
+    let arcs = outline.arcs.iter();
+    let arcs = arcs.filter_map(|arc| of_arc(arc, surfaces, pose, gate));
+    points.chain(arcs).collect()
+}
+
+/// How far a point lies off the nearest surface of its colour and direction, along the surface's normal.
+fn of_point(
+    point: &OutlinePoint,
+    surfaces: &[&Surface],
+    pose: Pose,
+    gate: f64,
+) -> Option<Residual> {
+    let there = pose.transform(point.position);
+    let normal = point.normal.map(|normal| pose.heading.rotate(normal));
+    let mut nearest: Option<(f64, &Surface)> = None;
+    let mut within = gate * gate;
+    for surface in surfaces {
+        let squared = (surface.position() - there).norm_squared();
+        if squared < within && is_alike(surface, point, normal) {
+            within = squared;
+            nearest = Some((squared, surface));
+        }
+    }
+    let (_, surface) = nearest?;
+    let across = surface.normal();
+    let sight = (there - pose.position).normalize();
+    let along_sight = point.deviation * across.dot(&sight).abs();
+    let deviation = libm::sqrt(along_sight * along_sight + surface.variance());
+    let lever = pose
+        .heading
+        .rotate(Vector::new(-point.position.y, point.position.x));
+    let in_robot = Vector::new(across.dot(&pose.heading.unit()), across.dot(&left(pose)));
+    Some(Residual {
+        off: across.dot(&(there - surface.position())) / deviation,
+        by_pose: Vector3::new(in_robot.x, in_robot.y, across.dot(&lever)) / deviation,
+        place: surface.place,
+        share: 1.0,
+    })
+}
+
+fn is_alike(surface: &Surface, point: &OutlinePoint, normal: Option<Vector>) -> bool {
+    if normal.is_some_and(|normal| normal.dot(&surface.normal()) < NORMAL_GATE) {
+        return false;
+    }
+    match (surface.colour(), point.colour) {
+        (Some(a), Some(b)) => (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < COLOUR_GATE,
+        _ => true,
+    }
+}
+
+/// How much farther a sonar heard than the nearest surface in its cone.
+fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Option<Residual> {
+    let ear = pose.compose(arc.mount);
+    let axis = ear.heading.unit();
+    let cone = libm::cos(arc.half_width + CONE_SLACK);
+    let mut nearest: Option<(f64, Vector, &Surface)> = None;
+    for surface in surfaces {
+        let towards = surface.position() - ear.position;
+        let ahead = towards.dot(&axis);
+        if ahead <= 0.0 || ahead > arc.max_range || surface.normal().dot(&towards) > 0.0 {
+            continue;
+        }
+        let squared = towards.norm_squared();
+        if ahead * ahead >= cone * cone * squared
+            && nearest
+                .as_ref()
+                .is_none_or(|(least, ..)| squared < least * least)
+        {
+            nearest = Some((libm::sqrt(squared), towards, surface));
+        }
+    }
+    let (range, towards, surface) = nearest?;
+    if (arc.range - range).abs() > gate.max(0.15) {
+        return None;
+    }
+    let deviation = 0.04 + 0.02 * range;
+    let towards = towards / range;
+    let at = arc.mount.position;
+    let lever = pose.heading.rotate(Vector::new(-at.y, at.x));
+    Some(Residual {
+        off: (arc.range - range) / deviation,
+        by_pose: Vector3::new(
+            towards.dot(&pose.heading.unit()),
+            towards.dot(&left(pose)),
+            towards.dot(&lever),
+        ) / deviation,
+        place: surface.place,
+        share: ARC_SHARE,
+    })
+}
+
+fn left(pose: Pose) -> Vector {
+    pose.heading.rotate(Vector::new(0.0, 1.0))
+}
+
+/// JᵀWJ and JᵀWr.
+fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
+    let mut information = Matrix3::zeros();
+    let mut pull = Vector3::zeros();
+    for Residual {
+        off,
+        by_pose,
+        share,
+        ..
+    } in residuals
+    {
+        let kept = DOUBT * DOUBT / (DOUBT * DOUBT + off * off);
+        let weight = INDEPENDENT * share * kept * kept;
+        information += by_pose * by_pose.transpose() * weight;
+        pull += by_pose * (off * weight);
+    }
+    (information, pull)
+}
+
+/// What was found counts by how far it is off; what was not, as far off.
+fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
+    let worst = MOST_OFF * MOST_OFF;
+    let of = outline.points.len() as f64 + ARC_SHARE * outline.arcs.len() as f64;
+    let saved =
+        |residual: &Residual| residual.share * (worst - (residual.off * residual.off).min(worst));
+    let saved: f64 = residuals.iter().map(saved).sum();
+    0.5 * INDEPENDENT * (saved - worst * of)
+}

@@ -1,0 +1,98 @@
+use alloc::vec::Vec;
+
+use tolman_geom::Point;
+use tolman_robot::Picture;
+
+use super::OutlinePoint;
+
+/// Returns where things stand on the floor in a picture: in each column, the first row from below that does not look like the floor
+/// below it. Points come in order of bearing, in the robot's frame. O(pixels).
+///
+/// A column whose floor goes on to the horizon, or in which the floor does not show at all, has none.
+#[must_use]
+pub fn foot_line(picture: &Picture) -> Vec<OutlinePoint> {
+    let columns = (0..picture.width).step_by(picture.width.div_ceil(MOST_COLUMNS).max(1) as usize);
+    columns.filter_map(|column| foot(picture, column)).collect()
+}
+
+/// More columns than this are thinned out.
+const MOST_COLUMNS: u32 = 40;
+
+/// Rows at the bottom that have to be floor.
+const FLOOR_ROWS: u32 = 3;
+
+/// Rows above the foot whose mean is the colour of what stands there.
+const COLOUR_ROWS: u32 = 3;
+
+/// A pixel differs from the floor by this share of its brightness, or it is floor.
+const UNLIKE: f64 = 0.22;
+
+/// A foot has to be seen under at least this angle below the horizon, as a tangent: farther things have too vague a distance.
+const LEAST_DOWN: f64 = 0.06;
+
+fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
+    let bottom = picture.height.checked_sub(FLOOR_ROWS)?;
+    let mut floor = mean(picture, column, bottom..picture.height)?;
+    let mut row = bottom;
+    loop {
+        row = row.checked_sub(1)?;
+        let pixel = colour(picture.pixel(column, row)?);
+        if unlikeness(pixel, floor) > UNLIKE {
+            break;
+        }
+        // The floor gets darker or lighter with the distance.
+        for (floor, pixel) in floor.iter_mut().zip(pixel) {
+            *floor += 0.3 * (pixel - *floor);
+        }
+    }
+    if row + 1 == bottom {
+        // What fills the bottom may be no floor.
+        return None;
+    }
+    let thing = mean(
+        picture,
+        column,
+        row.saturating_sub(COLOUR_ROWS - 1)..row + 1,
+    )?;
+    let row_height = picture.upward(row) - picture.upward(row + 1);
+    let down = -0.5 * (picture.upward(row) + picture.upward(row + 1));
+    if down < LEAST_DOWN {
+        return None;
+    }
+    let ahead = picture.camera.height / down;
+    let position = Point::new(ahead, ahead * picture.leftward(column));
+    let total = thing.iter().sum::<f64>().max(1.0);
+    Some(OutlinePoint {
+        position: position + picture.camera.position.coords,
+        normal: None,
+        // An edge lies anywhere within its row.
+        deviation: 0.01 + 0.3 * row_height * ahead / down,
+        colour: Some([thing[0] / total, thing[1] / total]),
+    })
+}
+
+fn colour(pixel: [u8; 3]) -> [f64; 3] {
+    pixel.map(f64::from)
+}
+
+fn mean(picture: &Picture, column: u32, rows: core::ops::Range<u32>) -> Option<[f64; 3]> {
+    let count = f64::from(
+        rows.end
+            .checked_sub(rows.start)
+            .filter(|count| *count > 0)?,
+    );
+    let mut sum = [0.0; 3];
+    for row in rows {
+        for (sum, part) in sum.iter_mut().zip(colour(picture.pixel(column, row)?)) {
+            *sum += part / count;
+        }
+    }
+    Some(sum)
+}
+
+/// The largest difference of a part, as a share of the brightness.
+fn unlikeness(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let brightness = (a.iter().sum::<f64>() + b.iter().sum::<f64>()) / 6.0 + 10.0;
+    let parts = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    parts.fold(0.0, f64::max) / brightness
+}

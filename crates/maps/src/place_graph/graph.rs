@@ -1,0 +1,416 @@
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use thiserror::Error;
+use tolman_geom::Pose;
+use tolman_geom::nalgebra::Matrix3;
+use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Odometry, Position, Snapshot};
+
+use super::fit::{Fit, fit};
+use super::hypotheses::{self, Hypothesis, turned_into};
+use super::surfaces::{Surface, Surfaces};
+use super::wheels::{WheelError, difference};
+use super::{Outline, PlaceGraphConfig};
+use crate::pose_graph::{EdgeKind, PoseEdge, PoseGraph, PoseGraphError};
+
+/// What a robot has seen where it stands, and how it came there.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SeenThere {
+    /// What its wheels rolled since it looked before, step by step.
+    pub rolled: Vec<Odometry>,
+    /// What it perceives.
+    pub snapshot: Snapshot,
+    /// Whether it was lifted and put down anywhere since it looked before, so that its wheels say nothing.
+    pub put_down: bool,
+}
+
+/// A place of a [`PlaceGraph`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraphPlace {
+    /// What is seen from there.
+    pub outline: Outline,
+}
+
+/// Places that a robot has been at, and where they lie; it corrects the robot's pose while it grows.
+///
+/// The map's frame has its origin where the robot was first put down, looking along x.
+#[derive(Clone, Debug)]
+pub struct PlaceGraph {
+    config: PlaceGraphConfig,
+    places: Vec<GraphPlace>,
+    graph: PoseGraph,
+    surfaces: Surfaces,
+    wheels: WheelError,
+    whereabouts: Whereabouts,
+    /// Places that are new since the graph was optimized.
+    unsettled: u32,
+    /// Whether new places are still added.
+    grows: bool,
+}
+
+/// What is known of where the robot is.
+#[derive(Clone, Debug)]
+enum Whereabouts {
+    /// It has not looked yet.
+    Nowhere,
+    /// It is followed from place to place.
+    Known(Here),
+    /// It may be at any of these, the likeliest first.
+    Lost(Vec<Hypothesis>),
+}
+
+#[derive(Clone, Debug)]
+struct Here {
+    pose: Pose,
+    covariance: Matrix3<f64>,
+    /// The place that was made or met last, with the way since by the wheels alone.
+    last: u32,
+    since: Pose,
+    since_covariance: Matrix3<f64>,
+    /// How many fits in a row were not believed.
+    misfits: u32,
+}
+
+/// Why a map cannot take in what was seen.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlaceGraphError {
+    /// A number of the odometry is none.
+    #[error("step {step} of the odometry is not finite: leave it out")]
+    Odometry {
+        /// Which, counted from 0.
+        step: usize,
+    },
+    /// An edge between two places cannot be kept.
+    #[error("two places cannot be joined")]
+    Edge(#[from] PoseGraphError),
+}
+
+/// A hypothesis that is believed this much, after so many looks, is where the robot is.
+const SURE: f64 = 0.97;
+const LEAST_LOOKS: u32 = 3;
+
+/// A place that brings less of a fit is not joined, in points.
+const LEAST_SEEN: f64 = 6.0;
+
+/// So many places at most are joined by a fit, those that brought most of it.
+const MOST_JOINED: usize = 4;
+
+impl PlaceGraph {
+    /// Returns an empty map.
+    #[must_use]
+    pub fn new(config: PlaceGraphConfig) -> Self {
+        Self {
+            wheels: WheelError::unknown(config.scale_deviation, config.curvature_deviation),
+            config,
+            places: Vec::new(),
+            graph: PoseGraph::new(),
+            surfaces: Surfaces::default(),
+            whereabouts: Whereabouts::Nowhere,
+            unsettled: 0,
+            grows: true,
+        }
+    }
+
+    /// Returns the map with another robot in it, whose wheels are not known and which may be anywhere, and which adds new places
+    /// only if `grows`.
+    #[must_use]
+    pub fn put_down(mut self, grows: bool) -> Self {
+        self.wheels =
+            WheelError::unknown(self.config.scale_deviation, self.config.curvature_deviation);
+        self.whereabouts = Whereabouts::Lost(Vec::new());
+        self.grows = grows;
+        self
+    }
+
+    /// Returns the places, by id.
+    #[must_use]
+    pub fn places(&self) -> &[GraphPlace] {
+        &self.places
+    }
+
+    /// Returns where the places lie and what joins them.
+    #[must_use]
+    pub const fn poses(&self) -> &PoseGraph {
+        &self.graph
+    }
+
+    /// Returns what is known of the robot's wheels.
+    #[must_use]
+    pub const fn wheels(&self) -> &WheelError {
+        &self.wheels
+    }
+
+    /// Returns where the robot is in the map's frame: the likeliest pose; `None` if it has not looked yet.
+    #[must_use]
+    pub fn here(&self) -> Option<Pose> {
+        match &self.whereabouts {
+            Whereabouts::Nowhere => None,
+            Whereabouts::Known(here) => Some(here.pose),
+            Whereabouts::Lost(hypotheses) => hypotheses.first().map(|hypothesis| hypothesis.pose),
+        }
+    }
+
+    /// Returns whether it knows where the robot is.
+    #[must_use]
+    pub const fn is_localized(&self) -> bool {
+        matches!(self.whereabouts, Whereabouts::Known(_))
+    }
+
+    fn begin(&mut self, outline: Outline) -> Whereabouts {
+        let place = self.graph.add_pose(Pose::IDENTITY);
+        self.surfaces.add(place, Pose::IDENTITY, &outline);
+        self.places.push(GraphPlace { outline });
+        Whereabouts::Known(Here::at(Pose::IDENTITY, Matrix3::identity() * 1e-6, place))
+    }
+
+    /// Follows the robot by its wheels and by what it sees.
+    fn follow(
+        &mut self,
+        mut here: Here,
+        rolled: &[Odometry],
+        outline: Outline,
+    ) -> Result<Whereabouts, PlaceGraphError> {
+        let predicted = self.wheels.predict(rolled);
+        let covariance = turned_into(predicted.pose, &here.covariance) + predicted.covariance;
+        here.since_covariance =
+            turned_into(predicted.pose, &here.since_covariance) + predicted.covariance;
+        here.since = here.since.compose(predicted.pose);
+        let expected = here.pose.compose(predicted.pose);
+        let surfaces: Vec<&Surface> = self.surfaces.all().collect();
+        let fitted = fit(&outline, &surfaces, expected, &covariance);
+        let believed = fitted.filter(|fit| self.believes(&outline, fit));
+        match believed {
+            Some(fit) => {
+                here.misfits = 0;
+                let off = difference(expected, fit.pose);
+                self.wheels
+                    .learn(&predicted, &off, &covariance, &fit.covariance);
+                here.pose = fit.pose;
+                here.covariance = fit.covariance;
+                self.grow(&mut here, outline, Some(&fit))?;
+            }
+            None => {
+                here.pose = expected;
+                here.covariance = covariance;
+                here.misfits += u32::from(outline.points.len() >= LEAST_POINTS);
+                // What nobody has seen yet is no misfit: it makes the map grow.
+                self.grow(&mut here, outline, None)?;
+            }
+        }
+        if here.misfits > self.config.most_misfits {
+            return Ok(Whereabouts::Lost(Vec::new()));
+        }
+        Ok(Whereabouts::Known(here))
+    }
+
+    fn believes(&self, outline: &Outline, fit: &Fit) -> bool {
+        outline.points.len() >= LEAST_POINTS && fit.share >= self.config.least_share
+            || outline.points.len() < LEAST_POINTS
+    }
+
+    /// Adds the place where the robot is, if it is new.
+    fn grow(
+        &mut self,
+        here: &mut Here,
+        outline: Outline,
+        fit: Option<&Fit>,
+    ) -> Result<(), PlaceGraphError> {
+        if !self.grows || outline.points.is_empty() || self.is_known(here.pose) {
+            return Ok(());
+        }
+        let place = self.graph.add_pose(here.pose);
+        let information = here
+            .since_covariance
+            .try_inverse()
+            .unwrap_or_else(Matrix3::identity);
+        self.join(
+            here.last,
+            place,
+            here.since,
+            information,
+            EdgeKind::Odometry,
+        )?;
+        for (other, share) in fit.into_iter().flat_map(seen_by) {
+            let measured = self.graph.poses()[other as usize].between(here.pose);
+            let information = fit.map_or_else(Matrix3::identity, |fit| fit.information);
+            self.join(
+                other,
+                place,
+                measured,
+                information * share,
+                EdgeKind::Closure,
+            )?;
+        }
+        self.surfaces.add(place, here.pose, &outline);
+        self.places.push(GraphPlace { outline });
+        self.unsettled += 1;
+        *here = Here::at(here.pose, here.covariance, place);
+        if self.unsettled >= self.config.optimize_every {
+            self.settle(here);
+        }
+        Ok(())
+    }
+
+    fn is_known(&self, pose: Pose) -> bool {
+        self.graph.poses().iter().any(|place| {
+            let off = difference(*place, pose);
+            libm::hypot(off.x, off.y) < self.config.place_distance
+                && off.z.abs() < self.config.place_turn
+        })
+    }
+
+    fn join(
+        &mut self,
+        from: u32,
+        to: u32,
+        measured: Pose,
+        information: Matrix3<f64>,
+        kind: EdgeKind,
+    ) -> Result<(), PlaceGraphError> {
+        // Where nothing was measured, as along a wall, next to nothing is known.
+        let information = information + Matrix3::identity() * 1e-3;
+        let information = 0.5 * (information + information.transpose());
+        let edge = PoseEdge {
+            from,
+            to,
+            measured,
+            information,
+            kind,
+        };
+        Ok(self.graph.add_edge(edge)?)
+    }
+
+    /// Makes all places agree, and the robot and the surfaces with them.
+    fn settle(&mut self, here: &mut Here) {
+        self.unsettled = 0;
+        self.graph.optimize(&self.config.optimizer);
+        self.surfaces = Surfaces::default();
+        let places = self.places.iter().zip(self.graph.poses());
+        for (id, (place, pose)) in (0..).zip(places) {
+            self.surfaces.add(id, *pose, &place.outline);
+        }
+        here.pose = self.graph.poses()[here.last as usize].compose(here.since);
+    }
+
+    /// Looks for the robot among all places.
+    fn search(
+        &self,
+        hypotheses: Vec<Hypothesis>,
+        rolled: &[Odometry],
+        outline: &Outline,
+    ) -> Whereabouts {
+        let hypotheses = match hypotheses.is_empty() {
+            true => hypotheses::everywhere(self.graph.poses().iter().copied()),
+            false => hypotheses,
+        };
+        let rolled = self.wheels.predict(rolled);
+        let surfaces: Vec<&Surface> = self.surfaces.all().collect();
+        let hypotheses = hypotheses::looked(hypotheses, &rolled, outline, &surfaces, &self.config);
+        let weights = hypotheses::weights(&hypotheses);
+        match (hypotheses.first(), weights.first()) {
+            (Some(best), Some(weight)) if *weight > SURE && best.looks >= LEAST_LOOKS => {
+                let last = self.nearest(best.pose);
+                Whereabouts::Known(Here {
+                    since: self.graph.poses()[last as usize].between(best.pose),
+                    ..Here::at(best.pose, best.covariance, last)
+                })
+            }
+            _ => Whereabouts::Lost(hypotheses),
+        }
+    }
+
+    /// Returns the place nearest to a pose; 0 on an empty map.
+    fn nearest(&self, pose: Pose) -> u32 {
+        let distance = |place: &Pose| (place.position - pose.position).norm();
+        let places = (0..).zip(self.graph.poses());
+        let nearest = places.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
+        nearest.map_or(0, |(id, _)| id)
+    }
+}
+
+/// An outline of fewer points says nothing by itself.
+const LEAST_POINTS: usize = 8;
+
+/// The places that saw the surfaces of a fit first, each with its share of the information, the largest first.
+fn seen_by(fit: &Fit) -> Vec<(u32, f64)> {
+    let total: f64 = fit.by_place.values().sum();
+    let mut places: Vec<(u32, f64)> = (fit.by_place.iter())
+        .filter(|(_, seen)| **seen >= LEAST_SEEN)
+        .map(|(place, seen)| (*place, seen / total))
+        .collect();
+    places.sort_by(|a, b| b.1.total_cmp(&a.1));
+    places.truncate(MOST_JOINED);
+    places
+}
+
+impl Here {
+    fn at(pose: Pose, covariance: Matrix3<f64>, last: u32) -> Self {
+        Self {
+            pose,
+            covariance,
+            last,
+            since: Pose::IDENTITY,
+            since_covariance: Matrix3::identity() * 1e-6,
+            misfits: 0,
+        }
+    }
+}
+
+impl Mapper for PlaceGraph {
+    type Observation = SeenThere;
+    type Error = PlaceGraphError;
+
+    fn observe(&mut self, seen: &SeenThere) -> Result<(), PlaceGraphError> {
+        let is_sound = |step: &Odometry| step.distance.is_finite() && step.turn.is_finite();
+        if let Some(step) = seen.rolled.iter().position(|step| !is_sound(step)) {
+            return Err(PlaceGraphError::Odometry { step });
+        }
+        let outline = Outline::of(&seen.snapshot);
+        let before = core::mem::replace(&mut self.whereabouts, Whereabouts::Nowhere);
+        self.whereabouts = match before {
+            Whereabouts::Nowhere => self.begin(outline),
+            Whereabouts::Known(_) if seen.put_down => self.search(Vec::new(), &[], &outline),
+            Whereabouts::Known(here) => self.follow(here, &seen.rolled, outline)?,
+            Whereabouts::Lost(_) if seen.put_down => self.search(Vec::new(), &[], &outline),
+            Whereabouts::Lost(hypotheses) => self.search(hypotheses, &seen.rolled, &outline),
+        };
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        let places = (0..).zip(self.graph.poses()).map(|(id, pose)| MapPlace {
+            id,
+            position: Some(pose.position),
+            landmark: None,
+        });
+        let links: BTreeSet<MapLink> = (self.graph.edges().iter())
+            .filter(|edge| edge.kind == EdgeKind::Odometry)
+            .flat_map(|edge| [(edge.from, edge.to), (edge.to, edge.from)])
+            .map(|(from, to)| MapLink { from, to })
+            .collect();
+        MapView {
+            places: places.collect(),
+            links: links.into_iter().collect(),
+        }
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let guess = |pose: Pose, weight: f64| Guess {
+            at: Position::Point(pose.position),
+            weight,
+        };
+        match &self.whereabouts {
+            Whereabouts::Nowhere => Vec::new(),
+            Whereabouts::Known(here) => [guess(here.pose, 1.0)].to_vec(),
+            Whereabouts::Lost(hypotheses) => {
+                let weights = hypotheses::weights(hypotheses);
+                let pairs = hypotheses.iter().zip(weights);
+                pairs
+                    .map(|(hypothesis, weight)| guess(hypothesis.pose, weight))
+                    .collect()
+            }
+        }
+    }
+}

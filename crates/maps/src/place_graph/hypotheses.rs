@@ -1,0 +1,128 @@
+//! Where the robot may be.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use tolman_geom::nalgebra::{Matrix3, Vector3};
+use tolman_geom::{Heading, Point, Pose};
+
+use super::fit::{Fit, fit};
+use super::surfaces::Surface;
+use super::wheels::{Rolled, difference};
+use super::{Outline, PlaceGraphConfig};
+
+/// One place where the robot may be.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Hypothesis {
+    pub(super) pose: Pose,
+    pub(super) covariance: Matrix3<f64>,
+    /// The logarithm of how likely it is, but for a constant.
+    score: f64,
+    /// How often the robot has looked since it was made.
+    pub(super) looks: u32,
+}
+
+/// How uncertain a hypothesis is at first: it stands where another place was seen from. m and rad.
+const SPREAD: (f64, f64) = (0.25, 0.25);
+
+/// Hypotheses are made in these directions beside that of each place, rad.
+const TURNS: [f64; 3] = [-0.35, 0.0, 0.35];
+
+/// A hypothesis less likely than the best by this many natural logarithms is given up.
+const HOPELESS: f64 = 12.0;
+
+/// Two that are nearer are one, m and rad.
+const SAME: (f64, f64) = (0.2, 0.2);
+
+/// What was seen before counts this much less with each look: no map is quite right.
+const FORGETS: f64 = 0.9;
+
+/// Returns a hypothesis near each of `places`.
+pub(super) fn everywhere(places: impl Iterator<Item = Pose>) -> Vec<Hypothesis> {
+    let (distance, turn) = SPREAD;
+    let variances = Vector3::new(distance * distance, distance * distance, turn * turn);
+    let at = |place: Pose| {
+        TURNS.map(|turn| Hypothesis {
+            pose: Pose::new(place.position, place.heading.turned(turn)),
+            covariance: Matrix3::from_diagonal(&variances),
+            score: 0.0,
+            looks: 0,
+        })
+    };
+    places.flat_map(at).collect()
+}
+
+/// Returns the hypotheses after the robot has rolled and looked, the best first.
+pub(super) fn looked(
+    before: Vec<Hypothesis>,
+    rolled: &Rolled,
+    outline: &Outline,
+    surfaces: &[&Surface],
+    config: &PlaceGraphConfig,
+) -> Vec<Hypothesis> {
+    let mut after: Vec<Hypothesis> = (before.into_iter())
+        .filter_map(|hypothesis| hypothesis.looked(rolled, outline, surfaces))
+        .collect();
+    after.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let best = after.first().map_or(0.0, |hypothesis| hypothesis.score);
+    let mut kept: Vec<Hypothesis> = vec![];
+    for hypothesis in after {
+        let is_known = kept.iter().any(|other| hypothesis.is(other));
+        if !is_known && hypothesis.score > best - HOPELESS && kept.len() < config.most_hypotheses {
+            kept.push(hypothesis);
+        }
+    }
+    kept
+}
+
+/// Returns how much each is believed.
+pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
+    let best = hypotheses
+        .first()
+        .map_or(0.0, |hypothesis| hypothesis.score);
+    let shares = hypotheses
+        .iter()
+        .map(|hypothesis| libm::exp(hypothesis.score - best));
+    let shares: Vec<f64> = shares.collect();
+    let sum: f64 = shares.iter().sum();
+    shares.into_iter().map(|share| share / sum).collect()
+}
+
+impl Hypothesis {
+    fn looked(self, rolled: &Rolled, outline: &Outline, surfaces: &[&Surface]) -> Option<Self> {
+        let predicted = self.pose.compose(rolled.pose);
+        let turned = turned_into(rolled.pose, &self.covariance);
+        let covariance = turned + rolled.covariance;
+        let Fit {
+            pose,
+            covariance,
+            likelihood,
+            ..
+        } = fit(outline, surfaces, predicted, &covariance)?;
+        Some(Self {
+            pose,
+            covariance,
+            score: FORGETS * self.score + likelihood,
+            looks: self.looks + 1,
+        })
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        let off = difference(self.pose, other.pose);
+        let (distance, turn) = SAME;
+        libm::hypot(off.x, off.y) < distance && off.z.abs() < turn
+    }
+}
+
+/// The covariance of a pose after a known motion, from that before.
+pub(super) fn turned_into(motion: Pose, before: &Matrix3<f64>) -> Matrix3<f64> {
+    let back = motion.inverse();
+    let column = |unit: Pose| difference(Pose::IDENTITY, back.compose(unit).compose(motion));
+    // Small steps ahead, to the left and round, as they show at the other end.
+    let step = 1e-6;
+    let ahead = column(Pose::new(Point::new(step, 0.0), Heading::EAST)) / step;
+    let left = column(Pose::new(Point::new(0.0, step), Heading::EAST)) / step;
+    let round = column(Pose::new(Point::origin(), Heading::from_radians(step))) / step;
+    let by_before = Matrix3::from_columns(&[ahead, left, round]);
+    by_before * before * by_before.transpose()
+}

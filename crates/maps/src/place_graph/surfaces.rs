@@ -1,0 +1,109 @@
+use alloc::collections::BTreeMap;
+
+use tolman_geom::{Point, Pose, Vector};
+
+use super::{Outline, OutlinePoint};
+
+/// What all places together know of the surfaces of things, in the map's frame: little pieces of them, one for each cell of a grid,
+/// direction and colour.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Surfaces {
+    pieces: BTreeMap<Key, Surface>,
+}
+
+/// Column and row of the grid, eighth of the circle, colour.
+type Key = (i32, i32, u8, u8);
+
+/// A piece of a surface: the mean of all points that were seen of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Surface {
+    position: Vector,
+    normal: Vector,
+    colour: [f64; 2],
+    has_colour: bool,
+    /// Sum of the weights of the points, 1/m².
+    weight: f64,
+    /// The place that saw it first.
+    pub(super) place: u32,
+}
+
+impl Surface {
+    pub(super) fn position(&self) -> Point {
+        Point::from(self.position)
+    }
+
+    pub(super) fn normal(&self) -> Vector {
+        self.normal
+    }
+
+    pub(super) fn colour(&self) -> Option<[f64; 2]> {
+        self.has_colour.then_some(self.colour)
+    }
+
+    /// Variance of where it lies along its normal, m².
+    pub(super) fn variance(&self) -> f64 {
+        1.0 / self.weight + LEAST_DEVIATION * LEAST_DEVIATION
+    }
+}
+
+/// Width of a cell, m.
+const CELL: f64 = 0.1;
+
+/// No surface is known better, m.
+const LEAST_DEVIATION: f64 = 0.01;
+
+impl Surfaces {
+    /// Adds what a place shows.
+    pub(super) fn add(&mut self, place: u32, pose: Pose, outline: &Outline) {
+        for point in &outline.points {
+            if let Some(normal) = point.normal {
+                self.add_point(place, pose, point, normal);
+            }
+        }
+    }
+
+    fn add_point(&mut self, place: u32, pose: Pose, point: &OutlinePoint, normal: Vector) {
+        let position = pose.transform(point.position).coords;
+        let normal = pose.heading.rotate(normal);
+        let weight = 1.0 / (point.deviation * point.deviation);
+        let piece = self.pieces.entry(key(position, normal, point.colour));
+        let piece = piece.or_insert(Surface {
+            position,
+            normal,
+            colour: point.colour.unwrap_or_default(),
+            has_colour: point.colour.is_some(),
+            weight: 0.0,
+            place,
+        });
+        piece.weight += weight;
+        let share = weight / piece.weight;
+        piece.position += (position - piece.position) * share;
+        let mean = piece.normal + (normal - piece.normal) * share;
+        piece.normal = mean.try_normalize(1e-9).unwrap_or(normal);
+        if let Some(colour) = point.colour {
+            for (mean, part) in piece.colour.iter_mut().zip(colour) {
+                *mean += (part - *mean) * share;
+            }
+        }
+    }
+
+    pub(super) fn all(&self) -> impl Iterator<Item = &Surface> {
+        self.pieces.values()
+    }
+}
+
+fn key(position: Vector, normal: Vector, colour: Option<[f64; 2]>) -> Key {
+    let cell = |along: f64| libm::floor(along / CELL) as i32;
+    let eighth = libm::floor(libm::atan2(normal.y, normal.x) / core::f64::consts::FRAC_PI_4);
+    // Whether there is more red than blue and green, and so on: colours that a change of light does not confuse.
+    let hue = colour.map_or(0, |[red, green]| {
+        let blue = 1.0 - red - green;
+        1 + u8::from(red > 0.45) + 2 * u8::from(green > 0.45) + 4 * u8::from(blue > 0.45)
+    });
+    (
+        cell(position.x),
+        cell(position.y),
+        (eighth + 4.0) as u8,
+        hue,
+    )
+}

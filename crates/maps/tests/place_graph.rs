@@ -1,0 +1,184 @@
+//! A robot wanders through a room with wheels that are out of calibration, and maps places.
+#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::geom::{Heading, Point, Pose};
+use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, SeenThere};
+use tolman_robot::{Mapper, Odometry, Snapshot, Sounding};
+use tolman_sim::{Wall, World};
+
+fn room() -> World {
+    let corners = [
+        (0.0, 0.0),
+        (5.0, 0.0),
+        (5.0, 2.0),
+        (3.5, 2.0),
+        (3.5, 4.0),
+        (0.0, 4.0),
+    ];
+    let point = |(x, y): (f64, f64)| Point::new(x, y);
+    let next = corners.iter().cycle().skip(1);
+    let walls = corners
+        .iter()
+        .zip(next)
+        .map(|(a, b)| Wall::between(point(*a), point(*b)));
+    World::from_segments(walls.collect()).unwrap()
+}
+
+/// A robot whose wheels say something else than the truth.
+struct Wanderer {
+    world: World,
+    truth: Pose,
+    reckoned: Pose,
+    scale: f64,
+    curvature: f64,
+    rolled: Vec<Odometry>,
+    rng: ChaCha8Rng,
+}
+
+impl Wanderer {
+    fn new(seed: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let start = Pose::new(
+            Point::new(1.0, 1.0),
+            Heading::from_radians(rng.random_range(-3.0..3.0)),
+        );
+        Self {
+            world: room(),
+            truth: start,
+            reckoned: start,
+            scale: rng.random_range(-0.03..0.03),
+            curvature: rng.random_range(-0.15..0.15),
+            rolled: Vec::new(),
+            rng,
+        }
+    }
+
+    fn noise(&mut self, deviation: f64) -> f64 {
+        // Twelve evenly spread numbers are normal enough.
+        let sum: f64 = (0..12).map(|_| self.rng.random_range(-0.5..0.5)).sum();
+        deviation * sum
+    }
+
+    fn step(&mut self, distance: f64, turn: f64) {
+        let step = Odometry { distance, turn };
+        self.rolled.push(step);
+        self.reckoned = step.applied_to(self.reckoned);
+        let slip = self.noise(0.02 * distance.abs().sqrt());
+        let skid = self.noise(0.02 * (distance.abs() + turn.abs()).sqrt());
+        let distance_truly = distance * (1.0 + self.scale) + slip;
+        let turn_truly = turn * (1.0 + self.scale) + distance * self.curvature + skid;
+        self.truth = self.truth.displaced(distance_truly, turn_truly);
+    }
+
+    /// Turns a little, or goes on a little where there is room.
+    fn move_on(&mut self) {
+        let ahead = self.range(0.0);
+        if ahead < 0.9 || self.rng.random_range(0..6) == 0 {
+            let turn = self.rng.random_range(0.2..0.6);
+            let sign = if self.range(0.6) > self.range(-0.6) {
+                1.0
+            } else {
+                -1.0
+            };
+            self.step(0.0, sign * turn);
+        } else {
+            for _ in 0..4 {
+                self.step(0.1, 0.0);
+            }
+        }
+    }
+
+    fn range(&self, bearing: f64) -> f64 {
+        let direction = self.truth.heading.turned(bearing).unit();
+        self.world
+            .caster()
+            .cast(self.truth.position, direction, 6.0)
+    }
+
+    fn see(&mut self) -> SeenThere {
+        let mut soundings = Vec::new();
+        for degrees in (-120..=120).step_by(4) {
+            let bearing = f64::from(degrees).to_radians();
+            soundings.push(Sounding {
+                mount: Pose::new(Point::origin(), Heading::from_radians(bearing)),
+                half_width: 0.0,
+                range: self.range(bearing) + self.noise(0.02),
+                max_range: 6.0,
+            });
+        }
+        SeenThere {
+            rolled: core::mem::take(&mut self.rolled),
+            snapshot: Snapshot {
+                soundings,
+                picture: None,
+            },
+            put_down: false,
+        }
+    }
+}
+
+/// Root-mean-square distance of the map's pose, and of the reckoned one, from the truth over the last half.
+fn errors(seed: u64, looks: usize) -> (f64, f64, PlaceGraph, Wanderer) {
+    let mut robot = Wanderer::new(seed);
+    let start = robot.truth;
+    let mut map = PlaceGraph::new(PlaceGraphConfig::indoors());
+    let (mut by_map, mut by_wheels) = (0.0, 0.0);
+    for look in 0..looks {
+        let seen = robot.see();
+        map.observe(&seen).unwrap();
+        if look >= looks / 2 {
+            let here = start.compose(map.here().unwrap());
+            by_map += (here.position - robot.truth.position).norm_squared();
+            by_wheels += (robot.reckoned.position - robot.truth.position).norm_squared();
+        }
+        robot.move_on();
+    }
+    let half = (looks - looks / 2) as f64;
+    (
+        (by_map / half).sqrt(),
+        (by_wheels / half).sqrt(),
+        map,
+        robot,
+    )
+}
+
+#[test]
+fn the_map_corrects_the_pose_that_the_wheels_lose() {
+    for seed in 0..3 {
+        let (by_map, by_wheels, map, robot) = errors(seed, 200);
+        assert!(map.is_localized());
+        assert!(by_map < 0.1, "{by_map}");
+        assert!(by_wheels > 5.0 * by_map, "{by_wheels}");
+        assert!((map.wheels().curvature - robot.curvature).abs() < 0.02);
+        assert!((map.wheels().scale - robot.scale).abs() < 0.01);
+    }
+}
+
+#[test]
+fn a_robot_that_was_put_down_finds_itself() {
+    let (_, _, map, _) = errors(1, 300);
+    let first = Wanderer::new(1).truth;
+    let mut found = 0;
+    for seed in 20..25 {
+        let mut map = map.clone().put_down(false);
+        let mut other = Wanderer::new(seed);
+        let (x, y) = (
+            other.rng.random_range(0.5..4.5),
+            other.rng.random_range(0.5..1.5),
+        );
+        other.truth = Pose::new(Point::new(x, y), other.truth.heading);
+        for _ in 0..40 {
+            let seen = other.see();
+            map.observe(&seen).unwrap();
+            other.move_on();
+        }
+        let seen = other.see();
+        map.observe(&seen).unwrap();
+        let here = first.compose(map.here().unwrap());
+        let off = (here.position - other.truth.position).norm();
+        found += u32::from(map.is_localized() && off < 0.15);
+    }
+    assert_eq!(found, 5);
+}
