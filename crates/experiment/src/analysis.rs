@@ -2,7 +2,7 @@
 
 use super::sample::Sample;
 use super::{Experiment, Metric, Pair, PaperValue, Reached, Row, Run, Table, Verdict, run_seed};
-use tolman_stats::{Interval, Method, PValue};
+use tolman_stats::{ConfidenceInterval, Method, PValue};
 
 /// All tables of an experiment, measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub struct Measured {
     /// The median, for means and medians.
     pub median: Option<f64>,
     /// The 95 % interval of the value.
-    pub interval: Option<Interval>,
+    pub interval: Option<ConfidenceInterval>,
     /// What the paper says.
     pub paper: Option<PaperValue>,
     /// Whether that matches.

@@ -17,7 +17,7 @@ use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::Direction;
 use tolman_robot::{Ring, Scan};
 use tolman_sim::Bounds;
-use tolman_stats::Interval;
+use tolman_stats::ConfidenceInterval;
 
 type Anything = Box<dyn Error>;
 
@@ -201,7 +201,7 @@ fn errors() -> Figure {
         let points = (0..=12).map(|k| {
             let inputs = libm::pow(10.0, 1.0 + 0.25 * f64::from(k));
             let error = (0.9 - 0.2 * f64::from(i)) / libm::pow(inputs, 0.4);
-            let spread = Interval {
+            let spread = ConfidenceInterval {
                 low: error * 0.75,
                 high: error * 1.35,
             };

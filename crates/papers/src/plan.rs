@@ -3,7 +3,7 @@ use tolman_arena::pioneer;
 use tolman_draw::{Drawing, LinePoint, Plan, PolarPlot, Series, Zone};
 use tolman_geom::Point;
 use tolman_sim::{Area, Bounds};
-use tolman_stats::{Interval, mean, quantile};
+use tolman_stats::{ConfidenceInterval, mean, quantile};
 use tolman_systems::mslst::ROBOT_UNIT;
 
 /// A scan that MSLST has learned, in robot units, as seen from the robot; `size` user units wide.
@@ -18,7 +18,7 @@ pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: Stri
 /// The mean of values on a line, with their quartiles; `None` of no values.
 pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
     let at = |share| quantile(values, share).ok();
-    let quartiles = Interval::new(at(0.25)?, at(0.75)?);
+    let quartiles = ConfidenceInterval::new(at(0.25)?, at(0.75)?);
     Some(LinePoint::new(x, mean(values).ok()?).spread(quartiles))
 }
 

@@ -31,7 +31,7 @@ mod properties;
 pub use bootstrap::bca_interval;
 pub use effect::a12;
 pub use error::SampleError;
-pub use interval::Interval;
+pub use interval::ConfidenceInterval;
 pub use mann_whitney::{MannWhitney, mann_whitney};
 pub use median::median_interval;
 pub use method::Method;

@@ -15,7 +15,7 @@ use tolman_draw::{
     Series, Tiles,
 };
 use tolman_experiment::{BoxError, Record, Run};
-use tolman_stats::{Interval, quantile};
+use tolman_stats::{ConfidenceInterval, quantile};
 
 /// How many data points a picture shows at most.
 const SHOWN: usize = 700;
@@ -159,7 +159,7 @@ fn errors(runs: &[Run]) -> Result<Figure, BoxError> {
             .filter_map(|(mark, inputs)| {
                 let values: Vec<f64> = of_row.iter().map(|run| run.errors()[mark]).collect();
                 let at = |share| quantile(&values, share).ok();
-                let spread = Interval::new(at(0.0)?, at(1.0)?);
+                let spread = ConfidenceInterval::new(at(0.0)?, at(1.0)?);
                 Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
             });
         chart.line(Line::new(row, Series(series), points.collect()));
