@@ -31,7 +31,7 @@ use thiserror::Error;
 use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::speed_run::{
-    CertificateError, Decision, SpeedRunCertificate, SpeedRunConfig, SpeedRunConfigError,
+    Decision, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig, SpeedRunConfigError,
     SpeedRunExplorer, SpeedRunTimes,
 };
 use tolman_planners::{Passages, Unknown};
@@ -47,7 +47,7 @@ pub struct Exploration {
     /// The run that the mouse found.
     pub certificate: SpeedRunCertificate,
     /// What the checker says to it: it sees the walls that the mouse knows, and no more.
-    pub verdict: Result<(), CertificateError>,
+    pub verdict: Result<(), SpeedRunCertificateError>,
 }
 
 /// Why a maze cannot be explored.
