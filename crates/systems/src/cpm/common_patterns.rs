@@ -2,7 +2,9 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_control::epuck::FEATURES;
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
-use tolman_quantizers::{ConfigError, Denoising, InputError, Quantizer, Soinn, SoinnConfig};
+use tolman_quantizers::{
+    Denoising, InputError, Quantizer, QuantizerConfigError, Soinn, SoinnConfig,
+};
 
 use super::robot::CpmRobot;
 use super::walker::{Observation, WalkResult, Walker};
@@ -237,7 +239,7 @@ fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
 pub enum LearnError {
     /// SOINN's configuration.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] QuantizerConfigError),
     /// An observation.
     #[error(transparent)]
     Input(#[from] InputError),
