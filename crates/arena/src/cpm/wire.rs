@@ -8,7 +8,7 @@ use std::io::{self, ErrorKind, Read, Write};
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_control::epuck::{Alignment, Pilot, Profile, TURN_STEP};
+use tolman_control::epuck::{Pilot, Profile, SensorAlignment, TURN_STEP};
 use tolman_maps::cpm::CpMap;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
@@ -169,7 +169,7 @@ fn it_sweeps_and_follows_as_on_the_simulator() {
     let mut near = Pilot::new(simulated(1), walker_config(&epuck(), WIDTH).unwrap().pilot);
     let mut far = Pilot::new(line.robot().unwrap(), config().pilot);
     let [one, other] = [near.sweep().unwrap(), far.sweep().unwrap()]
-        .map(|sweep| Profile::of(&sweep, Alignment::Mounts).unwrap());
+        .map(|sweep| Profile::of(&sweep, SensorAlignment::Mounts).unwrap());
     for (one, other) in one.values().iter().zip(other.values()) {
         assert!((one - other).abs() < 20.0, "{one} {other}");
     }
