@@ -10,7 +10,7 @@ use tolman_robot::{Ring, TurnTranslate};
 use tolman_sim::robots::{
     CameraPioneer, CameraPioneerConfig, Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig,
 };
-use tolman_sim::trace::{Event, Reader, Recordable, ReplayError};
+use tolman_sim::trace::{Reader, Recordable, ReplayError, TraceLine};
 use tolman_sim::{DoorEvent, DoorState, World};
 
 use super::difference::{Difference, first_difference};
@@ -175,7 +175,7 @@ impl<M: Portrait> Trace<M> {
         let mut now = 0;
         for event in reader {
             match event?.1 {
-                Event::Step(step) => {
+                TraceLine::Step(step) => {
                     now = step.tick as u32;
                     if let Some(robot) = trace.robots.get_mut(step.robot.0 as usize) {
                         robot.poses.push(step.pose);
@@ -183,12 +183,12 @@ impl<M: Portrait> Trace<M> {
                         robot.bumps.push(step.bump);
                     }
                 }
-                Event::Place { robot, .. } => {
+                TraceLine::Place { robot, .. } => {
                     if let Some(robot) = trace.robots.get_mut(robot.0 as usize) {
                         robot.lifts.push(now + 1);
                     }
                 }
-                Event::Door { name, state } => trace.doors.push((now, name, state)),
+                TraceLine::Door { name, state } => trace.doors.push((now, name, state)),
             }
         }
         Ok(trace)

@@ -64,7 +64,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use tolman_maps::diktiometry::{Outcome, Signature};
     use tolman_maze::Direction;
-    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
+    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
     use tolman_systems::diktiometry::{Arrival, Rover};
 
     use super::super::office::{OfficeConfig, TruePlace, blocks};
@@ -170,11 +170,11 @@ mod tests {
             .values()
             .map(|there| there.ways.map(|way| way.map(place)));
         let world = AbstractWorld::of_places(positions, ways.collect()).unwrap();
-        let errors = MoveError {
+        let errors = MoveNoise {
             distance: config.odometry_share,
             compass: config.compass_bound,
             stop: 0.03,
-            ..MoveError::NONE
+            ..MoveNoise::NONE
         };
         let mut ghost = AbstractRobot::new(world.into(), 0, errors, 8).unwrap();
 

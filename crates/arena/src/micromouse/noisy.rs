@@ -9,7 +9,7 @@ use tolman_maps::wall_belief::PoseFilterConfig;
 use tolman_maze::Maze;
 use tolman_robot::Ring;
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise, RobotConfigError};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
     Localization, NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext,
@@ -150,7 +150,7 @@ pub enum NoisyError {
     World(#[from] WorldError),
     /// The mouse cannot be built.
     #[error(transparent)]
-    Robot(#[from] ConfigError),
+    Robot(#[from] RobotConfigError),
     /// It cannot be put down at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),

@@ -9,19 +9,19 @@ use tolman_maps::diktiometry::{
     SignatureKind, Start, StepReport, Use,
 };
 use tolman_maze::{Braided, Cell, Direction, Grid, Maze};
-use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveError};
+use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveNoise};
 
 pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
 
 /// 10 % of the distance, and a compass of ± 4°.
-pub(crate) const ODOMETRY: MoveError = MoveError {
+pub(crate) const ODOMETRY: MoveNoise = MoveNoise {
     distance: 0.1,
     compass: COMPASS,
-    ..MoveError::NONE
+    ..MoveNoise::NONE
 };
 
 /// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives a good metre more.
-pub(crate) const ROUGH: MoveError = MoveError {
+pub(crate) const ROUGH: MoveNoise = MoveNoise {
     distance: 0.13,
     compass: 1.3 * ODOMETRY.compass,
     ..ODOMETRY
@@ -91,7 +91,7 @@ pub(crate) struct Score {
 }
 
 impl Walk {
-    pub(crate) fn new(world: AbstractWorld, errors: MoveError, config: Config, seed: u64) -> Self {
+    pub(crate) fn new(world: AbstractWorld, errors: MoveNoise, config: Config, seed: u64) -> Self {
         let sees = config.percepts != tolman_maps::diktiometry::Percepts::None;
         let robot = AbstractRobot::new(world.into(), 0, errors, seed).unwrap();
         let start = Start {
@@ -277,7 +277,7 @@ pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let maze = shape.generate(&mut rng).unwrap();
     let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
-    let errors = MoveError {
+    let errors = MoveNoise {
         stop: 0.0175,
         look: 0.2,
         ..ROUGH
