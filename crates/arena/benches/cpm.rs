@@ -6,7 +6,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World};
-use tolman_maps::cpm::{Alignment, Localizer, LocalizerConfig, Matching, Similarity, Turn};
+use tolman_maps::cpm::{Alignment, FragmentMatching, Localizer, LocalizerConfig, Similarity, Turn};
 use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer};
 
 fn world(columns: u32, rows: u32) -> World {
@@ -82,8 +82,11 @@ fn cpm(criterion: &mut Criterion) {
     let mut matching =
         criterion.benchmark_group(format!("cpm/match {} observations", sequence.len()));
     for (name, how) in [
-        ("positions", Matching::Positions(Similarity::paper())),
-        ("alignment", Matching::Alignment(Alignment::tuned())),
+        (
+            "positions",
+            FragmentMatching::Positions(Similarity::paper()),
+        ),
+        ("alignment", FragmentMatching::Alignment(Alignment::tuned())),
     ] {
         let dictionary = small.dictionary();
         matching.bench_function(name, |bench| {

@@ -10,7 +10,7 @@ use core::error::Error;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
-use tolman_maps::cpm::{Alignment, Mapping, Matching, Similarity};
+use tolman_maps::cpm::{Alignment, FragmentMatching, Mapping, Similarity};
 use tolman_systems::cpm::{Aim, CpmConfig, Explorer, Onward};
 
 const MAZES: u32 = 200;
@@ -61,7 +61,7 @@ fn lost(mazes: u32) -> Result<(), Box<dyn Error>> {
 
 fn table() -> Result<(), Box<dyn Error>> {
     let literal = CpmConfig {
-        matching: Matching::Positions(Similarity::literal()),
+        matching: FragmentMatching::Positions(Similarity::literal()),
         ..CpmConfig::online()
     };
     let go_on = CpmConfig {
@@ -69,7 +69,7 @@ fn table() -> Result<(), Box<dyn Error>> {
         ..CpmConfig::online()
     };
     let aligned = CpmConfig {
-        matching: Matching::Alignment(Alignment::tuned()),
+        matching: FragmentMatching::Alignment(Alignment::tuned()),
         mapping: Mapping::Online,
         ..CpmConfig::online()
     };

@@ -1,4 +1,4 @@
-use tolman_maps::wall_map::{ClosedCells, Ray, TooLarge, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Walls};
 use tolman_planners::speed_run::{Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
 use tolman_planners::{Passages, PoseKnowledge, PoseSet, Unknown};
@@ -197,12 +197,12 @@ impl Sides {
         ]
     }
 
-    fn rays(self, heading: Direction) -> [Ray; 3] {
+    fn rays(self, heading: Direction) -> [CellRay; 3] {
         let ray = |direction, is_open| {
             if is_open {
-                Ray::out_of_range(direction, 1)
+                CellRay::out_of_range(direction, 1)
             } else {
-                Ray::to_wall(direction, 0)
+                CellRay::to_wall(direction, 0)
             }
         };
         self.all()

@@ -17,7 +17,7 @@ mod walk;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
+    GeometricMerge, Identity, Percepts, PerceptualIndexing, Use, ViewRotation,
 };
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::{ABLATIONS, Change};
@@ -366,7 +366,7 @@ fn kidnapped(runs: u64) {
     println!("| --- | --- | ---: | ---: | ---: |");
     let turned: Change = |config| {
         if let Percepts::Signatures(kind) = &mut config.percepts {
-            kind.rotation = Rotation::Free;
+            kind.rotation = ViewRotation::Free;
         }
     };
     let worlds: [(&str, u32, Change); 3] = [

@@ -1,7 +1,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, CpMapper, FragmentId, JunctionId, Port, Sign, Turn};
+use tolman_maps::cpm::{CpMap, CpMapper, FragmentId, JunctionId, MapUpdate, Port, Sign, Turn};
 use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 use tolman_systems::cpm::{Layer3, Step, Walker};
@@ -108,7 +108,7 @@ impl<'a> Score<'a> {
         self.take_in(&layer.explorer().mapper, arrival, walked, length);
     }
 
-    fn take_in(&mut self, mapper: &CpMapper, arrival: Arrival, walked: Walked, length: u32) {
+    fn take_in(&mut self, mapper: &CpMapper, arrival: MapUpdate, walked: Walked, length: u32) {
         let Walked { way, here, .. } = walked;
         let number = self.walked.len();
         self.walked.push(walked);
@@ -116,7 +116,7 @@ impl<'a> Score<'a> {
             self.judge(mapper, arrival, number, way, here);
             self.lengths.entry(way.fragment).or_insert(length);
         }
-        if arrival == Arrival::Contradiction {
+        if arrival == MapUpdate::Contradiction {
             self.begin_at(mapper.at(), here);
         }
     }
@@ -124,7 +124,7 @@ impl<'a> Score<'a> {
     fn judge(
         &mut self,
         mapper: &CpMapper,
-        arrival: Arrival,
+        arrival: MapUpdate,
         number: usize,
         way: Way,
         here: Option<Cell>,
@@ -140,13 +140,13 @@ impl<'a> Score<'a> {
             self.places.entry(junction).or_insert(here);
         }
         match arrival {
-            Arrival::Revised => self.retrace(mapper.map()),
-            Arrival::Duplicate if is_same => self.right += 1,
-            Arrival::Loop if stands == here => self.right += 1,
-            Arrival::Duplicate | Arrival::Loop => {
+            MapUpdate::Revised => self.retrace(mapper.map()),
+            MapUpdate::Duplicate if is_same => self.right += 1,
+            MapUpdate::Loop if stands == here => self.right += 1,
+            MapUpdate::Duplicate | MapUpdate::Loop => {
                 self.wrong.insert(number);
             }
-            Arrival::New if is_old => self.missed += 1,
+            MapUpdate::New if is_old => self.missed += 1,
             _ => {}
         }
         if let Some(end) = told {
@@ -335,9 +335,9 @@ mod tests {
             score.take_in(&mapper, arrival, Walked { turn, way, here }, 3);
             arrival
         };
-        assert_eq!(take_in(Turn::BACK, 3, start, 0.0), Arrival::Known);
+        assert_eq!(take_in(Turn::BACK, 3, start, 0.0), MapUpdate::Known);
         let strange = take_in(Turn::BACK, 2, fork, 90.0);
-        assert_eq!(strange, Arrival::Contradiction);
+        assert_eq!(strange, MapUpdate::Contradiction);
         take_in(Turn::BACK, 3, Cell::new(1, 1), 270.0);
         let before = score.truth.clone();
         assert_eq!(before.len(), 3);

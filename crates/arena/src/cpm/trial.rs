@@ -314,7 +314,7 @@ impl TrialError {
 pub(super) mod tests {
     use std::sync::LazyLock;
 
-    use tolman_maps::cpm::{Matching, Similarity};
+    use tolman_maps::cpm::{FragmentMatching, Similarity};
     use tolman_maze::{Direction, Grid, Maze};
 
     use super::*;
@@ -412,7 +412,7 @@ pub(super) mod tests {
     fn loops_that_stay_open_on_the_map_are_missed() {
         let maze = maze_1();
         // A robot to which nothing is similar closes none.
-        let matching = Matching::Positions(Similarity {
+        let matching = FragmentMatching::Positions(Similarity {
             mu: 2.0,
             ..Similarity::paper()
         });

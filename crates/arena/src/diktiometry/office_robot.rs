@@ -62,7 +62,7 @@ pub fn surveyor(
 mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use tolman_maps::diktiometry::{Outcome, Signature};
+    use tolman_maps::diktiometry::{MoveOutcome, Signature};
     use tolman_maze::Direction;
     use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
     use tolman_systems::diktiometry::{Arrival, Rover};
@@ -103,8 +103,8 @@ mod tests {
             let arrival = rover.go(direction).unwrap();
             let way = places[&at].ways[direction.index()];
             let expected = match way {
-                Some(_) => Outcome::Arrived,
-                None => Outcome::Blocked,
+                Some(_) => MoveOutcome::Arrived,
+                None => MoveOutcome::Blocked,
             };
             assert_eq!(
                 arrival.outcome, expected,

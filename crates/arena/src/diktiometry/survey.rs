@@ -6,7 +6,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{Config, Observer, Outcome, PlaceId, StepReport};
+use tolman_maps::diktiometry::{Config, MoveOutcome, Observer, PlaceId, StepReport};
 use tolman_maze::Direction;
 use tolman_sim::robots::CameraPioneerError;
 use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
@@ -289,7 +289,7 @@ impl Survey {
             gone.map_err(|source| RunError::BrokeOff { at: here, source })?;
         let from = self.site;
         self.site = self.true_site(here)?;
-        if arrival.outcome == Outcome::Arrived {
+        if arrival.outcome == MoveOutcome::Arrived {
             let way = (here - before).norm();
             self.memory.go(from, decision.direction, self.site, way);
             self.past.gone.push((from, decision.direction));

@@ -9,7 +9,7 @@ use tolman_arena::cpm::world::{
     Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
 };
 use tolman_maps::cpm::{
-    Arrival, Candidates, Dictionary, JunctionId, Mapping, PatternId, theorem_1,
+    Candidates, Dictionary, JunctionId, MapUpdate, Mapping, PatternId, theorem_1,
 };
 use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Leg, Onward};
@@ -22,7 +22,7 @@ pub(crate) fn pursue(
     rng: &mut ChaCha8Rng,
 ) -> Done {
     let see = |_: &Rover<'_>, _: &Explorer, leg: &Leg, arrival| {
-        assert!(leg.known.is_some() || arrival != Arrival::Known);
+        assert!(leg.known.is_some() || arrival != MapUpdate::Known);
     };
     rover.pursue(explorer, aim, rng, see).unwrap()
 }
@@ -176,7 +176,7 @@ fn the_truth_is_found_again() {
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let see = |_: &Rover<'_>, _: &Explorer, _: &Leg, arrival| {
-            revised += u32::from(arrival == Arrival::Revised);
+            revised += u32::from(arrival == MapUpdate::Revised);
         };
         rover
             .pursue(&mut explorer, Aim::Explore, &mut rng, see)

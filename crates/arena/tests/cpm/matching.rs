@@ -4,7 +4,9 @@ use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort};
-use tolman_maps::cpm::{Alignment, Dictionary, Matching, PatternId, Sense, Similarity, Sum, Turn};
+use tolman_maps::cpm::{
+    Alignment, Dictionary, FragmentMatching, PatternId, Sense, Similarity, Sum, Turn,
+};
 
 /// A sequence as seen, and the corridor it was.
 type Seen = (u32, Vec<PatternId>);
@@ -27,7 +29,7 @@ fn sightings(world: &World, noise: Noise, rng: &mut ChaCha8Rng) -> Vec<Seen> {
 }
 
 /// The area under the ROC curve: how often a pair of one corridor is more similar than a pair of two.
-fn auc(matching: &Matching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
+fn auc(matching: &FragmentMatching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
     let (mut same, mut other) = (Vec::new(), Vec::new());
     for (i, (corridor, patterns)) in seen.iter().enumerate() {
         for (another, others) in &seen[..i] {
@@ -61,9 +63,9 @@ const MAZES: u32 = 40;
 #[test]
 fn alignment_tells_fragments_apart_better_than_positions() {
     let matchings = [
-        Matching::Positions(Similarity::literal()),
-        Matching::Positions(Similarity::paper()),
-        Matching::Alignment(Alignment::tuned()),
+        FragmentMatching::Positions(Similarity::literal()),
+        FragmentMatching::Positions(Similarity::paper()),
+        FragmentMatching::Alignment(Alignment::tuned()),
     ];
     // By how much alignment is to be better than the paper's similarity: about half of what it is.
     for (substitution, gaps, margin) in [(0.05, 0.0, 0.0005), (0.1, 0.05, 0.006), (0.3, 0.1, 0.02)]
@@ -115,9 +117,9 @@ proptest! {
         let inverse = |sequence: &[PatternId]| dictionary.inverse(sequence).unwrap();
         prop_assert_eq!(&inverse(&inverse(&a)), &a);
         for matching in [
-            Matching::Positions(Similarity::paper()),
-            Matching::Positions(Similarity { sum: Sum::Euclidean, ..Similarity::paper() }),
-            Matching::Alignment(Alignment::tuned()),
+            FragmentMatching::Positions(Similarity::paper()),
+            FragmentMatching::Positions(Similarity { sum: Sum::Euclidean, ..Similarity::paper() }),
+            FragmentMatching::Alignment(Alignment::tuned()),
         ] {
             let score = matching.score(&dictionary, &a, &b);
             prop_assert!(score <= 1.0);

@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{MapCheck, Noise, Outcome, Reckoning, Rover, World, WorldBuilder};
 use tolman_geom::Point;
 use tolman_maps::cpm::{
-    Arrival, Dictionary, End, FragmentId, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
+    Dictionary, End, FragmentId, MapUpdate, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
 };
 use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Onward};
@@ -165,7 +165,7 @@ fn follow(
     rover: &mut Rover<'_>,
     world: &World,
     corridors: &[u32],
-) -> Arrival {
+) -> MapUpdate {
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     let arrivals = corridors.iter().map(|corridor| {
         let turn = turn_into(world, rover, *corridor);
@@ -193,12 +193,12 @@ fn figure_10() {
     // A1 to A4 are new; that A4 leads to junc(A1⁺) is not known yet.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[0, 1, 2, 3]),
-        Arrival::New
+        MapUpdate::New
     );
     // (a) Duplication detected.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[1]),
-        Arrival::Duplicate
+        MapUpdate::Duplicate
     );
     assert_eq!(explorer.mapper.before_duplicate(), Some(4));
     // (b) "Connects path-fragment A4 to junc(A1⁺) = junc(A2⁻) and localizes itself at the path-fragment A2 where it is going to make a
@@ -232,13 +232,13 @@ fn figure_10() {
     // (d) If X3 is: A5, which finds X4 and X5.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[2, X3]),
-        Arrival::New
+        MapUpdate::New
     );
     assert_eq!(explorer.mapper.map().open_ports().count(), 5);
     // (f) X4 leads to junc(A1⁻), as A1 tells, and X5 has both its ends on the map then.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[X4, 0]),
-        Arrival::Duplicate
+        MapUpdate::Duplicate
     );
     assert_eq!(explorer.mapper.map().open_ports().count(), 3);
     // (e) The complete optimized map.
@@ -344,19 +344,19 @@ fn what_is_missing_to_mu_others_make_up_for() {
                 .arrive(turn, &walk(patterns, degree), &dictionary)
                 .unwrap()
         };
-        assert_eq!(arrive(Turn::BACK, &a, 3), Arrival::New);
-        assert_eq!(arrive(Turn(1), &b, 3), Arrival::New);
+        assert_eq!(arrive(Turn::BACK, &a, 3), MapUpdate::New);
+        assert_eq!(arrive(Turn(1), &b, 3), MapUpdate::New);
         // Straight on, into B again.
         let second = arrive(Turn(2), again, 3);
         // Home from there: the fork of this end of B is that of the first.
         arrive(Turn(1), &back(&a), 1);
-        assert_eq!(arrive(Turn::BACK, &a, 3), Arrival::Known);
-        assert_eq!(arrive(Turn(2), &back(again), 3), Arrival::Known);
+        assert_eq!(arrive(Turn::BACK, &a, 3), MapUpdate::Known);
+        assert_eq!(arrive(Turn(2), &back(again), 3), MapUpdate::Known);
         // The fork of B's other end has A as well.
         arrive(Turn(2), &back(&a), 1);
         (second, explorer.mapper.map().fragments().len())
     };
-    assert_eq!(fragments(&differing_by(2)), (Arrival::Duplicate, 2));
-    assert_eq!(fragments(&differing_by(3)), (Arrival::New, 2));
+    assert_eq!(fragments(&differing_by(2)), (MapUpdate::Duplicate, 2));
+    assert_eq!(fragments(&differing_by(3)), (MapUpdate::New, 2));
     assert_eq!(fragments(&differing_by(4)).1, 4);
 }

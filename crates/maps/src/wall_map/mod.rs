@@ -16,7 +16,7 @@ mod ray;
 mod saved;
 
 pub use map::{ClosedCells, ObserveError, WallMap};
-pub use ray::{Ray, RayEnd};
+pub use ray::{CellRay, RayEnd};
 #[cfg(feature = "serde")]
 pub use saved::{SavedWallMap, SavedWallMapError};
 pub use tolman_planners::TooLarge;

@@ -4,7 +4,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
 use tolman_maps::diktiometry::{
-    Config, ConfigError, GeometricMerge, Identity, Link, Matcher, Percepts, PerceptualIndexing, Use,
+    Config, DiktiometryConfigError, GeometricMerge, Identity, Link, Matcher, Percepts,
+    PerceptualIndexing, Use,
 };
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
@@ -407,6 +408,6 @@ fn views_of_two_columns_have_no_triangles() {
     }
     assert_eq!(config.check(), Ok(()));
     config.indexing.perceptual = PerceptualIndexing::Triangles;
-    let refused = ConfigError::NoTriangles { columns: 2 };
+    let refused = DiktiometryConfigError::NoTriangles { columns: 2 };
     assert_eq!(config.check(), Err(refused));
 }

@@ -5,8 +5,8 @@ use alloc::collections::{BTreeMap, VecDeque};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, Signature,
-    SignatureKind, Start, StepReport, Use,
+    Action, Config, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer, Percepts, PlaceId,
+    Signature, SignatureKind, StepReport, Use, ViewRotation,
 };
 use tolman_maze::{Braided, Cell, Direction, Grid, Maze};
 use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveNoise};
@@ -40,7 +40,7 @@ pub(crate) fn painted() -> Config {
             columns: 4,
             tolerance: 0.4,
             share: 1.0,
-            rotation: Rotation::Aligned,
+            rotation: ViewRotation::Aligned,
             views: 2,
         }),
         ..alike()
@@ -94,7 +94,7 @@ impl Walk {
     pub(crate) fn new(world: AbstractWorld, errors: MoveNoise, config: Config, seed: u64) -> Self {
         let sees = config.percepts != tolman_maps::diktiometry::Percepts::None;
         let robot = AbstractRobot::new(world.into(), 0, errors, seed).unwrap();
-        let start = Start {
+        let start = FirstPlace {
             percept: sees.then(|| percept(robot.look())),
             exits: exits(&robot),
         };
@@ -116,13 +116,13 @@ impl Walk {
         (moved, report)
     }
 
-    pub(crate) fn told(&self, moved: &AbstractMove) -> Move {
-        Move {
+    pub(crate) fn told(&self, moved: &AbstractMove) -> ObservedMove {
+        ObservedMove {
             action: Action(moved.direction as u32),
             odometry: moved.odometry,
             percept: self.sees.then(|| percept(moved.look)),
             exits: exits(&self.robot),
-            outcome: Outcome::Arrived,
+            outcome: MoveOutcome::Arrived,
         }
     }
 

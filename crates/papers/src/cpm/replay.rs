@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Sign};
+use tolman_maps::cpm::{CpMap, FragmentId, JunctionId, MapUpdate, Sign};
 use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
 
@@ -220,13 +220,13 @@ impl<'a> Watch<'a> {
     }
 }
 
-const fn word_for(arrival: Arrival) -> &'static str {
+const fn word_for(arrival: MapUpdate) -> &'static str {
     match arrival {
-        Arrival::New => "new",
-        Arrival::Known => "known",
-        Arrival::Duplicate => "a duplicate: a loop is closed",
-        Arrival::Loop => "new, to a known place: a loop is closed",
-        Arrival::Revised => "the map is revised",
-        Arrival::Contradiction => "not what the map says",
+        MapUpdate::New => "new",
+        MapUpdate::Known => "known",
+        MapUpdate::Duplicate => "a duplicate: a loop is closed",
+        MapUpdate::Loop => "new, to a known place: a loop is closed",
+        MapUpdate::Revised => "the map is revised",
+        MapUpdate::Contradiction => "not what the map says",
     }
 }

@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, PointBox};
-use tolman_maps::diktiometry::{LinkId, PlaceId, Standing};
+use tolman_maps::diktiometry::{LinkId, LinkStatus, PlaceId};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
@@ -158,7 +158,7 @@ impl Watch {
         }
         for ((id, from, to), edge) in &mut self.edges {
             let stands = map.paths.link(*id).is_some_and(|link| {
-                link.standing == Standing::Standing && link.from == *from && link.to == *to
+                link.standing == LinkStatus::Standing && link.from == *from && link.to == *to
             });
             if edge.died.is_none() && !stands {
                 edge.died = Some(step);

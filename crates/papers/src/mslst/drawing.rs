@@ -1,6 +1,6 @@
 //! Pictures of what was learned, for reports and the command.
 
-use tolman_maps::mslst_graph::Zone;
+use tolman_maps::mslst_graph::NodeZone;
 
 use crate::plan::model_scan;
 use tolman_arena::course::Course;
@@ -40,8 +40,8 @@ pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     let nodes = &learned.map.graph.nodes()[..shown];
     for (node, position) in nodes.iter().zip(&learned.survey.positions) {
         let mark = match node.zone {
-            Zone::Destination => NodeMark::Disc,
-            Zone::Elsewhere => NodeMark::Ring,
+            NodeZone::Destination => NodeMark::Disc,
+            NodeZone::Elsewhere => NodeMark::Ring,
         };
         graph.node(GraphNode::at(*position).mark(mark).series(Series(0)));
     }

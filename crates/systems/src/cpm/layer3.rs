@@ -3,8 +3,8 @@ use core::ops::ControlFlow;
 use rand::Rng;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Arrival, Bearings, CpMap, CpmError, Junction, Motion, PatternId, Plan, PlanLeg, Port, Sighting,
-    Traversal, Turn,
+    Bearings, CpMap, CpmError, DeadReckoning, Junction, MapUpdate, PatternId, Plan, PlanLeg, Port,
+    Sighting, Traversal, Turn,
 };
 use tolman_robot::Landmark;
 
@@ -54,7 +54,7 @@ pub struct Walked {
     /// What stands at its end; `None` if the robot turned round in it.
     pub sighting: Option<Sighting>,
     /// What dead reckoning says of the way; `None` if it is not trusted, as in the paper.
-    pub motion: Option<Motion>,
+    pub motion: Option<DeadReckoning>,
     /// Where the ways out of its end lead; `None` where they are numbered alone, as in the paper.
     pub bearings: Option<Bearings>,
 }
@@ -67,7 +67,7 @@ pub struct Step {
     /// What the robot met.
     pub walked: Walked,
     /// What the arrival taught; none where the robot turned back.
-    pub arrival: Option<Arrival>,
+    pub arrival: Option<MapUpdate>,
 }
 
 impl Layer3 {
@@ -167,7 +167,7 @@ impl Layer3 {
     ///
     /// # Errors
     /// [`CpmError`]; the map is as before then.
-    pub fn take_in(&mut self, walked: &Walked) -> Result<Option<Arrival>, CpmError> {
+    pub fn take_in(&mut self, walked: &Walked) -> Result<Option<MapUpdate>, CpmError> {
         let Some(sighting) = walked.sighting else {
             let observations = walked.observations.len() as u32;
             self.explorer
@@ -290,7 +290,10 @@ fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
 }
 
 /// Returns what dead reckoning says of the walk from one place to where the robot is now; `None` if it is not trusted, as in the paper.
-fn motion<B: CpmRobot>(walker: &Walker<B>, from: Pose) -> Result<Option<Motion>, IntervalError> {
+fn motion<B: CpmRobot>(
+    walker: &Walker<B>,
+    from: Pose,
+) -> Result<Option<DeadReckoning>, IntervalError> {
     if walker.config().heading == HeadingBy::Encoders {
         return Ok(None);
     }
@@ -298,7 +301,7 @@ fn motion<B: CpmRobot>(walker: &Walker<B>, from: Pose) -> Result<Option<Motion>,
     let left = walker.departed();
     let displacement = PointBox::about((to.position - from.position).into(), POSITION_MARGIN)?;
     let about = |pose: Pose| Interval::about(pose.heading.radians(), HEADING_MARGIN);
-    Ok(Some(Motion {
+    Ok(Some(DeadReckoning {
         displacement,
         departure: about(left)?,
         arrival: about(to)?,

@@ -28,7 +28,7 @@
 //! ```
 
 use thiserror::Error;
-use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::speed_run::{
     Decision, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig, SpeedRunConfigError,
@@ -163,9 +163,9 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
 }
 
 /// What sensors see that look no farther than the walls of their own cell.
-fn rays(open: [bool; 4]) -> [Ray; 4] {
+fn rays(open: [bool; 4]) -> [CellRay; 4] {
     Direction::ALL.map(|side| match open[side.index()] {
-        true => Ray::out_of_range(side, 1),
-        false => Ray::to_wall(side, 0),
+        true => CellRay::out_of_range(side, 1),
+        false => CellRay::to_wall(side, 0),
     })
 }

@@ -1,6 +1,6 @@
 //! What all our mice have in common: the map, the place, the two runs.
 
-use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::{Leap, MouseStep};
 use tolman_planners::{Passages, TooLarge, Unknown};
@@ -89,9 +89,9 @@ impl<S: Search> Driver<S> {
 
     fn look(&mut self, sight: Sight) -> Result<(), MouseError> {
         let rays = [
-            Ray::to_wall(self.heading.left(), sight.left),
-            Ray::to_wall(self.heading, sight.front),
-            Ray::to_wall(self.heading.right(), sight.right),
+            CellRay::to_wall(self.heading.left(), sight.left),
+            CellRay::to_wall(self.heading, sight.front),
+            CellRay::to_wall(self.heading.right(), sight.right),
         ];
         self.map.observe(self.at, &rays)?;
         Ok(())

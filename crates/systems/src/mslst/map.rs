@@ -1,5 +1,5 @@
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{MslstGraph, Node, Zone};
+use tolman_maps::mslst_graph::{MslstGraph, Node, NodeZone};
 use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::States;
@@ -46,7 +46,7 @@ pub(super) fn view(nodes: &[Node]) -> MapView {
     let place = |(id, node): (u32, &Node)| MapPlace {
         id,
         position: None,
-        landmark: (node.zone == Zone::Destination).then_some(Landmark::Goal),
+        landmark: (node.zone == NodeZone::Destination).then_some(Landmark::Goal),
     };
     MapView {
         places: (0..).zip(nodes).map(place).collect(),

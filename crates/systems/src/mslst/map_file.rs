@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{Edge, GraphError, MslstGraph, Node, Zone};
+use tolman_maps::mslst_graph::{ActionEdge, GraphError, MslstGraph, Node, NodeZone};
 use tolman_maze::Direction;
 
 use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
@@ -81,7 +81,7 @@ impl MapFile {
             nodes: nodes
                 .map(|(id, node)| SavedNode {
                     state: node.state,
-                    destination: node.zone == Zone::Destination,
+                    destination: node.zone == NodeZone::Destination,
                     edges: node
                         .edges
                         .iter()
@@ -143,10 +143,12 @@ fn restored(node: SavedNode) -> Node {
     Node {
         state: node.state,
         zone: if node.destination {
-            Zone::Destination
+            NodeZone::Destination
         } else {
-            Zone::Elsewhere
+            NodeZone::Elsewhere
         },
-        edges: edges.map(|(action, head)| Edge { action, head }).collect(),
+        edges: edges
+            .map(|(action, head)| ActionEdge { action, head })
+            .collect(),
     }
 }

@@ -1,7 +1,7 @@
 use core::convert::Infallible;
 
 use rand::Rng;
-use tolman_maps::mslst_graph::{Mapper as GraphMapper, Node, Zone};
+use tolman_maps::mslst_graph::{GraphMapper, Node, NodeZone};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
@@ -133,9 +133,9 @@ fn state_of(states: &States, seen: &TimeStep) -> Option<u32> {
     states.nearest(&north_scan(seen)?).ok()
 }
 
-fn zone(seen: &TimeStep) -> Zone {
+fn zone(seen: &TimeStep) -> NodeZone {
     match seen.landmark {
-        Some(Landmark::Goal) => Zone::Destination,
-        _ => Zone::Elsewhere,
+        Some(Landmark::Goal) => NodeZone::Destination,
+        _ => NodeZone::Elsewhere,
     }
 }

@@ -7,7 +7,7 @@ use tolman_geom::Point;
 
 use super::rover::uniform;
 use super::{World, WorldBuilder, WorldError};
-use tolman_maps::cpm::{Dictionary, DictionaryError, Matching, PatternId, Similarity};
+use tolman_maps::cpm::{Dictionary, DictionaryError, FragmentMatching, PatternId, Similarity};
 use tolman_robot::Landmark;
 
 /// What a random world shall be like.
@@ -361,7 +361,7 @@ impl<'a> Looks<'a> {
         let config = self.config;
         let count = libm::round(length * config.observations_per_cell).max(1.0) as usize;
         let symmetrical = uniform(rng) < config.symmetrical;
-        let matching = Matching::Positions(Similarity {
+        let matching = FragmentMatching::Positions(Similarity {
             mu: 0.8,
             ..Similarity::paper()
         });

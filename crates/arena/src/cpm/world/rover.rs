@@ -5,7 +5,8 @@ use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
 
 use super::{Corridor, CorridorEnd, World, WorldPort};
 use tolman_maps::cpm::{
-    Arrival, Bearings, CpmError, Motion, NoSuchTurn, PatternId, Sighting, Sign, Traversal, Turn,
+    Bearings, CpmError, DeadReckoning, MapUpdate, NoSuchTurn, PatternId, Sighting, Sign, Traversal,
+    Turn,
 };
 use tolman_systems::cpm::{Aim, Decision, Done, Explorer, Leg};
 
@@ -166,7 +167,7 @@ impl<'a> Rover<'a> {
         explorer: &mut Explorer,
         aim: Aim,
         rng: &mut G,
-        mut see: impl FnMut(&Self, &Explorer, &Leg, Arrival),
+        mut see: impl FnMut(&Self, &Explorer, &Leg, MapUpdate),
     ) -> Result<Done, CpmError> {
         loop {
             let leg = match explorer.decide(aim, rng) {
@@ -265,7 +266,7 @@ impl<'a> Rover<'a> {
         enter: Sign,
         stretch: f64,
         rng: &mut impl Rng,
-    ) -> Option<Motion> {
+    ) -> Option<DeadReckoning> {
         let (minus, plus) = (corridor.line.first()?, corridor.line.last()?);
         let truth = match enter {
             Sign::Minus => plus - minus,
@@ -280,7 +281,7 @@ impl<'a> Rover<'a> {
         let displacement = PointBox::new(side(believed.x)?, side(believed.y)?)
             .rotated(Interval::about(0.0, heading).ok()?);
         let mut about = |truth: Heading| Interval::about(truth.radians() + drift(), heading).ok();
-        Some(Motion {
+        Some(DeadReckoning {
             displacement,
             departure: about(corridor.bearing(enter))?,
             arrival: about(corridor.bearing(enter.opposite()).reversed())?,

@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Write};
 
-use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 use tolman_planners::{Passages, StepMap, TooLarge, Unknown, costs_from};
 
@@ -195,7 +195,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 
     /// How far the mouse sees to one side. What is known is not asked for again.
-    fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<Ray, PlayError> {
+    fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<CellRay, PlayError> {
         let (mut open, mut end) = (0, cell);
         loop {
             let is_wall = match self.walls.knowledge(end, side) {
@@ -206,7 +206,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
                 Knowledge::Unknown => self.link.truth(&format!("{command} {}", 2 * open + 1))?,
             };
             if is_wall {
-                return Ok(Ray::to_wall(side, open));
+                return Ok(CellRay::to_wall(side, open));
             }
             end = self.neighbour(end, side);
             open += 1;
