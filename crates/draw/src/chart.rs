@@ -6,7 +6,7 @@ use tolman_geom::Point;
 use super::number::{NOTHING, extent, line, tenths};
 use super::scale::{Scale, Spacing};
 use super::words;
-use super::{Drawing, Graph, Series};
+use super::{Drawing, GraphPicture, Series};
 use tolman_stats::ConfidenceInterval;
 
 /// Room for the labels of the value axis.
@@ -107,7 +107,7 @@ impl Axis {
 /// logarithmic axis, is left out.
 ///
 /// ```
-/// use tolman_draw::{Axis, Chart, Graph, GraphEdge, GraphNode, Line, LinePoint, Points, Series};
+/// use tolman_draw::{Axis, Chart, GraphPicture, GraphEdge, GraphNode, Line, LinePoint, Points, Series};
 /// use tolman_stats::ConfidenceInterval;
 /// use tolman_geom::Point;
 ///
@@ -122,7 +122,7 @@ impl Axis {
 /// // A network over its data, both axes to the same scale.
 /// let mut chart = Chart::new(Axis::linear("x"), Axis::linear("y")).equal();
 /// chart.points(Points::new("inputs", Series(5), vec![Point::new(0.1, 0.0), Point::new(0.9, 1.1)]));
-/// let mut network = Graph::new();
+/// let mut network = GraphPicture::new();
 /// let (a, b) = (GraphNode::at(Point::origin()), GraphNode::at(Point::new(1.0, 1.0)));
 /// let edge = GraphEdge::between(network.node(a), network.node(b));
 /// network.edge(edge);
@@ -152,7 +152,7 @@ enum Aspect {
 enum Layer {
     Line(Line),
     Points(Points),
-    Graph(Graph),
+    Graph(GraphPicture),
 }
 
 /// A line through values, with a band of spread around it.
@@ -264,7 +264,7 @@ impl Chart {
     }
 
     /// Adds a graph.
-    pub fn graph(&mut self, graph: Graph) {
+    pub fn graph(&mut self, graph: GraphPicture) {
         self.layers.push(Layer::Graph(graph));
     }
 
@@ -525,7 +525,7 @@ mod tests {
     #[test]
     fn a_graph_shares_the_frame() {
         let mut chart = square(unit("x"), unit("y"));
-        let mut graph = Graph::new();
+        let mut graph = GraphPicture::new();
         for at in [(0.0, 0.0), (1.0, 1.0), (f64::INFINITY, 0.0)] {
             graph.node(GraphNode::at(Point::new(at.0, at.1)));
         }

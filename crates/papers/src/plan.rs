@@ -1,6 +1,6 @@
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
-use tolman_draw::{Drawing, LinePoint, Plan, PolarPlot, Series, Zone};
+use tolman_draw::{Drawing, FloorPlan, LinePoint, PolarPlot, Series, ZoneStyle};
 use tolman_geom::Point;
 use tolman_sim::{Area, Bounds};
 use tolman_stats::{ConfidenceInterval, mean, quantile};
@@ -25,20 +25,20 @@ pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
 /// A plan of a course that is `width` user units wide, with its walls and its destination; what is
 /// walled off is solid.
 #[must_use]
-pub fn plan_of_course(course: &Course, width: f64) -> Plan {
+pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     let world = &course.world;
-    let mut plan = Plan::of_world(world, width);
+    let mut plan = FloorPlan::of_world(world, width);
     for cell in course.maze.grid().cells() {
         let centre = world.cell_centre(cell);
         if !course.leads_on(centre) {
-            plan.square(centre, course.corridor_width, Zone::Solid);
+            plan.square(centre, course.corridor_width, ZoneStyle::Solid);
         }
     }
     let destination = world.zone("destination");
     for area in destination.into_iter().flat_map(tolman_sim::Zone::areas) {
         if let Area::Rectangle(Bounds { min, max }) = *area {
             let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-            plan.zone(&corners, Zone::Destination);
+            plan.zone(&corners, ZoneStyle::Destination);
         }
     }
     plan

@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_draw::{Figure, Plan, Series, Zone};
+use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
 use tolman_experiment::{
     Better, BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Procedure, Record, Row,
     Run, Table, Tolerance, record,
@@ -148,8 +148,8 @@ impl Procedure for Darts {
         let corners = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)];
         let corners = corners.map(|(x, y)| Point::new(x, y));
         let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
-        let mut plan = Plan::of_walls(&walls, 420.0);
-        plan.zone(&corners.map(|corner| corner * 0.15), Zone::Destination);
+        let mut plan = FloorPlan::of_walls(&walls, 420.0);
+        plan.zone(&corners.map(|corner| corner * 0.15), ZoneStyle::Destination);
         for (i, row) in (0..).zip(&self.tables[0].rows) {
             let run = runs
                 .iter()

@@ -10,7 +10,7 @@ use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::Micromouse;
 use tolman_arena::micromouse::{Event, Referee, brief};
-use tolman_draw::{Drawing, Figure, Plan, Series, Shade};
+use tolman_draw::{Drawing, Figure, FloorPlan, Series, Shade};
 use tolman_experiment::{BoxError, Run};
 use tolman_systems::micromouse::{
     Certify, CounterSearch, Driver, RunTwo, SIDE, Search, Searcher, TargetSearch,
@@ -115,7 +115,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
         let open = run(map, Unknown::Open, maze, start)?;
         let closed = run(map, Unknown::Closed, maze, start)?;
         if closed.len() > 1 && open.len() < closed.len() {
-            let mut plan = Plan::of_walls(&walls(map), WIDTH);
+            let mut plan = FloorPlan::of_walls(&walls(map), WIDTH);
             plan.trajectory(&open, Series(1));
             plan.trajectory(&closed, Series(0));
             let drawing = plan.drawing("The walls known so far with two runs from start to goal.");
@@ -147,7 +147,7 @@ fn run(
 }
 
 fn values(map: &WallMap<SIDE>, shade: &Shade, value: impl Fn(Cell) -> f64) -> Drawing {
-    let mut plan = Plan::of_walls(&walls(map), WIDTH);
+    let mut plan = FloorPlan::of_walls(&walls(map), WIDTH);
     let cells: Vec<(Point, f64)> = map
         .grid()
         .cells()

@@ -4,7 +4,7 @@ use tolman_maps::mslst_graph::NodeZone;
 
 use crate::plan::model_scan;
 use tolman_arena::course::Course;
-use tolman_draw::{Drawing, Graph, GraphEdge, GraphNode, NodeMark, Series, Tiles};
+use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, Tiles};
 use tolman_systems::mslst::Learned;
 
 /// Width of a plan, user units.
@@ -32,7 +32,7 @@ pub const SHOWN_ACTIONS: u32 = 500;
 /// it was made, those of the destination filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
-    let mut graph = Graph::new().radius(2.0);
+    let mut graph = GraphPicture::new().radius(2.0);
     let made_by = learned.survey.made_by.iter();
     let shown = made_by
         .take_while(|action| **action <= SHOWN_ACTIONS)

@@ -11,8 +11,8 @@ use super::states::Mazes;
 use super::{five, shapes, states};
 use crate::plan::model_scan;
 use tolman_draw::{
-    Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, NodeMark, Points,
-    Series, Tiles,
+    Axis, Chart, Drawing, Figure, GraphEdge, GraphNode, GraphPicture, Line, LinePoint, NodeMark,
+    Points, Series, Tiles,
 };
 use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{ConfidenceInterval, quantile};
@@ -128,7 +128,7 @@ fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
     let points = data.iter().step_by(every);
     let points = points.map(|point| Point::new(point[0], point[1]));
     chart.points(Points::new("", Series(DOTS), points.collect()));
-    let mut graph = Graph::new().radius(2.6);
+    let mut graph = GraphPicture::new().radius(2.6);
     let mut nodes = BTreeMap::new();
     for (id, cluster) in network.clusters().iter() {
         let mut at = network.prototype(id).into_iter().flatten();
