@@ -8,7 +8,7 @@ use tolman_experiment::{
     Run, Table, Tolerance, record,
 };
 use tolman_geom::{Heading, Point, Pose};
-use tolman_replay::{Replay, Scenery, Track};
+use tolman_replay::{Replay, RobotTrack, Scenery};
 use tolman_robot::Body;
 
 /// The most darts of a run.
@@ -172,7 +172,7 @@ impl Procedure for Darts {
         let poses: Vec<Pose> = poses.map(|at| Pose::new(at, Heading::EAST)).collect();
         let long = poses.iter().cycle().take(poses.len() * self.replay_length);
         let body = Body::Circle { radius: 0.05 };
-        let track = Track::new(job.row, body, long.copied().collect());
+        let track = RobotTrack::new(job.row, body, long.copied().collect());
         let title = format!("Run {} <of {}>", job.run, job.row);
         Ok(Some(Replay::new(
             title,
