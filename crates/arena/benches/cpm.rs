@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World};
 use tolman_maps::cpm::{Alignment, FragmentMatching, Localizer, LocalizerConfig, Similarity, Turn};
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer};
+use tolman_systems::cpm::{Aim, CpmConfig, Explorer, JunctionDecision};
 
 fn world(columns: u32, rows: u32) -> World {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
@@ -53,7 +53,7 @@ fn miscounted(world: &World, walks: u32) -> Explorer {
         ..CpmConfig::robust()
     };
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+    while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
         // A way that is not there leads back.
         let is_there = leg.turn.0 < rover.sighting().degree;
         let turn = if is_there { leg.turn } else { Turn::BACK };

@@ -4,7 +4,7 @@ use alloc::sync::Arc;
 use std::sync::OnceLock;
 
 use tolman_sim::robots::LaserPioneerConfig;
-use tolman_systems::baselines::{Avoid, Random, WallFollow};
+use tolman_systems::baselines::{AvoidBrain, Random, WallFollow};
 
 use crate::course::Course;
 use crate::episode_error::EpisodeError;
@@ -14,7 +14,7 @@ use crate::oracle::{Chart, Oracle, Policy, UnlocalizedOracle};
 /// The agents by name: who can be sent through a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Agent {
-    /// [`Avoid`].
+    /// [`AvoidBrain`].
     Avoid,
     /// [`WallFollow`].
     WallFollow,
@@ -88,7 +88,7 @@ impl Cast {
         robot: &LaserPioneerConfig,
     ) -> Result<Mind, EpisodeError> {
         Ok(match agent {
-            Agent::Avoid => Mind::Brain(Box::<Avoid>::default()),
+            Agent::Avoid => Mind::Brain(Box::<AvoidBrain>::default()),
             Agent::WallFollow => Mind::Brain(Box::new(WallFollow::new(course.corridor_width))),
             Agent::Random => Mind::Brain(Box::new(Random)),
             Agent::Oracle => Mind::Oracle(Box::new(Oracle::new(self.policy(course, robot)?))),

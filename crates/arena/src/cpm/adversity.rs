@@ -12,7 +12,7 @@ use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_sim::{Area, StepError, WallSegment, World, Zone};
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, Walker, WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, Walker, WalkerConfig,
 };
 
 use super::pursue::pursue;
@@ -74,7 +74,10 @@ impl SensesLandmarks for OneSensor {
 }
 
 /// The first episode, and whether the robot truly stands at the goal at its end.
-fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), CpmFailure<B::Error>> {
+fn search<B: CpmRobot>(
+    body: B,
+    width: f64,
+) -> Result<(EpisodeSummary, bool), CpmFailure<B::Error>> {
     // Enough for worlds of this size.
     let config = CpmConfig {
         most_traversals: 20,

@@ -2,7 +2,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::theorem_1;
 use tolman_maze::Maze;
-use tolman_systems::cpm::{Aim, Done, Layer3, Step, Walker};
+use tolman_systems::cpm::{Aim, Done, FragmentStep, Layer3, Walker};
 
 use super::fragments::TrueFragments;
 use super::pursue::pursue;
@@ -60,7 +60,7 @@ impl Trial<'_> {
         let mut ends_us = vec![walker.time_us()];
         // How many fragments were known after each walk.
         let mut known = Vec::new();
-        let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step| {
+        let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &FragmentStep| {
             score.see(layer, walker, step);
             ends_us.push(walker.time_us());
             known.push(score.lengths.len() as u32);

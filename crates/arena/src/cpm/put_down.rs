@@ -3,7 +3,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
 use tolman_sim::robots::{Epuck, EpuckConfig};
-use tolman_systems::cpm::{Approach, CommonPatterns, Search, Walker, Whereabouts};
+use tolman_systems::cpm::{Approach, CommonPatterns, Relocalization, Walker, Whereabouts};
 
 use super::fragments::{TrueFragments, Way};
 use super::pursue::find_out;
@@ -106,7 +106,8 @@ impl PutDown<'_> {
         let mut walker = Walker::new(body, config);
         let maps = self.known.iter().map(|known| known.learned.map.clone());
         let maps: Vec<CpMap> = maps.collect();
-        let mut search = Search::new(&maps, self.patterns, self.approach, self.most_places)?;
+        let mut search =
+            Relocalization::new(&maps, self.patterns, self.approach, self.most_places)?;
         // The ways that it came by to each place; to the first, from amid one, it is not told.
         let mut onward = Vec::new();
         find_out(&mut search, &mut walker, &mut rng, |walker| {

@@ -3,7 +3,9 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::CpMap;
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Layer3, Step, Walker};
+use tolman_systems::cpm::{
+    Aim, CommonPatterns, CpmConfig, EpisodeSummary, FragmentStep, Layer3, Walker,
+};
 
 use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
@@ -17,11 +19,11 @@ use super::trial::TrialError;
 #[derive(Clone, Debug)]
 pub struct RoundTrip {
     /// From the start until the goal was found.
-    pub there: Episode,
+    pub there: EpisodeSummary,
     /// Back to the start; none if there was no goal.
-    pub back: Option<Episode>,
+    pub back: Option<EpisodeSummary>,
     /// Along the shortest way that is known then; none if the robot did not come back.
-    pub again: Option<Episode>,
+    pub again: Option<EpisodeSummary>,
     /// How many unknown fragments it entered on the way back.
     pub tried: u32,
     /// In how many of them it turned round, as they "will never be shorter".
@@ -50,7 +52,7 @@ impl RoundTrip {
         patterns: &CommonPatterns,
         config: CpmConfig,
         seed: u64,
-        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
     ) -> Result<Self, TrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut layer = Layer3::begin(walker, patterns.clone(), None, config)?;
@@ -78,7 +80,7 @@ impl RoundTrip {
             layer.optimize()?;
             let home = layer.explorer().mapper.plan(Landmark::Start);
             trip.length_before = home.map_or(0, |plan| plan.length);
-            let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step| {
+            let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &FragmentStep| {
                 see(layer, walker, step);
                 trip.tried += u32::from(step.leg.known.is_none());
                 trip.given_up += u32::from(step.walked.sighting.is_none());

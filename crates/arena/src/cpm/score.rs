@@ -4,7 +4,7 @@ use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, CpMapper, FragmentId, JunctionId, MapUpdate, Port, Sign, Turn};
 use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
-use tolman_systems::cpm::{Layer3, Step, Walker};
+use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
 use super::fragments::{TrueFragments, Way};
 use super::known_map::KnownMap;
@@ -87,7 +87,12 @@ impl<'a> Score<'a> {
     }
 
     /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
-    pub(super) fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+    pub(super) fn see(
+        &mut self,
+        layer: &Layer3,
+        walker: &Walker<SimulatedEpuck>,
+        step: &FragmentStep,
+    ) {
         let Some(arrival) = step.arrival else {
             return;
         };

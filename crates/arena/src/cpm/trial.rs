@@ -12,8 +12,8 @@ use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, CpmConfig, CpmFailure, Done, Episode, Layer3, LearnError, Lesson, Mode,
-    Step, WalkError, Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, CpmConfig, CpmFailure, Done, EpisodeSummary, FragmentStep, Layer3,
+    LearnPatternsError, Lesson, Mode, WalkError, Walker, WalkerConfig, soinn, wander,
 };
 
 use super::fragments::Way;
@@ -42,9 +42,9 @@ pub struct Trial<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Record {
     /// The first episode, if it came to an end.
-    pub first: Option<Episode>,
+    pub first: Option<EpisodeSummary>,
     /// The second.
-    pub second: Option<Episode>,
+    pub second: Option<EpisodeSummary>,
     /// Whether the second episode's way was as short as any that could be known: the junctions at the ends of a fragment that was walked twice are
     /// known to be the same, and start and goal are; others are not.
     pub is_shortest_known: bool,
@@ -83,8 +83,9 @@ impl Record {
     /// Whether the goal was found, the shortest known way was planned and led to the goal.
     #[must_use]
     pub fn is_solved(&self) -> bool {
-        let reached =
-            |episode: Option<Episode>| episode.is_some_and(|episode| episode.done == Done::Reached);
+        let reached = |episode: Option<EpisodeSummary>| {
+            episode.is_some_and(|episode| episode.done == Done::Reached)
+        };
         reached(self.first) && reached(self.second) && self.is_shortest_known
     }
 
@@ -173,7 +174,7 @@ impl Trial<'_> {
     /// [`TrialError`] if it cannot be begun.
     pub fn watch(
         &self,
-        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
+        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
     ) -> Result<Record, TrialError> {
         let start = self.course.start()?;
         let mut walker = self.walker_at(start)?;
@@ -197,7 +198,7 @@ impl Trial<'_> {
         walker: &mut Walker<SimulatedEpuck>,
         start: Pose,
         record: &mut Record,
-        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
     ) -> Result<(), TrialError> {
         let maze = &self.course.maze;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
@@ -280,7 +281,7 @@ pub enum TrialError {
     Walk(#[from] WalkError<StepError>),
     /// It learned nothing.
     #[error(transparent)]
-    Learn(#[from] LearnError),
+    Learn(#[from] LearnPatternsError),
     /// The memory of several mazes.
     #[error(transparent)]
     Recall(#[from] RecallError),

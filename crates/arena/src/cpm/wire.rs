@@ -15,7 +15,8 @@ use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
 use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, WalkError, Walker, WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, WalkError, Walker,
+    WalkerConfig,
 };
 
 use super::pursue::pursue;
@@ -194,7 +195,7 @@ fn play<B: CpmRobot>(
     config: WalkerConfig,
     seed: u64,
     lift: impl FnOnce(&mut B),
-) -> Result<([Episode; 2], CpMap), CpmFailure<B::Error>> {
+) -> Result<([EpisodeSummary; 2], CpMap), CpmFailure<B::Error>> {
     let mut walker = Walker::new(body, config);
     let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, CpmConfig::online())?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);

@@ -14,7 +14,7 @@ use tolman_maps::diktiometry::{
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::robots::{Epuck, EpuckError};
 use tolman_sim::{PlaceError, StepError, World};
-use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Mapping, Planner, Rover};
+use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Planner, Rover, RoverMap};
 
 use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
 use crate::course::{Course, CourseError};
@@ -139,10 +139,10 @@ pub fn survey_maze(
     let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
     let mapper = config.mapper(least_distance(&truth).unwrap_or(corridor_width));
-    let mut mapping = Mapping::begin(&mut rover, mapper)?;
+    let mut mapping = RoverMap::begin(&mut rover, mapper)?;
     let mut planner = Planner::new(config.heed);
     let mut rng = stream(seed, 1);
-    let visit = |rover: &EpuckRover, mapping: &Mapping| Visit {
+    let visit = |rover: &EpuckRover, mapping: &RoverMap| Visit {
         site: rover.site(maze),
         place: mapping.observer().place(),
     };

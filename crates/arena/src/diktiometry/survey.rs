@@ -11,8 +11,8 @@ use tolman_maze::Direction;
 use tolman_sim::robots::CameraPioneerError;
 use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
 use tolman_systems::diktiometry::{
-    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineConfigError, RoutineError,
-    aligned_signatures,
+    Arrival, MapError, MappedMove, PlannedMove, Planner, RoutineConfigError, RoutineError,
+    RoverMap, aligned_signatures,
 };
 
 use super::{
@@ -95,7 +95,7 @@ pub struct Survey {
     office: Arc<Office>,
     config: SurveyConfig,
     rover: OfficeSurveyor,
-    mapping: Mapping,
+    mapping: RoverMap,
     planner: Planner,
     walk: ChaCha8Rng,
     doors: ChaCha8Rng,
@@ -138,7 +138,7 @@ pub enum PlanTrial {
 #[derive(Debug)]
 pub struct Surveyed {
     /// What the planner wanted.
-    pub decision: Decision,
+    pub decision: PlannedMove,
     /// What the robot measured.
     pub arrival: Arrival,
     /// What the observer made of it.
@@ -199,7 +199,7 @@ impl Survey {
             at: Point::origin(),
         })?;
         let mut rover = surveyor(office, &config.robot, start.position, seed)?;
-        let mapping = Mapping::begin(&mut rover, config.mapper.clone())?;
+        let mapping = RoverMap::begin(&mut rover, config.mapper.clone())?;
         let past = Past {
             start: start.position,
             at: start.position,
@@ -224,7 +224,7 @@ impl Survey {
         seed: u64,
     ) -> Result<Self, RunError> {
         let mut rover = surveyor(office, &config.robot, past.at, seed)?;
-        let mapping = Mapping::resume(&mut rover, observer)?;
+        let mapping = RoverMap::resume(&mut rover, observer)?;
         Self::after(past, office, config, rover, mapping, seed)
     }
 
@@ -234,7 +234,7 @@ impl Survey {
         office: &Arc<Office>,
         config: SurveyConfig,
         rover: OfficeSurveyor,
-        mapping: Mapping,
+        mapping: RoverMap,
         seed: u64,
     ) -> Result<Self, RunError> {
         let mut survey = Self {
@@ -281,7 +281,7 @@ impl Survey {
         self.go(decision.ok_or(RunError::NoWay { at })?)
     }
 
-    fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
+    fn go(&mut self, decision: PlannedMove) -> Result<Surveyed, RunError> {
         let before = self.position();
         let gone = self.mapping.go(&mut self.rover, decision.direction);
         let here = self.position();

@@ -12,7 +12,7 @@ use tolman_maps::cpm::{
     Candidates, Dictionary, JunctionId, MapUpdate, Mapping, PatternId, theorem_1,
 };
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Leg, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Leg, Onward};
 
 /// Lets an explorer pursue an aim.
 pub(crate) fn pursue(
@@ -229,7 +229,7 @@ fn patterns_are_learned_while_mapping() {
         let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
         let mut versions = Vec::new();
-        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+        while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
             let Outcome::Arrived(mut walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
                 unreachable!("it was not told to give up");
             };

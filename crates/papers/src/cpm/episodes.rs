@@ -11,7 +11,7 @@ use super::trials;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{TrueFragments, Way};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
-use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
+use tolman_systems::baselines::q_learning::{LearningTask, QLearner, QLearningConfig, Transition};
 use tolman_systems::cpm::CommonPatterns;
 
 /// The name of the table.
@@ -180,7 +180,7 @@ fn length_of(cells: impl Iterator<Item = Cell>) -> u32 {
     length
 }
 
-impl Task for &JunctionTask {
+impl LearningTask for &JunctionTask {
     fn start(&self) -> usize {
         self.start
     }
@@ -193,9 +193,9 @@ impl Task for &JunctionTask {
         self.ways[state].len() as u32
     }
 
-    fn act(&self, state: usize, action: u32) -> Outcome {
+    fn act(&self, state: usize, action: u32) -> Transition {
         let (next, way) = self.ways[state][action as usize % self.ways[state].len()];
-        Outcome {
+        Transition {
             next,
             cost: way.cells,
         }

@@ -15,7 +15,7 @@ use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Fact, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery, TimeSeries,
 };
-use tolman_systems::cpm::{Layer3, Step, Walker};
+use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
 /// Plays a trial again and watches it.
 pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
@@ -120,7 +120,7 @@ impl<'a> Watch<'a> {
             .fact("seed", job.seed.to_string())
     }
 
-    fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+    fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &FragmentStep) {
         let now = walker.body().path().len().saturating_sub(1) as u32;
         let word = match step.arrival {
             Some(arrival) => word_for(arrival),

@@ -85,8 +85,11 @@ impl CommonPatterns {
     /// Clusters observations.
     ///
     /// # Errors
-    /// [`LearnError`].
-    pub fn learn(observations: &[Observation], config: SoinnConfig) -> Result<Self, LearnError> {
+    /// [`LearnPatternsError`].
+    pub fn learn(
+        observations: &[Observation],
+        config: SoinnConfig,
+    ) -> Result<Self, LearnPatternsError> {
         let mut soinn = Soinn::<f64>::new(FEATURES, config)?;
         for observation in observations {
             soinn.observe(&observation.feature)?;
@@ -117,7 +120,7 @@ impl CommonPatterns {
         }
         learn_landmark(&mut dictionary)?;
         if units.is_empty() {
-            return Err(LearnError::Nothing {
+            return Err(LearnPatternsError::Nothing {
                 observations: observations.len(),
             });
         }
@@ -236,7 +239,7 @@ fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
 /// Why no patterns were learned.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum LearnError {
+pub enum LearnPatternsError {
     /// SOINN's configuration.
     #[error(transparent)]
     Config(#[from] QuantizerConfigError),

@@ -10,8 +10,8 @@ use tolman_robot::Landmark;
 
 use super::common_patterns::CommonPatterns;
 use super::config::CpmConfig;
-use super::decision::{Aim, Decision, Done, Leg};
-use super::episode::{Begun, Episode};
+use super::decision::{Aim, Done, JunctionDecision, Leg};
+use super::episode::{Begun, EpisodeSummary};
 use super::explorer::Explorer;
 use super::failure::{CpmFailure, CpmResult};
 use super::robot::CpmRobot;
@@ -37,7 +37,7 @@ const HEADING_MARGIN: f64 = 0.6;
 
 /// What CPM learns from: where a map begins, or a fragment that was walked.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Experience {
+pub enum CpmObservation {
     /// The place at which the robot began, with its first way out behind it.
     Began(Sighting),
     /// A fragment.
@@ -61,7 +61,7 @@ pub struct Walked {
 
 /// What happened at the end of a fragment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step {
+pub struct FragmentStep {
     /// What layer 3 had decided.
     pub leg: Leg,
     /// What the robot met.
@@ -194,11 +194,11 @@ impl Layer3 {
         walker: &mut Walker<B>,
         aim: Aim,
         rng: &mut impl Rng,
-    ) -> CpmResult<ControlFlow<Done, Step>, B> {
+    ) -> CpmResult<ControlFlow<Done, FragmentStep>, B> {
         // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
         let leg = match self.explorer.decide(aim, rng) {
-            Decision::Done(done) => return Ok(ControlFlow::Break(done)),
-            Decision::Go(leg) => leg,
+            JunctionDecision::Done(done) => return Ok(ControlFlow::Break(done)),
+            JunctionDecision::Go(leg) => leg,
         };
         // "… then it lets the lower layers regain the control of the robot."
         let from = walker.pose();
@@ -211,7 +211,7 @@ impl Layer3 {
             bearings: bearings(walker),
         };
         let arrival = self.take_in(&walked)?;
-        Ok(ControlFlow::Continue(Step {
+        Ok(ControlFlow::Continue(FragmentStep {
             leg,
             walked,
             arrival,
@@ -237,7 +237,7 @@ impl Layer3 {
         &self,
         walker: &mut Walker<B>,
         plan: &Plan,
-    ) -> CpmResult<Episode, B> {
+    ) -> CpmResult<EpisodeSummary, B> {
         let begun = Begun::now(walker);
         // It may stand at the goal already.
         let here = self.map().junction(self.explorer.mapper.at().junction);

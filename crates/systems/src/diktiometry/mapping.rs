@@ -14,7 +14,7 @@ use super::{Arrival, Rover};
 ///
 /// Action n of the map is direction n of [`Direction::ALL`].
 #[derive(Clone, Debug)]
-pub struct Mapping {
+pub struct RoverMap {
     observer: Observer,
     exits: [bool; 4],
 }
@@ -43,7 +43,7 @@ pub enum MapError<E: Error + 'static> {
     Step(#[from] ObservedMoveError),
 }
 
-impl Mapping {
+impl RoverMap {
     /// Lets `rover` look and returns a map of the place it stands at alone.
     ///
     /// # Errors

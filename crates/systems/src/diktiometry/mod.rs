@@ -5,7 +5,7 @@
 //! 1. A [`Surveyor`] makes a [`Rover`] of any robot that turns and translates and that senses
 //!    ranges, compass and wheels: its control routines end at corners and doorways.
 //! 2. An [`Odometer`] bounds how the robot moved; an [`Eye`] makes a signature of what it senses.
-//! 3. A [`Mapping`] tells each [`Arrival`] to the
+//! 3. A [`RoverMap`] tells each [`Arrival`] to the
 //!    [`Observer`](tolman_maps::diktiometry::Observer), which makes the map.
 //! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
 //!
@@ -33,9 +33,9 @@ mod tests;
 pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
 pub use errors::{RoutineError, SenseError};
 pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures};
-pub use mapping::{MapError, MappedMove, Mapping};
+pub use mapping::{MapError, MappedMove, RoverMap};
 pub use odometer::Odometer;
-pub use planner::{Decision, Planner, Reason};
+pub use planner::{PlannedMove, Planner, Reason};
 pub use routine_config::{RoutineConfig, RoutineConfigError};
 pub use rover::{Arrival, Rover};
 pub use surveyor::Surveyor;

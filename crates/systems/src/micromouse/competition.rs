@@ -40,7 +40,7 @@ use super::Brief;
 
 /// What came of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Exploration {
+pub struct SpeedRunExploration {
     /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
     /// start.
     pub cells: u32,
@@ -77,7 +77,7 @@ pub enum CompetitionNext {
     /// It drives to the next cell on this side.
     Drive(Direction),
     /// It is back at the start, and no run is faster than the one it found.
-    Finished(Exploration),
+    Finished(SpeedRunExploration),
 }
 
 /// A mouse that looks at the walls of its cell and remembers all.
@@ -139,7 +139,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         Ok(CompetitionNext::Drive(side))
     }
 
-    fn exploration(&self, run_ms: u16) -> Result<Exploration, TooLarge> {
+    fn exploration(&self, run_ms: u16) -> Result<SpeedRunExploration, TooLarge> {
         let Brief {
             start,
             heading,
@@ -154,7 +154,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
             moves: run.map(|step| step.run_move).collect(),
             time_ms: run_ms.into(),
         };
-        Ok(Exploration {
+        Ok(SpeedRunExploration {
             cells: self.cells,
             verdict: certificate.check(&self.walls, self.config, goals),
             certificate,

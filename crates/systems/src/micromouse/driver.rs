@@ -13,18 +13,18 @@ pub trait Search {
     ///
     /// # Errors
     /// If the maze is larger than what the search holds.
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge>;
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge>;
 }
 
 impl<S: Search + ?Sized> Search for Box<S> {
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         (**self).next(view)
     }
 }
 
 /// What a search decides on.
 #[derive(Debug)]
-pub struct View<'a> {
+pub struct SearchView<'a> {
     /// What is known, and how often the mouse has stood where.
     pub map: &'a WallMap<SIDE>,
     /// Where the mouse stands.
@@ -132,7 +132,7 @@ impl<S: Search> Driver<S> {
             return Ok(self.drive(leap));
         }
         self.look(sight)?;
-        let view = View {
+        let view = SearchView {
             map: &self.map,
             at: self.at,
             start: self.brief.start,

@@ -19,13 +19,13 @@ pub struct Learned {
     /// What the brain gets.
     pub map: MslstMap,
     /// What it does not.
-    pub survey: Survey,
+    pub survey: GrowthRecord,
 }
 
 /// What a watcher saw while a map was learned, for pictures and scores; no brain reads it. Empty where nobody
 /// watched, as with a real robot.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Survey {
+pub struct GrowthRecord {
     /// Where the robot truly was when each node was made, by id; metres.
     pub positions: Vec<Point>,
     /// The action of Phase II, from 1, that made each node; 0 for the first one.

@@ -4,7 +4,7 @@ use tolman_geom::Point;
 use tolman_maps::mslst_graph::{ActionEdge, GraphError, MslstGraph, Node, NodeZone};
 use tolman_maze::Direction;
 
-use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
+use super::{GrowthRecord, Learned, MslstConfig, MslstMap, States, StatesError};
 use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "mslst" };
@@ -126,13 +126,13 @@ impl MapFile {
 }
 
 /// Returns what a watcher saw; nothing of what it did not see of every node.
-fn surveyed(nodes: &[SavedNode]) -> Survey {
+fn surveyed(nodes: &[SavedNode]) -> GrowthRecord {
     let positions: Option<Vec<Point>> = nodes
         .iter()
         .map(|node| node.made_at.map(Point::from))
         .collect();
     let made_by: Option<Vec<u32>> = nodes.iter().map(|node| node.made_by).collect();
-    Survey {
+    GrowthRecord {
         positions: positions.unwrap_or_default(),
         made_by: made_by.unwrap_or_default(),
     }

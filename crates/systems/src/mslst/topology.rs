@@ -9,7 +9,7 @@ use super::map::view;
 use super::north_scan::north_scan;
 use super::scans::standing_of_phase;
 use super::{MslstMap, States};
-use crate::baselines::Avoid;
+use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
 /// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor data it
@@ -25,7 +25,7 @@ pub struct Topology {
     state: u32,
     actions: u32,
     wanted: u32,
-    wander: Avoid,
+    wander: AvoidBrain,
 }
 
 impl Topology {
@@ -39,7 +39,7 @@ impl Topology {
             state,
             actions: 0,
             wanted: actions,
-            wander: Avoid::default(),
+            wander: AvoidBrain::default(),
         }
     }
 

@@ -8,7 +8,7 @@ use tolman_arena::{Outing, Sent};
 use tolman_draw::Drawing;
 use tolman_maze::MazeFile;
 use tolman_papers::mslst::drawing::graph_over_maze;
-use tolman_systems::mslst::{self, Learned, MapFile, MslstConfig, Survey};
+use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use tolman_systems::{Actor, Origin};
 
 use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
@@ -58,7 +58,7 @@ impl SystemEntry for Mslst {
                 let Some(map) = actor.brain().learned() else {
                     return Ok(None);
                 };
-                let survey = Survey {
+                let survey = GrowthRecord {
                     positions: sites.iter().map(|site| site.position).collect(),
                     made_by: sites.iter().map(|site| site.action).collect(),
                 };

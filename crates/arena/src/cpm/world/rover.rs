@@ -8,7 +8,7 @@ use tolman_maps::cpm::{
     Bearings, CpmError, DeadReckoning, MapUpdate, NoSuchTurn, PatternId, Sighting, Sign, Traversal,
     Turn,
 };
-use tolman_systems::cpm::{Aim, Decision, Done, Explorer, Leg};
+use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 
 /// How a rover's senses err.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,8 +171,8 @@ impl<'a> Rover<'a> {
     ) -> Result<Done, CpmError> {
         loop {
             let leg = match explorer.decide(aim, rng) {
-                Decision::Done(done) => return Ok(done),
-                Decision::Go(leg) => leg,
+                JunctionDecision::Done(done) => return Ok(done),
+                JunctionDecision::Go(leg) => leg,
             };
             match self.go(leg.turn, leg.give_up_after, rng)? {
                 Outcome::Arrived(walk) => {
