@@ -9,7 +9,7 @@ use tolman_systems::baselines::{AvoidBrain, Random, WallFollow};
 use crate::course::Course;
 use crate::episode_error::EpisodeError;
 use crate::mind::Mind;
-use crate::oracle::{Chart, Oracle, Policy, UnlocalizedOracle};
+use crate::oracle::{Oracle, PlaceViews, Policy, UnlocalizedOracle};
 
 /// The agents by name: who can be sent through a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +73,7 @@ impl Agent {
 #[derive(Debug, Default)]
 pub struct Cast {
     policy: OnceLock<Arc<Policy>>,
-    chart: OnceLock<Arc<Chart>>,
+    chart: OnceLock<Arc<PlaceViews>>,
 }
 
 impl Cast {
@@ -103,9 +103,9 @@ impl Cast {
         &self,
         course: &Course,
         robot: &LaserPioneerConfig,
-    ) -> Result<Arc<Chart>, EpisodeError> {
+    ) -> Result<Arc<PlaceViews>, EpisodeError> {
         once(&self.chart, || {
-            Chart::new(course, robot, self.policy(course, robot)?)
+            PlaceViews::new(course, robot, self.policy(course, robot)?)
         })
     }
 

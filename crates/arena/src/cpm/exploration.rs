@@ -8,7 +8,7 @@ use super::fragments::TrueFragments;
 use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::score::Score;
-use super::trial::{Trial, TrialError};
+use super::trial::{CpmTrial, CpmTrialError};
 use super::world::shortest_covering_walk;
 
 /// A maze explored to its end: "the task is to obtain the complete map" (section 6).
@@ -34,12 +34,12 @@ pub struct Exploration {
     pub trouble: Option<String>,
 }
 
-impl Trial<'_> {
+impl CpmTrial<'_> {
     /// Explores the maze from the start until nothing is left to be walked. What goes wrong on the way is a result.
     ///
     /// # Errors
-    /// [`TrialError`] if it cannot be begun.
-    pub fn explore(&self) -> Result<Exploration, TrialError> {
+    /// [`CpmTrialError`] if it cannot be begun.
+    pub fn explore(&self) -> Result<Exploration, CpmTrialError> {
         let maze = &self.course.maze;
         let mut walker = self.walker_at(self.course.start()?)?;
         let mut found = Exploration {

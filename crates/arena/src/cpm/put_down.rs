@@ -5,11 +5,11 @@ use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{Approach, CommonPatterns, Relocalization, Walker, Whereabouts};
 
-use super::fragments::{TrueFragments, Way};
+use super::fragments::{TrueFragments, WayOut};
 use super::pursue::find_out;
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
-use super::trial::{Record, TrialError};
+use super::trial::{CpmTrialError, TrialRecord};
 use crate::course::Course;
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
@@ -39,7 +39,7 @@ pub struct KnownMaze<'a> {
     /// The maze.
     pub course: &'a Course,
     /// The trial in which the robot learned its map of it.
-    pub learned: &'a Record,
+    pub learned: &'a TrialRecord,
 }
 
 /// What came of it.
@@ -83,8 +83,8 @@ impl PutDown<'_> {
     /// Plays it; none if the map has no fragment that is long enough to stand amid.
     ///
     /// # Errors
-    /// [`TrialError`].
-    pub fn play(&self) -> Result<Option<PutDownRecord>, TrialError> {
+    /// [`CpmTrialError`].
+    pub fn play(&self) -> Result<Option<PutDownRecord>, CpmTrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let Some(known) = self.known.get(self.here) else {
             return Ok(None);
@@ -118,7 +118,7 @@ impl PutDown<'_> {
             }));
         })?;
         let whereabouts = search.found().clone();
-        let begun = Way {
+        let begun = WayOut {
             is_forward: spot.way.is_forward != whereabouts.has_turned_round,
             ..spot.way
         };
@@ -163,7 +163,7 @@ impl PutDown<'_> {
     }
 
     /// Whether the fourth layer recalls the maze.
-    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, TrialError> {
+    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, CpmTrialError> {
         let Some(walked) = whereabouts.walks.first() else {
             return Ok(None);
         };

@@ -9,7 +9,7 @@ use tolman_systems::cpm::{
 
 use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
-use super::trial::TrialError;
+use super::trial::CpmTrialError;
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
 /// path-fragment" as long as it may be shorter than the known way.
@@ -46,14 +46,14 @@ impl RoundTrip {
     /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told of every fragment of the first two.
     ///
     /// # Errors
-    /// [`TrialError`].
+    /// [`CpmTrialError`].
     pub fn watch(
         walker: &mut Walker<SimulatedEpuck>,
         patterns: &CommonPatterns,
         config: CpmConfig,
         seed: u64,
         mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
-    ) -> Result<Self, TrialError> {
+    ) -> Result<Self, CpmTrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut layer = Layer3::begin(walker, patterns.clone(), None, config)?;
         let there = pursue(

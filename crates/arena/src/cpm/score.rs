@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
 use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
-use super::fragments::{TrueFragments, Way};
+use super::fragments::{TrueFragments, WayOut};
 use super::known_map::KnownMap;
 use super::map_right::is_map_right;
 use super::robots::SimulatedEpuck;
@@ -36,7 +36,7 @@ pub(super) struct Score<'a> {
     /// All walks.
     walked: Vec<Walked>,
     /// The true way from − to + of each fragment of the map.
-    pub(super) truth: BTreeMap<FragmentId, Way>,
+    pub(super) truth: BTreeMap<FragmentId, WayOut>,
     /// The cell of each place of the map.
     places: BTreeMap<JunctionId, Cell>,
     /// Observations of each true fragment when it was first walked.
@@ -51,7 +51,7 @@ struct Base {
     at: Port,
     /// So many walks came before.
     walks: usize,
-    truth: BTreeMap<FragmentId, Way>,
+    truth: BTreeMap<FragmentId, WayOut>,
     places: BTreeMap<JunctionId, Cell>,
 }
 
@@ -59,7 +59,7 @@ struct Base {
 struct Walked {
     turn: Turn,
     /// None if it began on no fragment.
-    way: Option<Way>,
+    way: Option<WayOut>,
     /// The cell it led to.
     here: Option<Cell>,
 }
@@ -131,7 +131,7 @@ impl<'a> Score<'a> {
         mapper: &CpMapper,
         arrival: MapUpdate,
         number: usize,
-        way: Way,
+        way: WayOut,
         here: Option<Cell>,
     ) {
         let is_old = self.lengths.contains_key(&way.fragment);
@@ -240,7 +240,7 @@ impl<'a> Score<'a> {
 
     /// The length of the shortest way from start to goal over the fragments that were walked, by observations.
     pub(super) fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
-        let length = |way: Way| self.lengths.get(&way.fragment).copied();
+        let length = |way: WayOut| self.lengths.get(&way.fragment).copied();
         self.fragments.shortest(maze, length)
     }
 

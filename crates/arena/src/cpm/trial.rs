@@ -16,7 +16,7 @@ use tolman_systems::cpm::{
     LearnPatternsError, Lesson, Mode, WalkError, Walker, WalkerConfig, soinn, wander,
 };
 
-use super::fragments::Way;
+use super::fragments::WayOut;
 use super::pursue::pursue;
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
@@ -25,7 +25,7 @@ use crate::course::{Course, CourseError};
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.
 #[derive(Clone, Debug)]
-pub struct Trial<'a> {
+pub struct CpmTrial<'a> {
     /// The maze, with a start and a goal.
     pub course: &'a Course,
     /// What the robot learned before, if its mode has that.
@@ -40,7 +40,7 @@ pub struct Trial<'a> {
 
 /// What came of a trial.
 #[derive(Clone, Debug, Default)]
-pub struct Record {
+pub struct TrialRecord {
     /// The first episode, if it came to an end.
     pub first: Option<EpisodeSummary>,
     /// The second.
@@ -74,12 +74,12 @@ pub struct Record {
     /// The map of the end of the first episode.
     pub map: CpMap,
     /// The true fragment of each fragment of the map.
-    pub truth: BTreeMap<FragmentId, Way>,
+    pub truth: BTreeMap<FragmentId, WayOut>,
     /// Why it broke off.
     pub trouble: Option<String>,
 }
 
-impl Record {
+impl TrialRecord {
     /// Whether the goal was found, the shortest known way was planned and led to the goal.
     #[must_use]
     pub fn is_solved(&self) -> bool {
@@ -101,8 +101,8 @@ impl Record {
 /// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations (section 5).
 ///
 /// # Errors
-/// [`TrialError`].
-pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, TrialError> {
+/// [`CpmTrialError`].
+pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     learn_by(course, epuck(), config, Lesson::Observations(1000), seed)
 }
@@ -110,14 +110,14 @@ pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, TrialError> {
 /// Learns the common patterns in a maze as any other robot that observes like this.
 ///
 /// # Errors
-/// [`TrialError`].
+/// [`CpmTrialError`].
 pub fn learn_by(
     course: &Course,
     robot: EpuckConfig,
     config: WalkerConfig,
     lesson: Lesson,
     seed: u64,
-) -> Result<CommonPatterns, TrialError> {
+) -> Result<CommonPatterns, CpmTrialError> {
     let mut walker = Walker::new(
         course.robot_at(course.start()?, Epuck::new(robot)?, seed)?,
         config,
@@ -127,7 +127,7 @@ pub fn learn_by(
     Ok(CommonPatterns::learn(&observations, soinn())?)
 }
 
-impl Trial<'_> {
+impl CpmTrial<'_> {
     /// The robot of the paper with wheels that slip by this share.
     #[must_use]
     pub fn slipping(share: f64) -> EpuckConfig {
@@ -138,7 +138,7 @@ impl Trial<'_> {
     }
 
     /// The robot anywhere in its world.
-    pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, TrialError> {
+    pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, CpmTrialError> {
         let mut config = walker_config(&self.robot, self.course.corridor_width)?;
         config.heading = self.mode.heading();
         let robot = Epuck::new(self.robot.clone())?;
@@ -163,22 +163,22 @@ impl Trial<'_> {
     /// Plays both episodes. What goes wrong on the way is a result.
     ///
     /// # Errors
-    /// [`TrialError`] if it cannot be begun.
-    pub fn play(&self) -> Result<Record, TrialError> {
+    /// [`CpmTrialError`] if it cannot be begun.
+    pub fn play(&self) -> Result<TrialRecord, CpmTrialError> {
         self.watch(|_, _, _| {})
     }
 
     /// [Plays](Self::play) both episodes. `see` is told of every fragment of the first.
     ///
     /// # Errors
-    /// [`TrialError`] if it cannot be begun.
+    /// [`CpmTrialError`] if it cannot be begun.
     pub fn watch(
         &self,
         see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
-    ) -> Result<Record, TrialError> {
+    ) -> Result<TrialRecord, CpmTrialError> {
         let start = self.course.start()?;
         let mut walker = self.walker_at(start)?;
-        let mut record = Record::default();
+        let mut record = TrialRecord::default();
         match self.begin(&mut walker, self.mode.config()) {
             Ok(mut layer) => {
                 let played = self.episodes(&mut layer, &mut walker, start, &mut record, see);
@@ -197,9 +197,9 @@ impl Trial<'_> {
         layer: &mut Layer3,
         walker: &mut Walker<SimulatedEpuck>,
         start: Pose,
-        record: &mut Record,
+        record: &mut TrialRecord,
         mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
-    ) -> Result<(), TrialError> {
+    ) -> Result<(), CpmTrialError> {
         let maze = &self.course.maze;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let mut score = Score::of(maze);
@@ -245,7 +245,7 @@ fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
 /// Why a trial cannot be played.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum TrialError {
+pub enum CpmTrialError {
     /// The maze is no course for an e-puck.
     #[error(transparent)]
     Course(#[from] CourseError),
@@ -296,7 +296,7 @@ pub enum TrialError {
     Map(#[from] CpmError),
 }
 
-impl TrialError {
+impl CpmTrialError {
     /// Whether maze or map did not serve; else what the robot did came to nothing.
     #[must_use]
     pub const fn is_bad_input(&self) -> bool {
@@ -337,8 +337,8 @@ pub(super) mod tests {
     pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> =
         LazyLock::new(|| learn(&read(include_str!("../../mazes/cpm-learning.maze")), 1).unwrap());
 
-    fn trial(course: &Course, robot: EpuckConfig) -> Trial<'_> {
-        Trial {
+    fn trial(course: &Course, robot: EpuckConfig) -> CpmTrial<'_> {
+        CpmTrial {
             course,
             patterns: &PATTERNS,
             robot,
@@ -347,7 +347,7 @@ pub(super) mod tests {
         }
     }
 
-    fn play(course: &Course, robot: EpuckConfig) -> Record {
+    fn play(course: &Course, robot: EpuckConfig) -> TrialRecord {
         trial(course, robot).play().unwrap()
     }
 
@@ -365,7 +365,7 @@ pub(super) mod tests {
     #[test]
     fn patterns_learned_on_the_way_do() {
         let maze = read(include_str!("../../mazes/cpm-2.maze"));
-        let unlearned = Trial {
+        let unlearned = CpmTrial {
             mode: Mode::Unlearned(CpmConfig::robust()),
             ..trial(&maze, epuck())
         };
@@ -424,7 +424,7 @@ pub(super) mod tests {
         };
         let mut missed = 0;
         for seed in 0..4 {
-            let blind = Trial {
+            let blind = CpmTrial {
                 mode: Mode::Paper(config),
                 seed,
                 ..trial(&maze, epuck())
@@ -461,9 +461,9 @@ pub(super) mod tests {
     fn wheels_that_slip_by_half_end_where_the_record_says() {
         let maze = maze_1();
         for seed in 0..3 {
-            let slipping = Trial {
+            let slipping = CpmTrial {
                 seed,
-                ..trial(&maze, Trial::slipping(0.5))
+                ..trial(&maze, CpmTrial::slipping(0.5))
             };
             let record = slipping.play().unwrap();
             let end = record
@@ -523,7 +523,7 @@ pub(super) mod tests {
     fn on_the_way_back_a_shorter_way_is_found() {
         let maze = read(include_str!("../../mazes/cpm-real.maze"));
         // With this seed the first way is the longer one of two.
-        let trial = Trial {
+        let trial = CpmTrial {
             seed: 900,
             ..trial(&maze, epuck())
         };

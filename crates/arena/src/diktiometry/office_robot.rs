@@ -3,14 +3,14 @@ use tolman_sim::robots::CameraPioneer;
 use tolman_sim::{DoorError, DoorState};
 use tolman_systems::diktiometry::Surveyor;
 
-use super::{Office, RunError, Sight, SurveyorConfig};
+use super::{Office, PlaceCue, RunError, SurveyorConfig};
 use crate::Simulated;
 
 /// A simulated Pioneer with a camera.
 pub type OfficeRobot = Simulated<CameraPioneer>;
 
 /// An [`OfficeRobot`] with its control routines.
-pub type OfficeSurveyor = Surveyor<OfficeRobot, Sight>;
+pub type OfficeSurveyor = Surveyor<OfficeRobot, PlaceCue>;
 
 /// Opens or shuts both leaves of doorway `number` where `robot` is.
 ///

@@ -2,7 +2,9 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{MapCheck, Noise, Outcome, Reckoning, Rover, World, WorldBuilder};
+use tolman_arena::cpm::world::{
+    MapCheck, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder,
+};
 use tolman_geom::Point;
 use tolman_maps::cpm::{
     Dictionary, End, FragmentId, MapUpdate, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
@@ -121,7 +123,7 @@ fn figure_1() {
 
 /// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to R, A3 from R to S, A4 from S back to Q;
 /// X2 leads from R to the goal, X3 from S to a junction T, from which X4 and X5 lead to P.
-fn figure_10_world() -> World {
+fn figure_10_world() -> PlaneMaze {
     let mut drawing = WorldBuilder::new(dictionary());
     let place = |x: f64, y: f64| Point::new(x, y);
     let p = drawing.place(place(0.0, 0.0), Some(Landmark::Start));
@@ -149,7 +151,7 @@ fn figure_10_world() -> World {
 }
 
 /// The turn that takes a rover into a corridor.
-fn turn_into(world: &World, rover: &Rover<'_>, corridor: u32) -> Turn {
+fn turn_into(world: &PlaneMaze, rover: &PlaneWalker<'_>, corridor: u32) -> Turn {
     let at = rover.at();
     let ports = &world.places()[at.place as usize].ports;
     let exit = ports
@@ -162,14 +164,14 @@ fn turn_into(world: &World, rover: &Rover<'_>, corridor: u32) -> Turn {
 /// Walks some corridors and tells what was made of the last.
 fn follow(
     explorer: &mut Explorer,
-    rover: &mut Rover<'_>,
-    world: &World,
+    rover: &mut PlaneWalker<'_>,
+    world: &PlaneMaze,
     corridors: &[u32],
 ) -> MapUpdate {
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     let arrivals = corridors.iter().map(|corridor| {
         let turn = turn_into(world, rover, *corridor);
-        let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
+        let WalkOutcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
             unreachable!("it was not told to give up");
         };
         explorer
@@ -188,7 +190,7 @@ const X4: u32 = 6;
 #[test]
 fn figure_10() {
     let world = figure_10_world();
-    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+    let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
     let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
     // A1 to A4 are new; that A4 leads to junc(A1⁺) is not known yet.
     assert_eq!(
@@ -264,7 +266,7 @@ fn figure_10() {
 #[test]
 fn figure_8() {
     let world = figure_10_world();
-    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+    let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
     let mut explorer = Explorer::new(CpmConfig::offline(), rover.sighting()).unwrap();
     let start = explorer.mapper.at();
     let unlucky = [6, X3, 2, 1, 3, 2, 1, 3, 2, 1, 3, 2, X2];
@@ -312,7 +314,7 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
                 onward,
                 ..CpmConfig::online()
             };
-            let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+            let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
             explorer.mapper.traversals()

@@ -10,7 +10,7 @@ use tolman_robot::epuck::BODY_RADIUS;
 use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{Layout, SimulatedEpuck, Trial, slow_epuck};
+use tolman_arena::cpm::{CpmTrial, Layout, SimulatedEpuck, slow_epuck};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Fact, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery, TimeSeries,
@@ -18,7 +18,7 @@ use tolman_replay::{
 use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
 /// Plays a trial again and watches it.
-pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
+pub(super) fn of(trial: &CpmTrial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
     let mut watch = Watch::new(trial.course);
     let record = trial.watch(|layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&record.path);

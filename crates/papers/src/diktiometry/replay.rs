@@ -8,7 +8,7 @@ use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::settings::Setting;
-use tolman_arena::diktiometry::{Survey, Surveyed};
+use tolman_arena::diktiometry::{Survey, SurveyedMove};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Belief, BeliefAt, Fact, MapEdge, MapGrowth, MapNode, Notes, Replay, RobotTrack, Scenery, Shape,
@@ -91,7 +91,7 @@ impl Watch {
         watch
     }
 
-    fn see(&mut self, survey: &Survey, surveyed: &Surveyed) {
+    fn see(&mut self, survey: &Survey, surveyed: &SurveyedMove) {
         let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
         let best = surveyed.report.tracks.first();
         let before = best.and_then(|track| self.nodes.get(&track.from));

@@ -9,7 +9,7 @@ use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
 use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::Micromouse;
-use tolman_arena::micromouse::{Event, Referee, brief};
+use tolman_arena::micromouse::{Referee, Ruling, brief};
 use tolman_draw::{Drawing, Figure, FloorPlan, Series, Shade};
 use tolman_experiment::{BoxError, Run};
 use tolman_systems::micromouse::{
@@ -62,7 +62,7 @@ fn known_after<S: Search>(
     let mut referee = Referee::new(maze)?;
     while referee.steps() < steps && !referee.is_over() {
         let order = mouse.next(referee.sight())?;
-        if referee.take(order)? == Event::RunTwo {
+        if referee.take(order)? == Ruling::RunTwo {
             break;
         }
     }
@@ -108,7 +108,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let mut referee = Referee::new(maze)?;
     while !referee.is_over() {
         let order = mouse.next(referee.sight())?;
-        if referee.take(order)? == Event::RunTwo {
+        if referee.take(order)? == Ruling::RunTwo {
             break;
         }
         let map = mouse.map();
