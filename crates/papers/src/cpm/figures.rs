@@ -8,7 +8,7 @@ use super::trials::{BETTER, FIGURE_9, TrialRun};
 use tolman_arena::course::Course;
 use tolman_arena::cpm::TrialRecord;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, RecordError, Run};
+use tolman_experiment::{BoxError, FieldsError, Run};
 
 pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
@@ -18,7 +18,7 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
             let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
             let runs = runs.iter().filter(of_row);
             let runs = runs.map(|run| Ok((run, run.record()?)));
-            let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, RecordError>>()?;
+            let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, FieldsError>>()?;
             let Some(longest) = longest(&runs) else {
                 continue;
             };
