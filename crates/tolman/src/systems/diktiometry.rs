@@ -23,7 +23,7 @@ use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
 
 /// The [diktiometry](tolman_systems::diktiometry) on a Pioneer in an office.
 #[derive(Clone, Copy, Debug)]
-pub struct Diktiometry;
+pub struct DiktiometryEntry;
 
 const PRESETS: [(&str, &str); 1] = [(
     "paper",
@@ -51,7 +51,7 @@ const WALK: Walk = Walk {
     doorways: 0.0,
 };
 
-impl SystemEntry for Diktiometry {
+impl SystemEntry for DiktiometryEntry {
     fn name(&self) -> &'static str {
         "diktiometry"
     }
@@ -351,7 +351,7 @@ impl LearnedMap for Surveyed {
             })
         });
         json!({
-            "system": Diktiometry.name(),
+            "system": DiktiometryEntry.name(),
             "maze": file.origin.world,
             "moves": file.observer.moves(),
             "here": file.observer.place().0,

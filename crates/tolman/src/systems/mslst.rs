@@ -15,7 +15,7 @@ use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
 
 /// [`mslst`] on the laser Pioneer.
 #[derive(Clone, Copy, Debug)]
-pub struct Mslst;
+pub struct MslstEntry;
 
 const PRESETS: [(&str, &str); 2] = [
     (
@@ -25,7 +25,7 @@ const PRESETS: [(&str, &str); 2] = [
     ("j", "As in the paper's J maze"),
 ];
 
-impl SystemEntry for Mslst {
+impl SystemEntry for MslstEntry {
     fn name(&self) -> &'static str {
         "mslst"
     }
@@ -162,7 +162,7 @@ impl LearnedMap for MapFile {
         } = self;
         let graph = &learned.map.graph;
         json!({
-            "system": Mslst.name(),
+            "system": MslstEntry.name(),
             "maze": world,
             "seed": seed,
             "config": config,
