@@ -107,7 +107,7 @@ impl Axis {
 /// logarithmic axis, is left out.
 ///
 /// ```
-/// use tolman_draw::{Axis, Chart, GraphPicture, GraphEdge, GraphNode, Line, LinePoint, Points, Series};
+/// use tolman_draw::{Axis, Chart, GraphEdge, GraphNode, GraphPicture, Line, LinePoint, Points, Series};
 /// use tolman_stats::ConfidenceInterval;
 /// use tolman_geom::Point;
 ///

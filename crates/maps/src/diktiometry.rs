@@ -6,7 +6,7 @@
 //!
 //! In the order data flows (the paper's figure 1):
 //!
-//! 1. A [`ObservedMove`] comes in: action, odometry within bounds, percept, how it ended.
+//! 1. An [`ObservedMove`] comes in: action, odometry within bounds, percept, how it ended.
 //! 2. The *projector* (`projector`) moves every [`Track`].
 //! 3. The *indexer* (`indexing`) proposes places it may be at: expected, near, or looking alike.
 //! 4. The *matching engine* (`matching`) asks the [`Matcher`]s, in an order that depends on what is known of the area.
@@ -16,7 +16,7 @@
 //!
 //! ```
 //! use tolman_geom::{Interval, Point, PointBox, PoseBox};
-//! use tolman_maps::diktiometry::{Action, Config, Exits, Matcher, ObservedMove, Observer, MoveOutcome, FirstPlace};
+//! use tolman_maps::diktiometry::{Action, Config, Exits, FirstPlace, Matcher, MoveOutcome, ObservedMove, Observer};
 //!
 //! // Places are a metre apart and look alike; the robot can go north, east, south and west.
 //! let config = Config::new(Config::compass_actions(), 1.0);
@@ -45,9 +45,9 @@ mod adapter;
 mod config;
 mod constancy;
 mod counts;
+mod coverage_grid;
 mod error;
 mod estimator;
-mod grid;
 mod ids;
 mod indexing;
 mod journal;
@@ -77,8 +77,8 @@ pub use config::{
 };
 pub use constancy::Constancy;
 pub use counts::Counts;
+pub use coverage_grid::CoverageGrid;
 pub use error::{ObservedMoveError, StartError};
-pub use grid::CoverageGrid;
 pub use ids::{Action, FrameId, LinkId, PlaceId, TrackId};
 pub use indexing::ActiveFrame;
 pub use journal::{Distinction, Journal, JournalError, UndoError};

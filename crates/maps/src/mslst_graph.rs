@@ -7,7 +7,7 @@
 //! the robot has sensed and done of late; [`MslstGraph::path_to_destination`] says how to go on from there.
 //!
 //! ```
-//! use tolman_maps::mslst_graph::{GraphMapper, Memory, NodeZone, localize};
+//! use tolman_maps::mslst_graph::{localize, GraphMapper, Memory, NodeZone};
 //! use tolman_maze::Direction::{East, North, West};
 //!
 //! // A corridor (state 7) to the east, whose bend (state 3) leads north to the destination (state 5).
@@ -34,11 +34,11 @@
 //! ```
 
 mod graph;
+mod graph_mapper;
 mod localize;
-mod mapper;
 mod memory;
 
 pub use graph::{ActionEdge, GraphError, MslstGraph, Node, NodeZone};
+pub use graph_mapper::GraphMapper;
 pub use localize::{Localization, localize};
-pub use mapper::GraphMapper;
 pub use memory::{Experience, Memory};

@@ -19,7 +19,7 @@ use crate::{
 /// when it is drawn.
 ///
 /// ```
-/// use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayQuantizer, ReplayConfig};
+/// use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayConfig, ReplayQuantizer};
 ///
 /// let gng = Gng::<f32>::new(2, GngConfig::in_order(30))?;
 /// let mut gng = ReplayQuantizer::new(gng, ReplayConfig::measured(7))?;

@@ -124,7 +124,7 @@ impl MapEdge {
     }
 }
 
-/// What an [`MapEdge`] means.
+/// What a [`MapEdge`] means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EdgeKind {

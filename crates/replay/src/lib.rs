@@ -10,7 +10,7 @@
 //! `TolmanReplay.open(element, data)` with what [`json`] wrote; `docs/replay.md` has the format.
 //!
 //! ```
-//! use tolman_replay::{Replay, Scenery, RobotTrack, page};
+//! use tolman_replay::{page, Replay, RobotTrack, Scenery};
 //! use tolman_geom::{Heading, Point, Pose};
 //! use tolman_robot::Body;
 //!

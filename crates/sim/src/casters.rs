@@ -19,17 +19,17 @@ use core::fmt;
 
 use tolman_geom::{Point, Vector};
 
+mod beam_sweep;
 mod lattice_walk;
 #[cfg(feature = "parry2d")]
 mod parry;
-mod sweep;
 mod wall_index;
 
+pub use beam_sweep::BeamSweep;
+pub(crate) use beam_sweep::Seen;
 pub use lattice_walk::LatticeWalk;
 #[cfg(feature = "parry2d")]
 pub use parry::ParryPolyline;
-pub use sweep::BeamSweep;
-pub(crate) use sweep::Seen;
 pub use wall_index::WallIndex;
 
 /// Knows how far it is to the nearest wall in any direction.

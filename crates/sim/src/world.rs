@@ -13,7 +13,7 @@ mod bounds;
 mod error;
 mod file;
 mod lattice;
-mod wall;
+mod wall_segment;
 mod zone;
 
 pub use bounds::Bounds;
@@ -21,7 +21,7 @@ pub use error::WorldError;
 pub(crate) use file::Head;
 pub use file::{Polyline, WorldFileError};
 pub use lattice::Occupancy;
-pub use wall::{Material, WallSegment};
+pub use wall_segment::{Material, WallSegment};
 pub use zone::{Area, Zone};
 
 pub(crate) use bit_rows::BitRows;

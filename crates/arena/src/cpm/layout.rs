@@ -10,7 +10,7 @@ use super::fragments::{DIRECTIONS, along};
 /// by port, as far as they agree.
 ///
 /// ```
-/// use tolman_arena::cpm::{Layout, CpmTrial, epuck, epuck_course, learn};
+/// use tolman_arena::cpm::{epuck, epuck_course, learn, CpmTrial, Layout};
 /// use tolman_systems::cpm::Mode;
 /// use tolman_systems::cpm::CpmConfig;
 /// use tolman_robot::Landmark;

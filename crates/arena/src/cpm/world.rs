@@ -108,7 +108,7 @@ impl MazeCorridor {
 /// use tolman_geom::Point;
 /// use tolman_maps::cpm::{Dictionary, PatternId, Turn};
 /// use tolman_robot::Landmark;
-/// use tolman_arena::cpm::world::{WalkerNoise, WalkOutcome, Reckoning, PlaneWalker, WorldBuilder};
+/// use tolman_arena::cpm::world::{PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// let wall = dictionary.learn(&[0.0], &[0.0], 0.1)?;

@@ -10,7 +10,7 @@
 //! [`noisy`] is a mouse on the continuous simulator, among thick walls.
 //!
 //! ```
-//! use tolman_arena::micromouse::{MouseTrial, brief, check};
+//! use tolman_arena::micromouse::{brief, check, MouseTrial};
 //! use tolman_systems::micromouse::Searcher;
 //!
 //! let text = "\

@@ -17,7 +17,7 @@ const MOST_CELLS: i32 = 3;
 /// format that is the middle 2 × 2.
 ///
 /// ```
-/// use tolman_arena::micromouse::{Ruling, Referee};
+/// use tolman_arena::micromouse::{Referee, Ruling};
 /// use tolman_systems::micromouse::Order;
 ///
 /// let maze = tolman_maze::read("+---+---+\n| G   G |\n+   +   +\n| S |   |\n+---+---+\n")?.maze;

@@ -160,7 +160,7 @@ impl FragmentMatching {
 /// f_S, equations (3) to (5), and the readings they allow.
 ///
 /// ```
-/// use tolman_maps::cpm::{PatternDifference, Dictionary, PatternId, Similarity};
+/// use tolman_maps::cpm::{Dictionary, PatternDifference, PatternId, Similarity};
 ///
 /// // 31 patterns, as the paper's dictionary.
 /// let mut dictionary = Dictionary::new(1);

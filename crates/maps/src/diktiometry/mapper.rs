@@ -6,11 +6,11 @@ use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 
 use super::{Diktiometry, ObservedMove, ObservedMoveError, Observer, PlaceId, Track};
 
-/// An observer works on a log as on a robot: its observation is a [`ObservedMove`].
+/// An observer works on a log as on a robot: its observation is an [`ObservedMove`].
 ///
 /// ```
 /// use tolman_geom::{Interval, Point, PointBox, PoseBox};
-/// use tolman_maps::diktiometry::{Action, Config, Exits, ObservedMove, Observer, MoveOutcome, FirstPlace};
+/// use tolman_maps::diktiometry::{Action, Config, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer};
 /// use tolman_robot::Mapper;
 ///
 /// let config = Config::new(Config::compass_actions(), 1.0);

@@ -9,7 +9,7 @@ use super::{CellRay, RayEnd};
 /// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are walled in.
 ///
 /// ```
-/// use tolman_maps::wall_map::{ClosedCells, CellRay, WallMap};
+/// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 /// use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 ///
 /// let mut map: WallMap<16> = WallMap::new(Grid::new(16, 16), ClosedCells::Possible)?;

@@ -9,7 +9,7 @@ use super::{ClosedCells, TooLarge, WallMap};
 /// A [`WallMap`] as it lies in a file. Any format of serde's will do.
 ///
 /// ```
-/// use tolman_maps::wall_map::{ClosedCells, CellRay, WallMap};
+/// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 /// use tolman_maze::{Cell, Direction, Grid};
 ///
 /// let mut map: WallMap<16> = WallMap::new(Grid::new(9, 9), ClosedCells::Possible)?;

@@ -14,7 +14,7 @@
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid, Maze};
-//! use tolman_planners::moves::{MoveMap, MouseStep, QuarterTurn};
+//! use tolman_planners::moves::{MouseStep, MoveMap, QuarterTurn};
 //! use tolman_planners::{Passages, Unknown};
 //!
 //! // Four cells to the north, then one to the west: three steps.

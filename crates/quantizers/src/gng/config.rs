@@ -157,9 +157,9 @@ impl GngConfig {
         }
     }
 
-    /// For inputs in the order of a robot's way, behind a [`ReplayQuantizer`](crate::ReplayQuantizer): Fritzke's values, but for units that move to where they
-    /// are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to tell where that is (d = 0.9995). Our own;
-    /// measured in `docs/quantizers.md`.
+    /// For inputs in the order of a robot's way, behind a [`ReplayQuantizer`](crate::ReplayQuantizer): Fritzke's values, but for
+    /// units that move to where they are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to tell
+    /// where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
     pub fn in_order(max_units: usize) -> Self {
         Self {
             max_units,

@@ -3,7 +3,7 @@ use core::array;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{BeamSweep, Chunk, LANES};
+use super::beam_sweep::{BeamSweep, Chunk, LANES};
 use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
 use crate::world::{BitRows, Lattice};

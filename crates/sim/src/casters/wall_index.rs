@@ -2,7 +2,7 @@ use core::ops::Range;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{BeamSweep, LANES, Order, Seen, bearing};
+use super::beam_sweep::{BeamSweep, LANES, Order, Seen, bearing};
 use super::{Caster, Kernels, Lanes};
 use crate::{Bounds, WallSegment};
 

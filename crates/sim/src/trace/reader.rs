@@ -17,7 +17,7 @@ use crate::world::Head;
 /// use tolman_geom::{Heading, Point, Pose};
 /// use tolman_robot::TurnTranslate;
 /// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-/// use tolman_sim::trace::{Detail, TraceLine, Reader, Recording};
+/// use tolman_sim::trace::{Detail, Reader, Recording, TraceLine};
 /// use tolman_sim::{WallSegment, World};
 ///
 /// let wall = WallSegment::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));

@@ -54,7 +54,7 @@ impl QLearningConfig {
 /// ```
 /// use rand::SeedableRng;
 /// use rand_chacha::ChaCha8Rng;
-/// use tolman_systems::baselines::q_learning::{Transition, QLearner, QLearningConfig, LearningTask};
+/// use tolman_systems::baselines::q_learning::{LearningTask, QLearner, QLearningConfig, Transition};
 ///
 /// /// Three states in a row, the last of which is the goal: action 0 leads back, 1 on.
 /// struct Row;

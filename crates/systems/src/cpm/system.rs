@@ -15,8 +15,8 @@ use super::explorer::Explorer;
 use super::failure::{CpmFailure, CpmResult};
 use super::layer3::{CpmObservation, Layer3};
 use super::mode::Mode;
+use super::relocalization::Relocalization;
 use super::robot::CpmRobot;
-use super::search::Relocalization;
 use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
 use super::whereabouts::Approach;
@@ -402,7 +402,7 @@ impl<R: CpmRobot> System<R> for Cpm {
 #[non_exhaustive]
 pub enum CpmObserveError {
     /// No map was begun.
-    #[error("a walk before the place where it began: observe `Experience::Began` first")]
+    #[error("a walk before the place where it began: observe `CpmObservation::Began` first")]
     NotBegun,
     /// The map refuses it.
     #[error(transparent)]

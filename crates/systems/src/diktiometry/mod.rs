@@ -20,12 +20,12 @@ mod diktiometer;
 mod errors;
 mod eye;
 mod guide;
-mod mapping;
 mod odometer;
 mod place_middle;
 mod planner;
 mod routine_config;
 mod rover;
+mod rover_map;
 mod surveyor;
 #[cfg(test)]
 mod tests;
@@ -33,11 +33,11 @@ mod tests;
 pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
 pub use errors::{RoutineError, SenseError};
 pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures};
-pub use mapping::{MapError, MappedMove, RoverMap};
 pub use odometer::Odometer;
 pub use planner::{PlannedMove, Planner, Reason};
 pub use routine_config::{RoutineConfig, RoutineConfigError};
 pub use rover::{Arrival, Rover};
+pub use rover_map::{MapError, MappedMove, RoverMap};
 pub use surveyor::Surveyor;
 
 use corridor::{Around, Beside, View, compass, round_scan};

@@ -41,7 +41,7 @@ mod map;
 mod map_file;
 mod navigate;
 mod north_scan;
-mod scans;
+mod scan_recorder;
 mod states;
 mod topology;
 
@@ -51,6 +51,6 @@ pub use map::{GrowthRecord, Learned, MslstMap};
 pub use map_file::{MapFile, MapFileError};
 pub use navigate::{NavigationState, Navigator};
 pub use north_scan::{ROBOT_UNIT, heading_free};
-pub use scans::ScanRecorder;
+pub use scan_recorder::ScanRecorder;
 pub use states::{States, StatesError};
 pub use topology::Topology;

@@ -7,7 +7,7 @@ use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
 use super::map::view;
 use super::north_scan::north_scan;
-use super::scans::standing_of_phase;
+use super::scan_recorder::standing_of_phase;
 use super::{MslstMap, States};
 use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};

@@ -5,13 +5,13 @@
 //! in. The mouse's [`LatticePoint`] lies on a lattice of half-steps, since mms scores diagonals.
 
 mod error;
+mod lattice;
 mod link;
 mod mouse;
-mod place;
 mod plan;
 mod roads;
 
 pub use error::PlayError;
+pub use lattice::{Gate, LatticeHeading, LatticePoint};
 pub use mouse::{Played, Until, play};
-pub use place::{Gate, LatticeHeading, LatticePoint};
 pub use plan::best_score;
