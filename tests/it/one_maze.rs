@@ -9,7 +9,7 @@ use tolman_arena::cpm::{is_whole_map_right, ring_measures};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyorConfig, mapper};
 use tolman_arena::micromouse::brief;
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, ring};
-use tolman_arena::run::{End, Limited, run};
+use tolman_arena::run::{Limited, TaskEnd, run};
 use tolman_control::Stack;
 use tolman_maze::Maze;
 use tolman_robot::{Goal, Landmark, Mapper, SensesLandmarks, System, Task};
@@ -49,10 +49,10 @@ where
 {
     let mut robot = Limited::new(robot, STEP_LIMIT);
     let explored = run(&mut robot, system, Task::Explore).unwrap();
-    assert_eq!(explored.end, End::Done);
+    assert_eq!(explored.end, TaskEnd::Done);
     let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
     let reached = run(&mut robot, system, goal).unwrap();
-    assert_eq!(reached.end, End::Done);
+    assert_eq!(reached.end, TaskEnd::Done);
     assert_eq!(robot.landmark(), Some(Landmark::Goal));
     assert!(!system.map().places.is_empty());
     let steps = (explored.steps, reached.steps - explored.steps);

@@ -3,12 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tolman_experiment::{Build, Ink, Options, Outcome, Silent, execute, open, tables_as_text};
+use tolman_experiment::{
+    Build, ExperimentOutcome, Ink, Options, Silent, execute, open, tables_as_text,
+};
 
 use crate::support::root;
 
 /// A few runs of the baselines in these mazes, with their results in an empty folder of this name.
-fn baselines(name: &str, runs: u32, mazes: Vec<PathBuf>) -> Outcome {
+fn baselines(name: &str, runs: u32, mazes: Vec<PathBuf>) -> ExperimentOutcome {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join(name)
         .join("out");

@@ -1,7 +1,10 @@
-//! `cargo xtask layers`: the dependencies between the crates are those of docs/architecture.md.
+//! `cargo xtask layers`: the dependencies between the crates are those of docs/architecture.md, and one
+//! public name means one thing.
 //!
 //! The page's tables are the rule, `cargo metadata` is the fact; [`rules::faults`] compares them.
+//! [`names::faults`] holds the names of types to docs/glossary.md.
 
+mod names;
 mod page;
 mod reexports;
 mod rules;
@@ -25,19 +28,20 @@ pub(crate) fn run() -> Result<()> {
     let crates = workspace::root().join("crates");
     faults.extend(reexports::faults(&page.stable, &packages, &crates)?);
     faults.extend(size::faults(&crates)?);
+    faults.extend(names::faults(&crates, &workspace::root().join(GLOSSARY))?);
     if faults.is_empty() {
         let edges: usize = packages
             .iter()
             .map(|package| package.dependencies.len())
             .sum();
         eprintln!(
-            "{} crates and {edges} dependencies keep to {PAGE}",
+            "{} crates and {edges} dependencies keep to {PAGE}, the names of types to {GLOSSARY}",
             packages.len()
         );
         return Ok(());
     }
     bail!(
-        "{} breaches of {PAGE}:\n- {}",
+        "{} breaches of {PAGE} and {GLOSSARY}:\n- {}",
         faults.len(),
         faults.join("\n- ")
     )
@@ -53,6 +57,7 @@ pub(crate) fn read_page() -> Result<Page> {
 }
 
 const PAGE: &str = "docs/architecture.md";
+const GLOSSARY: &str = "docs/glossary.md";
 
 /// The workspace's packages as cargo sees them.
 fn packages() -> Result<Vec<Package>> {

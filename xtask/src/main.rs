@@ -4,6 +4,8 @@
 //! they do not build.
 #![expect(clippy::print_stderr, reason = "a chore reports to whoever started it")]
 
+extern crate alloc;
+
 mod bench;
 mod ci;
 mod docs;

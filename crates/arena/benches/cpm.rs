@@ -5,11 +5,13 @@ use core::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World};
-use tolman_maps::cpm::{Alignment, Localizer, LocalizerConfig, Matching, Similarity, Turn};
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Explorer};
+use tolman_arena::cpm::world::{
+    Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
+};
+use tolman_maps::cpm::{Alignment, FragmentMatching, Localizer, LocalizerConfig, Similarity, Turn};
+use tolman_systems::cpm::{Aim, CpmConfig, Explorer, JunctionDecision};
 
-fn world(columns: u32, rows: u32) -> World {
+fn world(columns: u32, rows: u32) -> PlaneMaze {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let maze = MazeConfig {
         columns,
@@ -17,12 +19,12 @@ fn world(columns: u32, rows: u32) -> World {
         diagonals: 0.3,
         ..MazeConfig::small()
     };
-    World::random(&maze, &mut rng).unwrap()
+    PlaneMaze::random(&maze, &mut rng).unwrap()
 }
 
-fn explored(world: &World, config: CpmConfig, reckoning: Reckoning) -> Explorer {
+fn explored(world: &PlaneMaze, config: CpmConfig, reckoning: Reckoning) -> Explorer {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
-    let mut rover = Rover::new(world, Noise::NONE, reckoning);
+    let mut rover = PlaneWalker::new(world, WalkerNoise::NONE, reckoning);
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
     rover
         .pursue(&mut explorer, Aim::Explore, &mut rng, |_, _, _, _| {})
@@ -31,7 +33,7 @@ fn explored(world: &World, config: CpmConfig, reckoning: Reckoning) -> Explorer 
 }
 
 /// A maze of many loops and corridors of four kinds, as long as an e-puck sees them.
-fn confusing(side: u32) -> World {
+fn confusing(side: u32) -> PlaneMaze {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let maze = MazeConfig {
         columns: side,
@@ -41,23 +43,23 @@ fn confusing(side: u32) -> World {
         likeness: Likeness::Kinds(4),
         ..MazeConfig::small()
     };
-    World::random(&maze, &mut rng).unwrap()
+    PlaneMaze::random(&maze, &mut rng).unwrap()
 }
 
 /// A robot that sees a way too many at one place of thirty, as in an open room, so that no map explains all that it meets.
-fn miscounted(world: &World, walks: u32) -> Explorer {
+fn miscounted(world: &PlaneMaze, walks: u32) -> Explorer {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
-    let mut rover = Rover::new(world, Noise::NOISY, Reckoning::Bounded);
+    let mut rover = PlaneWalker::new(world, WalkerNoise::NOISY, Reckoning::Bounded);
     let config = CpmConfig {
         most_traversals: walks,
         ..CpmConfig::robust()
     };
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-    while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+    while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
         // A way that is not there leads back.
         let is_there = leg.turn.0 < rover.sighting().degree;
         let turn = if is_there { leg.turn } else { Turn::BACK };
-        if let Outcome::Arrived(mut walk) = rover.go(turn, None, &mut rng).unwrap() {
+        if let WalkOutcome::Arrived(mut walk) = rover.go(turn, None, &mut rng).unwrap() {
             if rng.random_range(0..30_u32) == 0 {
                 walk.sighting.degree += 1;
                 walk.bearings = None;
@@ -71,7 +73,7 @@ fn miscounted(world: &World, walks: u32) -> Explorer {
 
 fn cpm(criterion: &mut Criterion) {
     let small = world(4, 4);
-    let longest = |world: &World| {
+    let longest = |world: &PlaneMaze| {
         let sequences = world
             .corridors()
             .iter()
@@ -82,8 +84,11 @@ fn cpm(criterion: &mut Criterion) {
     let mut matching =
         criterion.benchmark_group(format!("cpm/match {} observations", sequence.len()));
     for (name, how) in [
-        ("positions", Matching::Positions(Similarity::paper())),
-        ("alignment", Matching::Alignment(Alignment::tuned())),
+        (
+            "positions",
+            FragmentMatching::Positions(Similarity::paper()),
+        ),
+        ("alignment", FragmentMatching::Alignment(Alignment::tuned())),
     ] {
         let dictionary = small.dictionary();
         matching.bench_function(name, |bench| {

@@ -9,8 +9,10 @@ use core::error::Error;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
-use tolman_maps::cpm::{Alignment, Mapping, Matching, Similarity};
+use tolman_arena::cpm::world::{
+    MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise,
+};
+use tolman_maps::cpm::{Alignment, FragmentMatching, Mapping, Similarity};
 use tolman_systems::cpm::{Aim, CpmConfig, Explorer, Onward};
 
 const MAZES: u32 = 200;
@@ -46,7 +48,7 @@ fn lost(mazes: u32) -> Result<(), Box<dyn Error>> {
             ..CpmConfig::robust()
         };
         for alike in [false, true] {
-            let tally = explore(config, Reckoning::Bounded, Noise::NONE, alike, mazes)?;
+            let tally = explore(config, Reckoning::Bounded, WalkerNoise::NONE, alike, mazes)?;
             let kind = if alike { "alike" } else { "distinctive" };
             println!(
                 "{width} hypotheses, {kind}: of {mazes} maps {} are right, {} wrong, {} were explored without end",
@@ -61,7 +63,7 @@ fn lost(mazes: u32) -> Result<(), Box<dyn Error>> {
 
 fn table() -> Result<(), Box<dyn Error>> {
     let literal = CpmConfig {
-        matching: Matching::Positions(Similarity::literal()),
+        matching: FragmentMatching::Positions(Similarity::literal()),
         ..CpmConfig::online()
     };
     let go_on = CpmConfig {
@@ -69,7 +71,7 @@ fn table() -> Result<(), Box<dyn Error>> {
         ..CpmConfig::online()
     };
     let aligned = CpmConfig {
-        matching: Matching::Alignment(Alignment::tuned()),
+        matching: FragmentMatching::Alignment(Alignment::tuned()),
         mapping: Mapping::Online,
         ..CpmConfig::online()
     };
@@ -82,13 +84,13 @@ fn table() -> Result<(), Box<dyn Error>> {
         ("hypotheses, no dead reckoning", robust, Reckoning::None),
         ("hypotheses", robust, Reckoning::Bounded),
     ];
-    let calm = Noise {
+    let calm = WalkerNoise {
         substitution: 0.05,
         slip: 0.05,
         heading: 0.05,
-        ..Noise::NONE
+        ..WalkerNoise::NONE
     };
-    let wild = Noise {
+    let wild = WalkerNoise {
         substitution: 0.2,
         insertion: 0.05,
         deletion: 0.05,
@@ -99,7 +101,7 @@ fn table() -> Result<(), Box<dyn Error>> {
     println!("| --- | --- | --- | --- | --- | --- |");
     for (name, config, reckoning) in explorers {
         for alike in [false, true] {
-            let cells: Result<Vec<String>, _> = [Noise::NONE, calm, Noise::NOISY, wild]
+            let cells: Result<Vec<String>, _> = [WalkerNoise::NONE, calm, WalkerNoise::NOISY, wild]
                 .map(|noise| {
                     explore(config, reckoning, noise, alike, MAZES).map(|tally| tally.cell(MAZES))
                 })
@@ -115,7 +117,7 @@ fn table() -> Result<(), Box<dyn Error>> {
 fn explore(
     config: CpmConfig,
     reckoning: Reckoning,
-    noise: Noise,
+    noise: WalkerNoise,
     alike: bool,
     mazes: u32,
 ) -> Result<Tally, Box<dyn Error>> {
@@ -127,8 +129,8 @@ fn explore(
         } else {
             MazeConfig::any(number)
         };
-        let world = World::random(&maze, &mut rng)?;
-        let mut rover = Rover::new(&world, noise, reckoning);
+        let world = PlaneMaze::random(&maze, &mut rng)?;
+        let mut rover = PlaneWalker::new(&world, noise, reckoning);
         let most_traversals = 8 * world.corridors().len() as u32;
         let mut explorer = Explorer::new(
             CpmConfig {

@@ -4,17 +4,17 @@ use alloc::sync::Arc;
 use std::sync::OnceLock;
 
 use tolman_sim::robots::LaserPioneerConfig;
-use tolman_systems::baselines::{Avoid, Random, WallFollow};
+use tolman_systems::baselines::{AvoidBrain, Random, WallFollow};
 
 use crate::course::Course;
 use crate::episode_error::EpisodeError;
 use crate::mind::Mind;
-use crate::oracle::{Chart, Oracle, Policy, UnlocalizedOracle};
+use crate::oracle::{Oracle, PlaceViews, Policy, UnlocalizedOracle};
 
 /// The agents by name: who can be sent through a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Agent {
-    /// [`Avoid`].
+    /// [`AvoidBrain`].
     Avoid,
     /// [`WallFollow`].
     WallFollow,
@@ -73,7 +73,7 @@ impl Agent {
 #[derive(Debug, Default)]
 pub struct Cast {
     policy: OnceLock<Arc<Policy>>,
-    chart: OnceLock<Arc<Chart>>,
+    chart: OnceLock<Arc<PlaceViews>>,
 }
 
 impl Cast {
@@ -88,7 +88,7 @@ impl Cast {
         robot: &LaserPioneerConfig,
     ) -> Result<Mind, EpisodeError> {
         Ok(match agent {
-            Agent::Avoid => Mind::Brain(Box::<Avoid>::default()),
+            Agent::Avoid => Mind::Brain(Box::<AvoidBrain>::default()),
             Agent::WallFollow => Mind::Brain(Box::new(WallFollow::new(course.corridor_width))),
             Agent::Random => Mind::Brain(Box::new(Random)),
             Agent::Oracle => Mind::Oracle(Box::new(Oracle::new(self.policy(course, robot)?))),
@@ -103,9 +103,9 @@ impl Cast {
         &self,
         course: &Course,
         robot: &LaserPioneerConfig,
-    ) -> Result<Arc<Chart>, EpisodeError> {
+    ) -> Result<Arc<PlaceViews>, EpisodeError> {
         once(&self.chart, || {
-            Chart::new(course, robot, self.policy(course, robot)?)
+            PlaceViews::new(course, robot, self.policy(course, robot)?)
         })
     }
 

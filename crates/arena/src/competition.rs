@@ -24,7 +24,7 @@ use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
 use tolman_systems::micromouse::Brief;
 use tolman_systems::micromouse::competition::{
-    CompetitionMouse, CompetitionNext, Exploration, ExploreError,
+    CompetitionMouse, CompetitionNext, ExploreError, SpeedRunExploration,
 };
 
 /// Lets a mouse that looks at the walls of its cell, and remembers all, explore a maze from its
@@ -33,7 +33,7 @@ use tolman_systems::micromouse::competition::{
 /// # Errors
 /// If the maze has no way to a goal, or is larger than 32 × 32, or the times of the moves are too
 /// far apart.
-pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<Exploration, ExploreError> {
+pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<SpeedRunExploration, ExploreError> {
     let grid = maze.grid();
     // What is known takes its time to be looked through.
     if grid.width().max(grid.height()) <= 16 {
@@ -46,7 +46,7 @@ pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<Exploration, Expl
 fn explore_within<const N: usize>(
     maze: &Maze,
     config: &SpeedRunConfig,
-) -> Result<Exploration, ExploreError> {
+) -> Result<SpeedRunExploration, ExploreError> {
     let (start, heading) = maze.start().unwrap_or((Cell::new(0, 0), Direction::North));
     let brief = Brief {
         grid: maze.grid(),

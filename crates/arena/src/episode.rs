@@ -12,7 +12,7 @@ use crate::course::Course;
 use crate::episode_error::broken;
 use crate::mind::Mind;
 use crate::oracle::Seer;
-use crate::run::{self, End, Limited};
+use crate::run::{self, Limited, TaskEnd};
 
 pub use crate::episode_error::EpisodeError;
 pub use step::Step;
@@ -112,7 +112,7 @@ pub fn run(
     }
     .map_err(|error| broken(&robot, error))?;
     Ok(Episode {
-        reached: ended.end == End::Done,
+        reached: ended.end == TaskEnd::Done,
         actions: ended.actions,
         failed_actions,
         steps: ended.steps,

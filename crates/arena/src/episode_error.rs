@@ -3,7 +3,7 @@ use core::convert::Infallible;
 use thiserror::Error;
 use tolman_control::RingError;
 use tolman_robot::Robot;
-use tolman_sim::robots::ConfigError;
+use tolman_sim::robots::RobotConfigError;
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::ActorError;
 
@@ -15,7 +15,7 @@ use crate::run::{InRun, Limited, LimitedError};
 pub enum EpisodeError {
     /// The robot cannot be built.
     #[error("the robot cannot be built")]
-    Robot(#[from] ConfigError),
+    Robot(#[from] RobotConfigError),
     /// The robot cannot start where it was put.
     #[error("the robot cannot start there")]
     Start(#[from] PlaceError),

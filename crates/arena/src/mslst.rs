@@ -6,7 +6,9 @@ use thiserror::Error;
 use tolman_control::Drive;
 use tolman_robot::{Body, System, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_systems::mslst::{Learned, MslstConfig, Scans, States, StatesError, Survey, Topology};
+use tolman_systems::mslst::{
+    GrowthRecord, Learned, MslstConfig, ScanRecorder, States, StatesError, Topology,
+};
 use tolman_systems::{Actor, Doing, TimeStep, stream};
 
 use crate::course::Course;
@@ -46,7 +48,7 @@ pub fn learn(
     learn_graph(course, robot, states, config.graph_actions, seed)
 }
 
-/// Returns the scans of Phase I: see [`Scans`].
+/// Returns the scans of Phase I: see [`ScanRecorder`].
 ///
 /// # Errors
 /// If the robot cannot be built for the course.
@@ -58,7 +60,7 @@ pub fn scans(
 ) -> Result<Vec<Vec<f64>>, LearnError> {
     let wanderer = Wanderer::new(course, robot, &mut stream(seed, SCANS_STREAM))?;
     let mut robot = Limited::new(wanderer.robot, u32::MAX);
-    let mut actor = Actor::new(Scans::new(steps), wanderer.drive, wanderer.rng);
+    let mut actor = Actor::new(ScanRecorder::new(steps), wanderer.drive, wanderer.rng);
     run::run(&mut robot, &mut actor, Task::Explore).map_err(|error| broken(&robot, error))?;
     Ok(actor.into_brain().into_scans())
 }
@@ -75,7 +77,7 @@ pub fn learn_graph(
     seed: u64,
 ) -> Result<Learned, LearnError> {
     let wanderer = Wanderer::new(course, robot, &mut stream(seed, GRAPH_STREAM))?;
-    let mut survey = Survey {
+    let mut survey = GrowthRecord {
         positions: vec![wanderer.robot.truth().pose.position],
         made_by: vec![0],
     };

@@ -94,7 +94,7 @@ impl<R: Robot> InRun for Limited<R> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ended {
     /// What became of the task.
-    pub end: End,
+    pub end: TaskEnd,
     /// Actions that were begun.
     pub actions: u32,
     /// Time steps made in all runs of this robot so far.
@@ -103,7 +103,7 @@ pub struct Ended {
 
 /// What became of the task of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum TaskEnd {
     /// The system says that it is done.
     Done,
     /// The system gave up.
@@ -139,15 +139,15 @@ pub fn until_done<D: InRun + ?Sized, E>(
     let mut actions = 0;
     let end = loop {
         if robot.is_out_of_time() {
-            break End::OutOfTime;
+            break TaskEnd::OutOfTime;
         }
         actions += 1;
         match act(robot) {
             Ok(Standing::UnderWay) => {}
-            Ok(Standing::Done) => break End::Done,
-            Ok(Standing::GaveUp { why }) => break End::GaveUp { why },
+            Ok(Standing::Done) => break TaskEnd::Done,
+            Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
             // It broke off amid an action, as it had to.
-            Err(_) if robot.is_out_of_time() => break End::OutOfTime,
+            Err(_) if robot.is_out_of_time() => break TaskEnd::OutOfTime,
             Err(failure) => return Err(failure),
         }
     };
@@ -232,13 +232,13 @@ mod tests {
     #[test]
     fn a_run_ends_as_its_system_says_or_at_its_limit_and_the_robot_stands_still() {
         for (task, limit, end, actions, steps) in [
-            (REACH, 100, End::Done, 3, 7),
-            (REACH, 5, End::OutOfTime, 2, 5),
-            (REACH, 6, End::OutOfTime, 2, 6),
+            (REACH, 100, TaskEnd::Done, 3, 7),
+            (REACH, 5, TaskEnd::OutOfTime, 2, 5),
+            (REACH, 6, TaskEnd::OutOfTime, 2, 6),
             (
                 Task::Localize,
                 5,
-                End::GaveUp {
+                TaskEnd::GaveUp {
                     why: "it has no map".to_owned(),
                 },
                 1,

@@ -8,8 +8,8 @@
 use core::f64::consts::{PI, TAU};
 
 use tolman_control::epuck::{
-    Alignment, ForwardConfig, KeepOff, MeetPointConfig, Pilot, PilotConfig, Place, Profile,
-    RangeCurve, SegmentConfig, Segments,
+    ForwardConfig, KeepOff, MeetPointConfig, Pilot, PilotConfig, PlaceKind, Profile, RangeCurve,
+    SegmentConfig, Segments, SensorAlignment,
 };
 use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
@@ -57,7 +57,7 @@ fn pilot(maze: &Maze, slip: f64, seed: u64) -> Pilot<Solo<Epuck>> {
 
 fn look(pilot: &mut Pilot<Solo<Epuck>>) -> (Profile, Segments) {
     let sweep = pilot.sweep().unwrap();
-    let profile = Profile::of(&sweep, Alignment::Mounts).unwrap();
+    let profile = Profile::of(&sweep, SensorAlignment::Mounts).unwrap();
     let segments = profile.segments(&SegmentConfig::cut()).unwrap();
     (profile, segments)
 }
@@ -81,10 +81,10 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
         let (off, degree) = truth(&pilot, maze);
         if off.coords.norm() < 0.06 {
             let seen = match segments.place() {
-                Place::Closed => 0,
-                Place::DeadEnd => 1,
-                Place::Path => 2,
-                Place::Junction => segments.spaces().count(),
+                PlaceKind::Closed => 0,
+                PlaceKind::DeadEnd => 1,
+                PlaceKind::Path => 2,
+                PlaceKind::Junction => segments.spaces().count(),
             };
             *(if seen == degree {
                 &mut right
@@ -93,7 +93,7 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
             }) += 1;
         }
         match segments.place() {
-            Place::Junction => {
+            PlaceKind::Junction => {
                 let config = MeetPointConfig::for_width(WIDTH);
                 let mut seen = (profile, segments);
                 for _ in 0..3 {
@@ -102,7 +102,7 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
                     seen = look(&mut pilot);
                 }
                 let segments = seen.1;
-                if segments.place() == Place::Junction {
+                if segments.place() == PlaceKind::Junction {
                     let (off, _) = truth(&pilot, maze);
                     assert!(off.coords.norm() < 0.06, "{off} is not the middle");
                 }
@@ -110,7 +110,7 @@ fn drive(maze: &Maze, slip: f64, seed: u64, observations: u32) {
                 pilot.turn(way).unwrap();
                 pilot.follow(4.0).unwrap();
             }
-            Place::DeadEnd
+            PlaceKind::DeadEnd
                 if pilot.ahead().is_some_and(|ahead| ahead < 0.75 * WIDTH)
                     && segments.spaces().all(|way| way.abs() > PI / 2.0) =>
             {
@@ -234,5 +234,5 @@ fn literal_averages_mix_the_bearings() {
         let values = || profile.values().iter().copied();
         values().fold(0.0, f64::max) - values().fold(f64::INFINITY, f64::min)
     };
-    assert!(contrast(Alignment::Literal) < 0.6 * contrast(Alignment::Mounts));
+    assert!(contrast(SensorAlignment::Literal) < 0.6 * contrast(SensorAlignment::Mounts));
 }

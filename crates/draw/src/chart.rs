@@ -6,8 +6,8 @@ use tolman_geom::Point;
 use super::number::{NOTHING, extent, line, tenths};
 use super::scale::{Scale, Spacing};
 use super::words;
-use super::{Drawing, Graph, Series};
-use tolman_stats::Interval;
+use super::{Drawing, GraphPicture, Series};
+use tolman_stats::ConfidenceInterval;
 
 /// Room for the labels of the value axis.
 const LEFT: f64 = 56.0;
@@ -22,7 +22,7 @@ const BOTTOM: f64 = 42.0;
 pub struct Axis {
     title: String,
     spacing: Spacing,
-    ends: Option<Interval>,
+    ends: Option<ConfidenceInterval>,
     from_zero: bool,
     ticks: Ticks,
 }
@@ -72,7 +72,7 @@ impl Axis {
     /// Sets the ends; what lies beyond them is cut off.
     #[must_use]
     pub const fn between(mut self, low: f64, high: f64) -> Self {
-        self.ends = Some(Interval::new(low, high));
+        self.ends = Some(ConfidenceInterval::new(low, high));
         self
     }
 
@@ -87,8 +87,10 @@ impl Axis {
             Ticks::AtWholeNumbers => steps.min((high - low).max(1.0)),
         };
         match (self.ends, self.spacing) {
-            (Some(Interval { low, high }), Spacing::Linear) => Scale::linear(low, high, steps),
-            (Some(Interval { low, high }), Spacing::Log) => Scale::log(low, high),
+            (Some(ConfidenceInterval { low, high }), Spacing::Linear) => {
+                Scale::linear(low, high, steps)
+            }
+            (Some(ConfidenceInterval { low, high }), Spacing::Log) => Scale::log(low, high),
             (None, Spacing::Log) => Scale::log(low, high),
             (None, Spacing::Linear) if self.from_zero && low >= 0.0 => Scale::up_to(high, steps),
             (None, Spacing::Linear) => {
@@ -105,13 +107,13 @@ impl Axis {
 /// logarithmic axis, is left out.
 ///
 /// ```
-/// use tolman_draw::{Axis, Chart, Graph, GraphEdge, GraphNode, Line, LinePoint, Points, Series};
-/// use tolman_stats::Interval;
+/// use tolman_draw::{Axis, Chart, GraphEdge, GraphNode, GraphPicture, Line, LinePoint, Points, Series};
+/// use tolman_stats::ConfidenceInterval;
 /// use tolman_geom::Point;
 ///
 /// // Error against inputs, with the spread over runs.
 /// let error = [(100.0, 0.5), (1000.0, 0.05), (10000.0, 0.01)].map(|(inputs, error)| {
-///     LinePoint::new(inputs, error).spread(Interval { low: 0.5 * error, high: 2.0 * error })
+///     LinePoint::new(inputs, error).spread(ConfidenceInterval { low: 0.5 * error, high: 2.0 * error })
 /// });
 /// let mut chart = Chart::new(Axis::log("inputs"), Axis::log("error"));
 /// chart.line(Line::new("GNG", Series(0), error.to_vec()));
@@ -120,7 +122,7 @@ impl Axis {
 /// // A network over its data, both axes to the same scale.
 /// let mut chart = Chart::new(Axis::linear("x"), Axis::linear("y")).equal();
 /// chart.points(Points::new("inputs", Series(5), vec![Point::new(0.1, 0.0), Point::new(0.9, 1.1)]));
-/// let mut network = Graph::new();
+/// let mut network = GraphPicture::new();
 /// let (a, b) = (GraphNode::at(Point::origin()), GraphNode::at(Point::new(1.0, 1.0)));
 /// let edge = GraphEdge::between(network.node(a), network.node(b));
 /// network.edge(edge);
@@ -150,7 +152,7 @@ enum Aspect {
 enum Layer {
     Line(Line),
     Points(Points),
-    Graph(Graph),
+    Graph(GraphPicture),
 }
 
 /// A line through values, with a band of spread around it.
@@ -183,7 +185,7 @@ pub struct LinePoint {
     /// The value.
     pub y: f64,
     /// How far values spread around it: quartiles, a 95 % interval, extremes.
-    pub spread: Option<Interval>,
+    pub spread: Option<ConfidenceInterval>,
 }
 
 impl LinePoint {
@@ -194,7 +196,7 @@ impl LinePoint {
 
     /// Sets the spread.
     #[must_use]
-    pub const fn spread(mut self, spread: Interval) -> Self {
+    pub const fn spread(mut self, spread: ConfidenceInterval) -> Self {
         self.spread = Some(spread);
         self
     }
@@ -262,7 +264,7 @@ impl Chart {
     }
 
     /// Adds a graph.
-    pub fn graph(&mut self, graph: Graph) {
+    pub fn graph(&mut self, graph: GraphPicture) {
         self.layers.push(Layer::Graph(graph));
     }
 
@@ -485,9 +487,9 @@ mod tests {
     #[test]
     fn values_lie_where_the_axes_say() {
         let mut chart = square(unit("x"), unit("y"));
-        let spread = Interval::new(0.25, 1.0);
+        let spread = ConfidenceInterval::new(0.25, 1.0);
         let points = vec![
-            LinePoint::new(0.0, 0.0).spread(Interval::new(0.0, 0.5)),
+            LinePoint::new(0.0, 0.0).spread(ConfidenceInterval::new(0.0, 0.5)),
             LinePoint::new(1.0, 0.5).spread(spread),
         ];
         chart.line(Line::new("", Series(0), points));
@@ -523,7 +525,7 @@ mod tests {
     #[test]
     fn a_graph_shares_the_frame() {
         let mut chart = square(unit("x"), unit("y"));
-        let mut graph = Graph::new();
+        let mut graph = GraphPicture::new();
         for at in [(0.0, 0.0), (1.0, 1.0), (f64::INFINITY, 0.0)] {
             graph.node(GraphNode::at(Point::new(at.0, at.1)));
         }

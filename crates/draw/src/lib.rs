@@ -6,10 +6,10 @@
 //!
 //! | to show | take |
 //! | --- | --- |
-//! | a maze, trajectories, zones | [`Plan`] |
-//! | a learned graph over the maze | [`Plan::graph`] with a [`Graph`] |
-//! | where something may be | [`Plan::region`] with a [`Region`]: boxes, ellipses |
-//! | values of the cells of a maze | [`Plan::cells`] with a [`Shade`] |
+//! | a maze, trajectories, zones | [`FloorPlan`] |
+//! | a learned graph over the maze | [`FloorPlan::graph`] with a [`GraphPicture`] |
+//! | where something may be | [`FloorPlan::region`] with a [`Region`]: boxes, ellipses |
+//! | values of the cells of a maze | [`FloorPlan::cells`] with a [`Shade`] |
 //! | runs of rows | [`BoxPlot`]; every experiment gets those by itself |
 //! | a quantity over another, with its spread | [`Chart::line`] |
 //! | points, a network over its data | [`Chart::points`], [`Chart::graph`] |
@@ -21,12 +21,12 @@
 //! `cargo run -p tolman-papers --example pictures > pictures.html` draws one of each.
 //!
 //! ```
-//! use tolman_draw::{Figure, Plan, Series};
+//! use tolman_draw::{Figure, FloorPlan, Series};
 //! use tolman_geom::Point;
 //!
 //! let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
 //! let walls: Vec<[Point; 2]> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
-//! let mut plan = Plan::of_walls(&walls, 640.0);
+//! let mut plan = FloorPlan::of_walls(&walls, 640.0);
 //! plan.trajectory(&[Point::new(0.5, 0.5), Point::new(2.5, 1.5)], Series(0));
 //! let figure = Figure::new("room", "A room", plan.drawing("One straight way through a room."));
 //! assert!(figure.standalone().starts_with("<svg xmlns="));
@@ -41,11 +41,11 @@ pub use tolman_stats as stats;
 mod boxplot;
 mod chart;
 mod figure;
-mod graph;
+mod floor_plan;
+mod graph_picture;
 mod heatmap;
 mod image;
 mod number;
-mod plan;
 mod polar;
 mod region;
 mod scale;
@@ -58,10 +58,10 @@ mod words;
 pub use boxplot::{BoxGroup, BoxPlot, Dot, PaperMark};
 pub use chart::{Axis, Chart, Line, LinePoint, Points};
 pub use figure::{Drawing, Figure, style};
-pub use graph::{EdgeLine, Graph, GraphEdge, GraphNode, NodeMark};
+pub use floor_plan::{FloorPlan, ZoneStyle};
+pub use graph_picture::{EdgeLine, GraphEdge, GraphNode, GraphPicture, NodeMark};
 pub use heatmap::HeatMap;
 pub use image::{Image, ImageError};
-pub use plan::{Plan, Zone};
 pub use polar::PolarPlot;
 pub use region::Region;
 pub use series::Series;

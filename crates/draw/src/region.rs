@@ -3,15 +3,15 @@
 use tolman_geom::{Heading, Point, Pose};
 use tolman_sim::Bounds;
 
-/// A region that holds something whose place is not known exactly, for [`Plan::region`](super::Plan::region).
+/// A region that holds something whose place is not known exactly, for [`FloorPlan::region`](super::FloorPlan::region).
 ///
 /// ```
-/// use tolman_draw::{Plan, Region, Series};
+/// use tolman_draw::{FloorPlan, Region, Series};
 /// use tolman_geom::{Heading, Point, Pose};
 /// use tolman_sim::Bounds;
 ///
 /// let bounds = Bounds { min: Point::new(-1.0, -1.0), max: Point::new(3.0, 2.0) };
-/// let mut plan = Plan::of_bounds(&bounds, 420.0);
+/// let mut plan = FloorPlan::of_bounds(&bounds, 420.0);
 /// // An interval in x and y, a box along a heading, and two standard deviations of a Gaussian.
 /// plan.region(&Region::within(&Bounds { min: Point::new(0.0, 0.0), max: Point::new(0.4, 0.2) }), Series(0));
 /// let pose = Pose::new(Point::new(1.0, 1.0), Heading::from_degrees(30.0));

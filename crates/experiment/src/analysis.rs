@@ -1,8 +1,8 @@
 //! What the runs say: every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
-use super::{Experiment, Metric, Pair, PaperValue, Reached, Row, Run, Table, Verdict, run_seed};
-use tolman_stats::{Interval, Method, PValue};
+use super::{Experiment, Metric, PaperValue, Reached, Row, RowPair, Run, Table, Verdict, run_seed};
+use tolman_stats::{ConfidenceInterval, Method, PValue};
 
 /// All tables of an experiment, measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct TableAnalysis {
     /// In the table's order.
     pub metrics: Vec<MetricAnalysis>,
     /// The rows that are compared each with each; empty if none are.
-    pub pairs: Vec<Pair>,
+    pub pairs: Vec<RowPair>,
 }
 
 /// One metric of a table, measured.
@@ -49,7 +49,7 @@ pub struct Measured {
     /// The median, for means and medians.
     pub median: Option<f64>,
     /// The 95 % interval of the value.
-    pub interval: Option<Interval>,
+    pub interval: Option<ConfidenceInterval>,
     /// What the paper says.
     pub paper: Option<PaperValue>,
     /// Whether that matches.

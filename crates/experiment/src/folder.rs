@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::at::{at, if_there, make_folder, write_whole};
 use super::config_file::ConfigFile;
 use super::runs_file::{self, Appender, Runs};
-use super::{Error, Event, Experiment, Progress};
+use super::{Error, Experiment, Progress, ProgressEvent};
 use tolman_draw::Figure;
 
 const CONFIG: &str = "config.toml";
@@ -44,7 +44,7 @@ impl Folder {
         if let Some(reason) = conflict(path, config)? {
             let moved_to = free_name(path);
             at("move aside", path, fs::rename(path, &moved_to))?;
-            progress.event(&Event::SetAside {
+            progress.event(&ProgressEvent::SetAside {
                 folder: path,
                 moved_to: &moved_to,
                 reason: &reason,

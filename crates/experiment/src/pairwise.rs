@@ -18,7 +18,7 @@ pub struct Pairwise {
 
 /// Two rows, compared.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pair {
+pub struct RowPair {
     /// The row that comes first in the table.
     pub first: String,
     /// The other one.
@@ -31,7 +31,7 @@ pub struct Pair {
     pub paper: Option<f64>,
 }
 
-impl Pair {
+impl RowPair {
     /// Both rows in words.
     pub fn name(&self) -> String {
         format!("{} – {}", self.first, self.second)
@@ -40,7 +40,7 @@ impl Pair {
 
 impl Pairwise {
     /// Every pair of rows that were measured, in the order of the rows.
-    pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<Pair> {
+    pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<RowPair> {
         let statistic = Statistic::Mean(self.field.clone());
         let samples: Vec<(&String, Vec<f64>)> = self
             .rows
@@ -54,7 +54,7 @@ impl Pairwise {
         let mut pairs = Vec::new();
         for (place, (first, a)) in samples.iter().enumerate() {
             for (second, b) in &samples[place + 1..] {
-                pairs.extend(Contrast::of(a, b).map(|contrast| Pair {
+                pairs.extend(Contrast::of(a, b).map(|contrast| RowPair {
                     first: (*first).clone(),
                     second: (*second).clone(),
                     n: (a.len() + b.len()) as u64,

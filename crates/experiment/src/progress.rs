@@ -6,7 +6,7 @@ use std::path::Path;
 /// Something a caller may want to show.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub enum Event<'a> {
+pub enum ProgressEvent<'a> {
     /// The folder held results of another configuration, which now lie elsewhere.
     SetAside {
         /// The folder of results.
@@ -66,7 +66,7 @@ pub enum Remedy {
 /// Where the runner's messages go; the runner itself prints nothing.
 pub trait Progress: Sync {
     /// Hears of an event. May be called from several threads at once.
-    fn event(&self, event: &Event<'_>);
+    fn event(&self, event: &ProgressEvent<'_>);
 
     /// Whether the caller wants to stop, as after Ctrl-C. Asked before every run; runs that are
     /// being played are finished and kept.
@@ -80,5 +80,5 @@ pub trait Progress: Sync {
 pub struct Silent;
 
 impl Progress for Silent {
-    fn event(&self, _event: &Event<'_>) {}
+    fn event(&self, _event: &ProgressEvent<'_>) {}
 }

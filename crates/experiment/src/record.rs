@@ -25,8 +25,8 @@ pub trait Record: Serialize + DeserializeOwned {
     /// Returns the records of a row's runs, in their order.
     ///
     /// # Errors
-    /// [`RecordError::Read`] if one is no such record.
-    fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, RecordError> {
+    /// [`FieldsError::Read`] if one is no such record.
+    fn of_row(runs: &[Run], table: &str, row: &str) -> Result<Vec<Self>, FieldsError> {
         let own = runs.iter().filter(|run| run.is_of(table, row));
         own.map(Run::record).collect()
     }
@@ -34,8 +34,8 @@ pub trait Record: Serialize + DeserializeOwned {
     /// Returns the record as the fields of a run.
     ///
     /// # Errors
-    /// [`RecordError`] if a value is no field.
-    fn fields(&self) -> Result<Fields, RecordError> {
+    /// [`FieldsError`] if a value is no field.
+    fn fields(&self) -> Result<Fields, FieldsError> {
         Fields::of(self)
     }
 }
@@ -72,7 +72,7 @@ pub trait Record: Serialize + DeserializeOwned {
 /// assert_eq!((table.metrics[0].title.as_str(), table.metrics[0].unit.as_str()), ("miss", "cm"));
 /// let throw = Throw { hit: true, miss: Some(2.5) };
 /// assert_eq!(throw.fields()?.record::<Throw>()?, throw);
-/// # Ok::<(), tolman_experiment::RecordError>(())
+/// # Ok::<(), tolman_experiment::FieldsError>(())
 /// ```
 #[macro_export]
 macro_rules! record {
@@ -140,7 +140,7 @@ pub fn require(holds: bool, why: &str) -> Result<(), String> {
 /// Why a record and the fields of a run are not each other's.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum RecordError {
+pub enum FieldsError {
     /// A record that serde cannot write as fields.
     #[error("the record {record} cannot be written as fields")]
     Write {
@@ -287,7 +287,7 @@ mod tests {
             assert_eq!(throw.fields().unwrap().record::<Throw>().unwrap(), throw);
         }
         let read = Hit { miss: 1.0 }.fields().unwrap().record::<Throw>();
-        assert!(matches!(read, Err(RecordError::Read { .. })));
+        assert!(matches!(read, Err(FieldsError::Read { .. })));
     }
 
     #[test]
@@ -338,6 +338,6 @@ mod tests {
             }
         }
         let error = Nested { here: (1.0, true) }.fields().unwrap_err();
-        assert!(matches!(error, RecordError::NoField { field, .. } if field == "here"));
+        assert!(matches!(error, FieldsError::NoField { field, .. } if field == "here"));
     }
 }

@@ -5,7 +5,7 @@ use core::any::type_name;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Kind, Record, RecordError, run_seed};
+use super::{FieldsError, Kind, Record, run_seed};
 
 /// A run to be played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +68,8 @@ impl Run {
     /// Returns what was measured, as the record of its table.
     ///
     /// # Errors
-    /// [`RecordError::Read`] if it is no such record.
-    pub fn record<T: Record>(&self) -> Result<T, RecordError> {
+    /// [`FieldsError::Read`] if it is no such record.
+    pub fn record<T: Record>(&self) -> Result<T, FieldsError> {
         self.fields.record()
     }
 }
@@ -82,13 +82,13 @@ pub struct Fields(BTreeMap<String, Field>);
 
 impl Fields {
     /// Returns the fields of a record; what is `None` is left out.
-    pub(super) fn of<T: Record>(record: &T) -> Result<Self, RecordError> {
-        let written = toml::Table::try_from(record).map_err(|source| RecordError::Write {
+    pub(super) fn of<T: Record>(record: &T) -> Result<Self, FieldsError> {
+        let written = toml::Table::try_from(record).map_err(|source| FieldsError::Write {
             record: type_name::<T>(),
             source,
         })?;
         let fields = written.into_iter().map(|(name, value)| {
-            let field = Field::read(&value).ok_or_else(|| RecordError::NoField {
+            let field = Field::read(&value).ok_or_else(|| FieldsError::NoField {
                 field: name.clone(),
                 value: value.to_string(),
             })?;
@@ -100,13 +100,13 @@ impl Fields {
     /// Returns the record that has these fields.
     ///
     /// # Errors
-    /// [`RecordError::Read`] if a field is missing or of another kind.
-    pub fn record<T: Record>(&self) -> Result<T, RecordError> {
+    /// [`FieldsError::Read`] if a field is missing or of another kind.
+    pub fn record<T: Record>(&self) -> Result<T, FieldsError> {
         let fields = self.0.iter();
         let table: toml::Table = fields
             .map(|(name, field)| (name.clone(), field.written()))
             .collect();
-        table.try_into().map_err(|source| RecordError::Read {
+        table.try_into().map_err(|source| FieldsError::Read {
             record: type_name::<T>(),
             source,
         })

@@ -10,7 +10,7 @@ use super::config_file::ConfigFile;
 use super::folder::Folder;
 use super::runs_file::{Appender, Key, Runs};
 use super::{
-    Analysis, Build, Entry, Error, Event, Experiment, Job, Options, Progress, Replays, Run,
+    Analysis, Build, Entry, Error, Experiment, Job, Options, Progress, ProgressEvent, Replays, Run,
     Summary, check, plots, replays,
 };
 use crate::report;
@@ -19,7 +19,7 @@ use tolman_draw::Figure;
 /// What came of an experiment.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Outcome {
+pub struct ExperimentOutcome {
     /// What the catalogue says of the experiment.
     pub entry: Entry,
     /// What the experiment leaves out because it is not here.
@@ -65,12 +65,12 @@ pub fn execute(
     options: &Options,
     build: &Build,
     progress: &dyn Progress,
-) -> Result<Outcome, Error> {
+) -> Result<ExperimentOutcome, Error> {
     check::options(options, &experiment.entry)?;
     check::tables(experiment)?;
     let runs_per_row = options.runs_of(&experiment.entry);
     if let Some(what) = &experiment.skipped {
-        progress.event(&Event::Skipped { what });
+        progress.event(&ProgressEvent::Skipped { what });
     }
     let config = ConfigFile::new(experiment, options, build);
     let path = options.folder_of(experiment.entry.name);
@@ -86,7 +86,7 @@ pub fn execute(
         folder.discard("summary.json")?;
         folder.discard("report.html")?;
     }
-    progress.event(&Event::Started { total, reused });
+    progress.event(&ProgressEvent::Started { total, reused });
     let thread_count = options.threads_for(total - reused);
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(thread_count as usize)
@@ -98,7 +98,7 @@ pub fn execute(
     let played =
         threads.install(|| play(experiment, &jobs, &known, &folder.appender()?, progress))?;
     let elapsed = started.elapsed();
-    progress.event(&Event::RunsFinished {
+    progress.event(&ProgressEvent::RunsFinished {
         played: played.len() as u64,
         elapsed,
     });
@@ -127,10 +127,10 @@ pub fn execute(
     })?);
     check::figures(experiment, &figures)?;
     folder.write_figures(&figures)?;
-    progress.event(&Event::Recording);
+    progress.event(&ProgressEvent::Recording);
     let record = || replays::record(experiment, options.seed, runs_per_row, progress);
     let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
-    let outcome = Outcome {
+    let outcome = ExperimentOutcome {
         entry: experiment.entry,
         skipped: experiment.skipped.clone(),
         folder: path,
@@ -182,7 +182,7 @@ fn play(
             }
             Some(play_one(experiment, job).and_then(|run| {
                 file.append(&run)?;
-                progress.event(&Event::RunFinished);
+                progress.event(&ProgressEvent::RunFinished);
                 Ok((*key, run))
             }))
         })

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::at::{at, if_there, write_whole};
-use super::{Error, Event, Experiment, Progress, Remedy, Run, check, run_seed};
+use super::{Error, Experiment, Progress, ProgressEvent, Remedy, Run, check, run_seed};
 
 /// The places of a run's table and row, and its index: the order of the finished file.
 pub(super) type Key = (usize, usize, u32);
@@ -97,7 +97,7 @@ fn tell(
             None if !complete => Remedy::MissingPlayed,
             _ => Remedy::Ignored,
         };
-        progress.event(&Event::BrokenLine {
+        progress.event(&ProgressEvent::BrokenLine {
             file,
             line: *line,
             what,

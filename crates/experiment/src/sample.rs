@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::settling::settles;
 use super::{Reached, Run, Settling, Statistic};
-use tolman_stats::Interval;
+use tolman_stats::ConfidenceInterval;
 
 /// Resamples of the bootstrap.
 pub(crate) const RESAMPLES: u32 = 2000;
@@ -155,7 +155,7 @@ impl<'a> Sample<'a> {
 
     /// The 95 % interval of the value: exact binomial for a share, that of order statistics for a
     /// median, BCa bootstrap otherwise. `None` where there are too few runs for one.
-    pub(super) fn interval(&self, seed: u64) -> Option<Interval> {
+    pub(super) fn interval(&self, seed: u64) -> Option<ConfidenceInterval> {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         match self {
             Self::Flags { flags, whole } => {

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use super::{Event, Progress, Remedy};
+use super::{Progress, ProgressEvent, Remedy};
 
 /// Progress on standard error: a bar with rate and time left on a terminal, nothing elsewhere.
 /// Folders set aside and broken lines are told in both cases.
@@ -41,9 +41,9 @@ impl Terminal {
 }
 
 impl Progress for Terminal {
-    fn event(&self, event: &Event<'_>) {
+    fn event(&self, event: &ProgressEvent<'_>) {
         match event {
-            Event::SetAside {
+            ProgressEvent::SetAside {
                 folder,
                 moved_to,
                 reason,
@@ -52,7 +52,7 @@ impl Progress for Terminal {
                 folder.display(),
                 moved_to.display()
             )),
-            Event::BrokenLine {
+            ProgressEvent::BrokenLine {
                 file,
                 line,
                 what,
@@ -67,7 +67,7 @@ impl Progress for Terminal {
                         "the line is ignored and what runs are missing are played again",
                 }
             )),
-            Event::Started { total, reused } => {
+            ProgressEvent::Started { total, reused } => {
                 if *reused > 0 {
                     self.line(&format!("{reused} of {total} runs are there from before"));
                 }
@@ -78,12 +78,12 @@ impl Progress for Terminal {
                 bar.reset_elapsed();
                 let _ = self.bar.set(bar);
             }
-            Event::RunFinished => {
+            ProgressEvent::RunFinished => {
                 if let Some(bar) = self.bar.get() {
                     bar.inc(1);
                 }
             }
-            Event::RunsFinished { played, elapsed } => {
+            ProgressEvent::RunsFinished { played, elapsed } => {
                 if let Some(bar) = self.bar.get() {
                     bar.finish_and_clear();
                 }
@@ -95,8 +95,8 @@ impl Progress for Terminal {
                     ));
                 }
             }
-            Event::Skipped { what } => self.line(what),
-            Event::Recording => {
+            ProgressEvent::Skipped { what } => self.line(what),
+            ProgressEvent::Recording => {
                 if on_terminal() {
                     self.line("recording the first runs of each row for the report");
                 }

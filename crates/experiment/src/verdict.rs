@@ -2,7 +2,7 @@
 
 use super::sample::LEVEL;
 use super::{Metric, PaperValue, Statistic, Tolerance};
-use tolman_stats::{Interval, exact_binomial_interval};
+use tolman_stats::{ConfidenceInterval, exact_binomial_interval};
 
 /// The judgement of one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,7 +10,7 @@ pub struct Verdict {
     /// Whether our value is accepted.
     pub matches: bool,
     /// The values that are accepted, ends included.
-    pub accepted: Interval,
+    pub accepted: ConfidenceInterval,
 }
 
 impl Verdict {
@@ -23,14 +23,14 @@ impl Verdict {
         paper_runs: Option<u32>,
         metric: &Metric,
     ) -> Option<Self> {
-        let around = |half: f64| Interval::new(paper.value - half, paper.value + half);
+        let around = |half: f64| ConfidenceInterval::new(paper.value - half, paper.value + half);
         let accepted = match (metric.tolerance, &metric.statistic) {
             (Some(Tolerance::Absolute(half)), _) => around(half),
             (Some(Tolerance::Relative(share)), _) => around(share * paper.value.abs()),
             (Some(Tolerance::Spread), _) => around(paper.sd?),
             (Some(Tolerance::Factor(factor)), _) => {
                 let (one, other) = (paper.value / factor, paper.value * factor);
-                Interval::new(one.min(other), one.max(other))
+                ConfidenceInterval::new(one.min(other), one.max(other))
             }
             (None, Statistic::Percent(_)) => own_binomial(paper.value, 100.0, paper_runs?)?,
             (None, Statistic::Count { whole, .. }) => {
@@ -57,11 +57,11 @@ impl Verdict {
     }
 }
 
-fn within(interval: Interval, whole: f64) -> Interval {
-    Interval::new(interval.low.max(0.0), interval.high.min(whole))
+fn within(interval: ConfidenceInterval, whole: f64) -> ConfidenceInterval {
+    ConfidenceInterval::new(interval.low.max(0.0), interval.high.min(whole))
 }
 
-fn own_binomial(value: f64, whole: f64, runs: u32) -> Option<Interval> {
+fn own_binomial(value: f64, whole: f64, runs: u32) -> Option<ConfidenceInterval> {
     let successes = (value / whole * f64::from(runs)).round() as u64;
     let rate = exact_binomial_interval(successes, u64::from(runs), LEVEL).ok()?;
     Some(rate.scaled(whole))

@@ -1,7 +1,7 @@
-use tolman_maps::wall_map::{ClosedCells, Ray, TooLarge, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Walls};
 use tolman_planners::speed_run::{Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
-use tolman_planners::{Location, Passages, PoseSet, Unknown};
+use tolman_planners::{Passages, PoseKnowledge, PoseSet, Unknown};
 
 /// Columns and rows of the maze: those of the classic competition.
 pub const MAZE: usize = 16;
@@ -96,11 +96,13 @@ impl<'a> Mouse<'a> {
                 poses.see(&self.walls, side, is_open);
             }
             match poses.location() {
-                Location::Found { cell, heading } => {
+                PoseKnowledge::Found { cell, heading } => {
                     self.task = explore(self.times, self.goals, (cell, heading));
                 }
-                Location::Among { .. } => return Ok(look_around(poses, patience, &self.walls)),
-                Location::Nowhere => return Ok(Command::CarryBack),
+                PoseKnowledge::Among { .. } => {
+                    return Ok(look_around(poses, patience, &self.walls));
+                }
+                PoseKnowledge::Nowhere => return Ok(Command::CarryBack),
             }
         }
         let Task::Explore {
@@ -195,12 +197,12 @@ impl Sides {
         ]
     }
 
-    fn rays(self, heading: Direction) -> [Ray; 3] {
+    fn rays(self, heading: Direction) -> [CellRay; 3] {
         let ray = |direction, is_open| {
             if is_open {
-                Ray::out_of_range(direction, 1)
+                CellRay::out_of_range(direction, 1)
             } else {
-                Ray::to_wall(direction, 0)
+                CellRay::to_wall(direction, 0)
             }
         };
         self.all()

@@ -18,7 +18,7 @@ use std::time::Instant;
 use criterion::Criterion;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Braided, Cell, Direction, Maze};
 use tolman_planners::speed_run::{
     Decision, Extent, RunState, SpeedRunConfig, SpeedRunExplorer, SpeedRunMap, SpeedRunTimes,
@@ -162,9 +162,9 @@ fn explore<const N: usize>(maze: &Maze, times: &SpeedRunTimes<N>) -> Vec<f64> {
     loop {
         let rays = Direction::ALL.map(|side| {
             if maze.is_open(at, side) {
-                Ray::out_of_range(side, 1)
+                CellRay::out_of_range(side, 1)
             } else {
-                Ray::to_wall(side, 0)
+                CellRay::to_wall(side, 0)
             }
         });
         walls.observe(at, &rays).unwrap();

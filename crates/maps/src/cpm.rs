@@ -7,7 +7,7 @@
 //! - a [`Traversal`] is what a robot observed along one fragment, between two [`Sighting`]s of junctions, dead ends or landmarks;
 //! - a [`Turn`] (Δ) is what it did at a junction;
 //! - a [`CpMapper`] takes both in, as a [`CpMapperConfig`] says;
-//! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`Matching`], are one;
+//! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`FragmentMatching`], are one;
 //! - a [`Plan`] is a way through it;
 //! - a [`Localizer`] finds where on some maps a robot is that was put somewhere;
 //! - a `MapFile` (feature `serde`) keeps a map with its dictionary;
@@ -15,7 +15,7 @@
 //!
 //! ```
 //! use tolman_maps::cpm::{
-//!     Arrival, CpMapper, CpMapperConfig, Dictionary, Sighting, Traversal, Turn,
+//!     MapUpdate, CpMapper, CpMapperConfig, Dictionary, Sighting, Traversal, Turn,
 //! };
 //!
 //! let mut dictionary = Dictionary::new(1);
@@ -28,8 +28,8 @@
 //!     let walk = Traversal { patterns, motion: None, sighting, bearings: None };
 //!     mapper.arrive(Turn::BACK, &walk, &dictionary)
 //! };
-//! assert_eq!(walk([wall, wall, door])?, Arrival::New);
-//! assert_eq!(walk([door, wall, wall])?, Arrival::Known);
+//! assert_eq!(walk([wall, wall, door])?, MapUpdate::New);
+//! assert_eq!(walk([door, wall, wall])?, MapUpdate::Known);
 //! assert_eq!(mapper.map().fragments().len(), 1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -61,7 +61,7 @@ mod unify;
 pub use alignment::Alignment;
 pub use bearings::{Bearings, BearingsError};
 pub use config::{Candidates, CpMapperConfig, Mapping};
-pub use cp_mapper::{Arrival, CpMapper, CpmError};
+pub use cp_mapper::{CpMapper, CpmError, MapUpdate};
 pub use environments::{Environments, RecallError, Recollection};
 pub use localizer::{LocalizeError, Localizer, LocalizerConfig, Location};
 pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, PortState, Sign};
@@ -69,7 +69,7 @@ pub use map::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, Port, Port
 pub use map_file::{MapFile, MapFileError};
 pub use pattern::{Dictionary, DictionaryError, PatternId, Version};
 pub use plan::{Plan, PlanLeg};
-pub use similarity::{Difference, Match, Matching, Sense, Similarity, Span, Sum};
+pub use similarity::{FragmentMatching, Match, PatternDifference, Sense, Similarity, Span, Sum};
 pub use theorem::theorem_1;
-pub use traversal::{Motion, Sighting, Traversal};
+pub use traversal::{DeadReckoning, Sighting, Traversal};
 pub use turn::{NoSuchTurn, Turn};

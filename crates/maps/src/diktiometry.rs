@@ -6,7 +6,7 @@
 //!
 //! In the order data flows (the paper's figure 1):
 //!
-//! 1. A [`Move`] comes in: action, odometry within bounds, percept, how it ended.
+//! 1. An [`ObservedMove`] comes in: action, odometry within bounds, percept, how it ended.
 //! 2. The *projector* (`projector`) moves every [`Track`].
 //! 3. The *indexer* (`indexing`) proposes places it may be at: expected, near, or looking alike.
 //! 4. The *matching engine* (`matching`) asks the [`Matcher`]s, in an order that depends on what is known of the area.
@@ -16,18 +16,18 @@
 //!
 //! ```
 //! use tolman_geom::{Interval, Point, PointBox, PoseBox};
-//! use tolman_maps::diktiometry::{Action, Config, Exits, Matcher, Move, Observer, Outcome, Start};
+//! use tolman_maps::diktiometry::{Action, Config, Exits, FirstPlace, Matcher, MoveOutcome, ObservedMove, Observer};
 //!
 //! // Places are a metre apart and look alike; the robot can go north, east, south and west.
 //! let config = Config::new(Config::compass_actions(), 1.0);
-//! let mut observer = Observer::new(config, Start::default())?;
+//! let mut observer = Observer::new(config, FirstPlace::default())?;
 //! let home = observer.place();
-//! let go = |action, x, y| Move {
+//! let go = |action, x, y| ObservedMove {
 //!     action: Action(action),
 //!     odometry: PoseBox::new(PointBox::about(Point::new(x, y), 0.1).unwrap(), Interval::ZERO),
 //!     percept: None,
 //!     exits: Exits::Unknown,
-//!     outcome: Outcome::Arrived,
+//!     outcome: MoveOutcome::Arrived,
 //! };
 //! // East and back: it cannot be anywhere but where it began.
 //! let out = observer.step(&go(1, 1.0, 0.0))?;
@@ -45,9 +45,9 @@ mod adapter;
 mod config;
 mod constancy;
 mod counts;
+mod coverage_grid;
 mod error;
 mod estimator;
-mod grid;
 mod ids;
 mod indexing;
 mod journal;
@@ -71,32 +71,34 @@ mod track;
 mod updater;
 
 pub use config::{
-    ActionKind, Config, ConfigError, GeometricIndexing, GeometricMerge, Identity, Indexing,
-    JournalLength, Matching, Opportunities, Order, Percepts, PerceptualIndexing, Restructuring,
-    Rotation, SearchLimits, SignatureKind, Tracking, Transients, Use,
+    ActionKind, Config, DiktiometryConfigError, GeometricIndexing, GeometricMerge, Identity,
+    Indexing, JournalLength, Matching, Opportunities, Percepts, PerceptualIndexing, Precedence,
+    Restructuring, SearchLimits, SignatureKind, Tracking, Transients, Use, ViewRotation,
 };
 pub use constancy::Constancy;
 pub use counts::Counts;
-pub use error::{StartError, StepError};
-pub use grid::Grid;
+pub use coverage_grid::CoverageGrid;
+pub use error::{ObservedMoveError, StartError};
 pub use ids::{Action, FrameId, LinkId, PlaceId, TrackId};
 pub use indexing::ActiveFrame;
-pub use journal::{Distinction, Journal, ReplayError, UndoError};
+pub use journal::{Distinction, Journal, JournalError, UndoError};
 pub use looks::Looks;
-pub use map::{Diktiometry, Drawn, Flaw};
+pub use map::{Diktiometry, DrawnPlace, Flaw};
 #[cfg(feature = "serde")]
 pub use map_file::{MapFile, MapFileError};
 pub use matching::Matcher;
-pub use observation::{Exits, Move, Outcome, Start};
+pub use observation::{Exits, FirstPlace, MoveOutcome, ObservedMove};
 pub use observer::Observer;
 pub use opportunities::{Opportunity, OpportunityKind};
-pub use path_graph::{Estim, Fate, Ground, Link, Note, PathGraph, Place, Standing, Successor};
+pub use path_graph::{
+    Estim, Fate, Ground, Link, LinkStatus, MergeNote, PathGraph, Place, Successor,
+};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
     Contradiction, Culprit, PlanStep, Predicted, Restructured, StepReport, TrackReport,
 };
 pub use signature::{Signature, SignatureError};
-pub use track::{Match, Track};
+pub use track::{Track, TrackEntry};
 
 use counts::{Expected, wilson_upper};
 use estimator::{Rank, trusted_odometry};

@@ -3,21 +3,21 @@
 //! Tingle, Ball, Augat: "Maze Solving by Learning State Topologies", Phase II (*Mapping the Topology Into a
 //! Graph*) and, of Phase III, *Localization* and the search of *Path-Finding*.
 //!
-//! A [`Mapper`] builds the [`MslstGraph`] while the robot wanders; [`localize`] finds the node that fits what
+//! A [`GraphMapper`] builds the [`MslstGraph`] while the robot wanders; [`localize`] finds the node that fits what
 //! the robot has sensed and done of late; [`MslstGraph::path_to_destination`] says how to go on from there.
 //!
 //! ```
-//! use tolman_maps::mslst_graph::{Mapper, Memory, Zone, localize};
+//! use tolman_maps::mslst_graph::{localize, GraphMapper, Memory, NodeZone};
 //! use tolman_maze::Direction::{East, North, West};
 //!
 //! // A corridor (state 7) to the east, whose bend (state 3) leads north to the destination (state 5).
-//! let mut mapper = Mapper::new(7, Zone::Elsewhere);
+//! let mut mapper = GraphMapper::new(7, NodeZone::Elsewhere);
 //! mapper.failed(North);
-//! mapper.succeeded(East, 7, Zone::Elsewhere);
-//! mapper.succeeded(East, 3, Zone::Elsewhere);
-//! mapper.succeeded(West, 7, Zone::Elsewhere); // back where it was: no node is added
-//! mapper.succeeded(East, 3, Zone::Elsewhere);
-//! mapper.succeeded(North, 5, Zone::Destination);
+//! mapper.succeeded(East, 7, NodeZone::Elsewhere);
+//! mapper.succeeded(East, 3, NodeZone::Elsewhere);
+//! mapper.succeeded(West, 7, NodeZone::Elsewhere); // back where it was: no node is added
+//! mapper.succeeded(East, 3, NodeZone::Elsewhere);
+//! mapper.succeeded(North, 5, NodeZone::Destination);
 //! let graph = mapper.finish();
 //! assert_eq!(graph.len(), 4);
 //! assert_eq!(graph.distance(0), Some(3));
@@ -34,11 +34,11 @@
 //! ```
 
 mod graph;
+mod graph_mapper;
 mod localize;
-mod mapper;
 mod memory;
 
-pub use graph::{Edge, GraphError, MslstGraph, Node, Zone};
+pub use graph::{ActionEdge, GraphError, MslstGraph, Node, NodeZone};
+pub use graph_mapper::GraphMapper;
 pub use localize::{Localization, localize};
-pub use mapper::Mapper;
 pub use memory::{Experience, Memory};

@@ -2,7 +2,7 @@
 //!
 //! Dead reckoning joins each pose to the next, and a place that was seen again joins two that lie far apart on the way.
 //! [`PoseGraph::optimize`] finds the poses under which the sum of all squared errors, each weighted by its information, is
-//! least. An edge that somebody may have been wrong about is [`Closure`](EdgeKind::Closure): the more it disagrees with the
+//! least. An edge that somebody may have been wrong about is [`Closure`](PoseEdgeKind::Closure): the more it disagrees with the
 //! others, the less it counts.
 //!
 //! Source: G. Grisetti, R. Kümmerle, C. Stachniss, W. Burgard: A Tutorial on Graph-Based SLAM, 2010, with the robust kernel of
@@ -15,7 +15,7 @@ mod graph;
 mod optimizer;
 mod system;
 
-pub use edge::{EdgeKind, PoseEdge};
+pub use edge::{PoseEdge, PoseEdgeKind};
 pub use error::PoseGraphError;
 pub use graph::PoseGraph;
 pub use optimizer::{Optimized, OptimizerConfig};

@@ -4,15 +4,15 @@
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use tolman_maps::mslst_graph::{Mapper, MslstGraph, Zone};
-use tolman_maps::wall_map::{ClosedCells, Ray, RayEnd, WallMap};
+use tolman_maps::mslst_graph::{GraphMapper, MslstGraph, NodeZone};
+use tolman_maps::wall_map::{CellRay, ClosedCells, RayEnd, WallMap};
 use tolman_maze::{Cell, Direction, Grid};
 
 type Map = WallMap<8, 12>;
 
 /// Observations that may contradict each other: those that do are not taken in.
-fn observations() -> impl Strategy<Value = Vec<(Cell, Vec<Ray>)>> {
-    let ray = (0..4_usize, 0..3_u16, any::<bool>()).prop_map(|(direction, open, wall)| Ray {
+fn observations() -> impl Strategy<Value = Vec<(Cell, Vec<CellRay>)>> {
+    let ray = (0..4_usize, 0..3_u16, any::<bool>()).prop_map(|(direction, open, wall)| CellRay {
         direction: Direction::ALL[direction],
         open,
         end: if wall {
@@ -25,7 +25,7 @@ fn observations() -> impl Strategy<Value = Vec<(Cell, Vec<Ray>)>> {
     prop::collection::vec((cell, prop::collection::vec(ray, 1..4)), 0..40)
 }
 
-fn walked(grid: Grid, observations: &[(Cell, Vec<Ray>)], undone: usize) -> Map {
+fn walked(grid: Grid, observations: &[(Cell, Vec<CellRay>)], undone: usize) -> Map {
     let mut map = Map::new(grid, ClosedCells::Impossible).unwrap();
     for (cell, rays) in observations {
         let _ = map.observe(*cell, rays);
@@ -72,14 +72,14 @@ proptest! {
 
     #[test]
     fn a_graph_reads_back_as_it_was(actions in prop::collection::vec((0..4_usize, 0..5_u32, any::<bool>()), 0..40)) {
-        let mut mapper = Mapper::new(0, Zone::Elsewhere);
+        let mut mapper = GraphMapper::new(0, NodeZone::Elsewhere);
         for (direction, state, goal) in actions {
             let direction = Direction::ALL[direction];
             if state == 0 {
                 mapper.failed(direction);
                 continue;
             }
-            let zone = if goal { Zone::Destination } else { Zone::Elsewhere };
+            let zone = if goal { NodeZone::Destination } else { NodeZone::Elsewhere };
             mapper.succeeded(direction, state, zone);
         }
         let graph = mapper.finish();
@@ -93,7 +93,7 @@ proptest! {
 /// Why a saved map of 2 × 2 cells is refused after a change.
 fn refused(change: impl FnOnce(&mut Value)) -> String {
     let mut map = Map::new(Grid::new(2, 2), ClosedCells::Possible).unwrap();
-    let ray = Ray::to_wall(Direction::North, 0);
+    let ray = CellRay::to_wall(Direction::North, 0);
     map.observe(Cell::new(0, 0), &[ray]).unwrap();
     let mut value = serde_json::to_value(map).unwrap();
     assert_eq!(serde_json::from_value::<Map>(value.clone()).unwrap(), map);

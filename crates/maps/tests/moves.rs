@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Braided, Cell, Direction, Knowledge, Maze, Rooms, Walls};
 use tolman_planners::moves::{
     Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap, RolloutConfig,
@@ -71,7 +71,7 @@ fn look(map: &mut WallMap<16>, maze: &Maze, at: Cell, heading: Direction) {
             cell = maze.grid().neighbour(cell, direction).unwrap();
             open += 1;
         }
-        Ray::to_wall(direction, open)
+        CellRay::to_wall(direction, open)
     });
     map.observe(at, &rays).unwrap();
 }

@@ -2,21 +2,21 @@
 
 use proptest::prelude::*;
 use tolman_maps::mslst_graph::{
-    Edge, GraphError, Mapper, Memory, MslstGraph, Node, Zone, localize,
+    ActionEdge, GraphError, GraphMapper, Memory, MslstGraph, Node, NodeZone, localize,
 };
 use tolman_maze::Direction;
 
 const STATES: u32 = 4;
 
 /// One action of a wandering robot: what it did and what it met; no state where the action failed.
-type Event = (Direction, Option<u32>, Zone);
+type Event = (Direction, Option<u32>, NodeZone);
 
 fn direction() -> impl Strategy<Value = Direction> {
     (0..4_usize).prop_map(|index| Direction::ALL[index])
 }
 
-fn zone() -> impl Strategy<Value = Zone> {
-    prop_oneof![9 => Just(Zone::Elsewhere), 1 => Just(Zone::Destination)]
+fn zone() -> impl Strategy<Value = NodeZone> {
+    prop_oneof![9 => Just(NodeZone::Elsewhere), 1 => Just(NodeZone::Destination)]
 }
 
 fn wandering() -> impl Strategy<Value = Vec<Event>> {
@@ -26,8 +26,8 @@ fn wandering() -> impl Strategy<Value = Vec<Event>> {
     )
 }
 
-fn mapped(events: &[Event]) -> Mapper {
-    let mut mapper = Mapper::new(0, Zone::Elsewhere);
+fn mapped(events: &[Event]) -> GraphMapper {
+    let mut mapper = GraphMapper::new(0, NodeZone::Elsewhere);
     for &(action, state, zone) in events {
         match state {
             Some(state) => {
@@ -79,7 +79,7 @@ proptest! {
         for (id, node) in graph.ids().zip(graph.nodes()) {
             for edge in &node.edges {
                 let Some(head) = edge.head else { continue };
-                let back = Edge { action: edge.action.opposite(), head: Some(id) };
+                let back = ActionEdge { action: edge.action.opposite(), head: Some(id) };
                 prop_assert!(graph.node(head).unwrap().edges.contains(&back));
             }
         }
@@ -89,7 +89,7 @@ proptest! {
 
     #[test]
     fn the_dummy_node_is_where_failures_end_and_nowhere_else(events in wandering()) {
-        let mut mapper = Mapper::new(0, Zone::Elsewhere);
+        let mut mapper = GraphMapper::new(0, NodeZone::Elsewhere);
         for (action, state, zone) in events {
             let (at, count) = (mapper.at(), mapper.nodes().len());
             match state {
@@ -98,7 +98,7 @@ proptest! {
                 }
                 None => {
                     mapper.failed(action);
-                    let failure = Edge { action, head: None };
+                    let failure = ActionEdge { action, head: None };
                     let edges = &mapper.nodes()[at as usize].edges;
                     prop_assert_eq!(edges.iter().filter(|edge| **edge == failure).count(), 1);
                     prop_assert_eq!((mapper.at(), mapper.nodes().len()), (at, count));
@@ -127,7 +127,7 @@ proptest! {
         }
         let count = mapper.nodes().len();
         for (action, state) in back.into_iter().rev() {
-            mapper.succeeded(action, state, Zone::Elsewhere);
+            mapper.succeeded(action, state, NodeZone::Elsewhere);
         }
         prop_assert_eq!(mapper.at(), from);
         prop_assert_eq!(mapper.nodes().len(), count, "a way back adds no node");
@@ -201,11 +201,11 @@ proptest! {
 
 #[test]
 fn an_action_may_lead_to_several_states() {
-    let mut mapper = Mapper::new(0, Zone::Elsewhere);
-    mapper.succeeded(Direction::East, 1, Zone::Elsewhere);
-    mapper.succeeded(Direction::West, 0, Zone::Elsewhere);
+    let mut mapper = GraphMapper::new(0, NodeZone::Elsewhere);
+    mapper.succeeded(Direction::East, 1, NodeZone::Elsewhere);
+    mapper.succeeded(Direction::West, 0, NodeZone::Elsewhere);
     mapper.failed(Direction::East);
-    mapper.succeeded(Direction::East, 2, Zone::Destination);
+    mapper.succeeded(Direction::East, 2, NodeZone::Destination);
     let graph = mapper.finish();
     let east: Vec<Option<u32>> = graph
         .node(0)
@@ -227,11 +227,11 @@ fn an_action_may_lead_to_several_states() {
 #[test]
 fn the_papers_example() {
     let (a, b, c, d) = (0, 1, 2, 3);
-    let mut mapper = Mapper::new(c, Zone::Destination);
+    let mut mapper = GraphMapper::new(c, NodeZone::Destination);
     // A first D whose west is C, whose west is no B, next to the destination; then A, B, C, D.
-    let first = mapper.succeeded(Direction::East, d, Zone::Elsewhere);
+    let first = mapper.succeeded(Direction::East, d, NodeZone::Elsewhere);
     for state in [a, b, c, d] {
-        mapper.succeeded(Direction::East, state, Zone::Elsewhere);
+        mapper.succeeded(Direction::East, state, NodeZone::Elsewhere);
     }
     let second = mapper.at();
     let graph = mapper.finish();
@@ -262,10 +262,10 @@ fn the_papers_example() {
 fn what_is_no_graph_is_refused() {
     let node = |edges: &[(Direction, Option<u32>)]| Node {
         state: 0,
-        zone: Zone::Elsewhere,
+        zone: NodeZone::Elsewhere,
         edges: edges
             .iter()
-            .map(|&(action, head)| Edge { action, head })
+            .map(|&(action, head)| ActionEdge { action, head })
             .collect(),
     };
     use Direction::{East, North, West};

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maps::geom::{Heading, Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, SeenThere};
 use tolman_robot::{Mapper, Odometry, Snapshot, Sounding};
-use tolman_sim::{Wall, World};
+use tolman_sim::{WallSegment, World};
 
 fn room() -> World {
     let corners = [
@@ -22,7 +22,7 @@ fn room() -> World {
     let walls = corners
         .iter()
         .zip(next)
-        .map(|(a, b)| Wall::between(point(*a), point(*b)));
+        .map(|(a, b)| WallSegment::between(point(*a), point(*b)));
     World::from_segments(walls.collect()).unwrap()
 }
 

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Braided, Cell, Direction, Grid, Knowledge, Maze, Wall, Walls};
 
 /// A maze without closed cells of at most 16 × 16.
@@ -22,7 +22,7 @@ fn mazes() -> impl Strategy<Value = Maze> {
 }
 
 /// What is seen from a cell to all sides.
-fn rays(maze: &Maze, cell: Cell) -> [Ray; 4] {
+fn rays(maze: &Maze, cell: Cell) -> [CellRay; 4] {
     Direction::ALL.map(|direction| {
         let mut at = cell;
         let mut open = 0;
@@ -30,7 +30,7 @@ fn rays(maze: &Maze, cell: Cell) -> [Ray; 4] {
             at = maze.grid().neighbour(at, direction).unwrap();
             open += 1;
         }
-        Ray::to_wall(direction, open)
+        CellRay::to_wall(direction, open)
     })
 }
 
@@ -97,10 +97,10 @@ proptest! {
 fn a_contradiction_changes_nothing() {
     let mut map = map(Grid::new(4, 4), ClosedCells::Possible);
     let origin = Cell::new(0, 0);
-    map.observe(origin, &[Ray::to_wall(Direction::North, 2)])
+    map.observe(origin, &[CellRay::to_wall(Direction::North, 2)])
         .unwrap();
     let before = map;
-    let refused = |rays: &[Ray], cell, known| {
+    let refused = |rays: &[CellRay], cell, known| {
         let mut map = before;
         let error = map.observe(origin, rays).unwrap_err();
         let direction = rays[rays.len() - 1].direction;
@@ -114,21 +114,21 @@ fn a_contradiction_changes_nothing() {
         );
         assert_eq!(map, before);
     };
-    let east = Ray::to_wall(Direction::East, 1);
+    let east = CellRay::to_wall(Direction::East, 1);
     let (north, south) = (Direction::North, Direction::South);
     refused(
-        &[east, Ray::to_wall(north, 1)],
+        &[east, CellRay::to_wall(north, 1)],
         Cell::new(0, 1),
         Knowledge::Open,
     );
     refused(
-        &[east, Ray::to_wall(north, 3)],
+        &[east, CellRay::to_wall(north, 3)],
         Cell::new(0, 2),
         Knowledge::Wall,
     );
-    refused(&[Ray::out_of_range(south, 1)], origin, Knowledge::Wall);
+    refused(&[CellRay::out_of_range(south, 1)], origin, Knowledge::Wall);
     refused(
-        &[Ray::to_wall(Direction::East, 4)],
+        &[CellRay::to_wall(Direction::East, 4)],
         Cell::new(3, 0),
         Knowledge::Wall,
     );
@@ -142,7 +142,7 @@ fn a_contradiction_changes_nothing() {
 #[test]
 fn a_short_sight_tells_nothing_of_what_lies_beyond() {
     let mut map = map(Grid::new(4, 1), ClosedCells::Possible);
-    let look = [Ray::out_of_range(Direction::East, 1)];
+    let look = [CellRay::out_of_range(Direction::East, 1)];
     assert_eq!(map.observe(Cell::new(0, 0), &look), Ok(1));
     assert_eq!(
         map.knowledge(Cell::new(1, 0), Direction::East),
@@ -154,7 +154,7 @@ fn a_short_sight_tells_nothing_of_what_lies_beyond() {
 fn a_log_that_is_too_short_undoes_whole_observations_only() {
     let mut map: WallMap<16, 4> = WallMap::new(Grid::new(16, 16), ClosedCells::Possible).unwrap();
     let look = |map: &mut WallMap<16, 4>, y, open| {
-        map.observe(Cell::new(0, y), &[Ray::to_wall(Direction::East, open)])
+        map.observe(Cell::new(0, y), &[CellRay::to_wall(Direction::East, open)])
             .unwrap();
     };
     look(&mut map, 0, 4);
@@ -177,7 +177,7 @@ fn a_log_that_is_too_short_undoes_whole_observations_only() {
     let mut forgetful: WallMap<4, 0> =
         WallMap::new(Grid::new(4, 4), ClosedCells::Possible).unwrap();
     forgetful
-        .observe(Cell::new(0, 0), &[Ray::to_wall(Direction::East, 0)])
+        .observe(Cell::new(0, 0), &[CellRay::to_wall(Direction::East, 0)])
         .unwrap();
     assert_eq!(forgetful.undo(1), 0);
 }
@@ -198,8 +198,8 @@ fn a_larger_maze_does_not_fit() {
 fn it_draws_what_it_knows() {
     let mut map = map(Grid::new(3, 2), ClosedCells::Impossible);
     let rays = [
-        Ray::to_wall(Direction::North, 1),
-        Ray::to_wall(Direction::East, 0),
+        CellRay::to_wall(Direction::North, 1),
+        CellRay::to_wall(Direction::East, 0),
     ];
     map.observe(Cell::new(0, 0), &rays).unwrap();
     let drawing = "\

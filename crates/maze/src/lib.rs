@@ -80,7 +80,7 @@ pub use knowledge::{Knowledge, Walls};
 pub use {
     check_error::CheckError,
     formats::{
-        Fault, Format, MazeError, MazeFile, UnknownFormat, WriteError, parse, parse_as, read,
+        Format, MazeError, MazeFault, MazeFile, UnknownFormat, WriteError, parse, parse_as, read,
         read_as, write,
     },
     generators::{Braided, GenerateError, Perfect, Rooms},

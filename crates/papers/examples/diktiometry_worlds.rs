@@ -17,11 +17,11 @@ mod walk;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    GeometricMerge, Identity, Percepts, PerceptualIndexing, Rotation, Use,
+    GeometricMerge, Identity, Percepts, PerceptualIndexing, Use, ViewRotation,
 };
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::{ABLATIONS, Change};
-use tolman_sim::abstract_world::{AbstractWorld, MoveError};
+use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 use walk::{
     COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
 };
@@ -98,7 +98,7 @@ fn growth(runs: u64) {
         AbstractWorld::from_corridors(&maze, 1.0)
     };
     type Build<'a> = &'a dyn Fn(u64) -> AbstractWorld;
-    let worlds: [(&str, u32, MoveError, Build<'_>); 5] = [
+    let worlds: [(&str, u32, MoveNoise, Build<'_>); 5] = [
         ("7 × 7 corridors", 2000, ODOMETRY, &|seed| {
             corridors(7, seed)
         }),
@@ -114,7 +114,7 @@ fn growth(runs: u64) {
             let mut found = Vec::new();
             let (mut share, mut purity) = (0.0, 1.0_f64);
             for seed in 0..runs {
-                let errors = MoveError {
+                let errors = MoveNoise {
                     stop: 0.0175,
                     ..errors
                 };
@@ -154,19 +154,19 @@ fn growth(runs: u64) {
 
 /// What becomes of the map without each part of the mapper, where everything is as the mapper is told and where it is not.
 fn parts(runs: u64) {
-    let outliers = |share: f64, factor: f64| MoveError {
+    let outliers = |share: f64, factor: f64| MoveNoise {
         outliers: share,
         outlier_factor: factor,
         ..ODOMETRY
     };
-    let seen = |look: f64| MoveError { look, ..ODOMETRY };
+    let seen = |look: f64| MoveNoise { look, ..ODOMETRY };
     let meets: Change = |config| {
         config.matching.identity = Identity::Meets;
         config.restructuring.geometric_merge = GeometricMerge::Estims;
     };
     let signatures: Change = |config| config.percepts = painted().percepts;
     let told: Change = |_| {};
-    let worlds: [(&str, u16, f64, u32, MoveError, Change); 5] = [
+    let worlds: [(&str, u16, f64, u32, MoveNoise, Change); 5] = [
         ("as told", 10, 0.3, 1500, ODOMETRY, told),
         (
             "1 % of moves wrong by 4 times the bounds",
@@ -283,7 +283,7 @@ fn looks(runs: u64) {
     );
     println!("| --- | ---: | ---: | ---: | ---: |");
     const SIDE: u16 = 9;
-    let rough = MoveError {
+    let rough = MoveNoise {
         distance: 0.2,
         compass: 2.0 * COMPASS,
         look: 0.2,
@@ -366,7 +366,7 @@ fn kidnapped(runs: u64) {
     println!("| --- | --- | ---: | ---: | ---: |");
     let turned: Change = |config| {
         if let Percepts::Signatures(kind) = &mut config.percepts {
-            kind.rotation = Rotation::Free;
+            kind.rotation = ViewRotation::Free;
         }
     };
     let worlds: [(&str, u32, Change); 3] = [
@@ -386,7 +386,7 @@ fn kidnapped(runs: u64) {
                 let mut config = painted();
                 config.indexing.perceptual = form;
                 change(&mut config);
-                let errors = MoveError {
+                let errors = MoveNoise {
                     look: 0.2,
                     ..ODOMETRY
                 };

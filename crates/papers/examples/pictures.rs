@@ -9,15 +9,15 @@ use rand_chacha::ChaCha8Rng;
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_draw::{
-    Axis, BoxGroup, BoxPlot, Chart, Dot, EdgeLine, Figure, Graph, GraphEdge, GraphNode, HeatMap,
-    Image, Line, LinePoint, NodeMark, PaperMark, Plan, Points, PolarPlot, Region, Series, Shade,
-    Tiles, style,
+    Axis, BoxGroup, BoxPlot, Chart, Dot, EdgeLine, Figure, FloorPlan, GraphEdge, GraphNode,
+    GraphPicture, HeatMap, Image, Line, LinePoint, NodeMark, PaperMark, Points, PolarPlot, Region,
+    Series, Shade, Tiles, style,
 };
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::Direction;
 use tolman_robot::{Ring, Scan};
 use tolman_sim::Bounds;
-use tolman_stats::Interval;
+use tolman_stats::ConfidenceInterval;
 
 type Anything = Box<dyn Error>;
 
@@ -57,7 +57,7 @@ fn main() -> Result<(), Anything> {
 /// A node in every third cell, edges to the neighbours that are open.
 fn learned_graph(course: &Course) -> Figure {
     let grid = course.maze.grid();
-    let mut graph = Graph::new();
+    let mut graph = GraphPicture::new();
     let nodes: Vec<usize> = grid
         .cells()
         .map(|cell| {
@@ -122,7 +122,7 @@ fn regions() -> Figure {
         min: Point::new(x0, y0),
         max: Point::new(x1, y1),
     };
-    let mut plan = Plan::of_bounds(&bounds(0.0, 0.0, 6.0, 2.4), 560.0);
+    let mut plan = FloorPlan::of_bounds(&bounds(0.0, 0.0, 6.0, 2.4), 560.0);
     let mut way = Vec::new();
     for i in 0..6 {
         let at = Point::new(0.5 + f64::from(i), 0.6 + 0.2 * f64::from(i));
@@ -201,7 +201,7 @@ fn errors() -> Figure {
         let points = (0..=12).map(|k| {
             let inputs = libm::pow(10.0, 1.0 + 0.25 * f64::from(k));
             let error = (0.9 - 0.2 * f64::from(i)) / libm::pow(inputs, 0.4);
-            let spread = Interval {
+            let spread = ConfidenceInterval {
                 low: error * 0.75,
                 high: error * 1.35,
             };
@@ -230,7 +230,7 @@ fn network(rng: &mut ChaCha8Rng) -> Figure {
             turn,
         ));
     }
-    let mut graph = Graph::new();
+    let mut graph = GraphPicture::new();
     for (radius, count) in [(1.0, 14_u32), (2.0, 26)] {
         let nodes: Vec<usize> = (0..count)
             .map(|i| {

@@ -1,9 +1,9 @@
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
-use tolman_draw::{Drawing, LinePoint, Plan, PolarPlot, Series, Zone};
+use tolman_draw::{Drawing, FloorPlan, LinePoint, PolarPlot, Series, ZoneStyle};
 use tolman_geom::Point;
 use tolman_sim::{Area, Bounds};
-use tolman_stats::{Interval, mean, quantile};
+use tolman_stats::{ConfidenceInterval, mean, quantile};
 use tolman_systems::mslst::ROBOT_UNIT;
 
 /// A scan that MSLST has learned, in robot units, as seen from the robot; `size` user units wide.
@@ -18,27 +18,27 @@ pub(crate) fn model_scan(model: impl Iterator<Item = f64>, size: f64, what: Stri
 /// The mean of values on a line, with their quartiles; `None` of no values.
 pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
     let at = |share| quantile(values, share).ok();
-    let quartiles = Interval::new(at(0.25)?, at(0.75)?);
+    let quartiles = ConfidenceInterval::new(at(0.25)?, at(0.75)?);
     Some(LinePoint::new(x, mean(values).ok()?).spread(quartiles))
 }
 
 /// A plan of a course that is `width` user units wide, with its walls and its destination; what is
 /// walled off is solid.
 #[must_use]
-pub fn plan_of_course(course: &Course, width: f64) -> Plan {
+pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     let world = &course.world;
-    let mut plan = Plan::of_world(world, width);
+    let mut plan = FloorPlan::of_world(world, width);
     for cell in course.maze.grid().cells() {
         let centre = world.cell_centre(cell);
         if !course.leads_on(centre) {
-            plan.square(centre, course.corridor_width, Zone::Solid);
+            plan.square(centre, course.corridor_width, ZoneStyle::Solid);
         }
     }
     let destination = world.zone("destination");
     for area in destination.into_iter().flat_map(tolman_sim::Zone::areas) {
         if let Area::Rectangle(Bounds { min, max }) = *area {
             let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-            plan.zone(&corners, Zone::Destination);
+            plan.zone(&corners, ZoneStyle::Destination);
         }
     }
     plan

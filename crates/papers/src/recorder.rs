@@ -5,7 +5,7 @@ use tolman_geom::Point;
 use tolman_robot::{Body, Guess, Robot};
 
 use tolman_arena::episode::{Episode, Step, Trial};
-use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, Scenery, Track};
+use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, RobotTrack, Scenery};
 
 /// Watches an episode and makes its replay: the robot's way, the action under way and how the last one
 /// ended, whether it is in a corridor, what it thinks and where it believes to be, how much of the maze it has seen, and
@@ -127,7 +127,7 @@ impl<'a> Recorder<'a> {
         let body = Body::Circle {
             radius: robot.radius,
         };
-        let mut track = Track::new("robot", body, episode.path.clone());
+        let mut track = RobotTrack::new("robot", body, episode.path.clone());
         track.ring = Some(robot.ring);
         let mut scenery = Scenery::of_world(&course.world);
         let path = || episode.path.iter().map(|pose| pose.position);

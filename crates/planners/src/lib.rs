@@ -52,7 +52,7 @@ mod too_large;
 
 pub use graph::Graph;
 pub use passages::{Passages, Unknown};
-pub use pose_set::{Location, PoseSet};
+pub use pose_set::{PoseKnowledge, PoseSet};
 pub use step_map::StepMap;
 pub use too_large::TooLarge;
 #[cfg(feature = "alloc")]

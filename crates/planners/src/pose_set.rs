@@ -10,7 +10,7 @@ use crate::TooLarge;
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid, Maze};
-/// use tolman_planners::{Location, PoseSet};
+/// use tolman_planners::{PoseKnowledge, PoseSet};
 ///
 /// // A corridor of three cells, with a branch at its western end.
 /// let mut maze = Maze::open(Grid::new(3, 2));
@@ -24,13 +24,13 @@ use crate::TooLarge;
 /// for (side, is_open) in [(left, false), (ahead, true), (right, false)] {
 ///     poses.see(&maze, side, is_open);
 /// }
-/// assert!(matches!(poses.location(), Location::Among { poses: 5.. }));
+/// assert!(matches!(poses.location(), PoseKnowledge::Among { poses: 5.. }));
 /// // It drives on and comes to a bend to the right.
 /// poses.drive(&maze, ahead);
 /// for (side, is_open) in [(left, false), (ahead, false), (right, true)] {
 ///     poses.see(&maze, side, is_open);
 /// }
-/// let found = Location::Found { cell: Cell::new(0, 0), heading: Direction::West };
+/// let found = PoseKnowledge::Found { cell: Cell::new(0, 0), heading: Direction::West };
 /// assert_eq!(poses.location(), found);
 /// # Ok::<(), tolman_planners::TooLarge>(())
 /// ```
@@ -46,7 +46,7 @@ pub struct PoseSet<const N: usize> {
 
 /// What is known of where a mouse is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Location {
+pub enum PoseKnowledge {
     /// Only here.
     Found {
         /// The cell.
@@ -115,12 +115,12 @@ impl<const N: usize> PoseSet<N> {
 
     /// Where the mouse is, as far as that is clear.
     #[must_use]
-    pub fn location(&self) -> Location {
+    pub fn location(&self) -> PoseKnowledge {
         let mut poses = self.iter();
         match (poses.next(), poses.next()) {
-            (None, _) => Location::Nowhere,
-            (Some((cell, heading)), None) => Location::Found { cell, heading },
-            _ => Location::Among {
+            (None, _) => PoseKnowledge::Nowhere,
+            (Some((cell, heading)), None) => PoseKnowledge::Found { cell, heading },
+            _ => PoseKnowledge::Among {
                 poses: self
                     .cells
                     .iter()

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{Braided, Cell, Direction, Grid, Knowledge, Maze, Walls};
-use tolman_planners::{Location, PoseSet};
+use tolman_planners::{PoseKnowledge, PoseSet};
 
 /// A maze of which the walls of a part of the cells are known.
 struct Partly<'a> {
@@ -90,9 +90,9 @@ proptest! {
             poses.drive(&partly, side);
         }
         match poses.location() {
-            Location::Found { cell, heading } => prop_assert_eq!((cell, heading), (at, looks)),
+            PoseKnowledge::Found { cell, heading } => prop_assert_eq!((cell, heading), (at, looks)),
             // If everything is known, only what cannot be told apart is left.
-            Location::Among { .. } if all => {
+            PoseKnowledge::Among { .. } if all => {
                 for cell in maze.grid().cells() {
                     for heading in Direction::ALL {
                         if poses.contains(cell, heading) {
@@ -101,8 +101,8 @@ proptest! {
                     }
                 }
             }
-            Location::Among { .. } => {}
-            Location::Nowhere => prop_assert!(false, "the truth is ruled out"),
+            PoseKnowledge::Among { .. } => {}
+            PoseKnowledge::Nowhere => prop_assert!(false, "the truth is ruled out"),
         }
     }
 }
@@ -113,6 +113,6 @@ fn a_wrong_wall_leaves_nowhere_to_be() {
     let mut poses = PoseSet::<16>::anywhere(maze.grid()).unwrap();
     poses.see(&maze, Direction::North, false);
     poses.see(&maze, Direction::South, false);
-    assert_eq!(poses.location(), Location::Nowhere);
+    assert_eq!(poses.location(), PoseKnowledge::Nowhere);
     assert_eq!(poses.next_drive(&maze), None);
 }

@@ -15,7 +15,7 @@ use criterion::Criterion;
 use measure::per_second;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_quantizers::{Gng, GngConfig, Lanes, Quantizer, Search};
+use tolman_quantizers::{Gng, GngConfig, Lanes, Quantizer, UnitSearch};
 
 /// Features and units.
 const SIZES: [(usize, usize); 6] = [
@@ -30,10 +30,10 @@ const SIZES: [(usize, usize); 6] = [
 /// Features and units where only searches are measured.
 const LARGE: [(usize, usize); 2] = [(2, 10_000), (3, 10_000)];
 
-const WAYS: [(&str, Search, Lanes); 3] = [
-    ("scan, plain", Search::Scan, Lanes::Baseline),
-    ("scan, widest lanes", Search::Scan, Lanes::Widest),
-    ("index", Search::Index, Lanes::Widest),
+const WAYS: [(&str, UnitSearch, Lanes); 3] = [
+    ("scan, plain", UnitSearch::Scan, Lanes::Baseline),
+    ("scan, widest lanes", UnitSearch::Scan, Lanes::Widest),
+    ("index", UnitSearch::Index, Lanes::Widest),
 ];
 
 fn main() {
@@ -42,7 +42,7 @@ fn main() {
     for (dimension, units) in SIZES {
         let inputs = inputs(dimension);
         for (way, search, lanes) in WAYS {
-            if dimension > 4 && search == Search::Index {
+            if dimension > 4 && search == UnitSearch::Index {
                 continue;
             }
             let mut gng = grown(dimension, units, 100, &inputs);

@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::{
-    ConfigError, InputError, Nearest, NearestTwo, Network, Quantizer, Scalar, Soinn, SoinnConfig,
-    UnitId,
+    InputError, Nearest, NearestTwo, Network, Quantizer, QuantizerConfigError, Scalar, Soinn,
+    SoinnConfig, UnitId,
 };
 
 /// An associative memory: a one-layer SOINN that learns each key and its response as one vector, and recalls by searching on the features of
@@ -65,9 +65,9 @@ impl<S: Scalar> AssociativeMemory<S> {
         key_dimension: usize,
         response_dimension: usize,
         config: SoinnConfig,
-    ) -> Result<Self, ConfigError> {
+    ) -> Result<Self, QuantizerConfigError> {
         if key_dimension == 0 || response_dimension == 0 {
-            return Err(ConfigError::NoFeatures);
+            return Err(QuantizerConfigError::NoFeatures);
         }
         Ok(Self {
             soinn: Soinn::new(key_dimension + response_dimension, config)?,

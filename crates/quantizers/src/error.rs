@@ -72,7 +72,7 @@ impl InputError {
 /// Why a quantizer cannot be made as asked for.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
-pub enum ConfigError {
+pub enum QuantizerConfigError {
     /// Inputs must have features.
     #[error("a network needs inputs of at least one feature")]
     NoFeatures,
@@ -134,12 +134,12 @@ pub(crate) fn within(
     field: &'static str,
     value: impl Into<f64>,
     (holds, range): Range,
-) -> Result<(), ConfigError> {
+) -> Result<(), QuantizerConfigError> {
     let value = value.into();
     if holds(value) {
         return Ok(());
     }
-    Err(ConfigError::OutOfRange {
+    Err(QuantizerConfigError::OutOfRange {
         field,
         value,
         range,
@@ -175,7 +175,7 @@ pub enum SnapshotError {
     },
     /// A field of the configuration is outside its range, or a weight is, or a number that an algorithm keeps.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] QuantizerConfigError),
     /// A prototype is no valid input.
     #[error("the prototype of unit {id}: {source}")]
     BadPrototype {

@@ -13,8 +13,8 @@ pub use saved::SavedGng;
 
 use crate::network::{Best, Candidate};
 use crate::{
-    ConfigError, Events, InputError, Lanes, NearestTwo, Network, Quantizer, Scalar, Search, UnitId,
-    UnknownUnit,
+    Events, InputError, Lanes, NearestTwo, Network, Quantizer, QuantizerConfigError, Scalar,
+    UnitId, UnitSearch, UnknownUnit,
 };
 
 /// A growing neural gas.
@@ -61,7 +61,7 @@ impl<S: Scalar> Gng<S> {
     ///
     /// # Errors
     /// If the dimension is 0 or a field of `config` is outside its range.
-    pub fn new(dimension: usize, config: GngConfig) -> Result<Self, ConfigError> {
+    pub fn new(dimension: usize, config: GngConfig) -> Result<Self, QuantizerConfigError> {
         Self::around(Network::new(dimension)?, config)
     }
 
@@ -70,11 +70,11 @@ impl<S: Scalar> Gng<S> {
     /// # Errors
     /// If there are no weights, one is negative or not finite, none is above zero, or a field of `config` is outside
     /// its range.
-    pub fn weighted(weights: &[S], config: GngConfig) -> Result<Self, ConfigError> {
+    pub fn weighted(weights: &[S], config: GngConfig) -> Result<Self, QuantizerConfigError> {
         Self::around(Network::weighted(weights)?, config)
     }
 
-    fn around(network: Network<S>, config: GngConfig) -> Result<Self, ConfigError> {
+    fn around(network: Network<S>, config: GngConfig) -> Result<Self, QuantizerConfigError> {
         config.check()?;
         Ok(Self {
             config,
@@ -89,16 +89,19 @@ impl<S: Scalar> Gng<S> {
     ///
     /// # Errors
     /// If there are fewer than two units, one is no valid input, or the network is not empty.
-    pub fn begin_with<P: AsRef<[S]>>(&mut self, prototypes: &[P]) -> Result<(), ConfigError> {
+    pub fn begin_with<P: AsRef<[S]>>(
+        &mut self,
+        prototypes: &[P],
+    ) -> Result<(), QuantizerConfigError> {
         if prototypes.len() < 2 || !self.network.is_empty() {
-            return Err(ConfigError::TooFewUnits {
+            return Err(QuantizerConfigError::TooFewUnits {
                 found: prototypes.len(),
             });
         }
         for (unit, prototype) in prototypes.iter().enumerate() {
             self.network
                 .check(prototype.as_ref())
-                .map_err(|source| ConfigError::BadUnit { unit, source })?;
+                .map_err(|source| QuantizerConfigError::BadUnit { unit, source })?;
         }
         let mut last = None;
         for prototype in prototypes {
@@ -109,7 +112,7 @@ impl<S: Scalar> Gng<S> {
     }
 
     /// Chooses how the nearest units are searched for. It changes no result.
-    pub fn set_search(&mut self, search: Search, lanes: Lanes) {
+    pub fn set_search(&mut self, search: UnitSearch, lanes: Lanes) {
         self.network.set_search(search, lanes);
     }
 

@@ -55,14 +55,14 @@ mod soinn;
 mod unit;
 
 pub use associative_memory::{AssociativeMemory, Chain, Recall};
-pub use error::{ConfigError, InputError, SnapshotError, UnknownUnit};
+pub use error::{InputError, QuantizerConfigError, SnapshotError, UnknownUnit};
 pub use event::{Event, Events};
 pub use gng::{ErrorKind, Gng, GngConfig, GrowthGate, Removal, SavedGng, StepOrder, Utility};
 pub use network::{
-    Clusters, Edge, Lanes, Network, QuantizationError, Search, Snapshot, SnapshotUnit,
+    Clusters, Edge, Lanes, Network, NetworkSnapshot, QuantizationError, SnapshotUnit, UnitSearch,
 };
 pub use quantizer::Quantizer;
-pub use replay::{Memory, Replay, ReplayConfig, SavedReplay};
+pub use replay::{ReplayConfig, ReplayMemory, ReplayQuantizer, SavedReplay};
 pub use scalar::Scalar;
 pub use soinn::{
     Denoising, ErrorInsertion, SavedSoinn, SecondLayerConfig, SecondLayerError, SecondThreshold,

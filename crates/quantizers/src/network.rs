@@ -20,14 +20,15 @@ use search::{Masked, Plain, Terms, Weighted, scan};
 use tree::Tree;
 
 use crate::{
-    ConfigError, Event, Events, InputError, Nearest, NearestTwo, Scalar, UnitId, UnknownUnit,
+    Event, Events, InputError, Nearest, NearestTwo, QuantizerConfigError, Scalar, UnitId,
+    UnknownUnit,
 };
 
 pub use clusters::Clusters;
-pub use kernels::{Lanes, Search};
+pub use kernels::{Lanes, UnitSearch};
 pub use measure::QuantizationError;
 pub(crate) use search::{Best, Candidate};
-pub use snapshot::{Snapshot, SnapshotUnit};
+pub use snapshot::{NetworkSnapshot, SnapshotUnit};
 
 /// The units of a quantizer, their prototypes and the edges between them.
 ///
@@ -49,7 +50,7 @@ pub struct Network<S> {
     len: usize,
     next_id: u32,
     events: Events,
-    search: Search,
+    search: UnitSearch,
     kernels: Kernels,
     /// The index, where it is used.
     tree: Option<Tree<S>>,
@@ -59,12 +60,12 @@ pub struct Network<S> {
 
 impl<S: Scalar> Network<S> {
     /// An empty network for inputs of `dimension` features.
-    pub(crate) fn new(dimension: usize) -> Result<Self, ConfigError> {
+    pub(crate) fn new(dimension: usize) -> Result<Self, QuantizerConfigError> {
         Ok(Self::with_metric(Metric::uniform(dimension)?))
     }
 
     /// An empty network whose distance is Σ w (x − p)².
-    pub(crate) fn weighted(weights: &[S]) -> Result<Self, ConfigError> {
+    pub(crate) fn weighted(weights: &[S]) -> Result<Self, QuantizerConfigError> {
         Ok(Self::with_metric(Metric::weighted(weights)?))
     }
 
@@ -78,7 +79,7 @@ impl<S: Scalar> Network<S> {
             len: 0,
             next_id: 0,
             events: Events::default(),
-            search: Search::default(),
+            search: UnitSearch::default(),
             kernels: Kernels::from(Lanes::default()),
             tree: None,
             renumbered: Vec::new(),
@@ -210,7 +211,7 @@ impl<S: Scalar> Network<S> {
     }
 
     /// Chooses how the nearest units are searched for. It changes no result.
-    pub(crate) fn set_search(&mut self, search: Search, lanes: Lanes) {
+    pub(crate) fn set_search(&mut self, search: UnitSearch, lanes: Lanes) {
         self.search = search;
         self.kernels = lanes.into();
         self.tree = None;

@@ -1,6 +1,6 @@
 //! What all quantizers have in common.
 
-use crate::{Events, InputError, Nearest, NearestTwo, Network, Scalar, Snapshot};
+use crate::{Events, InputError, Nearest, NearestTwo, Network, NetworkSnapshot, Scalar};
 
 /// Learns a graph of prototypes from one input after the other.
 ///
@@ -39,7 +39,7 @@ pub trait Quantizer<S: Scalar> {
     }
 
     /// A copy of the units and edges as they are now.
-    fn snapshot(&self) -> Snapshot<S> {
+    fn snapshot(&self) -> NetworkSnapshot<S> {
         self.network().snapshot()
     }
 }

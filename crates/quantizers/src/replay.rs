@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::error::{AT_LEAST_1, check_count, check_header, within};
 use crate::{
-    ConfigError, Events, InputError, NearestTwo, Network, Quantizer, Scalar, SnapshotError,
+    Events, InputError, NearestTwo, Network, Quantizer, QuantizerConfigError, Scalar, SnapshotError,
 };
 
 /// A quantizer that remembers some of its inputs and learns from them again and again.
@@ -19,10 +19,10 @@ use crate::{
 /// when it is drawn.
 ///
 /// ```
-/// use tolman_quantizers::{Gng, GngConfig, Quantizer, Replay, ReplayConfig};
+/// use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayConfig, ReplayQuantizer};
 ///
 /// let gng = Gng::<f32>::new(2, GngConfig::in_order(30))?;
-/// let mut gng = Replay::new(gng, ReplayConfig::measured(7))?;
+/// let mut gng = ReplayQuantizer::new(gng, ReplayConfig::measured(7))?;
 /// // Slowly once around a ring.
 /// let ring = (0..5000_u16).map(|step| f32::from(step) * 0.00125);
 /// let ring: Vec<_> = ring.map(|angle| [angle.cos(), angle.sin()]).collect();
@@ -48,7 +48,7 @@ use crate::{
         )
     )
 )]
-pub struct Replay<S, Q> {
+pub struct ReplayQuantizer<S, Q> {
     config: ReplayConfig,
     quantizer: Q,
     /// Remembered inputs, one after the other.
@@ -69,7 +69,7 @@ pub struct ReplayConfig {
     /// How many remembered inputs are learnt for each new one; at least 1.
     pub per_input: u32,
     /// Which inputs are remembered.
-    pub memory: Memory,
+    pub memory: ReplayMemory,
     /// Where chance begins.
     pub seed: u64,
 }
@@ -79,7 +79,7 @@ pub struct ReplayConfig {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
-pub enum Memory {
+pub enum ReplayMemory {
     /// Each of all inputs so far with the same probability (reservoir sampling, algorithm R of Vitter 1985): for worlds that stay
     /// as they are.
     #[default]
@@ -95,23 +95,23 @@ impl ReplayConfig {
         Self {
             capacity: 10_000,
             per_input: 8,
-            memory: Memory::Reservoir,
+            memory: ReplayMemory::Reservoir,
             seed,
         }
     }
 
-    fn check(&self) -> Result<(), ConfigError> {
+    fn check(&self) -> Result<(), QuantizerConfigError> {
         within("capacity", self.capacity, AT_LEAST_1)?;
         within("per_input", self.per_input, AT_LEAST_1)
     }
 }
 
-impl<S: Scalar, Q: Quantizer<S>> Replay<S, Q> {
+impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
     /// Puts a memory before a quantizer.
     ///
     /// # Errors
     /// If a field of `config` is outside its range.
-    pub fn new(quantizer: Q, config: ReplayConfig) -> Result<Self, ConfigError> {
+    pub fn new(quantizer: Q, config: ReplayConfig) -> Result<Self, QuantizerConfigError> {
         config.check()?;
         Ok(Self {
             config,
@@ -146,8 +146,8 @@ impl<S: Scalar, Q: Quantizer<S>> Replay<S, Q> {
             return;
         }
         let place = match self.config.memory {
-            Memory::Recent => (self.seen - 1) % capacity,
-            Memory::Reservoir => self.chance.random_range(0..self.seen),
+            ReplayMemory::Recent => (self.seen - 1) % capacity,
+            ReplayMemory::Reservoir => self.chance.random_range(0..self.seen),
         };
         if place < capacity {
             let start = place as usize * input.len();
@@ -165,9 +165,9 @@ impl<S: Scalar, Q: Quantizer<S>> Replay<S, Q> {
     }
 }
 
-/// All there is to know of a [`Replay`], to be saved and resumed.
+/// All there is to know of a [`ReplayQuantizer`], to be saved and resumed.
 ///
-/// With the feature `serde`, `Replay` itself is serialized as this, and refuses to be made of what is invalid.
+/// With the feature `serde`, `ReplayQuantizer` itself is serialized as this, and refuses to be made of what is invalid.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedReplay<S, Q> {
@@ -190,8 +190,8 @@ pub struct SavedReplay<S, Q> {
 const FORMAT: &str = "tolman-replay";
 const VERSION: u32 = 1;
 
-impl<S: Scalar, Q: Quantizer<S>> From<Replay<S, Q>> for SavedReplay<S, Q> {
-    fn from(replay: Replay<S, Q>) -> Self {
+impl<S: Scalar, Q: Quantizer<S>> From<ReplayQuantizer<S, Q>> for SavedReplay<S, Q> {
+    fn from(replay: ReplayQuantizer<S, Q>) -> Self {
         Self {
             format: FORMAT.into(),
             version: VERSION,
@@ -205,7 +205,7 @@ impl<S: Scalar, Q: Quantizer<S>> From<Replay<S, Q>> for SavedReplay<S, Q> {
     }
 }
 
-impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for Replay<S, Q> {
+impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for ReplayQuantizer<S, Q> {
     type Error = SnapshotError;
 
     /// Resumes what was saved.
@@ -234,7 +234,7 @@ impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for Replay<S, Q> {
     }
 }
 
-impl<S: Scalar, Q: Quantizer<S>> Quantizer<S> for Replay<S, Q> {
+impl<S: Scalar, Q: Quantizer<S>> Quantizer<S> for ReplayQuantizer<S, Q> {
     fn observe(&mut self, input: &[S]) -> Result<NearestTwo<S>, InputError> {
         self.network().check(input)?;
         self.remember(input);

@@ -12,8 +12,8 @@ pub use second_layer::{SecondLayerConfig, SecondLayerError, SecondThreshold};
 
 use crate::network::{Best, Candidate};
 use crate::{
-    ConfigError, Events, InputError, Lanes, NearestTwo, Network, Quantizer, Scalar, Search, UnitId,
-    UnknownUnit,
+    Events, InputError, Lanes, NearestTwo, Network, Quantizer, QuantizerConfigError, Scalar,
+    UnitId, UnitSearch, UnknownUnit,
 };
 
 /// One layer of a SOINN: "An incremental network for on-line unsupervised classification and topology learning" (Shen and
@@ -125,7 +125,7 @@ impl<S: Scalar> Soinn<S> {
     ///
     /// # Errors
     /// If the dimension is 0 or a field of `config` is outside its range.
-    pub fn new(dimension: usize, config: SoinnConfig) -> Result<Self, ConfigError> {
+    pub fn new(dimension: usize, config: SoinnConfig) -> Result<Self, QuantizerConfigError> {
         Self::around(Network::new(dimension)?, config)
     }
 
@@ -134,11 +134,11 @@ impl<S: Scalar> Soinn<S> {
     /// # Errors
     /// If there are no weights, one is negative or not finite, none is above zero, or a field of `config` is outside
     /// its range.
-    pub fn weighted(weights: &[S], config: SoinnConfig) -> Result<Self, ConfigError> {
+    pub fn weighted(weights: &[S], config: SoinnConfig) -> Result<Self, QuantizerConfigError> {
         Self::around(Network::weighted(weights)?, config)
     }
 
-    fn around(network: Network<S>, config: SoinnConfig) -> Result<Self, ConfigError> {
+    fn around(network: Network<S>, config: SoinnConfig) -> Result<Self, QuantizerConfigError> {
         config.check()?;
         Ok(Self {
             config,
@@ -150,7 +150,7 @@ impl<S: Scalar> Soinn<S> {
     }
 
     /// Chooses how the nearest units are searched for. It changes no result.
-    pub fn set_search(&mut self, search: Search, lanes: Lanes) {
+    pub fn set_search(&mut self, search: UnitSearch, lanes: Lanes) {
         self.network.set_search(search, lanes);
     }
 

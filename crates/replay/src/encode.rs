@@ -8,8 +8,8 @@ use tolman_sim::{Bounds, DoorState};
 
 use super::rounding::{bounds_of, rounded};
 use super::{
-    Belief, Door, Edge, Exemplar, Fact, Field, MapGrowth, Marks, Node, Notes, Replay, Scans,
-    Series, Shape, Track, Zone, blob,
+    Belief, Exemplar, Fact, Field, MapEdge, MapGrowth, MapNode, Marks, Notes, Replay, RobotTrack,
+    Scans, SceneryDoor, SceneryZone, Shape, TimeSeries, blob,
 };
 
 const FORMAT: &str = "tolman-replay";
@@ -135,12 +135,12 @@ fn value(replay: &Replay) -> Result<Value, EncodeError> {
     }))
 }
 
-fn zone(zone: &Zone) -> Value {
+fn zone(zone: &SceneryZone) -> Value {
     let corners = blob::floats(coordinates(&zone.corners));
     json!({ "kind": zone.kind, "name": zone.name, "corners": corners })
 }
 
-fn door(door: &Door) -> Result<Value, EncodeError> {
+fn door(door: &SceneryDoor) -> Result<Value, EncodeError> {
     ascend("change of a door", door.changes.iter().map(|c| c.step))?;
     let changes = door.changes.iter();
     let changes =
@@ -149,7 +149,7 @@ fn door(door: &Door) -> Result<Value, EncodeError> {
     Ok(json!({ "name": door.name, "ends": ends, "shut": changes.collect::<Value>() }))
 }
 
-fn track(track: &Track, bounds: &Bounds) -> Result<Value, EncodeError> {
+fn track(track: &RobotTrack, bounds: &Bounds) -> Result<Value, EncodeError> {
     ascend("lift", track.lifts.iter().copied())?;
     let poses = track.poses.iter().map(|pose| rounded(bounds, *pose));
     let along = |axis: usize| blob::changes(poses.clone().map(|pose| i32::from(pose[axis])));
@@ -259,7 +259,7 @@ fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
 }
 
 /// What is empty is left out: maps have many nodes, and most say little.
-fn node(node: &Node) -> Result<Value, EncodeError> {
+fn node(node: &MapNode) -> Result<Value, EncodeError> {
     ascend("move of a node", node.moves.iter().map(|moved| moved.step))?;
     let moves = node.moves.iter();
     let moves = moves.map(|moved| json!([moved.step, place(moved.position)]));
@@ -289,7 +289,7 @@ fn exemplar(Exemplar { heading, scan }: &Exemplar) -> Result<Value, EncodeError>
     }))
 }
 
-fn edge(edge: &Edge) -> Value {
+fn edge(edge: &MapEdge) -> Value {
     // Positions instead of names: a large map has many edges.
     json!([edge.a, edge.b, edge.kind, edge.born, edge.died, edge.label])
 }
@@ -358,7 +358,7 @@ fn field(field: &Field) -> Result<Value, EncodeError> {
     }))
 }
 
-fn series(series: &Series) -> Result<Value, EncodeError> {
+fn series(series: &TimeSeries) -> Result<Value, EncodeError> {
     let steps = || series.samples.iter().map(|sample| sample.step);
     let encoded = self::steps("sample", steps())?;
     all_finite("sample", &series.samples, |sample| sample.value.is_finite())?;
@@ -485,9 +485,9 @@ mod tests {
         let pose = |x| Pose::new(at(x), Heading::from_radians(3.0 + x));
         let ring = Ring::full(4, 2.0);
         let body = Body::Circle { radius: 0.1 };
-        let mut track = Track::new("robot", body, vec![pose(0.0), pose(0.25), pose(1.0)]);
+        let mut track = RobotTrack::new("robot", body, vec![pose(0.0), pose(0.25), pose(1.0)]);
         track.ring = Some(ring);
-        let mut node = Node::new(7, at(0.0), 0);
+        let mut node = MapNode::new(7, at(0.0), 0);
         node.moves.push(NodeMove {
             step: 1,
             position: at(0.1),
@@ -499,8 +499,8 @@ mod tests {
         });
         track.maps.push(MapGrowth {
             name: "map".to_owned(),
-            nodes: vec![node, Node::new(9, at(1.0), 2)],
-            edges: vec![Edge::new(7, 9, 2)],
+            nodes: vec![node, MapNode::new(9, at(1.0), 2)],
+            edges: vec![MapEdge::new(7, 9, 2)],
         });
         let shape = Shape::Node { id: 7, weight: 1.0 };
         let entries = vec![BeliefAt {
@@ -531,7 +531,7 @@ mod tests {
         };
         for values in [[1.0, -3.0], [0.5, 1.0]] {
             let (name, unit) = ("number".to_owned(), String::new());
-            track.series.push(Series {
+            track.series.push(TimeSeries {
                 name,
                 unit,
                 samples: samples(values),
@@ -546,7 +546,7 @@ mod tests {
             name: "notes".to_owned(),
             notes,
         });
-        let zone = Zone {
+        let zone = SceneryZone {
             kind: ZoneKind::Region,
             name: String::new(),
             corners: vec![at(0.0)],

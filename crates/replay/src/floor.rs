@@ -5,7 +5,7 @@ use tolman_maze::{Cell, Direction, Grid};
 use tolman_sim::{Bounds, World};
 
 use super::scenery::rectangle;
-use super::{Series, Zone, ZoneKind};
+use super::{SceneryZone, TimeSeries, ZoneKind};
 
 /// The cells of a world made from a maze that a robot can get to from where it starts.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ impl<'a> Floor<'a> {
     }
 
     /// The cells that cannot be reached, as few solid rectangles.
-    pub fn solid(&self) -> Vec<Zone> {
+    pub fn solid(&self) -> Vec<SceneryZone> {
         // Runs of each row from the south, which grow northwards while the next row has the same.
         let mut done: Vec<(Cell, Cell)> = Vec::new();
         let mut growing: Vec<(Cell, Cell)> = Vec::new();
@@ -92,11 +92,11 @@ impl<'a> Floor<'a> {
     }
 
     /// The rectangle from its south-western to its north-eastern cell.
-    fn zone(&self, first: Cell, last: Cell) -> Zone {
+    fn zone(&self, first: Cell, last: Cell) -> SceneryZone {
         let half = Vector::new(0.5 * self.pitch, 0.5 * self.pitch);
         let min = self.world.cell_centre(first) - half;
         let max = self.world.cell_centre(last) + half;
-        Zone {
+        SceneryZone {
             kind: ZoneKind::Solid,
             name: String::new(),
             corners: rectangle(&Bounds { min, max }),
@@ -104,11 +104,11 @@ impl<'a> Floor<'a> {
     }
 
     /// The share of the reachable cells that lay under the robot's centre so far, step by step.
-    pub fn coverage(&self, path: impl IntoIterator<Item = Point>) -> Series {
+    pub fn coverage(&self, path: impl IntoIterator<Item = Point>) -> TimeSeries {
         let all = self.reachable.iter().filter(|cell| **cell).count();
         let mut seen = vec![false; self.reachable.len()];
         let mut count = 0_u32;
-        let mut series = Series::new("coverage", "%");
+        let mut series = TimeSeries::new("coverage", "%");
         for (step, position) in (0_u32..).zip(path) {
             let Some(cell) = self.world.cell_at(position) else {
                 continue;

@@ -12,14 +12,14 @@ pub struct MapGrowth {
     /// What the layer is called: `state graph`.
     pub name: String,
     /// The nodes, in any order; no two of the same id.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<MapNode>,
     /// The edges.
-    pub edges: Vec<Edge>,
+    pub edges: Vec<MapEdge>,
 }
 
 /// A node of a [`MapGrowth`]: a state, a place, a unit of a rounding, a cell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Node {
+pub struct MapNode {
     /// What edges and beliefs name it by.
     pub id: u32,
     /// Where it is drawn when it is born, in the world's frame.
@@ -40,7 +40,7 @@ pub struct Node {
     pub exemplar: Option<Exemplar>,
 }
 
-impl Node {
+impl MapNode {
     /// A node that lives for ever, without label, facts, visits and exemplar.
     #[must_use]
     pub const fn new(id: u32, position: Point, born: u32) -> Self {
@@ -94,7 +94,7 @@ pub struct Exemplar {
 
 /// An edge of a [`MapGrowth`].
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Edge {
+pub struct MapEdge {
     /// The id of the node it comes from.
     pub a: u32,
     /// The id of the node it leads to.
@@ -109,7 +109,7 @@ pub struct Edge {
     pub label: String,
 }
 
-impl Edge {
+impl MapEdge {
     /// A passage that stays, without a label.
     #[must_use]
     pub const fn new(a: u32, b: u32, born: u32) -> Self {
@@ -124,7 +124,7 @@ impl Edge {
     }
 }
 
-/// What an [`Edge`] means.
+/// What a [`MapEdge`] means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EdgeKind {
@@ -267,7 +267,7 @@ pub struct FieldChange {
 
 /// A number over time, shown with its curve.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Series {
+pub struct TimeSeries {
     /// What it is called: `coverage`.
     pub name: String,
     /// Its unit, set behind it; `%` shows a share as per cent.
@@ -276,7 +276,7 @@ pub struct Series {
     pub samples: Vec<Sample>,
 }
 
-impl Series {
+impl TimeSeries {
     /// No values yet.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self {
@@ -293,7 +293,7 @@ impl Series {
     }
 }
 
-/// One value of a [`Series`].
+/// One value of a [`TimeSeries`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The step from which it holds.

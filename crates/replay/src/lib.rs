@@ -1,8 +1,8 @@
 //! Replays: one HTML file that plays a run, for every system and every robot.
 //!
-//! A [`Replay`] is what the player is given: a [`Scenery`] that stands still, and a [`Track`] for each robot:
+//! A [`Replay`] is what the player is given: a [`Scenery`] that stands still, and a [`RobotTrack`] for each robot:
 //! its poses and, in layers that say nothing of any one system, what it knew and when: the [`MapGrowth`]
-//! of the map it learned, its [`Belief`], [`Field`]s over the floor, [`Series`] of numbers, [`Notes`] in
+//! of the map it learned, its [`Belief`], [`Field`]s over the floor, [`TimeSeries`] of numbers, [`Notes`] in
 //! words and [`Marks`] on the time line. A new system hands these over and needs no line of JavaScript.
 //!
 //! Replays come from a [trace](Replay::of_traces) or from a run that was watched.
@@ -10,12 +10,12 @@
 //! `TolmanReplay.open(element, data)` with what [`json`] wrote; `docs/replay.md` has the format.
 //!
 //! ```
-//! use tolman_replay::{Replay, Scenery, Track, page};
+//! use tolman_replay::{page, Replay, RobotTrack, Scenery};
 //! use tolman_geom::{Heading, Point, Pose};
 //! use tolman_robot::Body;
 //!
 //! let pose = |x| Pose::new(Point::new(x, 0.5), Heading::EAST);
-//! let track = Track::new("robot", Body::Circle { radius: 0.1 }, vec![pose(0.2), pose(0.7)]);
+//! let track = RobotTrack::new("robot", Body::Circle { radius: 0.1 }, vec![pose(0.2), pose(0.7)]);
 //! let scenery = Scenery {
 //!     walls: vec![[Point::new(0.0, 0.0), Point::new(1.0, 0.0)]],
 //!     ..Scenery::default()
@@ -48,10 +48,10 @@ pub use difference::{Difference, Differs};
 pub use encode::{EncodeError, json};
 pub use floor::Floor;
 pub use knowledge::{
-    Belief, BeliefAt, Edge, EdgeKind, Exemplar, Field, FieldChange, MapGrowth, Mark, Marks, Node,
-    NodeMove, Note, Notes, Sample, Series, Shape,
+    Belief, BeliefAt, EdgeKind, Exemplar, Field, FieldChange, MapEdge, MapGrowth, MapNode, Mark,
+    Marks, NodeMove, Note, Notes, Sample, Shape, TimeSeries,
 };
-pub use model::{Fact, Replay, Scans, Track};
-pub use of_trace::{CompareError, Portrait, Trace, Verdict};
+pub use model::{Fact, Replay, RobotTrack, Scans};
+pub use of_trace::{CompareError, Portrait, Trace, TraceComparison};
 pub use page::{is_replay, page, script, style};
-pub use scenery::{Door, DoorChange, Scenery, Zone, ZoneKind};
+pub use scenery::{DoorChange, Scenery, SceneryDoor, SceneryZone, ZoneKind};

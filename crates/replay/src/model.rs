@@ -1,7 +1,7 @@
 use tolman_geom::Pose;
 use tolman_robot::{Body, Ring};
 
-use super::{Belief, Field, MapGrowth, Marks, Notes, Scenery, Series};
+use super::{Belief, Field, MapGrowth, Marks, Notes, Scenery, TimeSeries};
 
 /// A run, or several in the same world side by side, ready to be played.
 ///
@@ -17,7 +17,7 @@ pub struct Replay {
     /// What stands still.
     pub scenery: Scenery,
     /// The robots, one track each; they begin together.
-    pub tracks: Vec<Track>,
+    pub tracks: Vec<RobotTrack>,
     /// Steps that concern all tracks, such as the first at which they differ.
     pub marks: Vec<Marks>,
 }
@@ -29,7 +29,7 @@ impl Replay {
         title: impl Into<String>,
         step_s: f64,
         scenery: Scenery,
-        tracks: Vec<Track>,
+        tracks: Vec<RobotTrack>,
     ) -> Self {
         Self {
             title: title.into(),
@@ -51,7 +51,7 @@ impl Replay {
     /// The last step: that of the longest track.
     #[must_use]
     pub fn steps(&self) -> usize {
-        let steps = |track: &Track| track.poses.len().saturating_sub(1);
+        let steps = |track: &RobotTrack| track.poses.len().saturating_sub(1);
         self.tracks.iter().map(steps).max().unwrap_or(0)
     }
 }
@@ -77,7 +77,7 @@ impl Fact {
 
 /// One robot: where it was at every step, and what it knew.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Track {
+pub struct RobotTrack {
     /// What it is called where there are several: `Avoid`, `first.jsonl`.
     pub name: String,
     /// Its outline.
@@ -97,14 +97,14 @@ pub struct Track {
     /// Numbers over the cells of a grid: distances to the goal, chances of a wall.
     pub fields: Vec<Field>,
     /// Numbers over time.
-    pub series: Vec<Series>,
+    pub series: Vec<TimeSeries>,
     /// Words over time.
     pub notes: Vec<Notes>,
     /// What happened when.
     pub marks: Vec<Marks>,
 }
 
-impl Track {
+impl RobotTrack {
     /// A track of poses alone.
     #[must_use]
     pub fn new(name: impl Into<String>, body: Body, poses: Vec<Pose>) -> Self {

@@ -10,12 +10,12 @@ use tolman_robot::{Ring, TurnTranslate};
 use tolman_sim::robots::{
     CameraPioneer, CameraPioneerConfig, Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig,
 };
-use tolman_sim::trace::{Event, Reader, Recordable, ReplayError};
+use tolman_sim::trace::{Reader, Recordable, ReplayError, TraceLine};
 use tolman_sim::{DoorEvent, DoorState, World};
 
 use super::difference::{Difference, first_difference};
 use super::floor::Floor;
-use super::{Door, DoorChange, Fact, Mark, Marks, Replay, Scenery, Series, Track};
+use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryDoor, TimeSeries};
 
 /// What a replay shows of a kind of robot beyond its body.
 pub trait Portrait: Recordable {
@@ -130,7 +130,7 @@ pub enum CompareError {
 
 /// How a trace compares to the first one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Verdict {
+pub struct TraceComparison {
     /// The first trace's name.
     pub first: String,
     /// The other's.
@@ -139,7 +139,7 @@ pub struct Verdict {
     pub difference: Option<Difference>,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for TraceComparison {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { first, second, .. } = self;
         match &self.difference {
@@ -175,7 +175,7 @@ impl<M: Portrait> Trace<M> {
         let mut now = 0;
         for event in reader {
             match event?.1 {
-                Event::Step(step) => {
+                TraceLine::Step(step) => {
                     now = step.tick as u32;
                     if let Some(robot) = trace.robots.get_mut(step.robot.0 as usize) {
                         robot.poses.push(step.pose);
@@ -183,12 +183,12 @@ impl<M: Portrait> Trace<M> {
                         robot.bumps.push(step.bump);
                     }
                 }
-                Event::Place { robot, .. } => {
+                TraceLine::Place { robot, .. } => {
                     if let Some(robot) = trace.robots.get_mut(robot.0 as usize) {
                         robot.lifts.push(now + 1);
                     }
                 }
-                Event::Door { name, state } => trace.doors.push((now, name, state)),
+                TraceLine::Door { name, state } => trace.doors.push((now, name, state)),
             }
         }
         Ok(trace)
@@ -221,7 +221,7 @@ impl<M: Portrait> Trace<M> {
 
     /// When a door changed by its schedule and from outside. That a door waits for a body in its way is not
     /// in the trace, so it may be shown shut a little too soon.
-    fn open_and_shut(&self, door: &mut Door, schedule: &[DoorEvent]) {
+    fn open_and_shut(&self, door: &mut SceneryDoor, schedule: &[DoorEvent]) {
         let scheduled = schedule.iter().map(|event| DoorChange {
             step: (event.time_us / self.step_us.max(1)) as u32,
             state: event.state,
@@ -235,7 +235,7 @@ impl<M: Portrait> Trace<M> {
         door.changes.sort_by_key(|change| change.step);
     }
 
-    fn tracks(&self, several: bool) -> Result<Vec<Track>, CompareError> {
+    fn tracks(&self, several: bool) -> Result<Vec<RobotTrack>, CompareError> {
         let tracks = self.robots.iter().enumerate().map(|(number, robot)| {
             let name = match (self.robots.len(), several) {
                 (1, _) => self.name.clone(),
@@ -264,8 +264,8 @@ impl<M: Portrait> Trace<M> {
 }
 
 impl<M: Portrait> RobotTrace<M> {
-    fn track(&self, name: String, body: tolman_robot::Body) -> Track {
-        let mut track = Track::new(name, body, self.poses.clone());
+    fn track(&self, name: String, body: tolman_robot::Body) -> RobotTrack {
+        let mut track = RobotTrack::new(name, body, self.poses.clone());
         track.ring = M::ring(&self.config);
         track.lifts.clone_from(&self.lifts);
         let bumps = (1..).zip(&self.bumps);
@@ -277,7 +277,7 @@ impl<M: Portrait> RobotTrace<M> {
         for (step, command) in (1..).zip(&self.commands) {
             for (i, (name, share)) in M::parts(command).into_iter().enumerate() {
                 if track.series.len() <= i {
-                    track.series.push(Series::new(format!("{name}, %"), ""));
+                    track.series.push(TimeSeries::new(format!("{name}, %"), ""));
                 }
                 // Whole per cent: what a reader takes in, in few bytes.
                 track.series[i].sample(step, libm::round(100.0 * share));
@@ -303,7 +303,7 @@ impl Replay {
     /// [`CompareError`] if there is no trace, their worlds or time steps differ, or a robot cannot be built.
     pub fn of_traces<M: Portrait>(
         traces: &[Trace<M>],
-    ) -> Result<(Self, Vec<Verdict>), CompareError> {
+    ) -> Result<(Self, Vec<TraceComparison>), CompareError> {
         let (first, others) = traces.split_first().ok_or(CompareError::None)?;
         let mut verdicts = Vec::new();
         for second in others {
@@ -322,7 +322,7 @@ impl Replay {
                 });
             }
             let difference = first_difference(first, second);
-            verdicts.push(Verdict {
+            verdicts.push(TraceComparison {
                 first: first.name.clone(),
                 second: second.name.clone(),
                 difference,
@@ -348,7 +348,7 @@ impl Replay {
     }
 }
 
-fn facts<M: Portrait>(traces: &[Trace<M>], verdicts: &[Verdict]) -> Vec<Fact> {
+fn facts<M: Portrait>(traces: &[Trace<M>], verdicts: &[TraceComparison]) -> Vec<Fact> {
     let told = traces.iter().map(|trace| {
         let value = format!("{} steps, seed {}", trace.steps(), trace.seed);
         Fact::new(&trace.name, value)

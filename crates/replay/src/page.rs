@@ -107,13 +107,13 @@ mod tests {
     use tolman_robot::Body;
 
     use super::*;
-    use crate::{Scenery, Track};
+    use crate::{RobotTrack, Scenery};
 
     /// A replay whose every text tries to end the script it stands in.
     fn hostile() -> Replay {
         let text = "</script><script>alert(1)</script><!--";
         let poses = vec![Pose::new(Point::origin(), Heading::EAST)];
-        let track = Track::new(text, Body::Circle { radius: 0.1 }, poses);
+        let track = RobotTrack::new(text, Body::Circle { radius: 0.1 }, poses);
         Replay::new(text, 0.1, Scenery::default(), vec![track]).fact(text, text)
     }
 

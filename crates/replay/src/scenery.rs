@@ -11,14 +11,14 @@ pub struct Scenery {
     /// The ends of each wall.
     pub walls: Vec<[Point; 2]>,
     /// Parts of the floor.
-    pub zones: Vec<Zone>,
+    pub zones: Vec<SceneryZone>,
     /// Walls that come and go.
-    pub doors: Vec<Door>,
+    pub doors: Vec<SceneryDoor>,
 }
 
 /// A part of the floor.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Zone {
+pub struct SceneryZone {
     /// What it means, and so how it is coloured.
     pub kind: ZoneKind,
     /// What it is called.
@@ -27,7 +27,7 @@ pub struct Zone {
     pub corners: Vec<Point>,
 }
 
-/// What a [`Zone`] means.
+/// What a [`SceneryZone`] means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ZoneKind {
@@ -43,7 +43,7 @@ pub enum ZoneKind {
 
 /// A wall that comes and goes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Door {
+pub struct SceneryDoor {
     /// What it is called.
     pub name: String,
     /// Its ends.
@@ -52,7 +52,7 @@ pub struct Door {
     pub changes: Vec<DoorChange>,
 }
 
-/// One change of a [`Door`].
+/// One change of a [`SceneryDoor`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DoorChange {
     /// The step from which it holds.
@@ -74,13 +74,13 @@ impl Scenery {
                 "start" => ZoneKind::Start,
                 _ => ZoneKind::Region,
             };
-            zone.areas().iter().map(move |area| Zone {
+            zone.areas().iter().map(move |area| SceneryZone {
                 kind,
                 name: zone.name().to_owned(),
                 corners: corners(area),
             })
         });
-        let doors = world.doors().iter().map(|door| Door {
+        let doors = world.doors().iter().map(|door| SceneryDoor {
             name: door.name.clone(),
             ends: [door.start, door.end],
             changes: vec![DoorChange {

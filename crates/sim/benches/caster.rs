@@ -18,8 +18,8 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Braided, Direction, Maze};
 use tolman_robot::Ring;
-use tolman_sim::casters::{Caster, Lanes, LatticeWalk, ParryPolyline, Sweep, WallIndex};
-use tolman_sim::{CorridorSize, Wall, World};
+use tolman_sim::casters::{BeamSweep, Caster, Lanes, LatticeWalk, ParryPolyline, WallIndex};
+use tolman_sim::{CorridorSize, WallSegment, World};
 
 /// Sides of square mazes; a perfect one of side n has (n + 1)² unit walls.
 const SIDES: [u16; 4] = [5, 19, 62, 199];
@@ -113,7 +113,7 @@ fn scan(
     caster: &dyn Caster,
     poses: &[Pose],
 ) {
-    let mut sweep = Sweep::new(Ring::full(BEAMS, 2.5));
+    let mut sweep = BeamSweep::new(Ring::full(BEAMS, 2.5));
     let mut next = poses.iter().cycle().copied();
     let mut one_scan = || {
         sweep.aim(next.next().unwrap_or_default());
@@ -148,7 +148,7 @@ fn poses(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<Pose> {
 }
 
 /// The unit walls of a maze between posts that were moved out of line, so that no two are parallel.
-fn bent(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<Wall> {
+fn bent(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<WallSegment> {
     let grid = maze.grid();
     let columns = usize::from(grid.width()) + 1;
     let posts: Vec<Point> = (0..columns * (usize::from(grid.height()) + 1))
@@ -179,7 +179,7 @@ fn bent(maze: &Maze, rng: &mut ChaCha8Rng) -> Vec<Wall> {
         ];
         for (direction, start, end, counts) in sides {
             if counts && !maze.is_open(cell, direction) {
-                walls.push(Wall::between(start, end));
+                walls.push(WallSegment::between(start, end));
             }
         }
     }

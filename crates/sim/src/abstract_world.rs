@@ -14,10 +14,10 @@ use crate::chance::{Chance, Channel, Draws};
 ///
 /// ```
 /// use tolman_maze::{Direction, Grid, Maze};
-/// use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
+/// use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
 ///
 /// let world = AbstractWorld::from_maze(&Maze::open(Grid::new(5, 5)), 1.0);
-/// let errors = MoveError { distance: 0.1, compass: 4_f64.to_radians(), ..MoveError::NONE };
+/// let errors = MoveNoise { distance: 0.1, compass: 4_f64.to_radians(), ..MoveNoise::NONE };
 /// let mut robot = AbstractRobot::new(world.into(), 0, errors, 7)?;
 /// let moved = robot.go(Direction::East).unwrap();
 /// assert_eq!((moved.from, moved.to), (0, 1));
@@ -180,7 +180,7 @@ impl AbstractWorld {
 
 /// How wrong moves are told. All errors are drawn evenly from within their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MoveError {
+pub struct MoveNoise {
     /// Bound of the error of each distance, as a share of it, 0 ≤ … < 1.
     pub distance: f64,
     /// Bound of the error of each heading of the compass, rad.
@@ -198,7 +198,7 @@ pub struct MoveError {
     pub look: f64,
 }
 
-impl MoveError {
+impl MoveNoise {
     /// Everything is told as it is.
     pub const NONE: Self = Self {
         distance: 0.0,
@@ -215,7 +215,7 @@ impl MoveError {
 #[derive(Clone, Debug)]
 pub struct AbstractRobot {
     world: Arc<AbstractWorld>,
-    errors: MoveError,
+    errors: MoveNoise,
     chance: Chance,
     scale: f64,
     at: u32,
@@ -251,7 +251,7 @@ impl AbstractRobot {
     pub fn new(
         world: Arc<AbstractWorld>,
         at: u32,
-        errors: MoveError,
+        errors: MoveNoise,
         seed: u64,
     ) -> Result<Self, IntervalError> {
         for bound in [errors.distance, errors.compass, errors.stop, errors.look] {
@@ -364,7 +364,7 @@ impl AbstractRobot {
 
     /// All moves that may have been measured so.
     fn bounds(&self, measured: Vector, heading: f64) -> Option<PoseBox> {
-        let MoveError {
+        let MoveNoise {
             distance, compass, ..
         } = self.errors;
         let factor = Interval::of(1.0).ok()? + Interval::about(0.0, distance).ok()?;

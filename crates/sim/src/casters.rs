@@ -19,17 +19,17 @@ use core::fmt;
 
 use tolman_geom::{Point, Vector};
 
+mod beam_sweep;
 mod lattice_walk;
 #[cfg(feature = "parry2d")]
 mod parry;
-mod sweep;
 mod wall_index;
 
+pub use beam_sweep::BeamSweep;
+pub(crate) use beam_sweep::Seen;
 pub use lattice_walk::LatticeWalk;
 #[cfg(feature = "parry2d")]
 pub use parry::ParryPolyline;
-pub(crate) use sweep::Seen;
-pub use sweep::Sweep;
 pub use wall_index::WallIndex;
 
 /// Knows how far it is to the nearest wall in any direction.
@@ -39,7 +39,7 @@ pub trait Caster: fmt::Debug + Send + Sync {
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64;
 
     /// Shortens every beam of `sweep` to the wall it meets.
-    fn scan(&self, sweep: &mut Sweep) {
+    fn scan(&self, sweep: &mut BeamSweep) {
         let origin = sweep.origin();
         sweep.shorten_each(|direction, range| self.cast(origin, direction, range));
     }

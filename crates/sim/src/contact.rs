@@ -8,7 +8,7 @@ use core::f64::consts::FRAC_PI_2;
 use tolman_geom::{Point, Pose, Vector};
 
 use crate::scene::{Crowd, Disc, Placed, Scene};
-use crate::{Motion, Wall, World};
+use crate::{Motion, WallSegment, World};
 
 /// What happens where a body meets something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -32,8 +32,8 @@ const CHORD_TURN: f64 = 0.1;
 const MOST_CHORDS: f64 = 10_000.0;
 
 /// Whether `body` overlaps no wall of `world` and none of the doors that are `shut`.
-pub(crate) fn is_clear(world: &World, shut: &[Wall], body: &Placed) -> bool {
-    let clear = |walls: &[Wall]| walls.iter().all(|wall| gap_to_wall(body, wall) > 0.0);
+pub(crate) fn is_clear(world: &World, shut: &[WallSegment], body: &Placed) -> bool {
+    let clear = |walls: &[WallSegment]| walls.iter().all(|wall| gap_to_wall(body, wall) > 0.0);
     let mut all_clear = clear(shut);
     world
         .index()
@@ -44,7 +44,7 @@ pub(crate) fn is_clear(world: &World, shut: &[Wall], body: &Placed) -> bool {
 }
 
 /// The distance between a body and a wall, m; 0 or less where they overlap.
-pub(crate) fn gap_to_wall(body: &Placed, wall: &Wall) -> f64 {
+pub(crate) fn gap_to_wall(body: &Placed, wall: &WallSegment) -> f64 {
     if body.corners().is_empty() {
         return wall.distance(body.pose().position) - body.radius();
     }
@@ -83,8 +83,8 @@ pub(crate) fn overlap(a: &Placed, b: &Placed) -> bool {
     }
 }
 
-fn crosses(a: &Wall, b: &Wall) -> bool {
-    let side = |of: &Wall, point: Point| (of.end - of.start).perp(&(point - of.start));
+fn crosses(a: &WallSegment, b: &WallSegment) -> bool {
+    let side = |of: &WallSegment, point: Point| (of.end - of.start).perp(&(point - of.start));
     side(a, b.start) * side(a, b.end) <= 0.0 && side(b, a.start) * side(b, a.end) <= 0.0
 }
 
@@ -92,7 +92,7 @@ fn crosses(a: &Wall, b: &Wall) -> bool {
 #[derive(Debug, Default)]
 pub(crate) struct Obstacles {
     /// Walls, shut doors and the sides of polygons.
-    walls: Vec<Wall>,
+    walls: Vec<WallSegment>,
     /// Other robots: centre and radius.
     discs: Vec<Disc>,
 }
@@ -101,7 +101,7 @@ impl Obstacles {
     fn gather(&mut self, scene: &Scene<'_>, robot: usize, position: Point, reach: f64) {
         self.walls.clear();
         self.discs.clear();
-        let near = |wall: &&Wall| wall.distance(position) <= reach;
+        let near = |wall: &&WallSegment| wall.distance(position) <= reach;
         scene.world.index().near(position, reach, |walls| {
             self.walls.extend(walls.iter().filter(near));
         });
@@ -134,7 +134,7 @@ impl Obstacles {
 /// the motion was cut.
 pub(crate) fn advance(
     world: &World,
-    shut: &[Wall],
+    shut: &[WallSegment],
     bodies: &mut Crowd,
     robot: usize,
     motion: Motion,
@@ -331,7 +331,12 @@ impl Mover<'_> {
         first
     }
 
-    fn touch_wall(&self, wall: &Wall, displacement: Vector, keep: &mut impl FnMut(Option<Touch>)) {
+    fn touch_wall(
+        &self,
+        wall: &WallSegment,
+        displacement: Vector,
+        keep: &mut impl FnMut(Option<Touch>),
+    ) {
         if self.body.corners().is_empty() {
             let disc = self.body.pose().position;
             keep(disc_meets_wall(
@@ -378,7 +383,12 @@ impl Mover<'_> {
 }
 
 /// When a disc on its way first comes within `radius` of a wall.
-fn disc_meets_wall(centre: Point, radius: f64, displacement: Vector, wall: &Wall) -> Option<Touch> {
+fn disc_meets_wall(
+    centre: Point,
+    radius: f64,
+    displacement: Vector,
+    wall: &WallSegment,
+) -> Option<Touch> {
     let nearest = wall.nearest(centre);
     let away = centre - nearest;
     let along = wall.end - wall.start;

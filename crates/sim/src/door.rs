@@ -1,6 +1,6 @@
 use tolman_geom::Point;
 
-use crate::{Material, Wall};
+use crate::{Material, WallSegment};
 
 /// Whether a door lets through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -36,8 +36,8 @@ pub struct Door {
 
 impl Door {
     /// The wall that it is when shut.
-    pub(crate) fn wall(&self) -> Wall {
-        Wall {
+    pub(crate) fn wall(&self) -> WallSegment {
+        WallSegment {
             start: self.start,
             end: self.end,
             material: self.material,

@@ -83,6 +83,6 @@ pub use simulation::{DoorError, PlaceError, RobotId, Simulation, StepError, Trut
 pub use solo::Solo;
 pub use surroundings::{Echo, Ray, Surroundings};
 pub use world::{
-    Area, Bounds, CorridorSize, Material, Occupancy, Polyline, Wall, World, WorldError,
+    Area, Bounds, CorridorSize, Material, Occupancy, Polyline, WallSegment, World, WorldError,
     WorldFileError, Zone,
 };

@@ -11,8 +11,8 @@ pub use camera_pioneer::{
 };
 pub use epuck::{Epuck, EpuckConfig, EpuckDisturbances, EpuckError};
 pub use laser_pioneer::{
-    ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, LaserPioneerFaults,
-    MotorNoise,
+    LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, LaserPioneerFaults, MotorNoise,
+    RobotConfigError,
 };
 
 /// What a trace calls the disturbances of one value: the name of the value, and how each prints itself.

@@ -2,15 +2,15 @@ use nalgebra::Isometry2;
 use tolman_geom::{Point, Pose};
 use tolman_robot::Body;
 
-use crate::casters::Sweep;
-use crate::{Wall, World};
+use crate::casters::BeamSweep;
+use crate::{WallSegment, World};
 
 /// Everything a body can meet at one moment: the world's walls, the doors that are shut, and the
 /// bodies of all robots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) world: &'a World,
-    pub(crate) shut: &'a [Wall],
+    pub(crate) shut: &'a [WallSegment],
     pub(crate) bodies: &'a Crowd,
 }
 
@@ -121,12 +121,12 @@ impl Placed {
     }
 
     /// A polygon's sides in the world; none for a disc.
-    pub(crate) fn sides(&self) -> impl Iterator<Item = Wall> + '_ {
+    pub(crate) fn sides(&self) -> impl Iterator<Item = WallSegment> + '_ {
         let next = self.corners.iter().cycle().skip(1);
         self.corners
             .iter()
             .zip(next)
-            .map(|(start, end)| Wall::between(*start, *end))
+            .map(|(start, end)| WallSegment::between(*start, *end))
     }
 
     /// Whether `point` lies in a polygon; never in a disc, which has no sides.
@@ -138,7 +138,7 @@ impl Placed {
     }
 
     /// Shortens the beams of `sweep` that meet the body from outside.
-    pub(crate) fn shorten(&self, sweep: &mut Sweep) {
+    pub(crate) fn shorten(&self, sweep: &mut BeamSweep) {
         if self.corners.is_empty() {
             sweep.meet_disc(self.pose.position, self.radius);
         } else {

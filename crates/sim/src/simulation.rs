@@ -5,8 +5,8 @@ use tolman_geom::Pose;
 
 use crate::scene::{Crowd, Placed, Scene};
 use crate::{
-    BodyError, Chance, CommandError, DoorState, Model, Motion, Surroundings, Wall, World, body,
-    contact,
+    BodyError, Chance, CommandError, DoorState, Model, Motion, Surroundings, WallSegment, World,
+    body, contact,
 };
 
 /// A robot of a simulation: its place in the order of adding, from 0.
@@ -325,7 +325,7 @@ struct Doors {
     world: Arc<World>,
     standing: Vec<Standing>,
     /// The walls of the doors that are shut.
-    shut: Vec<Wall>,
+    shut: Vec<WallSegment>,
 }
 
 #[derive(Debug)]
@@ -356,7 +356,7 @@ impl Doors {
         doors
     }
 
-    fn shut(&self) -> &[Wall] {
+    fn shut(&self) -> &[WallSegment] {
         &self.shut
     }
 

@@ -1,6 +1,6 @@
 use tolman_geom::{Point, Vector};
 
-use crate::casters::Sweep;
+use crate::casters::BeamSweep;
 use crate::scene::Scene;
 use crate::{Material, Truth, World};
 
@@ -109,7 +109,7 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Shortens every beam of `sweep` to the wall, shut door or other robot it meets.
-    pub fn scan(&self, sweep: &mut Sweep) {
+    pub fn scan(&self, sweep: &mut BeamSweep) {
         self.world().caster().scan(sweep);
         for wall in self.scene.shut {
             sweep.meet_wall(wall);

@@ -13,9 +13,9 @@
 //! use tolman_robot::TurnTranslate;
 //! use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 //! use tolman_sim::trace::{Detail, Recording, replay};
-//! use tolman_sim::{Wall, World};
+//! use tolman_sim::{WallSegment, World};
 //!
-//! let wall = Wall::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));
+//! let wall = WallSegment::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));
 //! let world = World::from_segments(vec![wall])?;
 //! let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?;
 //! let start = Pose::new(Point::origin(), Heading::EAST);
@@ -43,7 +43,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use error::{RecordError, ReplayError};
-pub use lines::{Event, StepRecord};
+pub use lines::{StepRecord, TraceLine};
 pub use reader::Reader;
 pub use recording::{Detail, Recording};
 pub use replay::{replay, replay_with};

@@ -13,7 +13,7 @@ mod bounds;
 mod error;
 mod file;
 mod lattice;
-mod wall;
+mod wall_segment;
 mod zone;
 
 pub use bounds::Bounds;
@@ -21,7 +21,7 @@ pub use error::WorldError;
 pub(crate) use file::Head;
 pub use file::{Polyline, WorldFileError};
 pub use lattice::Occupancy;
-pub use wall::{Material, Wall};
+pub use wall_segment::{Material, WallSegment};
 pub use zone::{Area, Zone};
 
 pub(crate) use bit_rows::BitRows;
@@ -61,7 +61,7 @@ impl CorridorSize {
 /// [x, x + 1] × [y, y + 1] pitches, walls half a thickness into it included.
 #[derive(Clone, Debug)]
 pub struct World {
-    walls: Vec<Wall>,
+    walls: Vec<WallSegment>,
     zones: Vec<Zone>,
     doors: Vec<Door>,
     bounds: Bounds,
@@ -86,7 +86,7 @@ impl World {
     /// A maze drawn to scale. Its goal cells become the zone `destination`, its start cell the zone
     /// `start`, as far as the maze marks them.
     ///
-    /// Walls that continue each other in a straight line become one [`Wall`]. Thick walls have an
+    /// Walls that continue each other in a straight line become one [`WallSegment`]. Thick walls have an
     /// outline, and a post of their thickness wherever one ends.
     ///
     /// # Errors
@@ -124,7 +124,7 @@ impl World {
     ///
     /// # Errors
     /// If there is no wall, or a wall has no length, or an end of one is not a number.
-    pub fn from_segments(walls: Vec<Wall>) -> Result<Self, WorldError> {
+    pub fn from_segments(walls: Vec<WallSegment>) -> Result<Self, WorldError> {
         if walls.is_empty() {
             return Err(WorldError::NoWalls);
         }
@@ -245,7 +245,7 @@ impl World {
 
     /// All walls, doors not among them.
     #[must_use]
-    pub fn walls(&self) -> &[Wall] {
+    pub fn walls(&self) -> &[WallSegment] {
         &self.walls
     }
 

@@ -5,7 +5,7 @@ use rand::{Rng, RngExt};
 use super::error::check_probability;
 use super::moments::{self, count};
 use super::quantile::{of_sorted, sorted};
-use super::{Interval, SampleError, normal};
+use super::{ConfidenceInterval, SampleError, normal};
 
 /// The BCa bootstrap interval of a statistic (Efron, "Better bootstrap confidence intervals", 1987).
 ///
@@ -37,7 +37,7 @@ pub fn bca_interval<T: Copy>(
     resamples: u32,
     level: f64,
     rng: &mut impl Rng,
-) -> Result<Interval, SampleError> {
+) -> Result<ConfidenceInterval, SampleError> {
     let too_small = || SampleError::TooSmall {
         count: sample.len(),
         needed: 2,
@@ -70,7 +70,7 @@ pub(super) fn from_replicates(
     replicates: &[f64],
     jackknife: &[f64],
     level: f64,
-) -> Result<Interval, SampleError> {
+) -> Result<ConfidenceInterval, SampleError> {
     super::error::check(&[estimate], 1)?;
     super::error::check(replicates, 1)?;
     super::error::check(jackknife, 2)?;
@@ -78,7 +78,7 @@ pub(super) fn from_replicates(
     let sorted = sorted(replicates);
     let (least, greatest) = (sorted[0], sorted[sorted.len() - 1]);
     if least >= greatest {
-        return Ok(Interval::new(least, greatest));
+        return Ok(ConfidenceInterval::new(least, greatest));
     }
     let total = count(replicates);
     let below = replicates.iter().filter(|value| **value < estimate).count();
@@ -111,5 +111,5 @@ pub(super) fn from_replicates(
         of_sorted(&sorted, adjusted)
     };
     let tail = ((1.0 - level) / 2.0).clamp(1e-15, 0.5);
-    Ok(Interval::new(end(tail), end(1.0 - tail)))
+    Ok(ConfidenceInterval::new(end(tail), end(1.0 - tail)))
 }

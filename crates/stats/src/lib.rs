@@ -9,9 +9,9 @@ pub use rand;
 
 mod beta;
 mod bootstrap;
+mod confidence_interval;
 mod effect;
 mod error;
-mod interval;
 mod mann_whitney;
 mod median;
 mod method;
@@ -29,9 +29,9 @@ mod golden;
 mod properties;
 
 pub use bootstrap::bca_interval;
+pub use confidence_interval::ConfidenceInterval;
 pub use effect::a12;
 pub use error::SampleError;
-pub use interval::Interval;
 pub use mann_whitney::{MannWhitney, mann_whitney};
 pub use median::median_interval;
 pub use method::Method;

@@ -3,7 +3,7 @@
 use super::beta::regularized_incomplete_beta;
 use super::error::{check, check_probability};
 use super::quantile::sorted;
-use super::{Interval, SampleError};
+use super::{ConfidenceInterval, SampleError};
 
 /// The interval of a median between two order statistics (Conover, "Practical Nonparametric
 /// Statistics", 1999, section 3.2). It holds the median of any distribution with at least the
@@ -28,7 +28,7 @@ use super::{Interval, SampleError};
 /// # Errors
 /// If the sample is not finite or `level` is no probability, and if the sample is too small: even its
 /// least and greatest value hold the median less often than `level`. 0.95 needs 6 values.
-pub fn median_interval(sample: &[f64], level: f64) -> Result<Interval, SampleError> {
+pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval, SampleError> {
     check(sample, 1)?;
     check_probability(level)?;
     let tail = (1.0 - level) / 2.0;
@@ -46,7 +46,10 @@ pub fn median_interval(sample: &[f64], level: f64) -> Result<Interval, SampleErr
             needed: least_size(tail),
         });
     }
-    Ok(Interval::new(sorted[most - 1], sorted[sorted.len() - most]))
+    Ok(ConfidenceInterval::new(
+        sorted[most - 1],
+        sorted[sorted.len() - most],
+    ))
 }
 
 /// The probability that `flips` fair coins show at most `heads` heads, of which there are fewer than

@@ -2,21 +2,25 @@
 
 use super::beta::regularized_incomplete_beta;
 use super::error::check_probability;
-use super::{Interval, SampleError, normal};
+use super::{ConfidenceInterval, SampleError, normal};
 
 /// Wilson's score interval of a success rate ("Probable inference, the law of succession, and
 /// statistical inference", 1927), between 0 and 1.
 ///
 /// # Errors
 /// If there are no trials, more successes than trials, or the level is no probability.
-pub fn wilson_interval(successes: u64, trials: u64, level: f64) -> Result<Interval, SampleError> {
+pub fn wilson_interval(
+    successes: u64,
+    trials: u64,
+    level: f64,
+) -> Result<ConfidenceInterval, SampleError> {
     let (k, n) = check(successes, trials, level)?;
     let z = normal::quantile(f64::midpoint(1.0, level).min(1.0 - 1e-16));
     let (rate, z2) = (k / n, z * z);
     let centre = rate + z2 / (2.0 * n);
     let half = z * (rate * (1.0 - rate) / n + z2 / (4.0 * n * n)).sqrt();
     let shrink = 1.0 + z2 / n;
-    Ok(Interval::new(
+    Ok(ConfidenceInterval::new(
         ((centre - half) / shrink).max(0.0),
         ((centre + half) / shrink).min(1.0),
     ))
@@ -40,7 +44,7 @@ pub fn exact_binomial_interval(
     successes: u64,
     trials: u64,
     level: f64,
-) -> Result<Interval, SampleError> {
+) -> Result<ConfidenceInterval, SampleError> {
     let (k, n) = check(successes, trials, level)?;
     let tail = (1.0 - level) / 2.0;
     let low = match successes {
@@ -51,7 +55,7 @@ pub fn exact_binomial_interval(
         0 => 1.0,
         _ => solve(|rate| regularized_incomplete_beta(k + 1.0, n - k, rate) - (1.0 - tail)),
     };
-    Ok(Interval::new(low, high))
+    Ok(ConfidenceInterval::new(low, high))
 }
 
 fn check(successes: u64, trials: u64, level: f64) -> Result<(f64, f64), SampleError> {

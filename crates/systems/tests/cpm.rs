@@ -17,8 +17,8 @@ use tolman_robot::{
     Goal, Landmark, MapView, Mapper, Position, Robot, SensesLandmarks, Standing, System, Task,
 };
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Experience, Layer3, Lesson, ObserveError,
-    Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, Cpm, CpmConfig, CpmObservation, CpmObserveError, EpuckMeasures, Layer3,
+    Lesson, Walker, WalkerConfig, soinn, wander,
 };
 
 /// From wall to wall, m.
@@ -288,17 +288,17 @@ fn it_walks_as_with_a_body_of_its_own_and_whoever_watches_learns_the_same() {
     let mut layer = Layer3::begin(&mut walker, patterns.clone(), None, config_3).unwrap();
     let mut watcher = Cpm::new(config(), patterns.clone(), config_3, 8);
     let began = layer.map().junctions().next().unwrap().1;
-    let began = Experience::Began(began.sighting());
+    let began = CpmObservation::Began(began.sighting());
     let mut rng = ChaCha8Rng::seed_from_u64(7);
     let mut seen = vec![began];
     while let ControlFlow::Continue(step) =
         layer.advance(&mut walker, Aim::Explore, &mut rng).unwrap()
     {
-        seen.push(Experience::Walked(step.walked));
+        seen.push(CpmObservation::Walked(step.walked));
     }
     assert_eq!(walker.body().path, lent.path);
 
-    assert_eq!(watcher.observe(&seen[1]), Err(ObserveError::NotBegun));
+    assert_eq!(watcher.observe(&seen[1]), Err(CpmObserveError::NotBegun));
     for experience in &seen {
         watcher.observe(experience).unwrap();
     }

@@ -14,7 +14,7 @@ use tolman_robot::{
     Task, TurnTranslate,
 };
 use tolman_systems::mslst::{
-    Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, States, Survey,
+    GrowthRecord, Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, States,
 };
 use tolman_systems::{Actor, Brain, Doing, Origin, TimeStep, baselines};
 
@@ -219,7 +219,7 @@ fn mslst_explores_and_then_knows_the_way_to_the_goal() {
     let is_goal = |landmark: Option<Landmark>| landmark == Some(Landmark::Goal);
     assert!(map.places.iter().any(|place| is_goal(place.landmark)));
     let learned = steps_from_everywhere(&mut mslst, &mut robot);
-    let mut avoid = Actor::seeded(baselines::Avoid::default(), layers(), 5);
+    let mut avoid = Actor::seeded(baselines::AvoidBrain::default(), layers(), 5);
     let wandered = steps_from_everywhere(&mut avoid, &mut robot);
     assert!(
         2 * learned < wandered,
@@ -247,7 +247,7 @@ fn the_baselines_find_the_goal_and_can_be_asked_for_nothing_else() {
     }
     let open = cells('.');
     let (far, near) = (open[2], open[open.len() - 1]);
-    check(baselines::Avoid::default(), far);
+    check(baselines::AvoidBrain::default(), far);
     check(baselines::WallFollow::new(WIDTH), far);
     check(baselines::Random, near);
 }
@@ -291,7 +291,7 @@ fn a_compass_that_never_tells_is_named() {
 fn a_map_that_nobody_watched_survives_its_file() {
     let (mslst, _) = apprentice();
     let map = MslstMap::clone(mslst.brain().learned().unwrap());
-    let survey = Survey::default();
+    let survey = GrowthRecord::default();
     let file = MapFile {
         origin: Origin {
             world: "corridors".to_owned(),
@@ -304,7 +304,7 @@ fn a_map_that_nobody_watched_survives_its_file() {
     };
     let read = MapFile::from_json(&file.to_json().unwrap()).unwrap();
     assert_eq!(read.learned.map.graph, file.learned.map.graph);
-    assert_eq!(read.learned.survey, Survey::default());
+    assert_eq!(read.learned.survey, GrowthRecord::default());
 }
 
 /// The paper's history localization ends with one node, or with a memory full of what several nodes fit.

@@ -10,7 +10,7 @@ use std::{env, fs};
 use rayon::prelude::*;
 use tolman_arena::competition;
 use tolman_planners::speed_run::SpeedRunConfig;
-use tolman_systems::micromouse::competition::Exploration;
+use tolman_systems::micromouse::competition::SpeedRunExploration;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);
@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Errors as text, which can change threads.
-fn explore(path: &Path, config: &SpeedRunConfig) -> Result<Exploration, String> {
+fn explore(path: &Path, config: &SpeedRunConfig) -> Result<SpeedRunExploration, String> {
     let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
     let file = tolman_maze::read(&text).map_err(|error| error.to_string())?;
     competition::explore(&file.maze, config).map_err(|error| error.to_string())

@@ -2,7 +2,7 @@
 
 use tolman::system::{Setup, SystemEntry, laser_pioneer};
 use tolman_arena::{Outing, Sent};
-use tolman_systems::baselines::Avoid;
+use tolman_systems::baselines::AvoidBrain;
 use tolman_systems::robot::{Mapper, Standing, Task};
 use tolman_systems::{Actor, Brain, Doing, MapFiles, TimeStep};
 use tolman_systems::{control::Outcome, maze::Direction, rand::Rng};
@@ -11,7 +11,7 @@ use tolman_systems::{control::Outcome, maze::Direction, rand::Rng};
 struct Paces {
     path: Vec<(i8, i8)>,
     #[serde(skip)]
-    wander: Avoid,
+    wander: AvoidBrain,
 }
 
 impl Mapper for Paces {

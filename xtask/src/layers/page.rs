@@ -106,7 +106,7 @@ fn crate_row([name, layer, library, may_use, _]: [&str; 5]) -> Result<CrateRow> 
 }
 
 /// The rows below the header with these columns, each with its line counted from 1.
-fn rows<T, const N: usize>(
+pub(super) fn rows<T, const N: usize>(
     text: &str,
     columns: [&str; N],
     read: fn([&str; N]) -> Result<T>,
@@ -148,7 +148,7 @@ fn cells<const N: usize>(row: &str) -> Result<[&str; N]> {
 }
 
 /// A list like `` `a`, `b` ``; a dash for none.
-fn names(cell: &str) -> Result<Vec<String>> {
+pub(super) fn names(cell: &str) -> Result<Vec<String>> {
     if cell == "–" {
         return Ok(Vec::new());
     }
@@ -161,7 +161,7 @@ fn names(cell: &str) -> Result<Vec<String>> {
         .collect()
 }
 
-fn bare(code: &str) -> &str {
+pub(super) fn bare(code: &str) -> &str {
     code.trim_matches('`')
 }
 

@@ -10,9 +10,9 @@ use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
-use tolman_sim::{Area, StepError, Wall, World, Zone};
+use tolman_sim::{Area, StepError, WallSegment, World, Zone};
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, Walker, WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, Walker, WalkerConfig,
 };
 
 use super::pursue::pursue;
@@ -74,7 +74,10 @@ impl SensesLandmarks for OneSensor {
 }
 
 /// The first episode, and whether the robot truly stands at the goal at its end.
-fn search<B: CpmRobot>(body: B, width: f64) -> Result<(Episode, bool), CpmFailure<B::Error>> {
+fn search<B: CpmRobot>(
+    body: B,
+    width: f64,
+) -> Result<(EpisodeSummary, bool), CpmFailure<B::Error>> {
     // Enough for worlds of this size.
     let config = CpmConfig {
         most_traversals: 20,
@@ -141,9 +144,9 @@ fn star(branches: u32, width: f64) -> (World, Pose) {
         let ahead = Heading::from_radians(spacing * f64::from(branch)).unit();
         let left = Vector::new(-ahead.y, ahead.x);
         let at = |along: f64, aside: f64| Point::from(ahead * along + left * aside);
-        walls.push(Wall::between(at(meet, half), at(length, half)));
-        walls.push(Wall::between(at(meet, -half), at(length, -half)));
-        walls.push(Wall::between(at(length, half), at(length, -half)));
+        walls.push(WallSegment::between(at(meet, half), at(length, half)));
+        walls.push(WallSegment::between(at(meet, -half), at(length, -half)));
+        walls.push(WallSegment::between(at(length, half), at(length, -half)));
     }
     let end = |branch: u32| {
         let ahead = Heading::from_radians(spacing * f64::from(branch));

@@ -8,7 +8,7 @@ use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 /// and one that bends the same from both ends is not *asymmetrical* (section 4.3).
 ///
 /// ```
-/// use tolman_arena::cpm::Likeness;
+/// use tolman_arena::cpm::BendLikeness;
 ///
 /// // Two ways round: each bends, from its other end, as the other does.
 /// let maze = tolman_maze::read("\
@@ -22,18 +22,18 @@ use super::fragments::{Quarters, TrueFragments, along, bends, headings};
 /// |   |           |   |
 /// o---o---o---o---o---o
 /// ")?.maze;
-/// assert_eq!(Likeness::of(&maze), Likeness { alike_pairs: 1, symmetrical: 0 });
+/// assert_eq!(BendLikeness::of(&maze), BendLikeness { alike_pairs: 1, symmetrical: 0 });
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Likeness {
+pub struct BendLikeness {
     /// Pairs of fragments that bend alike, walked from one end or the other.
     pub alike_pairs: u32,
     /// Fragments that bend the same from both ends.
     pub symmetrical: u32,
 }
 
-impl Likeness {
+impl BendLikeness {
     /// Counts the fragments that can be reached and have a cell between the places at their ends; of others nothing is observed.
     /// O(fragments² · cells).
     #[must_use]
@@ -67,8 +67,8 @@ fn inverted(bends: &[Quarters]) -> Vec<Quarters> {
 mod tests {
     use super::*;
 
-    fn likeness(text: &str) -> Likeness {
-        Likeness::of(&tolman_maze::read(text).unwrap().maze)
+    fn likeness(text: &str) -> BendLikeness {
+        BendLikeness::of(&tolman_maze::read(text).unwrap().maze)
     }
 
     #[test]
@@ -83,7 +83,7 @@ o---o---o   o---o---o
 | S               G |
 o---o---o---o---o---o
 ";
-        let straight = Likeness {
+        let straight = BendLikeness {
             alike_pairs: 1,
             symmetrical: 2,
         };
@@ -98,7 +98,7 @@ o---o---o   o---o---o---o
 | S                   G |
 o---o---o---o---o---o---o
 ";
-        let different = Likeness {
+        let different = BendLikeness {
             alike_pairs: 0,
             ..straight
         };
@@ -112,7 +112,7 @@ o---o---o---o---o---o---o
             include_str!("../../mazes/cpm-2.maze"),
             include_str!("../../mazes/cpm-3.maze"),
         ] {
-            let none = Likeness {
+            let none = BendLikeness {
                 alike_pairs: 0,
                 symmetrical: 0,
             };

@@ -4,7 +4,7 @@ use tolman_systems::cpm::{CommonPatterns, CpmConfig};
 
 use super::robots::{epuck, walker_config};
 use super::survey::survey;
-use super::trial::TrialError;
+use super::trial::CpmTrialError;
 use crate::course::Course;
 
 /// Whether the fragments of a maze can be told apart by what the robot observes along them: the constraints of section 4.3, "every path-fragment
@@ -13,14 +13,14 @@ use crate::course::Course;
 pub struct Distinctness {
     /// The two walks that are most alike of those that must not be: along different fragments, in both directions, and along one
     /// fragment from both its ends, as if it were symmetrical. None where there is but one walk.
-    pub most_alike: Option<Pair>,
+    pub most_alike: Option<WalkPair>,
     /// The two walks along one fragment that are least alike.
-    pub least_alike: Option<Pair>,
+    pub least_alike: Option<WalkPair>,
 }
 
 /// Two walks and how similar they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
+pub struct WalkPair {
     /// One of them, by the places it led from and to.
     pub one: (Cell, Cell),
     /// The other.
@@ -45,12 +45,12 @@ struct Walked {
 /// O(walks² · length) comparisons of patterns.
 ///
 /// # Errors
-/// [`TrialError`] if the robot cannot walk a fragment, comes to another place than its end, or sees nothing on the way.
+/// [`CpmTrialError`] if the robot cannot walk a fragment, comes to another place than its end, or sees nothing on the way.
 pub fn distinctness(
     course: &Course,
     patterns: &CommonPatterns,
     seeds: impl IntoIterator<Item = u64>,
-) -> Result<Distinctness, TrialError> {
+) -> Result<Distinctness, CpmTrialError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     let mut walks = Vec::new();
     for seed in seeds {
@@ -58,7 +58,7 @@ pub fn distinctness(
         for walk in walked {
             let ends = (walk.from, walk.way.to);
             if walk.to != Some(walk.way.to) || walk.observations.is_empty() {
-                return Err(TrialError::Unwalked { ends });
+                return Err(CpmTrialError::Unwalked { ends });
             }
             walks.push(Walked {
                 fragment: walk.way.fragment,
@@ -78,7 +78,7 @@ pub fn distinctness(
         for other in &walks[..=index] {
             for sense in [Sense::Same, Sense::Inverted] {
                 let score = matching.score_as(dictionary, &one.patterns, &other.patterns, sense);
-                let pair = Pair {
+                let pair = WalkPair {
                     one: one.ends,
                     other: other.ends,
                     sense,
@@ -88,7 +88,7 @@ pub fn distinctness(
                 let is_one =
                     one.fragment == other.fragment && is_same_way == (sense == Sense::Same);
                 if is_one {
-                    let is_less = |least: Pair| score < least.score;
+                    let is_less = |least: WalkPair| score < least.score;
                     if found.least_alike.is_none_or(is_less) {
                         found.least_alike = Some(pair);
                     }
@@ -129,6 +129,9 @@ o---o---o---o---o---o
         let text = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
         let course = epuck_course("", tolman_maze::read(text).unwrap()).unwrap();
         let refused = distinctness(&course, &PATTERNS, 0..1).unwrap_err();
-        assert!(matches!(refused, TrialError::Unwalked { .. }), "{refused}");
+        assert!(
+            matches!(refused, CpmTrialError::Unwalked { .. }),
+            "{refused}"
+        );
     }
 }

@@ -2,13 +2,13 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::theorem_1;
 use tolman_maze::Maze;
-use tolman_systems::cpm::{Aim, Done, Layer3, Step, Walker};
+use tolman_systems::cpm::{Aim, Done, FragmentStep, Layer3, Walker};
 
 use super::fragments::TrueFragments;
 use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::score::Score;
-use super::trial::{Trial, TrialError};
+use super::trial::{CpmTrial, CpmTrialError};
 use super::world::shortest_covering_walk;
 
 /// A maze explored to its end: "the task is to obtain the complete map" (section 6).
@@ -34,12 +34,12 @@ pub struct Exploration {
     pub trouble: Option<String>,
 }
 
-impl Trial<'_> {
+impl CpmTrial<'_> {
     /// Explores the maze from the start until nothing is left to be walked. What goes wrong on the way is a result.
     ///
     /// # Errors
-    /// [`TrialError`] if it cannot be begun.
-    pub fn explore(&self) -> Result<Exploration, TrialError> {
+    /// [`CpmTrialError`] if it cannot be begun.
+    pub fn explore(&self) -> Result<Exploration, CpmTrialError> {
         let maze = &self.course.maze;
         let mut walker = self.walker_at(self.course.start()?)?;
         let mut found = Exploration {
@@ -60,7 +60,7 @@ impl Trial<'_> {
         let mut ends_us = vec![walker.time_us()];
         // How many fragments were known after each walk.
         let mut known = Vec::new();
-        let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step| {
+        let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &FragmentStep| {
             score.see(layer, walker, step);
             ends_us.push(walker.time_us());
             known.push(score.lengths.len() as u32);

@@ -9,12 +9,12 @@ use tolman_robot::Landmark;
 /// The fragments that a maze really has, for scoring; no robot knows them.
 #[derive(Clone, Debug)]
 pub struct TrueFragments {
-    ways: BTreeMap<(Cell, Direction), Way>,
+    ways: BTreeMap<(Cell, Direction), WayOut>,
 }
 
 /// A fragment as one leaves a place by it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct WayOut {
     /// The fragment's number.
     pub fragment: u32,
     /// Whether one enters it at its first end.
@@ -123,7 +123,7 @@ impl TrueFragments {
                 }
                 let (cells, came) = follow(maze, out, next, is_place);
                 let to = cells.last().copied().unwrap_or(next);
-                let way = |is_forward, to| Way {
+                let way = |is_forward, to| WayOut {
                     fragment: count,
                     is_forward,
                     to,
@@ -139,7 +139,7 @@ impl TrueFragments {
 
     /// The way by which one leaves a place that looks in this heading.
     #[must_use]
-    pub fn way(&self, from: Cell, heading: Heading) -> Option<Way> {
+    pub fn way(&self, from: Cell, heading: Heading) -> Option<WayOut> {
         let nearest = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
         let direction = DIRECTIONS[nearest as usize % DIRECTIONS.len()];
         self.ways.get(&(from, direction)).copied()
@@ -147,22 +147,22 @@ impl TrueFragments {
 
     /// The same fragment, walked the other way.
     #[must_use]
-    pub fn reversed(&self, way: Way) -> Option<Way> {
+    pub fn reversed(&self, way: WayOut) -> Option<WayOut> {
         let is_back =
-            |other: &&Way| other.fragment == way.fragment && other.is_forward != way.is_forward;
+            |other: &&WayOut| other.fragment == way.fragment && other.is_forward != way.is_forward;
         self.ways.values().find(is_back).copied()
     }
 
     /// The ways that a drive over these cells was along, one after another; none where it left a place by no way. A drive that turns back amid a
     /// fragment was along it. One that looks into the next cell and comes back was not.
-    pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<Way>> {
+    pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<WayOut>> {
         let mut cells = cells.into_iter();
         let (Some(mut at), mut driven) = (cells.next(), Vec::new()) else {
             return Some(Vec::new());
         };
         let mut last = at;
         // The way by which it left, and how many cells of it were entered.
-        let mut under_way = None::<(Way, u32)>;
+        let mut under_way = None::<(WayOut, u32)>;
         for cell in cells {
             if cell == last {
                 continue;
@@ -190,16 +190,17 @@ impl TrueFragments {
     }
 
     /// The graph of the maze's cells in which an arc stands for each way, from place to place, that has a length.
-    pub(super) fn graph(&self, maze: &Maze, length: impl Fn(Way) -> Option<u32>) -> Arcs {
+    pub(super) fn graph(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Arcs {
         let node = |cell: Cell| maze.grid().index(cell) as u32;
-        let arc =
-            |(from, _, way): (Cell, Direction, Way)| Some((node(from), node(way.to), length(way)?));
+        let arc = |(from, _, way): (Cell, Direction, WayOut)| {
+            Some((node(from), node(way.to), length(way)?))
+        };
         let arcs: Vec<_> = self.ways().filter_map(arc).collect();
         Arcs::new(maze.grid().cell_count(), &arcs)
     }
 
     /// The length of the shortest way from start to goal over the ways that have a length; none if none leads there.
-    pub fn shortest(&self, maze: &Maze, length: impl Fn(Way) -> Option<u32>) -> Option<u32> {
+    pub fn shortest(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Option<u32> {
         let (start, _) = maze.start()?;
         let start = maze.grid().index(start) as u32;
         let costs = costs_from(&self.graph(maze, length), [start]);
@@ -216,7 +217,7 @@ impl TrueFragments {
     }
 
     /// All ways out of all places: the place, the direction in which one leaves it, and the way.
-    pub fn ways(&self) -> impl Iterator<Item = (Cell, Direction, Way)> + '_ {
+    pub fn ways(&self) -> impl Iterator<Item = (Cell, Direction, WayOut)> + '_ {
         let ways = self.ways.iter();
         ways.map(|((from, out), way)| (*from, *out, *way))
     }

@@ -3,7 +3,7 @@ use alloc::collections::BTreeMap;
 use tolman_maze::{Cell, Maze};
 use tolman_planners::{Arcs, costs_from};
 
-use super::fragments::{Way, landmark_at};
+use super::fragments::{WayOut, landmark_at};
 
 /// What a perfect reasoner of the paper's kind would know of where a robot has walked: the yardstick of a trial.
 ///
@@ -54,7 +54,7 @@ impl<'a> KnownMap<'a> {
     }
 
     /// The robot has walked a true fragment, none if it was lost, and come to a cell. `length` is that of the walk, in any unit.
-    pub(super) fn walk(&mut self, way: Option<Way>, to: Cell, length: u32) {
+    pub(super) fn walk(&mut self, way: Option<WayOut>, to: Cell, length: u32) {
         let from = self.visits.len().saturating_sub(1) as u32;
         let to = self.visit(to);
         self.arcs.push((from, to, length));

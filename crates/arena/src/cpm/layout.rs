@@ -10,7 +10,7 @@ use super::fragments::{DIRECTIONS, along};
 /// by port, as far as they agree.
 ///
 /// ```
-/// use tolman_arena::cpm::{Layout, Trial, epuck, epuck_course, learn};
+/// use tolman_arena::cpm::{epuck, epuck_course, learn, CpmTrial, Layout};
 /// use tolman_systems::cpm::Mode;
 /// use tolman_systems::cpm::CpmConfig;
 /// use tolman_robot::Landmark;
@@ -19,7 +19,7 @@ use super::fragments::{DIRECTIONS, along};
 /// let course = epuck_course("", tolman_maze::read(text)?)?;
 /// let patterns = learn(&course, 1)?;
 /// let mode = Mode::Paper(CpmConfig::online());
-/// let trial = Trial { course: &course, patterns: &patterns, robot: epuck(), mode, seed: 3 };
+/// let trial = CpmTrial { course: &course, patterns: &patterns, robot: epuck(), mode, seed: 3 };
 /// let map = trial.play()?.map;
 /// let layout = Layout::of(&map, &course.maze);
 /// let goal = map.landmarks(Landmark::Goal).next().ok_or("the goal is not on the map")?;

@@ -1,7 +1,7 @@
 //! CPM's e-puck in mazes: [`SimulatedEpuck`], the trials that are played with it, and what it should have
 //! learned there. The system is `tolman_systems::cpm`.
 //!
-//! A [`Trial`] plays both episodes on a [course](epuck_course) and scores them by its
+//! A [`CpmTrial`] plays both episodes on a [course](epuck_course) and scores them by its
 //! [`TrueFragments`]. A [`Layout`] says where the parts of a map lie.
 //! An [`Exploration`] is a maze walked to its end. A [`PutDown`] is a trial of a robot that has to find out where
 //! it is. A [`RoundTrip`] is the way to the goal, back by untried fragments, and there again. [`world`] has
@@ -32,11 +32,11 @@ mod trial;
 mod wire;
 pub mod world;
 
-pub use bends::Likeness;
+pub use bends::BendLikeness;
 pub use course::{CORRIDOR_WIDTH, epuck_course};
-pub use distinctness::{Distinctness, Pair, distinctness};
+pub use distinctness::{Distinctness, WalkPair, distinctness};
 pub use exploration::Exploration;
-pub use fragments::{TrueFragments, Way};
+pub use fragments::{TrueFragments, WayOut};
 pub use layout::{Fit, Layout, Lie, OpenPort};
 pub use map_right::is_whole_map_right;
 pub use patience::patience;
@@ -47,5 +47,5 @@ pub use robots::{
 };
 pub use round_trip::RoundTrip;
 pub use score::Closures;
-pub use survey::{Surveyed, survey};
-pub use trial::{Record, Trial, TrialError, learn, learn_by};
+pub use survey::{SurveyedWalk, survey};
+pub use trial::{CpmTrial, CpmTrialError, TrialRecord, learn, learn_by};

@@ -15,7 +15,7 @@ use super::robots::ring_measures;
 use crate::Simulated;
 use crate::course::Course;
 use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
-use crate::run::{End, Ended, Limited, run};
+use crate::run::{Ended, Limited, TaskEnd, run};
 
 /// Who tells the robot what it stands at.
 /// Explorations take 30 000.
@@ -61,21 +61,21 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
     let start = truth(&epuck).pose;
     let explored = pursue(&mut cpm, &mut epuck, Task::Explore);
     let map = cpm.explorer().unwrap().mapper.map();
-    assert_eq!(explored.end, End::Done);
+    assert_eq!(explored.end, TaskEnd::Done);
     assert!(is_whole_map_right(map, maze), "{map:?}");
     let goal = map.landmarks(Landmark::Goal).next().unwrap();
     epuck.robot_mut().place(start).unwrap();
     cpm.carried();
     assert_eq!(cpm.belief(), []);
     let localized = pursue(&mut cpm, &mut epuck, Task::Localize);
-    assert_eq!(localized.end, End::Done);
+    assert_eq!(localized.end, TaskEnd::Done);
     assert_eq!(cpm.belief().len(), 1);
     let reached = pursue(
         &mut cpm,
         &mut epuck,
         Task::Reach(Goal::Landmark(Landmark::Goal)),
     );
-    assert_eq!(reached.end, End::Done);
+    assert_eq!(reached.end, TaskEnd::Done);
     assert_eq!(epuck.landmark(), Some(Landmark::Goal));
     assert_eq!(cpm.belief()[0].at, Position::Place(goal.0));
     // Two fragments, without looking round all the way.

@@ -3,10 +3,11 @@ use core::ops::ControlFlow;
 use rand::Rng;
 use tolman_robot::Standing;
 use tolman_systems::cpm::{
-    Aim, Begun, CpmResult, CpmRobot, Done, Episode, Layer3, Search, Step, Walker,
+    Aim, Begun, CpmResult, CpmRobot, Done, EpisodeSummary, FragmentStep, Layer3, Relocalization,
+    Walker,
 };
 
-use crate::run::{self, End, InRun};
+use crate::run::{self, InRun, TaskEnd};
 
 /// Time steps after which a robot on CPM has failed, whatever it still hopes for: 36 hours of the paper's.
 const STEP_LIMIT: u32 = 10_000_000;
@@ -30,8 +31,8 @@ pub fn pursue<B: CpmRobot>(
     walker: &mut Walker<B>,
     aim: Aim,
     rng: &mut impl Rng,
-    mut see: impl FnMut(&Layer3, &Walker<B>, &Step),
-) -> CpmResult<Episode, B> {
+    mut see: impl FnMut(&Layer3, &Walker<B>, &FragmentStep),
+) -> CpmResult<EpisodeSummary, B> {
     let begun = Begun::now(walker);
     let mut done = Done::OutOfPatience;
     run::until_done(walker, |walker| -> CpmResult<Standing, B> {
@@ -55,11 +56,11 @@ pub fn pursue<B: CpmRobot>(
 /// # Errors
 /// If the robot fails, or the search refuses what it met.
 pub(super) fn find_out<B: CpmRobot>(
-    search: &mut Search,
+    search: &mut Relocalization,
     walker: &mut Walker<B>,
     rng: &mut impl Rng,
     mut see: impl FnMut(&Walker<B>),
-) -> CpmResult<End, B> {
+) -> CpmResult<TaskEnd, B> {
     let ended = run::until_done(walker, |walker| -> CpmResult<Standing, B> {
         let flow = search.advance(walker, rng)?;
         see(walker);

@@ -3,13 +3,13 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
 use tolman_sim::robots::{Epuck, EpuckConfig};
-use tolman_systems::cpm::{Approach, CommonPatterns, Search, Walker, Whereabouts};
+use tolman_systems::cpm::{Approach, CommonPatterns, Relocalization, Walker, Whereabouts};
 
-use super::fragments::{TrueFragments, Way};
+use super::fragments::{TrueFragments, WayOut};
 use super::pursue::find_out;
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
-use super::trial::{Record, TrialError};
+use super::trial::{CpmTrialError, TrialRecord};
 use crate::course::Course;
 
 /// A robot that knows some mazes is put down in the middle of a fragment of one of them, and has to find out which and where.
@@ -39,7 +39,7 @@ pub struct KnownMaze<'a> {
     /// The maze.
     pub course: &'a Course,
     /// The trial in which the robot learned its map of it.
-    pub learned: &'a Record,
+    pub learned: &'a TrialRecord,
 }
 
 /// What came of it.
@@ -83,8 +83,8 @@ impl PutDown<'_> {
     /// Plays it; none if the map has no fragment that is long enough to stand amid.
     ///
     /// # Errors
-    /// [`TrialError`].
-    pub fn play(&self) -> Result<Option<PutDownRecord>, TrialError> {
+    /// [`CpmTrialError`].
+    pub fn play(&self) -> Result<Option<PutDownRecord>, CpmTrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let Some(known) = self.known.get(self.here) else {
             return Ok(None);
@@ -106,7 +106,8 @@ impl PutDown<'_> {
         let mut walker = Walker::new(body, config);
         let maps = self.known.iter().map(|known| known.learned.map.clone());
         let maps: Vec<CpMap> = maps.collect();
-        let mut search = Search::new(&maps, self.patterns, self.approach, self.most_places)?;
+        let mut search =
+            Relocalization::new(&maps, self.patterns, self.approach, self.most_places)?;
         // The ways that it came by to each place; to the first, from amid one, it is not told.
         let mut onward = Vec::new();
         find_out(&mut search, &mut walker, &mut rng, |walker| {
@@ -117,7 +118,7 @@ impl PutDown<'_> {
             }));
         })?;
         let whereabouts = search.found().clone();
-        let begun = Way {
+        let begun = WayOut {
             is_forward: spot.way.is_forward != whereabouts.has_turned_round,
             ..spot.way
         };
@@ -162,7 +163,7 @@ impl PutDown<'_> {
     }
 
     /// Whether the fourth layer recalls the maze.
-    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, TrialError> {
+    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, CpmTrialError> {
         let Some(walked) = whereabouts.walks.first() else {
             return Ok(None);
         };

@@ -3,11 +3,13 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::Pose;
 use tolman_maps::cpm::CpMap;
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CommonPatterns, CpmConfig, Episode, Layer3, Step, Walker};
+use tolman_systems::cpm::{
+    Aim, CommonPatterns, CpmConfig, EpisodeSummary, FragmentStep, Layer3, Walker,
+};
 
 use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
-use super::trial::TrialError;
+use super::trial::CpmTrialError;
 
 /// To the goal, back, and to the goal again, as the real robot went (sections 6 and 7, figure 11): "on the way back, the robot tries a new
 /// path-fragment" as long as it may be shorter than the known way.
@@ -17,11 +19,11 @@ use super::trial::TrialError;
 #[derive(Clone, Debug)]
 pub struct RoundTrip {
     /// From the start until the goal was found.
-    pub there: Episode,
+    pub there: EpisodeSummary,
     /// Back to the start; none if there was no goal.
-    pub back: Option<Episode>,
+    pub back: Option<EpisodeSummary>,
     /// Along the shortest way that is known then; none if the robot did not come back.
-    pub again: Option<Episode>,
+    pub again: Option<EpisodeSummary>,
     /// How many unknown fragments it entered on the way back.
     pub tried: u32,
     /// In how many of them it turned round, as they "will never be shorter".
@@ -44,14 +46,14 @@ impl RoundTrip {
     /// Plays the way to the goal, back and there again, from where the robot stands. `see` is told of every fragment of the first two.
     ///
     /// # Errors
-    /// [`TrialError`].
+    /// [`CpmTrialError`].
     pub fn watch(
         walker: &mut Walker<SimulatedEpuck>,
         patterns: &CommonPatterns,
         config: CpmConfig,
         seed: u64,
-        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
-    ) -> Result<Self, TrialError> {
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
+    ) -> Result<Self, CpmTrialError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut layer = Layer3::begin(walker, patterns.clone(), None, config)?;
         let there = pursue(
@@ -78,7 +80,7 @@ impl RoundTrip {
             layer.optimize()?;
             let home = layer.explorer().mapper.plan(Landmark::Start);
             trip.length_before = home.map_or(0, |plan| plan.length);
-            let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step| {
+            let see = |layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &FragmentStep| {
                 see(layer, walker, step);
                 trip.tried += u32::from(step.leg.known.is_none());
                 trip.given_up += u32::from(step.walked.sighting.is_none());

@@ -1,12 +1,12 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, CpMapper, FragmentId, JunctionId, Port, Sign, Turn};
+use tolman_maps::cpm::{CpMap, CpMapper, FragmentId, JunctionId, MapUpdate, Port, Sign, Turn};
 use tolman_maze::{Cell, Maze};
 use tolman_sim::World;
-use tolman_systems::cpm::{Layer3, Step, Walker};
+use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
-use super::fragments::{TrueFragments, Way};
+use super::fragments::{TrueFragments, WayOut};
 use super::known_map::KnownMap;
 use super::map_right::is_map_right;
 use super::robots::SimulatedEpuck;
@@ -36,7 +36,7 @@ pub(super) struct Score<'a> {
     /// All walks.
     walked: Vec<Walked>,
     /// The true way from − to + of each fragment of the map.
-    pub(super) truth: BTreeMap<FragmentId, Way>,
+    pub(super) truth: BTreeMap<FragmentId, WayOut>,
     /// The cell of each place of the map.
     places: BTreeMap<JunctionId, Cell>,
     /// Observations of each true fragment when it was first walked.
@@ -51,7 +51,7 @@ struct Base {
     at: Port,
     /// So many walks came before.
     walks: usize,
-    truth: BTreeMap<FragmentId, Way>,
+    truth: BTreeMap<FragmentId, WayOut>,
     places: BTreeMap<JunctionId, Cell>,
 }
 
@@ -59,7 +59,7 @@ struct Base {
 struct Walked {
     turn: Turn,
     /// None if it began on no fragment.
-    way: Option<Way>,
+    way: Option<WayOut>,
     /// The cell it led to.
     here: Option<Cell>,
 }
@@ -87,7 +87,12 @@ impl<'a> Score<'a> {
     }
 
     /// Takes in a walk to the end of a fragment; a robot that looks for the goal never turns back amid one.
-    pub(super) fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+    pub(super) fn see(
+        &mut self,
+        layer: &Layer3,
+        walker: &Walker<SimulatedEpuck>,
+        step: &FragmentStep,
+    ) {
         let Some(arrival) = step.arrival else {
             return;
         };
@@ -108,7 +113,7 @@ impl<'a> Score<'a> {
         self.take_in(&layer.explorer().mapper, arrival, walked, length);
     }
 
-    fn take_in(&mut self, mapper: &CpMapper, arrival: Arrival, walked: Walked, length: u32) {
+    fn take_in(&mut self, mapper: &CpMapper, arrival: MapUpdate, walked: Walked, length: u32) {
         let Walked { way, here, .. } = walked;
         let number = self.walked.len();
         self.walked.push(walked);
@@ -116,7 +121,7 @@ impl<'a> Score<'a> {
             self.judge(mapper, arrival, number, way, here);
             self.lengths.entry(way.fragment).or_insert(length);
         }
-        if arrival == Arrival::Contradiction {
+        if arrival == MapUpdate::Contradiction {
             self.begin_at(mapper.at(), here);
         }
     }
@@ -124,9 +129,9 @@ impl<'a> Score<'a> {
     fn judge(
         &mut self,
         mapper: &CpMapper,
-        arrival: Arrival,
+        arrival: MapUpdate,
         number: usize,
-        way: Way,
+        way: WayOut,
         here: Option<Cell>,
     ) {
         let is_old = self.lengths.contains_key(&way.fragment);
@@ -140,13 +145,13 @@ impl<'a> Score<'a> {
             self.places.entry(junction).or_insert(here);
         }
         match arrival {
-            Arrival::Revised => self.retrace(mapper.map()),
-            Arrival::Duplicate if is_same => self.right += 1,
-            Arrival::Loop if stands == here => self.right += 1,
-            Arrival::Duplicate | Arrival::Loop => {
+            MapUpdate::Revised => self.retrace(mapper.map()),
+            MapUpdate::Duplicate if is_same => self.right += 1,
+            MapUpdate::Loop if stands == here => self.right += 1,
+            MapUpdate::Duplicate | MapUpdate::Loop => {
                 self.wrong.insert(number);
             }
-            Arrival::New if is_old => self.missed += 1,
+            MapUpdate::New if is_old => self.missed += 1,
             _ => {}
         }
         if let Some(end) = told {
@@ -235,7 +240,7 @@ impl<'a> Score<'a> {
 
     /// The length of the shortest way from start to goal over the fragments that were walked, by observations.
     pub(super) fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
-        let length = |way: Way| self.lengths.get(&way.fragment).copied();
+        let length = |way: WayOut| self.lengths.get(&way.fragment).copied();
         self.fragments.shortest(maze, length)
     }
 
@@ -335,9 +340,9 @@ mod tests {
             score.take_in(&mapper, arrival, Walked { turn, way, here }, 3);
             arrival
         };
-        assert_eq!(take_in(Turn::BACK, 3, start, 0.0), Arrival::Known);
+        assert_eq!(take_in(Turn::BACK, 3, start, 0.0), MapUpdate::Known);
         let strange = take_in(Turn::BACK, 2, fork, 90.0);
-        assert_eq!(strange, Arrival::Contradiction);
+        assert_eq!(strange, MapUpdate::Contradiction);
         take_in(Turn::BACK, 3, Cell::new(1, 1), 270.0);
         let before = score.truth.clone();
         assert_eq!(before.len(), 3);

@@ -5,7 +5,7 @@ use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
 use super::fragments::{
-    Quarters, TrueFragments, Way, along, bends, headings, landmark_at, quarters,
+    Quarters, TrueFragments, WayOut, along, bends, headings, landmark_at, quarters,
 };
 use crate::course::Course;
 use tolman_systems::cpm::Approach;
@@ -16,7 +16,7 @@ pub(super) struct Spot {
     cell: Cell,
     heading: Direction,
     /// The way it then is on.
-    pub(super) way: Way,
+    pub(super) way: WayOut,
     /// The place behind.
     behind: PlaceAtEnd,
     /// The bend of every cell between the places.
@@ -84,7 +84,7 @@ impl PlaceAtEnd {
 
 impl Spot {
     /// The spots of a maze, on the ways that count.
-    pub(super) fn all(maze: &Maze, counts: impl Fn(&Way) -> bool) -> Vec<Self> {
+    pub(super) fn all(maze: &Maze, counts: impl Fn(&WayOut) -> bool) -> Vec<Self> {
         let fragments = TrueFragments::of(maze);
         let mut spots = Vec::new();
         for (from, out, way) in fragments.ways().filter(|(.., way)| counts(way)) {
@@ -174,7 +174,7 @@ pub(super) fn knowable(
     1.0 / f64::from(equals.max(1))
 }
 
-const fn key(maze: usize, way: &Way) -> (usize, u32, bool) {
+const fn key(maze: usize, way: &WayOut) -> (usize, u32, bool) {
     (maze, way.fragment, way.is_forward)
 }
 

@@ -3,17 +3,17 @@ use tolman_maze::Cell;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{Observation, WalkError, Walker, WalkerConfig};
 
-use super::fragments::{TrueFragments, Way};
-use super::trial::TrialError;
+use super::fragments::{TrueFragments, WayOut};
+use super::trial::CpmTrialError;
 use crate::course::Course;
 
 /// One walk along a true fragment of a maze.
 #[derive(Clone, Debug)]
-pub struct Surveyed {
+pub struct SurveyedWalk {
     /// The place it was to be walked from.
     pub from: Cell,
     /// The fragment, and which way it was to be walked.
-    pub way: Way,
+    pub way: WayOut,
     /// The place it truly led to; none outside the maze.
     pub to: Option<Cell>,
     /// What was seen on the way.
@@ -26,13 +26,13 @@ pub struct Surveyed {
 /// fragment differ, and how far those along two, is what all reasoning on the map stands on.
 ///
 /// # Errors
-/// [`TrialError`] if the robot cannot stand at a place, or a walk comes to no end.
+/// [`CpmTrialError`] if the robot cannot stand at a place, or a walk comes to no end.
 pub fn survey(
     course: &Course,
     robot: &EpuckConfig,
     config: &WalkerConfig,
     seed: u64,
-) -> Result<Vec<Surveyed>, TrialError> {
+) -> Result<Vec<SurveyedWalk>, CpmTrialError> {
     let fragments = TrueFragments::of(&course.maze);
     let mut walks = Vec::new();
     for (cell, out, way) in fragments.ways() {
@@ -43,7 +43,7 @@ pub fn survey(
         walker.begin()?;
         let walk = walker.walk(0, 0, None)?;
         let end = walker.body().truth().pose.position;
-        walks.push(Surveyed {
+        walks.push(SurveyedWalk {
             from: cell,
             way,
             to: course.world.cell_at(end),

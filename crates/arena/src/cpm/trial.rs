@@ -12,11 +12,11 @@ use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, CpmConfig, CpmFailure, Done, Episode, Layer3, LearnError, Lesson, Mode,
-    Step, WalkError, Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, CpmConfig, CpmFailure, Done, EpisodeSummary, FragmentStep, Layer3,
+    LearnPatternsError, Lesson, Mode, WalkError, Walker, WalkerConfig, soinn, wander,
 };
 
-use super::fragments::Way;
+use super::fragments::WayOut;
 use super::pursue::pursue;
 use super::robots::{SimulatedEpuck, epuck, walker_config};
 use super::score::{Closures, Score};
@@ -25,7 +25,7 @@ use crate::course::{Course, CourseError};
 /// Both episodes of the paper in one maze: the first from the start until the goal is found, the second from the start again, along the
 /// shortest known way.
 #[derive(Clone, Debug)]
-pub struct Trial<'a> {
+pub struct CpmTrial<'a> {
     /// The maze, with a start and a goal.
     pub course: &'a Course,
     /// What the robot learned before, if its mode has that.
@@ -40,11 +40,11 @@ pub struct Trial<'a> {
 
 /// What came of a trial.
 #[derive(Clone, Debug, Default)]
-pub struct Record {
+pub struct TrialRecord {
     /// The first episode, if it came to an end.
-    pub first: Option<Episode>,
+    pub first: Option<EpisodeSummary>,
     /// The second.
-    pub second: Option<Episode>,
+    pub second: Option<EpisodeSummary>,
     /// Whether the second episode's way was as short as any that could be known: the junctions at the ends of a fragment that was walked twice are
     /// known to be the same, and start and goal are; others are not.
     pub is_shortest_known: bool,
@@ -74,17 +74,18 @@ pub struct Record {
     /// The map of the end of the first episode.
     pub map: CpMap,
     /// The true fragment of each fragment of the map.
-    pub truth: BTreeMap<FragmentId, Way>,
+    pub truth: BTreeMap<FragmentId, WayOut>,
     /// Why it broke off.
     pub trouble: Option<String>,
 }
 
-impl Record {
+impl TrialRecord {
     /// Whether the goal was found, the shortest known way was planned and led to the goal.
     #[must_use]
     pub fn is_solved(&self) -> bool {
-        let reached =
-            |episode: Option<Episode>| episode.is_some_and(|episode| episode.done == Done::Reached);
+        let reached = |episode: Option<EpisodeSummary>| {
+            episode.is_some_and(|episode| episode.done == Done::Reached)
+        };
         reached(self.first) && reached(self.second) && self.is_shortest_known
     }
 
@@ -100,8 +101,8 @@ impl Record {
 /// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations (section 5).
 ///
 /// # Errors
-/// [`TrialError`].
-pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, TrialError> {
+/// [`CpmTrialError`].
+pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     learn_by(course, epuck(), config, Lesson::Observations(1000), seed)
 }
@@ -109,14 +110,14 @@ pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, TrialError> {
 /// Learns the common patterns in a maze as any other robot that observes like this.
 ///
 /// # Errors
-/// [`TrialError`].
+/// [`CpmTrialError`].
 pub fn learn_by(
     course: &Course,
     robot: EpuckConfig,
     config: WalkerConfig,
     lesson: Lesson,
     seed: u64,
-) -> Result<CommonPatterns, TrialError> {
+) -> Result<CommonPatterns, CpmTrialError> {
     let mut walker = Walker::new(
         course.robot_at(course.start()?, Epuck::new(robot)?, seed)?,
         config,
@@ -126,7 +127,7 @@ pub fn learn_by(
     Ok(CommonPatterns::learn(&observations, soinn())?)
 }
 
-impl Trial<'_> {
+impl CpmTrial<'_> {
     /// The robot of the paper with wheels that slip by this share.
     #[must_use]
     pub fn slipping(share: f64) -> EpuckConfig {
@@ -137,7 +138,7 @@ impl Trial<'_> {
     }
 
     /// The robot anywhere in its world.
-    pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, TrialError> {
+    pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, CpmTrialError> {
         let mut config = walker_config(&self.robot, self.course.corridor_width)?;
         config.heading = self.mode.heading();
         let robot = Epuck::new(self.robot.clone())?;
@@ -162,22 +163,22 @@ impl Trial<'_> {
     /// Plays both episodes. What goes wrong on the way is a result.
     ///
     /// # Errors
-    /// [`TrialError`] if it cannot be begun.
-    pub fn play(&self) -> Result<Record, TrialError> {
+    /// [`CpmTrialError`] if it cannot be begun.
+    pub fn play(&self) -> Result<TrialRecord, CpmTrialError> {
         self.watch(|_, _, _| {})
     }
 
     /// [Plays](Self::play) both episodes. `see` is told of every fragment of the first.
     ///
     /// # Errors
-    /// [`TrialError`] if it cannot be begun.
+    /// [`CpmTrialError`] if it cannot be begun.
     pub fn watch(
         &self,
-        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
-    ) -> Result<Record, TrialError> {
+        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
+    ) -> Result<TrialRecord, CpmTrialError> {
         let start = self.course.start()?;
         let mut walker = self.walker_at(start)?;
-        let mut record = Record::default();
+        let mut record = TrialRecord::default();
         match self.begin(&mut walker, self.mode.config()) {
             Ok(mut layer) => {
                 let played = self.episodes(&mut layer, &mut walker, start, &mut record, see);
@@ -196,9 +197,9 @@ impl Trial<'_> {
         layer: &mut Layer3,
         walker: &mut Walker<SimulatedEpuck>,
         start: Pose,
-        record: &mut Record,
-        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
-    ) -> Result<(), TrialError> {
+        record: &mut TrialRecord,
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
+    ) -> Result<(), CpmTrialError> {
         let maze = &self.course.maze;
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let mut score = Score::of(maze);
@@ -244,7 +245,7 @@ fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
 /// Why a trial cannot be played.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum TrialError {
+pub enum CpmTrialError {
     /// The maze is no course for an e-puck.
     #[error(transparent)]
     Course(#[from] CourseError),
@@ -280,7 +281,7 @@ pub enum TrialError {
     Walk(#[from] WalkError<StepError>),
     /// It learned nothing.
     #[error(transparent)]
-    Learn(#[from] LearnError),
+    Learn(#[from] LearnPatternsError),
     /// The memory of several mazes.
     #[error(transparent)]
     Recall(#[from] RecallError),
@@ -295,7 +296,7 @@ pub enum TrialError {
     Map(#[from] CpmError),
 }
 
-impl TrialError {
+impl CpmTrialError {
     /// Whether maze or map did not serve; else what the robot did came to nothing.
     #[must_use]
     pub const fn is_bad_input(&self) -> bool {
@@ -314,7 +315,7 @@ impl TrialError {
 pub(super) mod tests {
     use std::sync::LazyLock;
 
-    use tolman_maps::cpm::{Matching, Similarity};
+    use tolman_maps::cpm::{FragmentMatching, Similarity};
     use tolman_maze::{Direction, Grid, Maze};
 
     use super::*;
@@ -336,8 +337,8 @@ pub(super) mod tests {
     pub(in crate::cpm) static PATTERNS: LazyLock<CommonPatterns> =
         LazyLock::new(|| learn(&read(include_str!("../../mazes/cpm-learning.maze")), 1).unwrap());
 
-    fn trial(course: &Course, robot: EpuckConfig) -> Trial<'_> {
-        Trial {
+    fn trial(course: &Course, robot: EpuckConfig) -> CpmTrial<'_> {
+        CpmTrial {
             course,
             patterns: &PATTERNS,
             robot,
@@ -346,7 +347,7 @@ pub(super) mod tests {
         }
     }
 
-    fn play(course: &Course, robot: EpuckConfig) -> Record {
+    fn play(course: &Course, robot: EpuckConfig) -> TrialRecord {
         trial(course, robot).play().unwrap()
     }
 
@@ -364,7 +365,7 @@ pub(super) mod tests {
     #[test]
     fn patterns_learned_on_the_way_do() {
         let maze = read(include_str!("../../mazes/cpm-2.maze"));
-        let unlearned = Trial {
+        let unlearned = CpmTrial {
             mode: Mode::Unlearned(CpmConfig::robust()),
             ..trial(&maze, epuck())
         };
@@ -412,7 +413,7 @@ pub(super) mod tests {
     fn loops_that_stay_open_on_the_map_are_missed() {
         let maze = maze_1();
         // A robot to which nothing is similar closes none.
-        let matching = Matching::Positions(Similarity {
+        let matching = FragmentMatching::Positions(Similarity {
             mu: 2.0,
             ..Similarity::paper()
         });
@@ -423,7 +424,7 @@ pub(super) mod tests {
         };
         let mut missed = 0;
         for seed in 0..4 {
-            let blind = Trial {
+            let blind = CpmTrial {
                 mode: Mode::Paper(config),
                 seed,
                 ..trial(&maze, epuck())
@@ -460,9 +461,9 @@ pub(super) mod tests {
     fn wheels_that_slip_by_half_end_where_the_record_says() {
         let maze = maze_1();
         for seed in 0..3 {
-            let slipping = Trial {
+            let slipping = CpmTrial {
                 seed,
-                ..trial(&maze, Trial::slipping(0.5))
+                ..trial(&maze, CpmTrial::slipping(0.5))
             };
             let record = slipping.play().unwrap();
             let end = record
@@ -522,7 +523,7 @@ pub(super) mod tests {
     fn on_the_way_back_a_shorter_way_is_found() {
         let maze = read(include_str!("../../mazes/cpm-real.maze"));
         // With this seed the first way is the longer one of two.
-        let trial = Trial {
+        let trial = CpmTrial {
             seed: 900,
             ..trial(&maze, epuck())
         };

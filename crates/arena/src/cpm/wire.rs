@@ -8,14 +8,15 @@ use std::io::{self, ErrorKind, Read, Write};
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_control::epuck::{Alignment, Pilot, Profile, TURN_STEP};
+use tolman_control::epuck::{Pilot, Profile, SensorAlignment, TURN_STEP};
 use tolman_maps::cpm::CpMap;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
 use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
 use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, Episode, Layer3, WalkError, Walker, WalkerConfig,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, WalkError, Walker,
+    WalkerConfig,
 };
 
 use super::pursue::pursue;
@@ -169,7 +170,7 @@ fn it_sweeps_and_follows_as_on_the_simulator() {
     let mut near = Pilot::new(simulated(1), walker_config(&epuck(), WIDTH).unwrap().pilot);
     let mut far = Pilot::new(line.robot().unwrap(), config().pilot);
     let [one, other] = [near.sweep().unwrap(), far.sweep().unwrap()]
-        .map(|sweep| Profile::of(&sweep, Alignment::Mounts).unwrap());
+        .map(|sweep| Profile::of(&sweep, SensorAlignment::Mounts).unwrap());
     for (one, other) in one.values().iter().zip(other.values()) {
         assert!((one - other).abs() < 20.0, "{one} {other}");
     }
@@ -194,7 +195,7 @@ fn play<B: CpmRobot>(
     config: WalkerConfig,
     seed: u64,
     lift: impl FnOnce(&mut B),
-) -> Result<([Episode; 2], CpMap), CpmFailure<B::Error>> {
+) -> Result<([EpisodeSummary; 2], CpMap), CpmFailure<B::Error>> {
     let mut walker = Walker::new(body, config);
     let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, CpmConfig::online())?;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);

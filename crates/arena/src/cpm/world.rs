@@ -1,9 +1,9 @@
 //! Mazes of corridors and junctions without a robot: what layer 3 is shown of a maze, true or noisy, in microseconds.
 //!
-//! A [`World`] is a plane graph: places with a position, whose ports are in the order of the corridors' bearings, and corridors
-//! that look from each end as a sequence of common patterns. A [`Rover`] walks it and tells what an e-puck's lower layers
-//! would, with [`Noise`]. The world can tell whether a map is [right](World::check), and what the [shortest
-//! walk](World::shortest_covering_walk) through all corridors would have been.
+//! A [`PlaneMaze`] is a plane graph: places with a position, whose ports are in the order of the corridors' bearings, and corridors
+//! that look from each end as a sequence of common patterns. A [`PlaneWalker`] walks it and tells what an e-puck's lower layers
+//! would, with [`WalkerNoise`]. The world can tell whether a map is [right](PlaneMaze::check), and what the [shortest
+//! walk](PlaneMaze::shortest_covering_walk) through all corridors would have been.
 
 mod check;
 mod generate;
@@ -16,25 +16,25 @@ use thiserror::Error;
 use tolman_geom::{Heading, Point};
 
 pub use check::MapCheck;
-pub use generate::{Likeness, MazeConfig, MazeError};
+pub use generate::{Likeness, MazeConfig, MazeConfigError};
 pub(super) use postman::shortest_covering_walk;
-pub use rover::{Noise, Outcome, Reckoning, Rover};
+pub use rover::{PlaneWalker, Reckoning, WalkOutcome, WalkerNoise};
 
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId, Sighting, Sign};
 use tolman_robot::Landmark;
 
 /// A maze as a plane graph. Its places and corridors are numbered from 0.
 #[derive(Clone, Debug, PartialEq)]
-pub struct World {
+pub struct PlaneMaze {
     dictionary: Dictionary,
-    places: Vec<Place>,
-    corridors: Vec<Corridor>,
+    places: Vec<MazePlace>,
+    corridors: Vec<MazeCorridor>,
     start: WorldPort,
 }
 
 /// A junction, a dead end or a landmark in a corridor.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct MazePlace {
     /// Where it is, m.
     pub position: Point,
     /// What stands there.
@@ -63,7 +63,7 @@ pub struct WorldPort {
 
 /// A path fragment as it truly is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Corridor {
+pub struct MazeCorridor {
     /// What is observed from − to +.
     pub patterns: Vec<PatternId>,
     /// Its middle line, from − to +, both places included, m.
@@ -74,7 +74,7 @@ pub struct Corridor {
     pub plus: WorldPort,
 }
 
-impl Corridor {
+impl MazeCorridor {
     /// The port of an end.
     #[must_use]
     pub const fn port(&self, sign: Sign) -> WorldPort {
@@ -108,7 +108,7 @@ impl Corridor {
 /// use tolman_geom::Point;
 /// use tolman_maps::cpm::{Dictionary, PatternId, Turn};
 /// use tolman_robot::Landmark;
-/// use tolman_arena::cpm::world::{Noise, Outcome, Reckoning, Rover, WorldBuilder};
+/// use tolman_arena::cpm::world::{PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder};
 ///
 /// let mut dictionary = Dictionary::new(1);
 /// let wall = dictionary.learn(&[0.0], &[0.0], 0.1)?;
@@ -124,9 +124,9 @@ impl Corridor {
 /// drawing.corridor(fork, goal, &[], &[door])?;
 /// let world = drawing.finish(west)?;
 ///
-/// let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+/// let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
 /// let mut rng = rand_chacha::ChaCha8Rng::from_seed([0; 32]);
-/// let Outcome::Arrived(walk) = rover.go(Turn::BACK, None, &mut rng)? else { panic!() };
+/// let WalkOutcome::Arrived(walk) = rover.go(Turn::BACK, None, &mut rng)? else { panic!() };
 /// assert_eq!(walk.patterns, [wall, wall, door]);
 /// assert_eq!(walk.sighting.degree, 3);
 /// // Counter-clockwise from the way it came, the first port is the right hand one.
@@ -138,14 +138,14 @@ impl Corridor {
 #[derive(Clone, Debug)]
 pub struct WorldBuilder {
     dictionary: Dictionary,
-    places: Vec<Place>,
-    corridors: Vec<Corridor>,
+    places: Vec<MazePlace>,
+    corridors: Vec<MazeCorridor>,
 }
 
 /// Why a drawing is no world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum WorldError {
+pub enum PlaneMazeError {
     /// A place is not there.
     #[error("place {place} of {count}: draw it first")]
     NoSuchPlace {
@@ -184,7 +184,7 @@ impl WorldBuilder {
 
     /// Adds a place and returns its number.
     pub fn place(&mut self, position: Point, landmark: Option<Landmark>) -> u32 {
-        self.places.push(Place {
+        self.places.push(MazePlace {
             position,
             landmark,
             ports: Vec::new(),
@@ -196,14 +196,14 @@ impl WorldBuilder {
     /// patterns; and returns its number.
     ///
     /// # Errors
-    /// [`WorldError`] if a place is not there, a point not finite, or a pattern not in the dictionary.
+    /// [`PlaneMazeError`] if a place is not there, a point not finite, or a pattern not in the dictionary.
     pub fn corridor(
         &mut self,
         minus: u32,
         plus: u32,
         via: &[Point],
         patterns: &[PatternId],
-    ) -> Result<u32, WorldError> {
+    ) -> Result<u32, PlaneMazeError> {
         let count = self.places.len() as u32;
         let number = self.corridors.len() as u32;
         self.dictionary.check(patterns)?;
@@ -211,7 +211,7 @@ impl WorldBuilder {
         for place in [minus, plus] {
             let end = self.places.get(place as usize);
             line.push(
-                end.ok_or(WorldError::NoSuchPlace { place, count })?
+                end.ok_or(PlaneMazeError::NoSuchPlace { place, count })?
                     .position,
             );
         }
@@ -220,7 +220,7 @@ impl WorldBuilder {
             .iter()
             .any(|point| !(point.x.is_finite() && point.y.is_finite()))
         {
-            return Err(WorldError::NotFinite { corridor: number });
+            return Err(PlaneMazeError::NotFinite { corridor: number });
         }
         for (place, sign) in [(minus, Sign::Minus), (plus, Sign::Plus)] {
             let corridor = number;
@@ -228,7 +228,7 @@ impl WorldBuilder {
             ports.push(CorridorEnd { corridor, sign });
         }
         let unnumbered = |place| WorldPort { place, number: 0 };
-        self.corridors.push(Corridor {
+        self.corridors.push(MazeCorridor {
             patterns: patterns.to_vec(),
             line,
             minus: unnumbered(minus),
@@ -240,8 +240,8 @@ impl WorldBuilder {
     /// The world, with ports in the order of their bearings, and a robot that will start at a place with port 0 behind it.
     ///
     /// # Errors
-    /// [`WorldError`] if no corridor leads to a place, or the start is none.
-    pub fn finish(self, start: u32) -> Result<World, WorldError> {
+    /// [`PlaneMazeError`] if no corridor leads to a place, or the start is none.
+    pub fn finish(self, start: u32) -> Result<PlaneMaze, PlaneMazeError> {
         let Self {
             dictionary,
             mut places,
@@ -250,11 +250,11 @@ impl WorldBuilder {
         let count = places.len() as u32;
         if start >= count {
             let place = start;
-            return Err(WorldError::NoSuchPlace { place, count });
+            return Err(PlaneMazeError::NoSuchPlace { place, count });
         }
         for (number, place) in (0..).zip(&mut places) {
             if place.ports.is_empty() {
-                return Err(WorldError::Isolated { place: number });
+                return Err(PlaneMazeError::Isolated { place: number });
             }
             let corridor = |end: &CorridorEnd| &corridors[end.corridor as usize];
             let bearing = |end: &CorridorEnd| corridor(end).bearing(end.sign).radians();
@@ -265,7 +265,7 @@ impl WorldBuilder {
                 corridors[end.corridor as usize].port_mut(end.sign).number = port;
             }
         }
-        Ok(World {
+        Ok(PlaneMaze {
             dictionary,
             places,
             corridors,
@@ -277,7 +277,7 @@ impl WorldBuilder {
     }
 }
 
-impl World {
+impl PlaneMaze {
     /// The common patterns its corridors are made of.
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
@@ -286,13 +286,13 @@ impl World {
 
     /// The places by number.
     #[must_use]
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[MazePlace] {
         &self.places
     }
 
     /// The corridors by number.
     #[must_use]
-    pub fn corridors(&self) -> &[Corridor] {
+    pub fn corridors(&self) -> &[MazeCorridor] {
         &self.corridors
     }
 

@@ -8,12 +8,13 @@ use tolman_control::epuck::{Profile, RangeCurveError};
 use tolman_control::heading_of;
 use tolman_geom::{Heading, IntervalError, Point, PointBox, Pose};
 use tolman_maps::diktiometry::{
-    ActionKind, Config, Outcome, Percepts, Rotation, Signature, SignatureError, SignatureKind,
+    ActionKind, Config, MoveOutcome, Percepts, Signature, SignatureError, SignatureKind,
+    ViewRotation,
 };
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::robots::{Epuck, EpuckError};
 use tolman_sim::{PlaceError, StepError, World};
-use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Mapping, Planner, Rover};
+use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Planner, Rover, RoverMap};
 
 use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
 use crate::course::{Course, CourseError};
@@ -59,7 +60,7 @@ impl EpuckSurveyConfig {
                 columns: COLUMNS,
                 tolerance: 0.5,
                 share: 0.75,
-                rotation: Rotation::Aligned,
+                rotation: ViewRotation::Aligned,
                 views: 4,
             }),
             ..Config::new(actions, separation)
@@ -138,10 +139,10 @@ pub fn survey_maze(
     let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
     let mapper = config.mapper(least_distance(&truth).unwrap_or(corridor_width));
-    let mut mapping = Mapping::begin(&mut rover, mapper)?;
+    let mut mapping = RoverMap::begin(&mut rover, mapper)?;
     let mut planner = Planner::new(config.heed);
     let mut rng = stream(seed, 1);
-    let visit = |rover: &EpuckRover, mapping: &Mapping| Visit {
+    let visit = |rover: &EpuckRover, mapping: &RoverMap| Visit {
         site: rover.site(maze),
         place: mapping.observer().place(),
     };
@@ -237,7 +238,11 @@ impl EpuckRover {
     }
 
     /// What there is at the place it came to.
-    fn arrival(&mut self, outcome: Outcome, moved: PointBox) -> Result<Arrival, EpuckRoverError> {
+    fn arrival(
+        &mut self,
+        outcome: MoveOutcome,
+        moved: PointBox,
+    ) -> Result<Arrival, EpuckRoverError> {
         let profile = self.walker.look_around()?;
         let values = (0..COLUMNS).map(|column| {
             let east = column as f64 * TAU / COLUMNS as f64;
@@ -256,12 +261,12 @@ impl Rover for EpuckRover {
     type Error = EpuckRoverError;
 
     fn look(&mut self) -> Result<Arrival, EpuckRoverError> {
-        self.arrival(Outcome::Arrived, PointBox::ORIGIN)
+        self.arrival(MoveOutcome::Arrived, PointBox::ORIGIN)
     }
 
     fn go(&mut self, direction: Direction) -> Result<Arrival, EpuckRoverError> {
         let Some(branch) = self.ways[direction.index()] else {
-            return self.arrival(Outcome::Blocked, PointBox::ORIGIN);
+            return self.arrival(MoveOutcome::Blocked, PointBox::ORIGIN);
         };
         let (from, driven) = (self.walker.pose(), self.walker.driven());
         let walk = self.walker.walk(branch, 0, None)?;
@@ -273,7 +278,7 @@ impl Rover for EpuckRover {
         let moved = Pose::new(Point::origin(), self.ahead).transform(moved.into());
         self.orient();
         let moved = PointBox::about(moved, margin)?;
-        self.arrival(Outcome::Arrived, moved)
+        self.arrival(MoveOutcome::Arrived, moved)
     }
 }
 

@@ -7,7 +7,7 @@ use tolman_sim::robots::LaserPioneer;
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 
 use super::{Office, OfficeConfig, SurveyorConfig, mapper};
-use crate::run::{End, Limited, run};
+use crate::run::{Limited, TaskEnd, run};
 
 /// The J maze in corridors 0.95 m wide with walls that are lines, as MSLST has it.
 pub(super) fn j() -> Office {
@@ -50,7 +50,7 @@ fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
         let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, seed);
 
         let ended = run(&mut robot, &mut system, Task::Explore).unwrap();
-        assert_eq!(ended.end, End::Done, "seed {seed}: {ended:?}");
+        assert_eq!(ended.end, TaskEnd::Done, "seed {seed}: {ended:?}");
         let map = system.map();
         assert_eq!((map.places.len(), map.links.len()), (5, 8), "{map:#?}");
         for place in truth.values() {
@@ -61,11 +61,11 @@ fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
 
         let home = map.places[0].id;
         let ended = run(&mut robot, &mut system, Task::Reach(Goal::Place(home))).unwrap();
-        assert_eq!(ended.end, End::Done);
+        assert_eq!(ended.end, TaskEnd::Done);
         assert!(is_near(robot.robot().robot(), start), "seed {seed}");
         let task = Task::Reach(Goal::Landmark(Landmark::Goal));
         let ended = run(&mut robot, &mut system, task).unwrap();
-        assert_eq!((ended.end, ended.actions), (End::Done, 4), "by the map");
+        assert_eq!((ended.end, ended.actions), (TaskEnd::Done, 4), "by the map");
         assert!(is_near(robot.robot().robot(), goal), "seed {seed}");
     }
 }
@@ -86,7 +86,7 @@ fn a_run_that_broke_off_goes_on() {
     let mut solo = Solo::new(office.course.world.clone(), pioneer, pose, 1).unwrap();
     let paper = DiktiometerConfig::paper(routines, mapper(&office, &config));
     let mut system = Diktiometer::new(paper, LaserEye { columns: 24 }, 1);
-    for (limit, end) in [(50, End::OutOfTime), (20_000, End::Done)] {
+    for (limit, end) in [(50, TaskEnd::OutOfTime), (20_000, TaskEnd::Done)] {
         let nowhere = Landmarked::new(&mut solo, |_| None);
         let mut robot = Limited::new(nowhere, limit);
         let ended = run(&mut robot, &mut system, Task::Explore).unwrap();

@@ -25,9 +25,11 @@ pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
 pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
 pub use office_robot::{OfficeRobot, OfficeSurveyor, office_robot, surveyor};
 pub use score::{MapScore, Visit, score};
-pub use survey::{Drawn, Past, PlanTrial, RunError, Survey, SurveyConfig, Surveyed, mapper};
+pub use survey::{
+    Past, PlaceMark, PlanTrial, RunError, Survey, SurveyConfig, SurveyedMove, mapper,
+};
 pub use survey_file::{SurveyFile, SurveyFileError};
-pub use surveyor_config::{Sight, SurveyorConfig};
+pub use surveyor_config::{PlaceCue, SurveyorConfig};
 
 use memory::Memory;
 use office::{Places, leads, least_distance};

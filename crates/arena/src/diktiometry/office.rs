@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Grid, Maze};
-use tolman_sim::{CorridorSize, Door, DoorState, Material, Wall, World, WorldError};
+use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World, WorldError};
 
 use crate::course::Course;
 
@@ -151,7 +151,7 @@ impl Office {
             outlines.extend(config.jambs(*cell, *direction));
         }
         let stretches = outlines.iter().flat_map(|outline| outline.windows(2));
-        let walls = stretches.map(|ends| Wall {
+        let walls = stretches.map(|ends| WallSegment {
             start: ends[0],
             end: ends[1],
             material: paint(),
@@ -375,7 +375,7 @@ impl OfficeConfig {
     }
 
     /// The outline of a wall in equal pieces no longer than a cell.
-    fn pieces(&self, wall: &Wall) -> Vec<Point> {
+    fn pieces(&self, wall: &WallSegment) -> Vec<Point> {
         let along = wall.end - wall.start;
         let count = libm::ceil(along.norm() / self.pitch() - 1e-9).max(1.0) as u32;
         let at = |index: u32| wall.start + along * (f64::from(index) / f64::from(count));

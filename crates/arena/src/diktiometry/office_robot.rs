@@ -3,14 +3,14 @@ use tolman_sim::robots::CameraPioneer;
 use tolman_sim::{DoorError, DoorState};
 use tolman_systems::diktiometry::Surveyor;
 
-use super::{Office, RunError, Sight, SurveyorConfig};
+use super::{Office, PlaceCue, RunError, SurveyorConfig};
 use crate::Simulated;
 
 /// A simulated Pioneer with a camera.
 pub type OfficeRobot = Simulated<CameraPioneer>;
 
 /// An [`OfficeRobot`] with its control routines.
-pub type OfficeSurveyor = Surveyor<OfficeRobot, Sight>;
+pub type OfficeSurveyor = Surveyor<OfficeRobot, PlaceCue>;
 
 /// Opens or shuts both leaves of doorway `number` where `robot` is.
 ///
@@ -62,9 +62,9 @@ pub fn surveyor(
 mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use tolman_maps::diktiometry::{Outcome, Signature};
+    use tolman_maps::diktiometry::{MoveOutcome, Signature};
     use tolman_maze::Direction;
-    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveError};
+    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
     use tolman_systems::diktiometry::{Arrival, Rover};
 
     use super::super::office::{OfficeConfig, TruePlace, blocks};
@@ -103,8 +103,8 @@ mod tests {
             let arrival = rover.go(direction).unwrap();
             let way = places[&at].ways[direction.index()];
             let expected = match way {
-                Some(_) => Outcome::Arrived,
-                None => Outcome::Blocked,
+                Some(_) => MoveOutcome::Arrived,
+                None => MoveOutcome::Blocked,
             };
             assert_eq!(
                 arrival.outcome, expected,
@@ -170,11 +170,11 @@ mod tests {
             .values()
             .map(|there| there.ways.map(|way| way.map(place)));
         let world = AbstractWorld::of_places(positions, ways.collect()).unwrap();
-        let errors = MoveError {
+        let errors = MoveNoise {
             distance: config.odometry_share,
             compass: config.compass_bound,
             stop: 0.03,
-            ..MoveError::NONE
+            ..MoveNoise::NONE
         };
         let mut ghost = AbstractRobot::new(world.into(), 0, errors, 8).unwrap();
 

@@ -6,17 +6,17 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{Config, Observer, Outcome, PlaceId, StepReport};
+use tolman_maps::diktiometry::{Config, MoveOutcome, Observer, PlaceId, StepReport};
 use tolman_maze::Direction;
 use tolman_sim::robots::CameraPioneerError;
 use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
 use tolman_systems::diktiometry::{
-    Arrival, Decision, MapError, MappedMove, Mapping, Planner, RoutineConfigError, RoutineError,
-    aligned_signatures,
+    Arrival, MapError, MappedMove, PlannedMove, Planner, RoutineConfigError, RoutineError,
+    RoverMap, aligned_signatures,
 };
 
 use super::{
-    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, Places, Sight,
+    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, PlaceCue, Places,
     SurveyorConfig, Visit, leads, office_robot::set_doorway, score, surveyor,
 };
 use tolman_systems::stream;
@@ -63,15 +63,15 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let mut config = Config::new(Config::compass_actions(), separation);
     config.place_radius = robot.place_radius;
     match robot.sight {
-        Sight::Camera { columns, .. } if office.config().colours > 1 => {
+        PlaceCue::Camera { columns, .. } if office.config().colours > 1 => {
             // A doorway does not look like the corners beside it, and those are a pitch apart or more.
             config.alike_separation = separation.max(office.config().pitch());
             config.search.width = 4.0 * config.alike_separation;
             config.percepts = aligned_signatures(3, columns as usize);
         }
         // Where all walls have one colour a camera tells nothing.
-        Sight::Camera { .. } => {}
-        Sight::Laser { columns } => config.percepts = aligned_signatures(1, columns as usize),
+        PlaceCue::Camera { .. } => {}
+        PlaceCue::Laser { columns } => config.percepts = aligned_signatures(1, columns as usize),
     }
     config
 }
@@ -95,7 +95,7 @@ pub struct Survey {
     office: Arc<Office>,
     config: SurveyConfig,
     rover: OfficeSurveyor,
-    mapping: Mapping,
+    mapping: RoverMap,
     planner: Planner,
     walk: ChaCha8Rng,
     doors: ChaCha8Rng,
@@ -111,7 +111,7 @@ pub struct Survey {
 
 /// A place of a learned map where it is drawn over the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct PlaceMark {
     /// Its id.
     pub id: u32,
     /// The box that holds it as seen from the start, m.
@@ -136,9 +136,9 @@ pub enum PlanTrial {
 
 /// What happened in one move.
 #[derive(Debug)]
-pub struct Surveyed {
+pub struct SurveyedMove {
     /// What the planner wanted.
-    pub decision: Decision,
+    pub decision: PlannedMove,
     /// What the robot measured.
     pub arrival: Arrival,
     /// What the observer made of it.
@@ -199,7 +199,7 @@ impl Survey {
             at: Point::origin(),
         })?;
         let mut rover = surveyor(office, &config.robot, start.position, seed)?;
-        let mapping = Mapping::begin(&mut rover, config.mapper.clone())?;
+        let mapping = RoverMap::begin(&mut rover, config.mapper.clone())?;
         let past = Past {
             start: start.position,
             at: start.position,
@@ -224,7 +224,7 @@ impl Survey {
         seed: u64,
     ) -> Result<Self, RunError> {
         let mut rover = surveyor(office, &config.robot, past.at, seed)?;
-        let mapping = Mapping::resume(&mut rover, observer)?;
+        let mapping = RoverMap::resume(&mut rover, observer)?;
         Self::after(past, office, config, rover, mapping, seed)
     }
 
@@ -234,7 +234,7 @@ impl Survey {
         office: &Arc<Office>,
         config: SurveyConfig,
         rover: OfficeSurveyor,
-        mapping: Mapping,
+        mapping: RoverMap,
         seed: u64,
     ) -> Result<Self, RunError> {
         let mut survey = Self {
@@ -273,7 +273,7 @@ impl Survey {
     ///
     /// # Errors
     /// [`RunError`] if robot or observer cannot go on.
-    pub fn step(&mut self) -> Result<Surveyed, RunError> {
+    pub fn step(&mut self) -> Result<SurveyedMove, RunError> {
         self.move_a_door()?;
         let (observer, exits) = (self.mapping.observer(), self.mapping.exits());
         let decision = self.planner.choose(observer, exits, &mut self.walk);
@@ -281,7 +281,7 @@ impl Survey {
         self.go(decision.ok_or(RunError::NoWay { at })?)
     }
 
-    fn go(&mut self, decision: Decision) -> Result<Surveyed, RunError> {
+    fn go(&mut self, decision: PlannedMove) -> Result<SurveyedMove, RunError> {
         let before = self.position();
         let gone = self.mapping.go(&mut self.rover, decision.direction);
         let here = self.position();
@@ -289,7 +289,7 @@ impl Survey {
             gone.map_err(|source| RunError::BrokeOff { at: here, source })?;
         let from = self.site;
         self.site = self.true_site(here)?;
-        if arrival.outcome == Outcome::Arrived {
+        if arrival.outcome == MoveOutcome::Arrived {
             let way = (here - before).norm();
             self.memory.go(from, decision.direction, self.site, way);
             self.past.gone.push((from, decision.direction));
@@ -300,7 +300,7 @@ impl Survey {
         let place = self.observer().place();
         let site = self.site;
         self.past.visits.push(Visit { site, place });
-        Ok(Surveyed {
+        Ok(SurveyedMove {
             decision,
             arrival,
             report,
@@ -439,7 +439,7 @@ impl Survey {
 
     /// The places of the map, moved so that the first lies where the run truly began.
     #[must_use]
-    pub fn drawn(&self) -> Vec<Drawn> {
+    pub fn drawn(&self) -> Vec<PlaceMark> {
         let map = self.observer().map();
         let Some(home) = self.visits().first().map(|visit| visit.place) else {
             return Vec::new();
@@ -448,7 +448,7 @@ impl Survey {
             let PointBox { x, y } = drawn.bounds;
             let corner = |x: f64, y: f64| self.past.start + Vector::new(x, y);
             let visits = map.paths.place(drawn.place).map_or(0, |place| place.visits);
-            Drawn {
+            PlaceMark {
                 id: drawn.place.0,
                 bounds: Bounds {
                     min: corner(x.low(), y.low()),

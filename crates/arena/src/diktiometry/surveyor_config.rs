@@ -14,7 +14,7 @@ pub struct SurveyorConfig {
     /// Body, laser and motors. Errors of compass and odometry are added to its own.
     pub pioneer: LaserPioneerConfig,
     /// What it tells places apart by.
-    pub sight: Sight,
+    pub sight: PlaceCue,
     /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance
     /// travelled".
     pub odometry_share: f64,
@@ -31,7 +31,7 @@ pub struct SurveyorConfig {
 /// What a robot tells places apart by.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub enum Sight {
+pub enum PlaceCue {
     /// The colours that a camera sees all round.
     Camera {
         /// Number of columns of the image.
@@ -62,7 +62,7 @@ impl SurveyorConfig {
                 contact: Contact::Slide,
                 ..LaserPioneerConfig::noiseless()
             },
-            sight: Sight::Camera {
+            sight: PlaceCue::Camera {
                 columns: 24,
                 colour_sd: 0.02,
             },
@@ -79,7 +79,7 @@ impl SurveyorConfig {
     pub fn mslst() -> Self {
         Self {
             pioneer: calibrated(),
-            sight: Sight::Laser { columns: 24 },
+            sight: PlaceCue::Laser { columns: 24 },
             place_radius: 0.1,
             ..Self::paper()
         }
@@ -89,8 +89,8 @@ impl SurveyorConfig {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self.sight {
-            Sight::Camera { .. } => CAMERA_PIONEER,
-            Sight::Laser { .. } => LASER_PIONEER,
+            PlaceCue::Camera { .. } => CAMERA_PIONEER,
+            PlaceCue::Laser { .. } => LASER_PIONEER,
         }
     }
 
@@ -113,9 +113,9 @@ impl SurveyorConfig {
     /// Returns the same Pioneer with a camera.
     pub(super) fn camera_robot(&self) -> CameraPioneerConfig {
         let (columns, colour_sd) = match self.sight {
-            Sight::Camera { columns, colour_sd } => (columns, colour_sd),
+            PlaceCue::Camera { columns, colour_sd } => (columns, colour_sd),
             // Nobody looks at it.
-            Sight::Laser { .. } => (1, 0.0),
+            PlaceCue::Laser { .. } => (1, 0.0),
         };
         CameraPioneerConfig {
             columns,
@@ -139,7 +139,7 @@ impl SurveyorConfig {
     }
 }
 
-impl Eye<CameraSensing> for Sight {
+impl Eye<CameraSensing> for PlaceCue {
     fn columns(&self, sensing: &CameraSensing) -> Result<Option<Vec<Vec<f64>>>, SenseError> {
         match *self {
             Self::Camera { .. } => CameraEye.columns(sensing),

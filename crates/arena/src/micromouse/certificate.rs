@@ -212,7 +212,7 @@ mod tests {
     use super::*;
     use tolman_systems::micromouse::Searcher;
 
-    use crate::micromouse::{Trial, brief};
+    use crate::micromouse::{MouseTrial, brief};
 
     fn maze() -> Maze {
         let text = "\
@@ -231,7 +231,7 @@ o---o---o---o---o---o
 
     fn certificate(maze: &Maze) -> Certificate {
         let mut mouse = Searcher::Certify.mouse(&brief(maze).unwrap(), 0).unwrap();
-        Trial::play(maze, &mut mouse).unwrap();
+        MouseTrial::play(maze, &mut mouse).unwrap();
         mouse.certificate().unwrap().clone()
     }
 

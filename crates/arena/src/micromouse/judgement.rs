@@ -6,7 +6,7 @@ use tolman_planners::moves::MoveMap;
 use tolman_planners::{Passages, TooLarge, Unknown};
 use tolman_systems::micromouse::{Driver, MouseError, SIDE, Search, Searcher};
 
-use super::{Trial, TrialError, brief, check};
+use super::{MouseTrial, MouseTrialError, brief, check};
 
 /// How good a trial was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -31,7 +31,11 @@ impl Judgement {
     ///
     /// # Errors
     /// If the maze has more than [`SIDE`] columns or rows.
-    pub fn of(maze: &Maze, mouse: &Driver<impl Search>, trial: &Trial) -> Result<Self, TooLarge> {
+    pub fn of(
+        maze: &Maze,
+        mouse: &Driver<impl Search>,
+        trial: &MouseTrial,
+    ) -> Result<Self, TooLarge> {
         let passages = Passages::<SIDE>::new(maze, Unknown::Closed)?;
         let map = MoveMap::new(&passages, maze.goals().iter().copied());
         let optimum = maze.start().and_then(|(start, _)| map.moves(start));
@@ -66,9 +70,9 @@ pub fn try_on(
     maze: &Maze,
     searcher: Searcher,
     seed: u64,
-) -> Result<(Trial, Judgement), TrialError> {
+) -> Result<(MouseTrial, Judgement), MouseTrialError> {
     let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
-    let trial = Trial::play(maze, &mut mouse)?;
+    let trial = MouseTrial::play(maze, &mut mouse)?;
     let judgement = Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?;
     Ok((trial, judgement))
 }

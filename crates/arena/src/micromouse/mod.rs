@@ -3,14 +3,14 @@
 //!
 //! A mouse, a [`Driver`](tolman_systems::micromouse::Driver), may give up to 1000 orders. In the first run it
 //! explores; in the second it has to reach the goal. The [`Referee`] moves it and keeps the score:
-//! a thirtieth of the steps of the first run, and those of the second. A [`Trial`] is both runs of
+//! a thirtieth of the steps of the first run, and those of the second. A [`MouseTrial`] is both runs of
 //! one mouse in one maze, a [`Judgement`] what it was worth, and [`check`] verifies a mouse's proof
 //! that its second run is the best.
 //!
 //! [`noisy`] is a mouse on the continuous simulator, among thick walls.
 //!
 //! ```
-//! use tolman_arena::micromouse::{Trial, brief, check};
+//! use tolman_arena::micromouse::{brief, check, MouseTrial};
 //! use tolman_systems::micromouse::Searcher;
 //!
 //! let text = "\
@@ -26,7 +26,7 @@
 //! ";
 //! let maze = tolman_maze::read(text)?.maze;
 //! let mut mouse = Searcher::Certify.mouse(&brief(&maze)?, 0)?;
-//! let trial = Trial::play(&maze, &mut mouse)?;
+//! let trial = MouseTrial::play(&maze, &mut mouse)?;
 //! assert_eq!(trial.verdict.run_2, Some(4));
 //! let certificate = mouse.certificate().ok_or("no proof")?;
 //! check(certificate, &maze)?;
@@ -45,5 +45,5 @@ mod trial;
 pub use certificate::{CertificateError, check};
 pub use judgement::{Judgement, try_on};
 pub use q_learning::CellTask;
-pub use referee::{Event, MAX_STEPS, Referee, RefereeError, Verdict, brief};
-pub use trial::{Step, Trial, TrialError};
+pub use referee::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet, brief};
+pub use trial::{MouseTrial, MouseTrialError, RefereedStep};

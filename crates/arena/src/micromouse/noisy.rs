@@ -9,10 +9,10 @@ use tolman_maps::wall_belief::PoseFilterConfig;
 use tolman_maze::Maze;
 use tolman_robot::Ring;
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{ConfigError, LaserPioneer, LaserPioneerConfig, MotorNoise};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise, RobotConfigError};
 use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
-    Localization, NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext,
+    NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
 };
 
 use super::{MAX_STEPS, RefereeError, brief};
@@ -21,7 +21,7 @@ use super::{MAX_STEPS, RefereeError, brief};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyConfig {
     /// How the mouse knows where it is.
-    pub localization: Localization,
+    pub localization: PoseSource,
     /// Wheels slip: distances and turns are off by a share uniform in ± this. ≥ 0.
     pub slip: f64,
     /// Standard deviation of the turn that nobody asked for, rad per metre. ≥ 0.
@@ -36,7 +36,7 @@ impl NoisyConfig {
     /// Ordinary noise times `level`: wheels slip by up to a tenth, as those of Webots do, and drift
     /// by 0.2 rad/m; ranges are off by 3 mm and 2 %.
     #[must_use]
-    pub fn ordinary(localization: Localization, level: f64) -> Self {
+    pub fn ordinary(localization: PoseSource, level: f64) -> Self {
         Self {
             localization,
             slip: 0.1 * level,
@@ -150,7 +150,7 @@ pub enum NoisyError {
     World(#[from] WorldError),
     /// The mouse cannot be built.
     #[error(transparent)]
-    Robot(#[from] ConfigError),
+    Robot(#[from] RobotConfigError),
     /// It cannot be put down at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),
@@ -265,7 +265,7 @@ mod tests {
 
     use super::*;
 
-    fn outcome(localization: Localization, level: f64) -> NoisyTrial {
+    fn outcome(localization: PoseSource, level: f64) -> NoisyTrial {
         let braided = Braided {
             width: 12,
             height: 12,
@@ -278,9 +278,9 @@ mod tests {
 
     #[test]
     fn the_filter_copes_with_noise_that_leads_dead_reckoning_astray() {
-        let quiet = outcome(Localization::DeadReckoning, 0.0);
-        let filtered = outcome(Localization::ParticleFilter, 2.0);
-        let reckoned = outcome(Localization::DeadReckoning, 2.0);
+        let quiet = outcome(PoseSource::DeadReckoning, 0.0);
+        let filtered = outcome(PoseSource::ParticleFilter, 2.0);
+        let reckoned = outcome(PoseSource::DeadReckoning, 2.0);
         assert!(matches!(quiet.end, NoisyEnd::Arrived { .. }));
         assert_eq!(filtered.end, quiet.end, "the noise costs no step");
         assert!(!matches!(reckoned.end, NoisyEnd::Arrived { .. }));

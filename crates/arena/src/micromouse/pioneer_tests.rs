@@ -13,7 +13,7 @@ use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use super::{brief, check};
 use crate::Simulated;
 use crate::pioneer::{self, CORRIDOR_WIDTH};
-use crate::run::{End, Limited, run};
+use crate::run::{Limited, TaskEnd, run};
 
 const MAZE: &str = "\
 o---o---o---o---o
@@ -32,7 +32,7 @@ const GOAL: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
 /// How one mouse fared: the cells it really crossed, by task, and how each task ended.
 struct Outing {
-    cells: Vec<(Vec<Cell>, End)>,
+    cells: Vec<(Vec<Cell>, TaskEnd)>,
     /// Time steps in which the robot touched a wall.
     bumps: u32,
 }
@@ -99,7 +99,7 @@ fn it_explores_and_proves_and_runs_on_the_calibrated_pioneer() {
         let [(explored, end), (home, back), (run, done)] = &outing.cells[..] else {
             panic!("three tasks");
         };
-        assert_eq!([end, back, done], [&End::Done; 3]);
+        assert_eq!([end, back, done], [&TaskEnd::Done; 3]);
         assert!(explored.contains(&Cell::new(3, 2)));
         assert_eq!(home.last(), Some(&Cell::new(0, 0)));
         // North three, east three, south one: the run that was proven, stop by stop.
@@ -124,7 +124,7 @@ fn the_papers_target_search_runs_by_the_fewest_cells() {
     );
     let (run, end) = &outing.cells[2];
     let shortest = maze.steps_to_goal()[0].unwrap() as usize;
-    assert_eq!((end, run.len() - 1), (&End::Done, shortest));
+    assert_eq!((end, run.len() - 1), (&TaskEnd::Done, shortest));
 }
 
 #[test]
@@ -137,6 +137,6 @@ fn a_mouse_that_is_told_the_wrong_pitch_does_not_arrive() {
     };
     let mut mouse = MazeMouse::certify(brief(&maze).unwrap(), told).unwrap();
     let outing = send(&maze, 0.0, &robot, &mut mouse, &[Task::Explore]);
-    assert!(matches!(outing.cells[0].1, End::GaveUp { .. }));
+    assert!(matches!(outing.cells[0].1, TaskEnd::GaveUp { .. }));
     assert_eq!(mouse.certificate(), None);
 }

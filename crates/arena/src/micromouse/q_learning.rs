@@ -2,7 +2,7 @@
 
 use tolman_maze::{Cell, Direction, Maze};
 
-use tolman_systems::baselines::q_learning::{Outcome, Task};
+use tolman_systems::baselines::q_learning::{LearningTask, Transition};
 
 /// A maze as a task: a step is one cell in some direction, against a wall it is none, and each
 /// costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
@@ -25,7 +25,7 @@ impl<'a> CellTask<'a> {
     }
 }
 
-impl Task for CellTask<'_> {
+impl LearningTask for CellTask<'_> {
     fn start(&self) -> usize {
         self.start
     }
@@ -38,10 +38,10 @@ impl Task for CellTask<'_> {
         Direction::ALL.len() as u32
     }
 
-    fn act(&self, state: usize, action: u32) -> Outcome {
+    fn act(&self, state: usize, action: u32) -> Transition {
         let direction = Direction::ALL[action as usize % Direction::ALL.len()];
         let beside = self.maze.beside(self.cells[state], direction);
-        Outcome {
+        Transition {
             next: beside.map_or(state, |cell| self.maze.grid().index(cell)),
             cost: 1,
         }

@@ -17,15 +17,15 @@ const MOST_CELLS: i32 = 3;
 /// format that is the middle 2 × 2.
 ///
 /// ```
-/// use tolman_arena::micromouse::{Event, Referee};
+/// use tolman_arena::micromouse::{Referee, Ruling};
 /// use tolman_systems::micromouse::Order;
 ///
 /// let maze = tolman_maze::read("+---+---+\n| G   G |\n+   +   +\n| S |   |\n+---+---+\n")?.maze;
 /// let mut referee = Referee::new(&maze)?;
 /// assert_eq!(referee.sight().front, 1);
 /// referee.take(Order::new(0, 1))?;
-/// assert_eq!(referee.take(Order::RESET)?, Event::RunTwo);
-/// assert_eq!(referee.take(Order::new(0, 3))?, Event::Finished);
+/// assert_eq!(referee.take(Order::RESET)?, Ruling::RunTwo);
+/// assert_eq!(referee.take(Order::new(0, 3))?, Ruling::Finished);
 /// assert_eq!(referee.verdict().score(), Some(2.0 / 30.0 + 1.0));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
@@ -38,7 +38,7 @@ pub struct Referee<'a> {
     /// Orders so far.
     steps: u32,
     stage: Stage,
-    verdict: Verdict,
+    verdict: ScoreSheet,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +54,7 @@ enum Stage {
 
 /// What became of an order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
+pub enum Ruling {
     /// The mouse was moved, as far as the walls let it.
     Moved,
     /// The mouse stands at the start again: the second run begins.
@@ -70,14 +70,14 @@ pub enum Event {
 
 /// What the referee has written down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Verdict {
+pub struct ScoreSheet {
     /// Steps of the first run, the reset included; none before it ends.
     pub run_1: Option<u32>,
     /// Steps of the second run; none before it ends.
     pub run_2: Option<u32>,
 }
 
-impl Verdict {
+impl ScoreSheet {
     /// A thirtieth of the first run and the whole second one; none if the mouse did not finish.
     #[must_use]
     pub fn score(&self) -> Option<f64> {
@@ -126,7 +126,7 @@ impl<'a> Referee<'a> {
             heading: start.1,
             steps: 0,
             stage: Stage::Seeking,
-            verdict: Verdict::default(),
+            verdict: ScoreSheet::default(),
         })
     }
 
@@ -154,12 +154,12 @@ impl<'a> Referee<'a> {
     ///
     /// # Errors
     /// If the test program would have broken off; nothing happened.
-    pub fn take(&mut self, order: Order) -> Result<Event, OrderError> {
+    pub fn take(&mut self, order: Order) -> Result<Ruling, OrderError> {
         if let (Rotation::Degrees(degrees), Movement::Reset(_)) = (order.rotation, order.movement) {
             return Err(OrderError::HalfReset { degrees });
         }
         if self.is_over() {
-            return Ok(Event::Over);
+            return Ok(Ruling::Over);
         }
         self.steps += 1;
         let cells = match order.movement {
@@ -187,30 +187,30 @@ impl<'a> Referee<'a> {
         Ok(self.arrive())
     }
 
-    fn reset(&mut self) -> Event {
+    fn reset(&mut self) -> Ruling {
         if self.stage != Stage::Exploring {
-            return Event::ResetRefused;
+            return Ruling::ResetRefused;
         }
         (self.cell, self.heading) = self.start;
         self.verdict.run_1 = Some(self.steps);
         self.stage = Stage::RunTwo;
-        Event::RunTwo
+        Ruling::RunTwo
     }
 
     /// Only where a movement ends the goal counts.
-    fn arrive(&mut self) -> Event {
+    fn arrive(&mut self) -> Ruling {
         if !self.maze.goals().contains(&self.cell) {
-            return Event::Moved;
+            return Ruling::Moved;
         }
         match (self.stage, self.verdict.run_1) {
             (Stage::RunTwo, Some(run_1)) => {
                 self.verdict.run_2 = Some(self.steps - run_1);
                 self.stage = Stage::Over;
-                Event::Finished
+                Ruling::Finished
             }
             _ => {
                 self.stage = Stage::Exploring;
-                Event::Moved
+                Ruling::Moved
             }
         }
     }
@@ -235,7 +235,7 @@ impl<'a> Referee<'a> {
 
     /// What is written down so far.
     #[must_use]
-    pub const fn verdict(&self) -> Verdict {
+    pub const fn verdict(&self) -> ScoreSheet {
         self.verdict
     }
 }
@@ -254,7 +254,7 @@ mod tests {
         maze
     }
 
-    fn after(maze: &Maze, orders: &[Order]) -> (Cell, Direction, Vec<Event>) {
+    fn after(maze: &Maze, orders: &[Order]) -> (Cell, Direction, Vec<Ruling>) {
         let mut referee = Referee::new(maze).unwrap();
         let events = orders.iter().map(|order| referee.take(*order).unwrap());
         let events = events.collect();
@@ -287,7 +287,7 @@ mod tests {
         };
         let (cell, heading, events) = after(&plain(), &[half]);
         assert_eq!((cell, heading), (Cell::new(0, 2), Direction::North));
-        assert_eq!(events, [Event::Moved]);
+        assert_eq!(events, [Ruling::Moved]);
     }
 
     #[test]
@@ -319,7 +319,7 @@ mod tests {
             &[Order::new(0, 1), Order::new(90, 3), Order::RESET],
         );
         assert_eq!(cell, Cell::new(3, 1));
-        assert_eq!(events, [Event::Moved, Event::Moved, Event::ResetRefused]);
+        assert_eq!(events, [Ruling::Moved, Ruling::Moved, Ruling::ResetRefused]);
         // With a stop on it, and away again: the first run may end anywhere.
         let (cell, heading, events) = after(
             &plain(),
@@ -331,7 +331,7 @@ mod tests {
             ],
         );
         assert_eq!((cell, heading), (Cell::new(0, 0), Direction::North));
-        assert_eq!(events[3], Event::RunTwo);
+        assert_eq!(events[3], Ruling::RunTwo);
     }
 
     #[test]
@@ -339,20 +339,20 @@ mod tests {
         let maze = plain();
         let mut referee = Referee::new(&maze).unwrap();
         let play = [
-            (Order::RESET, Event::ResetRefused),
-            (Order::new(0, 0), Event::Moved),
-            (Order::new(0, 1), Event::Moved),
-            (Order::new(90, 1), Event::Moved),
-            (Order::RESET, Event::RunTwo),
-            (Order::RESET, Event::ResetRefused),
-            (Order::new(0, 2), Event::Moved),
-            (Order::new(90, 1), Event::Finished),
-            (Order::new(90, 1), Event::Over),
+            (Order::RESET, Ruling::ResetRefused),
+            (Order::new(0, 0), Ruling::Moved),
+            (Order::new(0, 1), Ruling::Moved),
+            (Order::new(90, 1), Ruling::Moved),
+            (Order::RESET, Ruling::RunTwo),
+            (Order::RESET, Ruling::ResetRefused),
+            (Order::new(0, 2), Ruling::Moved),
+            (Order::new(90, 1), Ruling::Finished),
+            (Order::new(90, 1), Ruling::Over),
         ];
         for (order, event) in play {
             assert_eq!(referee.take(order), Ok(event));
         }
-        let verdict = Verdict {
+        let verdict = ScoreSheet {
             run_1: Some(5),
             run_2: Some(3),
         };
@@ -370,10 +370,10 @@ mod tests {
         let turn = Order::new(90, 0);
         let (.., events) = after(&maze, &[Order::RESET, turn, Order::RESET, turn]);
         let expect = [
-            Event::ResetRefused,
-            Event::Moved,
-            Event::RunTwo,
-            Event::Finished,
+            Ruling::ResetRefused,
+            Ruling::Moved,
+            Ruling::RunTwo,
+            Ruling::Finished,
         ];
         assert_eq!(events, expect);
     }
@@ -388,9 +388,9 @@ mod tests {
         referee.take(Order::new(0, 1)).unwrap();
         assert!(!referee.is_over());
         // The thousandth order is still carried out, the next is not.
-        assert_eq!(referee.take(Order::new(90, 1)), Ok(Event::Moved));
+        assert_eq!(referee.take(Order::new(90, 1)), Ok(Ruling::Moved));
         assert!(referee.is_over());
-        assert_eq!(referee.take(Order::RESET), Ok(Event::Over));
+        assert_eq!(referee.take(Order::RESET), Ok(Ruling::Over));
         assert_eq!(referee.verdict().score(), None);
         assert_eq!(referee.pose().0, Cell::new(1, 1));
     }

@@ -3,26 +3,26 @@
 use tolman_maze::{Cell, Maze};
 use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search};
 
-use super::{Event, Referee, RefereeError, Verdict};
+use super::{Referee, RefereeError, Ruling, ScoreSheet};
 
 /// What became of one mouse in one maze.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trial {
+pub struct MouseTrial {
     /// Every order that counted, in order.
-    pub steps: Vec<Step>,
+    pub steps: Vec<RefereedStep>,
     /// What the referee wrote down.
-    pub verdict: Verdict,
+    pub verdict: ScoreSheet,
     /// Why the mouse gave up, if it did.
     pub gave_up: Option<MouseError>,
 }
 
 /// One step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct RefereedStep {
     /// What the mouse wanted.
     pub order: Order,
     /// What came of it.
-    pub event: Event,
+    pub event: Ruling,
     /// Where the mouse stood afterwards.
     pub cell: Cell,
 }
@@ -30,7 +30,7 @@ pub struct Step {
 /// Why there was no trial.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum TrialError {
+pub enum MouseTrialError {
     /// The maze will not do.
     #[error(transparent)]
     Referee(#[from] RefereeError),
@@ -42,12 +42,12 @@ pub enum TrialError {
     Order(#[from] OrderError),
 }
 
-impl Trial {
+impl MouseTrial {
     /// Lets the mouse run until it is done, gives up or the time is over.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.
-    pub fn play(maze: &Maze, mouse: &mut Driver<impl Search>) -> Result<Self, TrialError> {
+    pub fn play(maze: &Maze, mouse: &mut Driver<impl Search>) -> Result<Self, MouseTrialError> {
         let mut referee = Referee::new(maze)?;
         let mut steps = Vec::new();
         let mut gave_up = None;
@@ -56,7 +56,7 @@ impl Trial {
                 Ok(order) => {
                     let event = referee.take(order)?;
                     let (cell, _) = referee.pose();
-                    steps.push(Step { order, event, cell });
+                    steps.push(RefereedStep { order, event, cell });
                 }
                 Err(error) => {
                     gave_up = Some(error);

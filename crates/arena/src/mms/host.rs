@@ -43,7 +43,7 @@ pub struct Hosted {
     /// The score as the README of mms has it; 2000 if unsolved.
     pub score_in_cells: f32,
     /// How it ended.
-    pub ended: Ended,
+    pub ended: MouseExit,
     /// Moves and turns.
     pub movements: u64,
     /// How often it ran against a wall.
@@ -60,7 +60,7 @@ pub struct Hosted {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Ended {
+pub enum MouseExit {
     /// By itself, and said that all went well.
     Done,
     /// By itself, with a failure.
@@ -159,7 +159,7 @@ fn converse(
     input: ChildStdin,
     output: ChildStdout,
     limits: &Limits,
-) -> Option<Ended> {
+) -> Option<MouseExit> {
     let deadline = Instant::now() + limits.time;
     let (to_us, lines) = mpsc::sync_channel(LINES_AHEAD);
     let (replies, to_mouse) = mpsc::sync_channel(LINES_AHEAD);
@@ -170,18 +170,18 @@ fn converse(
         let left = deadline.saturating_duration_since(Instant::now());
         let line = match lines.recv_timeout(left) {
             Ok(Some(line)) => line,
-            Ok(None) => return Some(Ended::LineTooLong),
-            Err(RecvTimeoutError::Timeout) => return Some(Ended::OutOfTime),
+            Ok(None) => return Some(MouseExit::LineTooLong),
+            Err(RecvTimeoutError::Timeout) => return Some(MouseExit::OutOfTime),
             Err(RecvTimeoutError::Disconnected) => return None,
         };
         let reply = simulator.answer(&line);
         if simulator.movements() + simulator.crashes() >= limits.movements {
-            return Some(Ended::OutOfMovements);
+            return Some(MouseExit::OutOfMovements);
         }
         if let Some(reply) = reply
             && !send(&replies, reply, deadline)
         {
-            return Some(Ended::OutOfTime);
+            return Some(MouseExit::OutOfTime);
         }
     }
 }
@@ -237,16 +237,16 @@ fn write(mut input: ChildStdin, to_mouse: &Receiver<String>) {
 
 /// Waits for a mouse that has closed its stdout; one that does not end in a second, or in what it
 /// was given if that is less, is killed.
-fn wait(child: &mut Child, time: Duration) -> Result<Ended, HostError> {
+fn wait(child: &mut Child, time: Duration) -> Result<MouseExit, HostError> {
     let deadline = Instant::now() + time.min(Duration::from_secs(1));
     loop {
         match child.try_wait().map_err(HostError::Wait)? {
-            Some(status) if status.success() => return Ok(Ended::Done),
-            Some(_) => return Ok(Ended::Failed),
+            Some(status) if status.success() => return Ok(MouseExit::Done),
+            Some(_) => return Ok(MouseExit::Failed),
             None if Instant::now() >= deadline => {
                 let _ = child.kill();
                 child.wait().map_err(HostError::Wait)?;
-                return Ok(Ended::OutOfTime);
+                return Ok(MouseExit::OutOfTime);
             }
             None => thread::sleep(Duration::from_millis(2)),
         }

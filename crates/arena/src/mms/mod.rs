@@ -25,6 +25,6 @@ mod mouse_tests;
 mod score;
 mod simulator;
 
-pub use host::{Ended, HostError, Hosted, Limits, Log, host};
+pub use host::{HostError, Hosted, Limits, Log, MouseExit, host};
 pub use score::{Figures, Score, Unit};
 pub use simulator::Simulator;

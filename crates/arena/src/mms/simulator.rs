@@ -1,7 +1,7 @@
 //! The simulator: one command in, one reply out.
 
 use tolman_maze::{Cell, Maze};
-use tolman_systems::micromouse::mms::{Gate, Heading, Place};
+use tolman_systems::micromouse::mms::{Gate, LatticeHeading, LatticePoint};
 
 use super::{Score, Unit};
 
@@ -13,8 +13,8 @@ use super::{Score, Unit};
 pub struct Simulator<'a> {
     maze: &'a Maze,
     goal: Vec<Cell>,
-    place: Place,
-    heading: Heading,
+    place: LatticePoint,
+    heading: LatticeHeading,
     half_steps: Score,
     cells: Score,
     movements: u64,
@@ -65,8 +65,8 @@ impl<'a> Simulator<'a> {
         Self {
             maze,
             goal: maze.grid().middle().collect(),
-            place: Place::START,
-            heading: Heading::NORTH,
+            place: LatticePoint::START,
+            heading: LatticeHeading::NORTH,
             half_steps: Score::new(Unit::HalfSteps),
             cells: Score::new(Unit::Cells),
             movements: 0,
@@ -132,7 +132,7 @@ impl<'a> Simulator<'a> {
     }
 
     /// Whether a wall stands within so many half-steps; at least one is looked at.
-    fn is_wall_within(&self, half_steps: i32, heading: Heading) -> bool {
+    fn is_wall_within(&self, half_steps: i32, heading: LatticeHeading) -> bool {
         let mut place = self.place;
         for _ in 0..half_steps.max(1) {
             if self.is_blocked(place, heading) {
@@ -144,7 +144,7 @@ impl<'a> Simulator<'a> {
     }
 
     /// Whether a wall or a post stands half a step ahead of a place.
-    fn is_blocked(&self, place: Place, heading: Heading) -> bool {
+    fn is_blocked(&self, place: LatticePoint, heading: LatticeHeading) -> bool {
         match place.gate(heading, self.maze.grid()) {
             Gate::None => false,
             Gate::Edge(cell, side) => !self.maze.is_open(cell, side),
@@ -157,7 +157,7 @@ impl<'a> Simulator<'a> {
             self.crashes += 1;
             return "crash".to_owned();
         }
-        let starts = self.place.cell() == Place::START.cell();
+        let starts = self.place.cell() == LatticePoint::START.cell();
         for score in [&mut self.half_steps, &mut self.cells] {
             if starts {
                 score.start_run();
@@ -191,7 +191,7 @@ impl<'a> Simulator<'a> {
         for score in [&mut self.half_steps, &mut self.cells] {
             if self.goal.contains(&cell) {
                 score.finish_run();
-            } else if cell == Place::START.cell() {
+            } else if cell == LatticePoint::START.cell() {
                 score.end_run();
             }
         }
@@ -203,8 +203,8 @@ impl<'a> Simulator<'a> {
     }
 
     fn reset(&mut self) {
-        self.place = Place::START;
-        self.heading = Heading::NORTH;
+        self.place = LatticePoint::START;
+        self.heading = LatticeHeading::NORTH;
         self.half_steps.reset();
         self.cells.reset();
         if self.was_reset() {
@@ -244,7 +244,7 @@ impl<'a> Simulator<'a> {
 
     /// Where the mouse is.
     #[must_use]
-    pub const fn place(&self) -> Place {
+    pub const fn place(&self) -> LatticePoint {
         self.place
     }
 }

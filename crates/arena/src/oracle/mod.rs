@@ -1,7 +1,7 @@
 //! The ceilings: minds that know the maze, and are measured by it.
 //!
 //! An [`Oracle`] is shown the truth and follows a [`Policy`]. An [`UnlocalizedOracle`] lives on what its robot senses,
-//! like every brain, but has a [`Chart`] of what it would see everywhere. Neither is a competitor: they say what
+//! like every brain, but has a [`PlaceViews`] of what it would see everywhere. Neither is a competitor: they say what
 //! the same body and the same layers allow.
 
 mod policy;
@@ -18,7 +18,7 @@ use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
 pub use policy::Policy;
 pub(crate) use seer::Seer;
-pub use unlocalized::{Chart, UnlocalizedOracle};
+pub use unlocalized::{PlaceViews, UnlocalizedOracle};
 
 use crate::course::Course;
 use crate::episode_error::EpisodeError;

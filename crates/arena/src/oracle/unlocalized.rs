@@ -23,7 +23,7 @@ use crate::episode_error::{EpisodeError, step_failed};
 /// an action of other outcome than that robot's is held to be unlikely, not impossible.
 #[derive(Clone, Debug)]
 pub struct UnlocalizedOracle {
-    chart: Arc<Chart>,
+    chart: Arc<PlaceViews>,
     oracle: Oracle,
     /// The probability of each place of the chart.
     belief: Vec<f64>,
@@ -34,7 +34,7 @@ pub struct UnlocalizedOracle {
 
 /// What the filter knows before it begins: every place of a course, and what is seen there.
 #[derive(Clone, Debug)]
-pub struct Chart {
+pub struct PlaceViews {
     policy: Arc<Policy>,
     /// Positions where the robot can stand and from which a way leads to the destination.
     places: Vec<Standpoint>,
@@ -64,7 +64,7 @@ const OUTLIER: f64 = 3.0;
 /// Beams see the same walls, so that all of them together say no more than so many.
 const INDEPENDENT_BEAMS: f64 = 12.0;
 
-impl Chart {
+impl PlaceViews {
     /// Looks round from every place of a course. A scan for each: about 2 µs per place.
     ///
     /// # Errors
@@ -182,7 +182,7 @@ fn unit(action: Direction) -> Vector {
 impl UnlocalizedOracle {
     /// One that has no idea yet where it is.
     #[must_use]
-    pub fn new(chart: Arc<Chart>) -> Self {
+    pub fn new(chart: Arc<PlaceViews>) -> Self {
         let count = chart.places.len();
         Self {
             oracle: Oracle::new(Arc::clone(&chart.policy)),

@@ -3,7 +3,8 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{
-    MapCheck, MazeConfig, MazeError, Noise, Reckoning, Rover, World, WorldBuilder, WorldError,
+    MapCheck, MazeConfig, MazeConfigError, PlaneMaze, PlaneMazeError, PlaneWalker, Reckoning,
+    WalkerNoise, WorldBuilder,
 };
 use tolman_geom::Point;
 use tolman_maps::cpm::{
@@ -21,13 +22,13 @@ const CONFIGS: [fn() -> CpmConfig; 2] = [CpmConfig::online, CpmConfig::robust];
 /// A search that has ended.
 struct Explored<'a> {
     explorer: Explorer,
-    rover: Rover<'a>,
+    rover: PlaneWalker<'a>,
     done: Done,
 }
 
-fn explored(config: CpmConfig, world: &World, reckoning: Reckoning, aim: Aim) -> Explored<'_> {
+fn explored(config: CpmConfig, world: &PlaneMaze, reckoning: Reckoning, aim: Aim) -> Explored<'_> {
     let mut rng = ChaCha8Rng::seed_from_u64(0);
-    let mut rover = Rover::new(world, Noise::NONE, reckoning);
+    let mut rover = PlaneWalker::new(world, WalkerNoise::NONE, reckoning);
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
     let done = pursue(&mut explorer, &mut rover, aim, &mut rng);
     Explored {
@@ -302,8 +303,8 @@ fn drawings_and_mazes_that_are_none() {
         },
     ] {
         assert!(matches!(
-            World::random(&maze, &mut rng),
-            Err(MazeError::OutOfRange { .. })
+            PlaneMaze::random(&maze, &mut rng),
+            Err(MazeConfigError::OutOfRange { .. })
         ));
     }
     let alike = MazeConfig {
@@ -312,8 +313,8 @@ fn drawings_and_mazes_that_are_none() {
         ..MazeConfig::small()
     };
     assert!(matches!(
-        World::random(&alike, &mut rng),
-        Err(MazeError::NotDistinctive { .. })
+        PlaneMaze::random(&alike, &mut rng),
+        Err(MazeConfigError::NotDistinctive { .. })
     ));
     let mut drawing = WorldBuilder::new(dictionary());
     let place = drawing.place(at(0.0), None);
@@ -325,11 +326,11 @@ fn drawings_and_mazes_that_are_none() {
     );
     assert_eq!(
         drawing.clone().finish(3).err(),
-        Some(WorldError::NoSuchPlace { place: 3, count: 1 })
+        Some(PlaneMazeError::NoSuchPlace { place: 3, count: 1 })
     );
     assert_eq!(
         drawing.finish(place).err(),
-        Some(WorldError::Isolated { place })
+        Some(PlaneMazeError::Isolated { place })
     );
 }
 

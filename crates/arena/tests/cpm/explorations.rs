@@ -6,23 +6,23 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{
-    Likeness, MapCheck, MazeConfig, Noise, Outcome, Reckoning, Rover, World,
+    Likeness, MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
 };
 use tolman_maps::cpm::{
-    Arrival, Candidates, Dictionary, JunctionId, Mapping, PatternId, theorem_1,
+    Candidates, Dictionary, JunctionId, MapUpdate, Mapping, PatternId, theorem_1,
 };
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Leg, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Leg, Onward};
 
 /// Lets an explorer pursue an aim.
 pub(crate) fn pursue(
     explorer: &mut Explorer,
-    rover: &mut Rover<'_>,
+    rover: &mut PlaneWalker<'_>,
     aim: Aim,
     rng: &mut ChaCha8Rng,
 ) -> Done {
-    let see = |_: &Rover<'_>, _: &Explorer, leg: &Leg, arrival| {
-        assert!(leg.known.is_some() || arrival != Arrival::Known);
+    let see = |_: &PlaneWalker<'_>, _: &Explorer, leg: &Leg, arrival| {
+        assert!(leg.known.is_some() || arrival != MapUpdate::Known);
     };
     rover.pursue(explorer, aim, rng, see).unwrap()
 }
@@ -50,9 +50,9 @@ fn is_goal(explorer: &Explorer) -> impl Fn(JunctionId) -> bool {
     move |id| goals.contains(&id)
 }
 
-fn drawn((maze, seed): (MazeConfig, u64)) -> (World, ChaCha8Rng) {
+fn drawn((maze, seed): (MazeConfig, u64)) -> (PlaneMaze, ChaCha8Rng) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    (World::random(&maze, &mut rng).unwrap(), rng)
+    (PlaneMaze::random(&maze, &mut rng).unwrap(), rng)
 }
 
 proptest! {
@@ -68,7 +68,7 @@ proptest! {
             // Several times what any of these mazes needs: who goes round for ever is told soon.
             let config = CpmConfig { most_traversals: 400, ..config };
             let mut rng = rng.clone();
-            let mut rover = Rover::new(&world, Noise::NONE, reckoning);
+            let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, reckoning);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             // How many fragments it has walked when it has walked all, whether it knows that or not.
             let mut walked = BTreeSet::new();
@@ -98,7 +98,7 @@ proptest! {
     fn offline_the_goal_is_found_and_the_map_is_right(maze in mazes()) {
         let (world, mut rng) = drawn(maze);
         let config = CpmConfig { mapping: Mapping::Offline { patience: 100 }, ..CpmConfig::online() };
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         let done = pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
         prop_assert_eq!(done, Done::Reached);
@@ -115,7 +115,7 @@ proptest! {
     #[test]
     fn the_way_back_ends_at_the_start(maze in mazes()) {
         let (world, mut rng) = drawn(maze);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
         let start = explorer.mapper.at();
         pursue(&mut explorer, &mut rover, Aim::Find(Landmark::Goal), &mut rng);
@@ -140,11 +140,11 @@ proptest! {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let likeness = Likeness::Kinds(kinds);
         let maze = MazeConfig { likeness, symmetrical, diagonals: 0.5, ..MazeConfig::small() };
-        let world = World::random(&maze, &mut rng).unwrap();
-        let noise = Noise { substitution: noise, insertion: noise / 2.0, deletion: noise / 2.0, slip, heading: 0.1 };
+        let world = PlaneMaze::random(&maze, &mut rng).unwrap();
+        let noise = WalkerNoise { substitution: noise, insertion: noise / 2.0, deletion: noise / 2.0, slip, heading: 0.1 };
         for onward in [Onward::ShortestKnownWay, Onward::GoOn] {
             let config = CpmConfig { onward, most_traversals: 60, ..CpmConfig::online() };
-            let mut rover = Rover::new(&world, noise, Reckoning::None);
+            let mut rover = PlaneWalker::new(&world, noise, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             for aim in [Aim::Find(Landmark::Goal), Aim::WayBack, Aim::Shortest, Aim::Explore] {
                 pursue(&mut explorer, &mut rover, aim, &mut rng);
@@ -167,16 +167,16 @@ fn the_truth_is_found_again() {
             diagonals: 0.9,
             ..MazeConfig::small()
         };
-        let world = World::random(&maze, &mut rng).unwrap();
+        let world = PlaneMaze::random(&maze, &mut rng).unwrap();
         let config = CpmConfig {
             mapping: Mapping::Hypotheses { width: 1 },
             most_traversals: 400,
             ..CpmConfig::robust()
         };
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+        let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::Bounded);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-        let see = |_: &Rover<'_>, _: &Explorer, _: &Leg, arrival| {
-            revised += u32::from(arrival == Arrival::Revised);
+        let see = |_: &PlaneWalker<'_>, _: &Explorer, _: &Leg, arrival| {
+            revised += u32::from(arrival == MapUpdate::Revised);
         };
         rover
             .pursue(&mut explorer, Aim::Explore, &mut rng, see)
@@ -198,7 +198,7 @@ fn a_large_maze_needs_few_comparisons() {
         diagonals: 0.3,
         ..MazeConfig::small()
     };
-    let world = World::random(&maze, &mut rng).unwrap();
+    let world = PlaneMaze::random(&maze, &mut rng).unwrap();
     assert!(world.corridors().len() > 100);
     let explore = |candidates| {
         let config = CpmConfig {
@@ -206,7 +206,7 @@ fn a_large_maze_needs_few_comparisons() {
             ..CpmConfig::online()
         };
         let mut rng = ChaCha8Rng::seed_from_u64(8);
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
         pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
         let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());
@@ -223,14 +223,14 @@ fn a_large_maze_needs_few_comparisons() {
 fn patterns_are_learned_while_mapping() {
     for seed in 0..10 {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let world = World::random(&MazeConfig::small(), &mut rng).unwrap();
+        let world = PlaneMaze::random(&MazeConfig::small(), &mut rng).unwrap();
         let truth = world.dictionary();
         let mut dictionary = Dictionary::new(truth.dimension());
-        let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+        let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
         let mut versions = Vec::new();
-        while let Decision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
-            let Outcome::Arrived(mut walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
+        while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+            let WalkOutcome::Arrived(mut walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
                 unreachable!("it was not told to give up");
             };
             for pattern in &mut walk.patterns {

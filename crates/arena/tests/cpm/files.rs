@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_arena::cpm::world::{MazeConfig, Noise, Reckoning, Rover, World};
+use tolman_arena::cpm::world::{MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise};
 use tolman_maps::cpm::{CpMap, Dictionary, MapFile, MapFileError};
 use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
 
@@ -12,8 +12,8 @@ use super::explorations::pursue;
 /// The map of an explored world, with dead reckoning.
 fn explored() -> (CpMap, Dictionary) {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
-    let world = World::random(&MazeConfig::small(), &mut rng).unwrap();
-    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::Bounded);
+    let world = PlaneMaze::random(&MazeConfig::small(), &mut rng).unwrap();
+    let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
     pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
     (explorer.mapper.map().clone(), world.dictionary().clone())

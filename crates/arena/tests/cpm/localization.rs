@@ -3,7 +3,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cpm::world::{
-    CorridorEnd, Likeness, MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort,
+    CorridorEnd, Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
+    WorldPort,
 };
 use tolman_maps::cpm::{
     CpMap, Dictionary, DictionaryError, End, Environments, LocalizeError, Localizer,
@@ -16,19 +17,19 @@ use super::explorations::pursue;
 
 /// A maze, explored.
 struct Known {
-    world: World,
+    world: PlaneMaze,
     map: CpMap,
     /// For the port of the map where the exploration ended, that of the world.
     at: (Port, WorldPort),
 }
 
-fn explored(maze: &MazeConfig, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
-    let world = World::random(maze, rng).unwrap();
+fn explored(maze: &MazeConfig, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Known {
+    let world = PlaneMaze::random(maze, rng).unwrap();
     explored_of(world, noise, rng)
 }
 
-fn explored_of(world: World, noise: Noise, rng: &mut ChaCha8Rng) -> Known {
-    let mut rover = Rover::new(&world, noise, Reckoning::Bounded);
+fn explored_of(world: PlaneMaze, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Known {
+    let mut rover = PlaneWalker::new(&world, noise, Reckoning::Bounded);
     let mut explorer = Explorer::new(CpmConfig::robust(), rover.sighting()).unwrap();
     pursue(&mut explorer, &mut rover, Aim::Explore, rng);
     let at = (explorer.mapper.at(), rover.at());
@@ -63,7 +64,7 @@ impl Known {
 }
 
 /// A place in the midst of a corridor: at least half of it, and two observations, to come.
-fn middle(world: &World, rng: &mut ChaCha8Rng) -> (CorridorEnd, u32) {
+fn middle(world: &PlaneMaze, rng: &mut ChaCha8Rng) -> (CorridorEnd, u32) {
     loop {
         let corridor = rng.random_range(0..world.corridors().len() as u32);
         let count = world.corridors()[corridor as usize].patterns.len() as u32;
@@ -83,16 +84,16 @@ fn middle(world: &World, rng: &mut ChaCha8Rng) -> (CorridorEnd, u32) {
 
 #[test]
 fn from_mid_fragment_before_the_next_junction() {
-    let noise = Noise {
+    let noise = WalkerNoise {
         substitution: 0.05,
         slip: 0.1,
-        ..Noise::NONE
+        ..WalkerNoise::NONE
     };
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     let (mut before, mut at, mut sure, mut rightly_sure, mut starts) = (0, 0, 0, 0, 0);
     for _ in 0..20 {
-        let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
-        let mut rover = Rover::new(&known.world, noise, Reckoning::None);
+        let known = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
+        let mut rover = PlaneWalker::new(&known.world, noise, Reckoning::None);
         for _ in 0..20 {
             let (enter, passed) = middle(&known.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
@@ -122,9 +123,9 @@ fn from_mid_fragment_before_the_next_junction() {
 /// In a place entered by another way other ways lie ahead: what no sequence tells, the bearings do.
 #[test]
 fn where_ways_lead_tells_fragments_apart_that_look_alike() {
-    let noise = Noise {
+    let noise = WalkerNoise {
         heading: 0.1,
-        ..Noise::NONE
+        ..WalkerNoise::NONE
     };
     let maze = MazeConfig {
         likeness: Likeness::Kinds(2),
@@ -134,8 +135,8 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
     // Without bearings, by a glimpse of them, by a look, among so many starts.
     let (mut blind, mut glimpsed, mut seen, mut starts) = (0, 0, 0, 0);
     for _ in 0..20 {
-        let known = explored(&maze, Noise::NONE, &mut rng);
-        let mut rover = Rover::new(&known.world, noise, Reckoning::Bounded);
+        let known = explored(&maze, WalkerNoise::NONE, &mut rng);
+        let mut rover = PlaneWalker::new(&known.world, noise, Reckoning::Bounded);
         for _ in 0..20 {
             let (enter, passed) = middle(&known.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
@@ -167,15 +168,15 @@ fn where_ways_lead_tells_fragments_apart_that_look_alike() {
 #[test]
 fn before_the_first_observation_each_map_is_as_likely_however_large() {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
-    let small = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+    let small = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
     let dictionary = small.world.dictionary().clone();
     let maze = MazeConfig {
         columns: 6,
         rows: 6,
         ..MazeConfig::small()
     };
-    let world = World::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
-    let large = explored_of(world, Noise::NONE, &mut rng);
+    let world = PlaneMaze::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
+    let large = explored_of(world, WalkerNoise::NONE, &mut rng);
     let nothing = CpMap::default();
     let maps = [small.map, nothing, large.map];
     let localizer = Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();
@@ -188,7 +189,7 @@ fn before_the_first_observation_each_map_is_as_likely_however_large() {
 #[test]
 fn turns_that_lead_where_no_map_has_been_are_not_known() {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
-    let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+    let known = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
     let dictionary = known.world.dictionary();
     let mut explorer = Explorer::new(CpmConfig::online(), Sighting::plain(1)).unwrap();
     let walk = Traversal {
@@ -215,15 +216,15 @@ fn turns_that_lead_where_no_map_has_been_are_not_known() {
 
 #[test]
 fn which_environment_and_within_one_further_fragment() {
-    let noise = Noise {
+    let noise = WalkerNoise {
         substitution: 0.05,
         slip: 0.1,
-        ..Noise::NONE
+        ..WalkerNoise::NONE
     };
     let mut rng = ChaCha8Rng::seed_from_u64(4);
     let (mut maps_right, mut places_right, mut starts) = (0, 0, 0);
     for _ in 0..10 {
-        let first = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+        let first = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
         let dictionary = first.world.dictionary().clone();
         let mut known = vec![first];
         for loops in [0.0, 0.5, 1.0] {
@@ -231,14 +232,14 @@ fn which_environment_and_within_one_further_fragment() {
                 loops,
                 ..MazeConfig::small()
             };
-            let world = World::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
-            known.push(explored_of(world, Noise::NONE, &mut rng));
+            let world = PlaneMaze::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
+            known.push(explored_of(world, WalkerNoise::NONE, &mut rng));
         }
         let maps: Vec<CpMap> = known.iter().map(|known| known.map.clone()).collect();
         for (number, here) in known.iter().enumerate() {
             let mut localizer =
                 Localizer::new(&maps, &dictionary, LocalizerConfig::usual()).unwrap();
-            let mut rover = Rover::new(&here.world, noise, Reckoning::None);
+            let mut rover = PlaneWalker::new(&here.world, noise, Reckoning::None);
             let (enter, passed) = middle(&here.world, &mut rng);
             let walk = rover.walk_on(enter, passed, &mut rng).unwrap();
             for pattern in walk.patterns {
@@ -247,7 +248,7 @@ fn which_environment_and_within_one_further_fragment() {
             localizer.arrive(walk.sighting, None);
             let turn = Turn(u32::from(walk.sighting.degree > 1));
             localizer.turn(turn).unwrap();
-            let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
+            let WalkOutcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
                 unreachable!("it was not told to give up");
             };
             for pattern in walk.patterns {
@@ -271,7 +272,7 @@ fn which_environment_and_within_one_further_fragment() {
 #[test]
 fn maps_of_another_robot_are_refused() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
-    let [one, other] = [0, 1].map(|_| explored(&MazeConfig::small(), Noise::NONE, &mut rng));
+    let [one, other] = [0, 1].map(|_| explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng));
     let maps = [one.map, other.map];
     let refused = Localizer::new(&maps, one.world.dictionary(), LocalizerConfig::usual());
     assert!(matches!(
@@ -288,7 +289,7 @@ fn bad_input_is_refused() {
     let refused = Localizer::new(&[], &dictionary, LocalizerConfig::usual());
     assert_eq!(refused.err(), Some(LocalizeError::Empty));
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let known = explored(&MazeConfig::small(), Noise::NONE, &mut rng);
+    let known = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng);
     let maps = core::slice::from_ref(&known.map);
     let config = LocalizerConfig {
         slip: f64::NAN,
@@ -309,18 +310,18 @@ fn bad_input_is_refused() {
 /// The fourth layer: paths of several environments in one memory, each recalled as a whole from one of its fragments.
 #[test]
 fn one_sequence_recalls_its_path_and_environment() {
-    let noise = Noise {
+    let noise = WalkerNoise {
         substitution: 0.05,
         slip: 0.1,
-        ..Noise::NONE
+        ..WalkerNoise::NONE
     };
     let mut rng = ChaCha8Rng::seed_from_u64(6);
-    let dictionary = explored(&MazeConfig::small(), Noise::NONE, &mut rng)
+    let dictionary = explored(&MazeConfig::small(), WalkerNoise::NONE, &mut rng)
         .world
         .dictionary()
         .clone();
     let mut environments = Environments::new(&dictionary).unwrap();
-    let mut paths: Vec<(u32, World, Vec<End>, Vec<CorridorEnd>)> = Vec::new();
+    let mut paths: Vec<(u32, PlaneMaze, Vec<End>, Vec<CorridorEnd>)> = Vec::new();
     for number in 0..4 {
         let maze = MazeConfig {
             columns: 6,
@@ -328,8 +329,8 @@ fn one_sequence_recalls_its_path_and_environment() {
             loops: 0.0,
             ..MazeConfig::small()
         };
-        let world = World::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
-        let known = explored_of(world, Noise::NONE, &mut rng);
+        let world = PlaneMaze::random_of(dictionary.clone(), &maze, &mut rng).unwrap();
+        let known = explored_of(world, WalkerNoise::NONE, &mut rng);
         let goal = known.map.landmarks(Landmark::Goal).next().unwrap();
         let start = known.map.landmarks(Landmark::Start).next().unwrap();
         let from = Port {
@@ -345,7 +346,7 @@ fn one_sequence_recalls_its_path_and_environment() {
             .learn(number, &known.map, &path, &dictionary)
             .unwrap();
         // The same path in the world.
-        let mut rover = Rover::new(&known.world, Noise::NONE, Reckoning::None);
+        let mut rover = PlaneWalker::new(&known.world, WalkerNoise::NONE, Reckoning::None);
         let corridors = plan.legs.iter().map(|leg| {
             rover.go(leg.turn, None, &mut rng).unwrap();
             let end = known.world.end_at(rover.at()).unwrap();
@@ -360,7 +361,7 @@ fn one_sequence_recalls_its_path_and_environment() {
     assert!(paths.len() >= 3);
     let (mut right, mut all) = (0, 0);
     for (number, world, path, corridors) in &paths {
-        let mut rover = Rover::new(world, noise, Reckoning::None);
+        let mut rover = PlaneWalker::new(world, noise, Reckoning::None);
         for (place, enter) in corridors.iter().enumerate() {
             let walk = rover.walk_on(*enter, 0, &mut rng).unwrap();
             let recalled = environments.recall(&walk.patterns, &dictionary).unwrap();

@@ -3,21 +3,25 @@
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{MazeConfig, Noise, Outcome, Reckoning, Rover, World, WorldPort};
-use tolman_maps::cpm::{Alignment, Dictionary, Matching, PatternId, Sense, Similarity, Sum, Turn};
+use tolman_arena::cpm::world::{
+    MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldPort,
+};
+use tolman_maps::cpm::{
+    Alignment, Dictionary, FragmentMatching, PatternId, Sense, Similarity, Sum, Turn,
+};
 
 /// A sequence as seen, and the corridor it was.
 type Seen = (u32, Vec<PatternId>);
 
 /// Every corridor of a world, walked from both ends.
-fn sightings(world: &World, noise: Noise, rng: &mut ChaCha8Rng) -> Vec<Seen> {
-    let mut rover = Rover::new(world, noise, Reckoning::None);
+fn sightings(world: &PlaneMaze, noise: WalkerNoise, rng: &mut ChaCha8Rng) -> Vec<Seen> {
+    let mut rover = PlaneWalker::new(world, noise, Reckoning::None);
     let mut seen = Vec::new();
     for place in 0..world.places().len() as u32 {
         for number in 0..world.sighting(place).degree {
             rover.place(WorldPort { place, number });
             let corridor = world.end_at(WorldPort { place, number }).unwrap().corridor;
-            let Outcome::Arrived(walk) = rover.go(Turn::BACK, None, rng).unwrap() else {
+            let WalkOutcome::Arrived(walk) = rover.go(Turn::BACK, None, rng).unwrap() else {
                 unreachable!("it was not told to give up");
             };
             seen.push((corridor, walk.patterns));
@@ -27,7 +31,7 @@ fn sightings(world: &World, noise: Noise, rng: &mut ChaCha8Rng) -> Vec<Seen> {
 }
 
 /// The area under the ROC curve: how often a pair of one corridor is more similar than a pair of two.
-fn auc(matching: &Matching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
+fn auc(matching: &FragmentMatching, dictionary: &Dictionary, seen: &[Seen]) -> f64 {
     let (mut same, mut other) = (Vec::new(), Vec::new());
     for (i, (corridor, patterns)) in seen.iter().enumerate() {
         for (another, others) in &seen[..i] {
@@ -61,14 +65,14 @@ const MAZES: u32 = 40;
 #[test]
 fn alignment_tells_fragments_apart_better_than_positions() {
     let matchings = [
-        Matching::Positions(Similarity::literal()),
-        Matching::Positions(Similarity::paper()),
-        Matching::Alignment(Alignment::tuned()),
+        FragmentMatching::Positions(Similarity::literal()),
+        FragmentMatching::Positions(Similarity::paper()),
+        FragmentMatching::Alignment(Alignment::tuned()),
     ];
     // By how much alignment is to be better than the paper's similarity: about half of what it is.
     for (substitution, gaps, margin) in [(0.05, 0.0, 0.0005), (0.1, 0.05, 0.006), (0.3, 0.1, 0.02)]
     {
-        let noise = Noise {
+        let noise = WalkerNoise {
             substitution,
             insertion: gaps,
             deletion: gaps,
@@ -83,7 +87,7 @@ fn alignment_tells_fragments_apart_better_than_positions() {
         };
         let mut areas = [0.0; 3];
         for _ in 0..MAZES {
-            let world = World::random(&maze, &mut rng).unwrap();
+            let world = PlaneMaze::random(&maze, &mut rng).unwrap();
             let seen = sightings(&world, noise, &mut rng);
             for (area, matching) in areas.iter_mut().zip(&matchings) {
                 *area += auc(matching, world.dictionary(), &seen) / f64::from(MAZES);
@@ -104,7 +108,7 @@ fn sequences() -> impl Strategy<Value = (Vec<PatternId>, Vec<PatternId>)> {
 
 fn some_dictionary() -> Dictionary {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let world = World::random(&MazeConfig::small(), &mut rng).unwrap();
+    let world = PlaneMaze::random(&MazeConfig::small(), &mut rng).unwrap();
     world.dictionary().clone()
 }
 
@@ -115,9 +119,9 @@ proptest! {
         let inverse = |sequence: &[PatternId]| dictionary.inverse(sequence).unwrap();
         prop_assert_eq!(&inverse(&inverse(&a)), &a);
         for matching in [
-            Matching::Positions(Similarity::paper()),
-            Matching::Positions(Similarity { sum: Sum::Euclidean, ..Similarity::paper() }),
-            Matching::Alignment(Alignment::tuned()),
+            FragmentMatching::Positions(Similarity::paper()),
+            FragmentMatching::Positions(Similarity { sum: Sum::Euclidean, ..Similarity::paper() }),
+            FragmentMatching::Alignment(Alignment::tuned()),
         ] {
             let score = matching.score(&dictionary, &a, &b);
             prop_assert!(score <= 1.0);

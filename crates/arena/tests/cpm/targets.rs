@@ -2,7 +2,9 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{MapCheck, MazeConfig, Noise, Reckoning, Rover, World};
+use tolman_arena::cpm::world::{
+    MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise,
+};
 use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer};
 
 use super::explorations::pursue;
@@ -22,13 +24,13 @@ impl Tally {
     fn explore(
         &mut self,
         maze: &MazeConfig,
-        noise: Noise,
+        noise: WalkerNoise,
         reckoning: Reckoning,
         config: CpmConfig,
         rng: &mut ChaCha8Rng,
     ) {
-        let world = World::random(maze, rng).unwrap();
-        let mut rover = Rover::new(&world, noise, reckoning);
+        let world = PlaneMaze::random(maze, rng).unwrap();
+        let mut rover = PlaneWalker::new(&world, noise, reckoning);
         let most_traversals = 8 * world.corridors().len() as u32;
         let config = CpmConfig {
             most_traversals,
@@ -58,7 +60,7 @@ fn aliased_and_symmetrical_mazes_are_mapped_rightly() {
         let maze = MazeConfig::any_alike(number);
         tally.explore(
             &maze,
-            Noise::NOISY,
+            WalkerNoise::NOISY,
             Reckoning::Bounded,
             CpmConfig::robust(),
             &mut rng,
@@ -80,7 +82,7 @@ fn online_walks_little_more_than_it_has_to() {
         for number in 0..200 {
             tally.explore(
                 &MazeConfig::any(number),
-                Noise::NONE,
+                WalkerNoise::NONE,
                 reckoning,
                 config,
                 &mut rng,

@@ -2,13 +2,15 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{MapCheck, Noise, Outcome, Reckoning, Rover, World, WorldBuilder};
+use tolman_arena::cpm::world::{
+    MapCheck, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder,
+};
 use tolman_geom::Point;
 use tolman_maps::cpm::{
-    Arrival, Dictionary, End, FragmentId, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
+    Dictionary, End, FragmentId, MapUpdate, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
 };
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Decision, Done, Explorer, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Onward};
 
 use super::explorations::pursue;
 
@@ -121,7 +123,7 @@ fn figure_1() {
 
 /// The environment of figure 10, as far as its walk and its text tell: A1 from P to Q, A2 from Q to R, A3 from R to S, A4 from S back to Q;
 /// X2 leads from R to the goal, X3 from S to a junction T, from which X4 and X5 lead to P.
-fn figure_10_world() -> World {
+fn figure_10_world() -> PlaneMaze {
     let mut drawing = WorldBuilder::new(dictionary());
     let place = |x: f64, y: f64| Point::new(x, y);
     let p = drawing.place(place(0.0, 0.0), Some(Landmark::Start));
@@ -149,7 +151,7 @@ fn figure_10_world() -> World {
 }
 
 /// The turn that takes a rover into a corridor.
-fn turn_into(world: &World, rover: &Rover<'_>, corridor: u32) -> Turn {
+fn turn_into(world: &PlaneMaze, rover: &PlaneWalker<'_>, corridor: u32) -> Turn {
     let at = rover.at();
     let ports = &world.places()[at.place as usize].ports;
     let exit = ports
@@ -162,14 +164,14 @@ fn turn_into(world: &World, rover: &Rover<'_>, corridor: u32) -> Turn {
 /// Walks some corridors and tells what was made of the last.
 fn follow(
     explorer: &mut Explorer,
-    rover: &mut Rover<'_>,
-    world: &World,
+    rover: &mut PlaneWalker<'_>,
+    world: &PlaneMaze,
     corridors: &[u32],
-) -> Arrival {
+) -> MapUpdate {
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     let arrivals = corridors.iter().map(|corridor| {
         let turn = turn_into(world, rover, *corridor);
-        let Outcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
+        let WalkOutcome::Arrived(walk) = rover.go(turn, None, &mut rng).unwrap() else {
             unreachable!("it was not told to give up");
         };
         explorer
@@ -188,17 +190,17 @@ const X4: u32 = 6;
 #[test]
 fn figure_10() {
     let world = figure_10_world();
-    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+    let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
     let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
     // A1 to A4 are new; that A4 leads to junc(A1⁺) is not known yet.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[0, 1, 2, 3]),
-        Arrival::New
+        MapUpdate::New
     );
     // (a) Duplication detected.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[1]),
-        Arrival::Duplicate
+        MapUpdate::Duplicate
     );
     assert_eq!(explorer.mapper.before_duplicate(), Some(4));
     // (b) "Connects path-fragment A4 to junc(A1⁺) = junc(A2⁻) and localizes itself at the path-fragment A2 where it is going to make a
@@ -219,7 +221,7 @@ fn figure_10() {
     assert_eq!(open, [x1, x1, x2, x3]);
     // "We let the robot move forward": X2 is all that is unknown here; A3 "is not available as a choice".
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let Decision::Go(leg) = explorer.decide(Aim::Find(Landmark::Goal), &mut rng) else {
+    let JunctionDecision::Go(leg) = explorer.decide(Aim::Find(Landmark::Goal), &mut rng) else {
         panic!("there is more to explore");
     };
     assert_eq!((leg.turn, leg.known), (turn_into(&world, &rover, X2), None));
@@ -227,18 +229,18 @@ fn figure_10() {
     let (mut lucky, mut lucky_rover) = (explorer.clone(), rover.clone());
     follow(&mut lucky, &mut lucky_rover, &world, &[X2]);
     let done = lucky.decide(Aim::Find(Landmark::Goal), &mut rng);
-    assert_eq!(done, Decision::Done(Done::Reached));
+    assert_eq!(done, JunctionDecision::Done(Done::Reached));
     assert!(lucky.mapper.map().has_goal() && !lucky.mapper.map().is_complete());
     // (d) If X3 is: A5, which finds X4 and X5.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[2, X3]),
-        Arrival::New
+        MapUpdate::New
     );
     assert_eq!(explorer.mapper.map().open_ports().count(), 5);
     // (f) X4 leads to junc(A1⁻), as A1 tells, and X5 has both its ends on the map then.
     assert_eq!(
         follow(&mut explorer, &mut rover, &world, &[X4, 0]),
-        Arrival::Duplicate
+        MapUpdate::Duplicate
     );
     assert_eq!(explorer.mapper.map().open_ports().count(), 3);
     // (e) The complete optimized map.
@@ -264,7 +266,7 @@ fn figure_10() {
 #[test]
 fn figure_8() {
     let world = figure_10_world();
-    let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+    let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
     let mut explorer = Explorer::new(CpmConfig::offline(), rover.sighting()).unwrap();
     let start = explorer.mapper.at();
     let unlucky = [6, X3, 2, 1, 3, 2, 1, 3, 2, 1, 3, 2, X2];
@@ -312,7 +314,7 @@ fn to_go_on_takes_longer_than_the_shortest_known_way() {
                 onward,
                 ..CpmConfig::online()
             };
-            let mut rover = Rover::new(&world, Noise::NONE, Reckoning::None);
+            let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
             let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
             pursue(&mut explorer, &mut rover, Aim::Explore, &mut rng);
             explorer.mapper.traversals()
@@ -344,19 +346,19 @@ fn what_is_missing_to_mu_others_make_up_for() {
                 .arrive(turn, &walk(patterns, degree), &dictionary)
                 .unwrap()
         };
-        assert_eq!(arrive(Turn::BACK, &a, 3), Arrival::New);
-        assert_eq!(arrive(Turn(1), &b, 3), Arrival::New);
+        assert_eq!(arrive(Turn::BACK, &a, 3), MapUpdate::New);
+        assert_eq!(arrive(Turn(1), &b, 3), MapUpdate::New);
         // Straight on, into B again.
         let second = arrive(Turn(2), again, 3);
         // Home from there: the fork of this end of B is that of the first.
         arrive(Turn(1), &back(&a), 1);
-        assert_eq!(arrive(Turn::BACK, &a, 3), Arrival::Known);
-        assert_eq!(arrive(Turn(2), &back(again), 3), Arrival::Known);
+        assert_eq!(arrive(Turn::BACK, &a, 3), MapUpdate::Known);
+        assert_eq!(arrive(Turn(2), &back(again), 3), MapUpdate::Known);
         // The fork of B's other end has A as well.
         arrive(Turn(2), &back(&a), 1);
         (second, explorer.mapper.map().fragments().len())
     };
-    assert_eq!(fragments(&differing_by(2)), (Arrival::Duplicate, 2));
-    assert_eq!(fragments(&differing_by(3)), (Arrival::New, 2));
+    assert_eq!(fragments(&differing_by(2)), (MapUpdate::Duplicate, 2));
+    assert_eq!(fragments(&differing_by(3)), (MapUpdate::New, 2));
     assert_eq!(fragments(&differing_by(4)).1, 4);
 }

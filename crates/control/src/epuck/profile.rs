@@ -28,7 +28,7 @@ pub(super) enum Met {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Alignment {
+pub enum SensorAlignment {
     /// Each sensor's vector is turned by the angle it is mounted at first, so that one bearing is averaged with itself.
     #[default]
     Mounts,
@@ -41,7 +41,7 @@ impl Profile {
     ///
     /// # Errors
     /// If the sweep has no samples, a value is not finite, or a bearing was seen by no sensor.
-    pub fn of(sweep: &Sweep, alignment: Alignment) -> Result<Self, ProfileError> {
+    pub fn of(sweep: &Sweep, alignment: SensorAlignment) -> Result<Self, ProfileError> {
         let samples = &sweep.samples;
         if samples.is_empty() {
             return Err(ProfileError::Empty);
@@ -49,8 +49,8 @@ impl Profile {
         let count = samples.len();
         let mut sums = alloc::vec![(0.0, 0.0); count];
         let shifts = proximity_mounts().map(|mount| match alignment {
-            Alignment::Mounts => mount.heading.radians() / TAU * count as f64,
-            Alignment::Literal => 0.0,
+            SensorAlignment::Mounts => mount.heading.radians() / TAU * count as f64,
+            SensorAlignment::Literal => 0.0,
         });
         for (index, sample) in samples.iter().enumerate() {
             let Some(values) = sample else { continue };

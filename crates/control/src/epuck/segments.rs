@@ -14,13 +14,13 @@ pub const FEATURES: usize = 11;
 /// the right. Where there is none, the first segment is the one behind.
 ///
 /// ```
-/// use tolman_control::epuck::{Place, Profile, SegmentConfig};
+/// use tolman_control::epuck::{PlaceKind, Profile, SegmentConfig};
 ///
 /// // Walls to the left and to the right, with sharp ends.
 /// let wall = |index: usize| if (10..40).contains(&index) || (60..90).contains(&index) { 200.0 } else { 0.0 };
 /// let profile = Profile::from_values((0..100).map(wall).collect())?;
 /// let segments = profile.segments(&SegmentConfig::paper())?;
-/// assert_eq!(segments.place(), Place::Path);
+/// assert_eq!(segments.place(), PlaceKind::Path);
 /// assert_eq!(segments.feature(0.0)?[..5], [0.0, 200.0, 0.0, 200.0, 0.0]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
@@ -109,7 +109,7 @@ impl SegmentConfig {
 
 /// What a place is by its spaces (section 4.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum PlaceKind {
     /// No space at all.
     Closed,
     /// One space: a dead end.
@@ -286,12 +286,12 @@ impl Segments {
 
     /// What the place is by how many spaces there are.
     #[must_use]
-    pub fn place(&self) -> Place {
+    pub fn place(&self) -> PlaceKind {
         match self.spaces().count() {
-            0 => Place::Closed,
-            1 => Place::DeadEnd,
-            2 => Place::Path,
-            _ => Place::Junction,
+            0 => PlaceKind::Closed,
+            1 => PlaceKind::DeadEnd,
+            2 => PlaceKind::Path,
+            _ => PlaceKind::Junction,
         }
     }
 
@@ -355,7 +355,7 @@ mod tests {
         Profile::from_values(values).unwrap()
     }
 
-    fn check(walls: &[(usize, usize)], place: Place, spaces: &[f64]) {
+    fn check(walls: &[(usize, usize)], place: PlaceKind, spaces: &[f64]) {
         let segments = profile(walls).segments(&SegmentConfig::paper()).unwrap();
         assert_eq!(segments.place(), place, "{segments:?}");
         let found: Vec<f64> = segments.spaces().map(f64::to_degrees).collect();
@@ -369,15 +369,15 @@ mod tests {
 
     #[test]
     fn spaces_are_counted_and_numbered_counter_clockwise() {
-        check(&[(0, 100)], Place::Closed, &[]);
-        check(&[(10, 90)], Place::DeadEnd, &[0.0]);
-        check(&[(10, 40), (60, 90)], Place::Path, &[180.0, 0.0]);
+        check(&[(0, 100)], PlaceKind::Closed, &[]);
+        check(&[(10, 90)], PlaceKind::DeadEnd, &[0.0]);
+        check(&[(10, 40), (60, 90)], PlaceKind::Path, &[180.0, 0.0]);
         let from_left = [(60, 90), (10, 20), (30, 40)];
-        check(&from_left, Place::Junction, &[180.0, 0.0, 90.0]);
+        check(&from_left, PlaceKind::Junction, &[180.0, 0.0, 90.0]);
         let crossing = [(10, 15), (35, 40), (60, 65), (85, 90)];
-        check(&crossing, Place::Junction, &[180.0, -90.0, 0.0, 90.0]);
+        check(&crossing, PlaceKind::Junction, &[180.0, -90.0, 0.0, 90.0]);
         // A wall right behind, as in a bend.
-        check(&[(90, 110), (30, 80)], Place::Path, &[72.0, -54.0]);
+        check(&[(90, 110), (30, 80)], PlaceKind::Path, &[72.0, -54.0]);
     }
 
     #[test]

@@ -2,13 +2,13 @@
 
 use maud::{Markup, html};
 
-use crate::{Contrast, Outcome, duration};
+use crate::{Contrast, ExperimentOutcome, duration};
 
 /// Corrected p-values below this are called a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
 
 /// Title, source, provenance, and the command that makes the page again.
-pub(super) fn header(outcome: &Outcome) -> Markup {
+pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
     let time = match outcome.played {
         0 => "no run played now".to_owned(),
         played => format!(
@@ -36,7 +36,7 @@ pub(super) fn header(outcome: &Outcome) -> Markup {
 }
 
 /// The outcome in a few numbers.
-pub(super) fn cards(outcome: &Outcome) -> Markup {
+pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     let values = || outcome.analysis.values().map(|(_, _, measured)| measured);
     let (matching, verdicts) = tally(values().filter_map(|one| Some(one.verdict?.matches)));
     let differs = |contrast: Contrast| contrast.p.value() < SIGNIFICANT;
@@ -63,7 +63,7 @@ pub(super) fn cards(outcome: &Outcome) -> Markup {
 }
 
 /// Links to the tables, with how many of their values match, where there is more than one.
-pub(super) fn contents(outcome: &Outcome) -> Markup {
+pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
     let tables = &outcome.analysis.tables;
     html! {
         @if tables.len() > 1 {
@@ -89,7 +89,7 @@ fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
 }
 
 /// How many runs the rows have, where all have the same number.
-fn runs_of_rows(outcome: &Outcome) -> String {
+fn runs_of_rows(outcome: &ExperimentOutcome) -> String {
     let tables = &outcome.analysis.tables;
     let mut rows = tables.iter().flat_map(|table| &table.table.rows);
     if rows.all(|row| row.runs.is_none()) {

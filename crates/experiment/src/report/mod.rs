@@ -1,6 +1,6 @@
 //! The report: one HTML file that opens anywhere, without network.
 //!
-//! The page is put together from parts, each a function of the [`Outcome`]: header, cards and contents
+//! The page is put together from parts, each a function of the [`ExperimentOutcome`]: header, cards and contents
 //! (`header`), one section for each table (`table`), figures (`figures`), the notes that say how to
 //! read it all (`notes`), and the replays with the script (`replays`, `page.js`). `docs/report.md` names
 //! the ids and attributes that tests and other scripts may rely on.
@@ -14,10 +14,10 @@ mod table;
 
 use maud::{DOCTYPE, PreEscaped, html};
 
-use crate::Outcome;
+use crate::ExperimentOutcome;
 
 /// The whole page.
-pub(crate) fn html(outcome: &Outcome) -> String {
+pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {

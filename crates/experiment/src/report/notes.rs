@@ -4,10 +4,10 @@ use maud::{Markup, html};
 
 use super::replays;
 
-use crate::{Metric, Outcome, RESAMPLES, Statistic, Tolerance, heading};
+use crate::{ExperimentOutcome, Metric, RESAMPLES, Statistic, Tolerance, heading};
 
 /// The notes below everything, only about what the page shows.
-pub(super) fn notes(outcome: &Outcome) -> Markup {
+pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
     let analysis = &outcome.analysis;
     let metrics: Vec<&Metric> = analysis
         .tables

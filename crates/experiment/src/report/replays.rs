@@ -3,11 +3,11 @@
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
-use crate::Outcome;
+use crate::ExperimentOutcome;
 use crate::shell;
 
 /// The window a replay opens in, hidden until then, and the small text beside a dot.
-pub(super) fn dialog(outcome: &Outcome) -> Markup {
+pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
     html! {
         div #tip role="status" hidden {}
         dialog #replay-dialog aria-labelledby="replay-title" {
@@ -31,7 +31,7 @@ pub(super) fn dialog(outcome: &Outcome) -> Markup {
 }
 
 /// Which replays the page carries, and why not all; empty if no run is recorded.
-pub(super) fn carried(outcome: &Outcome) -> String {
+pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
     let replays = &outcome.replays;
     let megabytes = replays.budget / 1_000_000;
     match replays.of_each_row {
@@ -55,7 +55,7 @@ pub(super) fn carried(outcome: &Outcome) -> String {
 const CARRIES: &str = "This page carries the replays of";
 
 /// The rules of the player, if the page has replays.
-pub(super) fn style(outcome: &Outcome) -> &'static str {
+pub(super) fn style(outcome: &ExperimentOutcome) -> &'static str {
     match outcome.replays.recorded.is_empty() {
         true => "",
         false => tolman_replay::style(),
@@ -63,7 +63,7 @@ pub(super) fn style(outcome: &Outcome) -> &'static str {
 }
 
 /// What the page's script reads, the replays, the player and the script.
-pub(super) fn scripts(outcome: &Outcome) -> Markup {
+pub(super) fn scripts(outcome: &ExperimentOutcome) -> Markup {
     html! {
         script #report-data type="application/json" { (PreEscaped(data(outcome))) }
         @for recorded in &outcome.replays.recorded {
@@ -76,7 +76,7 @@ pub(super) fn scripts(outcome: &Outcome) -> Markup {
 }
 
 /// The command that plays a run again, in the parts the script puts together.
-fn data(outcome: &Outcome) -> String {
+fn data(outcome: &ExperimentOutcome) -> String {
     let tables = (1_u32..)
         .zip(&outcome.analysis.tables)
         .map(|(number, table)| {

@@ -2,13 +2,13 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_draw::{Figure, Plan, Series, Zone};
+use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
 use tolman_experiment::{
     Better, BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Procedure, Record, Row,
     Run, Table, Tolerance, record,
 };
 use tolman_geom::{Heading, Point, Pose};
-use tolman_replay::{Replay, Scenery, Track};
+use tolman_replay::{Replay, RobotTrack, Scenery};
 use tolman_robot::Body;
 
 /// The most darts of a run.
@@ -148,8 +148,8 @@ impl Procedure for Darts {
         let corners = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)];
         let corners = corners.map(|(x, y)| Point::new(x, y));
         let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
-        let mut plan = Plan::of_walls(&walls, 420.0);
-        plan.zone(&corners.map(|corner| corner * 0.15), Zone::Destination);
+        let mut plan = FloorPlan::of_walls(&walls, 420.0);
+        plan.zone(&corners.map(|corner| corner * 0.15), ZoneStyle::Destination);
         for (i, row) in (0..).zip(&self.tables[0].rows) {
             let run = runs
                 .iter()
@@ -172,7 +172,7 @@ impl Procedure for Darts {
         let poses: Vec<Pose> = poses.map(|at| Pose::new(at, Heading::EAST)).collect();
         let long = poses.iter().cycle().take(poses.len() * self.replay_length);
         let body = Body::Circle { radius: 0.05 };
-        let track = Track::new(job.row, body, long.copied().collect());
+        let track = RobotTrack::new(job.row, body, long.copied().collect());
         let title = format!("Run {} <of {}>", job.run, job.row);
         Ok(Some(Replay::new(
             title,

@@ -4,8 +4,8 @@ use std::fs;
 
 use serde::{Deserialize, Serialize};
 use tolman_experiment::{
-    BoxError, Build, Column, Entry, Error, Event, Experiment, Fields, Job, Metric, Options,
-    Procedure, Progress, Record, Silent, Table, execute, record,
+    BoxError, Build, Column, Entry, Error, Experiment, Fields, Job, Metric, Options, Procedure,
+    Progress, ProgressEvent, Record, Silent, Table, execute, record,
 };
 
 use crate::darts::{DARTS_ENTRY, Darts, Throws};
@@ -283,8 +283,8 @@ fn a_folder_is_open_only_once_at_a_time() {
     /// Runs the same experiment again while the first one has begun.
     struct Intruder<'a>(&'a Options);
     impl Progress for Intruder<'_> {
-        fn event(&self, event: &Event<'_>) {
-            if matches!(event, Event::Started { .. }) {
+        fn event(&self, event: &ProgressEvent<'_>) {
+            if matches!(event, ProgressEvent::Started { .. }) {
                 let error =
                     execute(&(&Darts::new()).into(), self.0, &build(), &Silent).unwrap_err();
                 assert!(matches!(error, Error::Busy { .. }), "{error:?}");

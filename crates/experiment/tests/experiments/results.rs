@@ -3,8 +3,8 @@
 use std::fs;
 
 use tolman_experiment::{
-    Better, Correction, Error, Ink, Metric, Options, Pair, Pairwise, Program, Row, Run, Tolerance,
-    tables_as_text, write_replay,
+    Better, Correction, Error, Ink, Metric, Options, Pairwise, Program, Row, RowPair, Run,
+    Tolerance, tables_as_text, write_replay,
 };
 use tolman_stats::Method;
 
@@ -129,7 +129,7 @@ fn rows_are_compared_each_with_each_and_with_one_among_them() {
         of_row.map(throws_of).collect()
     };
     let pairs = &outcome.analysis.tables[0].pairs;
-    let names: Vec<String> = pairs.iter().map(Pair::name).collect();
+    let names: Vec<String> = pairs.iter().map(RowPair::name).collect();
     assert_eq!(
         names,
         ["Novice – Adept", "Novice – Master", "Adept – Master"]

@@ -5,7 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use tolman_experiment::{Build, Error, Event, Experiment, Options, Outcome, Progress, execute};
+use tolman_experiment::{
+    Build, Error, Experiment, ExperimentOutcome, Options, Progress, ProgressEvent, execute,
+};
 
 /// A folder for one test, empty at its begin.
 pub(crate) fn fresh(test: &str) -> PathBuf {
@@ -63,18 +65,18 @@ impl Listener {
 }
 
 impl Progress for Listener {
-    fn event(&self, event: &Event<'_>) {
+    fn event(&self, event: &ProgressEvent<'_>) {
         let message = match event {
-            Event::RunFinished => {
+            ProgressEvent::RunFinished => {
                 self.played.fetch_add(1, Ordering::SeqCst);
                 return;
             }
-            Event::SetAside {
+            ProgressEvent::SetAside {
                 moved_to, reason, ..
             } => {
                 format!("{} has {reason}", moved_to.file_name().unwrap().display())
             }
-            Event::BrokenLine {
+            ProgressEvent::BrokenLine {
                 file,
                 line,
                 what,
@@ -83,7 +85,7 @@ impl Progress for Listener {
                 let file = file.file_name().unwrap().display();
                 format!("{file}:{line}: {what}; {remedy:?}")
             }
-            Event::Started { total, reused } => format!("{reused} of {total}"),
+            ProgressEvent::Started { total, reused } => format!("{reused} of {total}"),
             _ => return,
         };
         self.messages.lock().unwrap().push(message);
@@ -98,7 +100,7 @@ impl Progress for Listener {
 pub(crate) fn run(
     experiment: impl Into<Experiment>,
     options: &Options,
-) -> (Result<Outcome, Error>, Listener) {
+) -> (Result<ExperimentOutcome, Error>, Listener) {
     let listener = Listener::default();
     (
         execute(&experiment.into(), options, &build(), &listener),

@@ -1,7 +1,7 @@
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
-use super::cp_mapper::Arrival;
+use super::cp_mapper::MapUpdate;
 use super::hypothesis::Hypothesis;
 use super::map::CpMap;
 use super::mapper::{Comparison, Mapper};
@@ -37,9 +37,9 @@ enum Event {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Understood {
     /// All before is understood as it was.
-    As(Arrival),
+    As(MapUpdate),
     /// What was met before is understood in another way now.
-    Anew(Arrival),
+    Anew(MapUpdate),
     /// No hypothesis explains it.
     Not,
 }
@@ -56,7 +56,7 @@ enum Lost {
 /// What a walk makes of one of the hypotheses before it.
 struct Child {
     hypothesis: Hypothesis,
-    arrival: Arrival,
+    arrival: MapUpdate,
     /// Its parent's place in the beam.
     parent: usize,
 }
@@ -151,7 +151,7 @@ impl Beam {
     }
 
     /// Goes through all that was met. Returns what was believed of the last walk. Where nothing explains all, the beam is as before.
-    fn look_again(&mut self, judge: &Comparison<'_>) -> Result<Arrival, Lost> {
+    fn look_again(&mut self, judge: &Comparison<'_>) -> Result<MapUpdate, Lost> {
         let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
         let (mut arrival, mut lost) = (None, Lost::ForGood);
         for event in &self.met {
@@ -241,7 +241,7 @@ mod tests {
     use super::super::config::CpMapperConfig;
     use super::super::map::{Port, PortState};
     use super::super::pattern::{Dictionary, PatternId};
-    use super::super::traversal::{Motion, Sighting};
+    use super::super::traversal::{DeadReckoning, Sighting};
     use super::*;
     use tolman_robot::Landmark;
 
@@ -265,7 +265,7 @@ mod tests {
             core::f64::consts::PI
         };
         let heading = Interval::new(heading - 0.1, heading + 0.1).unwrap();
-        let motion = Motion {
+        let motion = DeadReckoning {
             displacement: PointBox::about(Point::new(east, 0.0), 0.01).unwrap(),
             departure: heading,
             arrival: heading,
@@ -327,6 +327,6 @@ mod tests {
         // It walks back, and knows that.
         let back = walk(1, 1.0, Sighting::plain(3));
         let understood = beam.walked(Turn::BACK, &back, &judge).unwrap();
-        assert_eq!(understood, Understood::As(Arrival::Known));
+        assert_eq!(understood, Understood::As(MapUpdate::Known));
     }
 }

@@ -2,7 +2,7 @@ use super::alignment::Alignment;
 use super::mapper::Comparison;
 use super::pattern::Dictionary;
 use super::scores::Scores;
-use super::similarity::{Matching, Similarity};
+use super::similarity::{FragmentMatching, Similarity};
 
 /// How a [`CpMapper`](super::CpMapper) maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,7 +11,7 @@ pub struct CpMapperConfig {
     /// When the map is optimized.
     pub mapping: Mapping,
     /// How fragments are compared.
-    pub matching: Matching,
+    pub matching: FragmentMatching,
     /// Which fragments are compared.
     pub candidates: Candidates,
 }
@@ -80,7 +80,7 @@ impl CpMapperConfig {
     pub const fn online() -> Self {
         Self {
             mapping: Mapping::Online,
-            matching: Matching::Positions(Similarity::paper()),
+            matching: FragmentMatching::Positions(Similarity::paper()),
             candidates: Candidates::All,
         }
     }
@@ -90,7 +90,7 @@ impl CpMapperConfig {
     pub const fn robust() -> Self {
         Self {
             mapping: Mapping::Hypotheses { width: 16 },
-            matching: Matching::Alignment(Alignment::tuned()),
+            matching: FragmentMatching::Alignment(Alignment::tuned()),
             candidates: Candidates::Best(64),
         }
     }

@@ -57,7 +57,7 @@ impl Knowledge {
 
 /// What an arrival taught.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arrival {
+pub enum MapUpdate {
     /// A fragment that was not on the map.
     New,
     /// A fragment that was on the map, and was walked from where the map has it.
@@ -73,7 +73,7 @@ pub enum Arrival {
     Contradiction,
 }
 
-impl Arrival {
+impl MapUpdate {
     /// Whether the fragment had been walked before.
     const fn came_again(self) -> bool {
         matches!(self, Self::Known | Self::Duplicate)
@@ -185,7 +185,7 @@ impl CpMapper {
         turn: Turn,
         walk: &Traversal,
         dictionary: &Dictionary,
-    ) -> Result<Arrival, CpmError> {
+    ) -> Result<MapUpdate, CpmError> {
         check(walk.sighting, walk.bearings.as_ref())?;
         dictionary.check(&walk.patterns)?;
         self.map().check(dictionary)?;
@@ -198,8 +198,8 @@ impl CpMapper {
             }
             Knowledge::Beam(beam) => match beam.walked(turn, walk, &judge)? {
                 Understood::As(arrival) => (arrival, arrival.came_again()),
-                Understood::Anew(arrival) => (Arrival::Revised, arrival.came_again()),
-                Understood::Not => (Arrival::Contradiction, false),
+                Understood::Anew(arrival) => (MapUpdate::Revised, arrival.came_again()),
+                Understood::Not => (MapUpdate::Contradiction, false),
             },
         };
         if came_again {
@@ -207,7 +207,7 @@ impl CpMapper {
         }
         self.knowledge.map_mut().version = Some(dictionary.version());
         self.traversals += 1;
-        if arrival == Arrival::Contradiction {
+        if arrival == MapUpdate::Contradiction {
             self.contradictions += 1;
         }
         Ok(arrival)
@@ -275,11 +275,11 @@ fn reason(
     turn: Turn,
     walk: &Traversal,
     judge: Option<&Comparison<'_>>,
-) -> Result<Arrival, NoSuchTurn> {
+) -> Result<MapUpdate, NoSuchTurn> {
     let exit = mapper.exit(turn)?;
     let is_filled = mapper.map.end_at(exit).is_some();
     if mapper.follow(exit, walk, judge) {
-        return Ok(Arrival::Known);
+        return Ok(MapUpdate::Known);
     }
     let new = if is_filled {
         mapper.go_adrift(exit, walk)
@@ -288,9 +288,9 @@ fn reason(
     };
     let merges = judge.and_then(|judge| mapper.unify_with_similar(new, judge));
     Ok(match merges {
-        _ if is_filled => Arrival::Contradiction,
-        Some(_) => Arrival::Duplicate,
-        None => Arrival::New,
+        _ if is_filled => MapUpdate::Contradiction,
+        Some(_) => MapUpdate::Duplicate,
+        None => MapUpdate::New,
     })
 }
 

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use thiserror::Error;
-use tolman_quantizers::{AssociativeMemory, ConfigError, InputError, SoinnConfig};
+use tolman_quantizers::{AssociativeMemory, InputError, QuantizerConfigError, SoinnConfig};
 
 use super::map::{CpMap, End};
 use super::pattern::{Dictionary, DictionaryError, PatternId, euclidean};
@@ -82,7 +82,7 @@ pub enum RecallError {
     Dictionary(#[from] DictionaryError),
     /// Prototypes without features.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] QuantizerConfigError),
     /// The memory refuses a code.
     #[error(transparent)]
     Input(#[from] InputError),

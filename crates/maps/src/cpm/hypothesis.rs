@@ -5,12 +5,12 @@ use core::cell::Cell;
 use tolman_geom::{Interval, PointBox};
 
 use super::bearings::SHARP;
-use super::cp_mapper::Arrival;
+use super::cp_mapper::MapUpdate;
 use super::map::{End, Fragment, FragmentId, Junction, Port, Sign};
 use super::mapper::{Comparison, Mapper};
 use super::pattern::PatternId;
 use super::similarity::Sense;
-use super::traversal::{Motion, Traversal};
+use super::traversal::{DeadReckoning, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
@@ -38,13 +38,13 @@ impl Hypothesis {
         turn: Turn,
         walk: &Traversal,
         judge: &Comparison<'_>,
-    ) -> Result<Vec<(Self, Arrival)>, NoSuchTurn> {
+    ) -> Result<Vec<(Self, MapUpdate)>, NoSuchTurn> {
         let exit = self.mapper.exit(turn)?;
         if let Some(end) = self.mapper.map.end_at(exit) {
             let known = self.along(exit, end, walk, judge).into_iter();
-            return Ok(known.map(|known| (known, Arrival::Known)).collect());
+            return Ok(known.map(|known| (known, MapUpdate::Known)).collect());
         }
-        let bearing = |motion: Motion| self.mapper.map.bearing_cost(exit, motion.departure);
+        let bearing = |motion: DeadReckoning| self.mapper.map.bearing_cost(exit, motion.departure);
         let Some(departure) = walk.motion.map_or(Some(0.0), bearing) else {
             return Ok(Vec::new());
         };
@@ -66,14 +66,19 @@ impl Hypothesis {
         all.extend(new.duplicates(fragment, &positions, judge));
         if !is_known_place {
             new.cost += NEW_PLACE;
-            all.push((new, Arrival::New));
+            all.push((new, MapUpdate::New));
         }
         Ok(all)
     }
 
     /// Whether a walk has led, for certain, to a place of the map: to the only start, if it is known where that lies from here, or where one
     /// like it is and two do not fit.
-    fn is_known_place(&self, walk: &Traversal, motion: Motion, positions: &Positions) -> bool {
+    fn is_known_place(
+        &self,
+        walk: &Traversal,
+        motion: DeadReckoning,
+        positions: &Positions,
+    ) -> bool {
         let is_start = walk.sighting.landmark == Some(Landmark::Start);
         let mut places = self.mapper.map.junctions().zip(positions);
         places.any(|((_, place), position)| {
@@ -115,9 +120,9 @@ impl Hypothesis {
         &self,
         exit: Port,
         walk: &Traversal,
-        motion: Motion,
+        motion: DeadReckoning,
         positions: &Positions,
-    ) -> Vec<(Self, Arrival)> {
+    ) -> Vec<(Self, MapUpdate)> {
         let map = &self.mapper.map;
         let area = self.area();
         let mut all = Vec::new();
@@ -145,7 +150,7 @@ impl Hypothesis {
                     .add_fragment(patterns, walk.motion, exit, entry);
                 next.mapper.at = entry;
                 next.mapper.notice(walk);
-                all.push((next, Arrival::Loop));
+                all.push((next, MapUpdate::Loop));
             }
         }
         all
@@ -157,7 +162,7 @@ impl Hypothesis {
         new: FragmentId,
         positions: &Positions,
         judge: &Comparison<'_>,
-    ) -> Vec<(Self, Arrival)> {
+    ) -> Vec<(Self, MapUpdate)> {
         let map = &self.mapper.map;
         let Some(fragment) = map.fragment(new) else {
             return Vec::new();
@@ -190,7 +195,7 @@ impl Hypothesis {
                         mapper: Mapper { map, at },
                         cost: self.cost - gain.get(),
                     };
-                    all.push((next, Arrival::Duplicate));
+                    all.push((next, MapUpdate::Duplicate));
                 }
             }
         }
@@ -198,7 +203,11 @@ impl Hypothesis {
     }
 
     /// What speaks for two walks being along one fragment; none if they cannot be.
-    fn motion_evidence(&self, known: Option<Motion>, walked: Option<Motion>) -> Option<f64> {
+    fn motion_evidence(
+        &self,
+        known: Option<DeadReckoning>,
+        walked: Option<DeadReckoning>,
+    ) -> Option<f64> {
         match (known, walked) {
             (Some(known), Some(walked)) => {
                 known.intersection(walked)?;

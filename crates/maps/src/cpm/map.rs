@@ -6,8 +6,8 @@ use super::bearings::Bearings;
 use super::index::FragmentIndex;
 use super::nodes::Nodes;
 use super::pattern::{Dictionary, DictionaryError, PatternId, Version};
-use super::similarity::Matching;
-use super::traversal::{Motion, Sighting};
+use super::similarity::FragmentMatching;
+use super::traversal::{DeadReckoning, Sighting};
 use super::turn::Turn;
 use tolman_robot::Landmark;
 
@@ -192,7 +192,7 @@ pub struct Fragment {
     /// 𝔸, as observed from − to +.
     pub patterns: Vec<PatternId>,
     /// What dead reckoning says of a walk from − to +, all such walks taken together.
-    pub motion: Option<Motion>,
+    pub motion: Option<DeadReckoning>,
     /// How often the robot has walked it, either way.
     pub traversals: u32,
     /// Where 𝔸⁻ is: junc(𝔸⁻).
@@ -357,7 +357,7 @@ impl CpMap {
     /// Definition 2: "ℳ is optimized if and only if … 𝔸ᵢ is distinctive", no two fragments are similar, either way.
     /// O(fragments²) comparisons.
     #[must_use]
-    pub fn is_optimized(&self, matching: &Matching, dictionary: &Dictionary) -> bool {
+    pub fn is_optimized(&self, matching: &FragmentMatching, dictionary: &Dictionary) -> bool {
         let mut pairs = self.fragments().enumerate().flat_map(|(i, (_, first))| {
             let others = self.fragments().skip(i + 1);
             others.map(move |(_, second)| (first, second))
@@ -413,7 +413,7 @@ impl CpMap {
     pub(super) fn add_fragment(
         &mut self,
         patterns: Vec<PatternId>,
-        motion: Option<Motion>,
+        motion: Option<DeadReckoning>,
         minus: Port,
         plus: Port,
     ) -> FragmentId {

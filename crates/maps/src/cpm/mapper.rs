@@ -4,7 +4,7 @@ use super::config::Candidates;
 use super::map::{CpMap, End, Fragment, FragmentId, Junction, Port, PortState};
 use super::pattern::{Dictionary, PatternId};
 use super::scores::Scores;
-use super::similarity::{Matching, Sense};
+use super::similarity::{FragmentMatching, Sense};
 use super::traversal::{Sighting, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use super::unify::Merges;
@@ -154,7 +154,7 @@ impl Mapper {
 /// What fragments are compared by, and what came of it.
 #[derive(Debug)]
 pub(super) struct Comparison<'a> {
-    pub(super) matching: &'a Matching,
+    pub(super) matching: &'a FragmentMatching,
     pub(super) candidates: Candidates,
     pub(super) dictionary: &'a Dictionary,
     pub(super) scores: Scores,

@@ -3,14 +3,14 @@ use alloc::borrow::Cow;
 use super::alignment::Alignment;
 use super::map::Sign;
 use super::pattern::{Dictionary, DictionaryError, PatternId};
-use super::traversal::Motion;
+use super::traversal::DeadReckoning;
 
 /// How two fragments are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
-pub enum Matching {
+pub enum FragmentMatching {
     /// Position by position, equations (3) to (5).
     Positions(Similarity),
     /// With insertions, deletions and changes of speed.
@@ -65,7 +65,7 @@ impl Sense {
     }
 
     /// A walk along one fragment as a walk along the other.
-    pub(super) fn of_motion(self, motion: Motion) -> Motion {
+    pub(super) fn of_motion(self, motion: DeadReckoning) -> DeadReckoning {
         match self {
             Self::Same => motion,
             Self::Inverted => motion.reversed(),
@@ -82,7 +82,7 @@ pub struct Match {
     pub score: f64,
 }
 
-impl Matching {
+impl FragmentMatching {
     /// How similar two sequences are as they stand, at most 1; equal ones have 1.
     /// Patterns that the dictionary does not have are similar to none.
     #[must_use]
@@ -160,7 +160,7 @@ impl Matching {
 /// f_S, equations (3) to (5), and the readings they allow.
 ///
 /// ```
-/// use tolman_maps::cpm::{Difference, Dictionary, PatternId, Similarity};
+/// use tolman_maps::cpm::{Dictionary, PatternDifference, PatternId, Similarity};
 ///
 /// // 31 patterns, as the paper's dictionary.
 /// let mut dictionary = Dictionary::new(1);
@@ -178,7 +178,7 @@ impl Matching {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Similarity {
     /// What aⱼ − a'ⱼ is.
-    pub difference: Difference,
+    pub difference: PatternDifference,
     /// Which positions are compared.
     pub span: Span,
     /// How the differences add up.
@@ -193,7 +193,7 @@ pub struct Similarity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Difference {
+pub enum PatternDifference {
     /// The distance of their prototypes; d_max is the greatest of those.
     Prototypes,
     /// The difference of their numbers, to the letter, though numbers are names; d_max is that of the last and the first.
@@ -229,7 +229,7 @@ impl Similarity {
     #[must_use]
     pub const fn paper() -> Self {
         Self {
-            difference: Difference::Prototypes,
+            difference: PatternDifference::Prototypes,
             span: Span::Whole,
             sum: Sum::Mean,
             mu: 0.9,
@@ -241,7 +241,7 @@ impl Similarity {
     #[must_use]
     pub const fn literal() -> Self {
         Self {
-            difference: Difference::Indices,
+            difference: PatternDifference::Indices,
             span: Span::Shorter,
             sum: Sum::Euclidean,
             mu: 0.9,
@@ -262,8 +262,8 @@ impl Similarity {
             return 0.0;
         }
         let difference = |a: PatternId, b: PatternId| match self.difference {
-            Difference::Prototypes => dictionary.distance(a, b),
-            Difference::Indices => f64::from(a.0.abs_diff(b.0)),
+            PatternDifference::Prototypes => dictionary.distance(a, b),
+            PatternDifference::Indices => f64::from(a.0.abs_diff(b.0)),
         };
         // In the middle of the position's share of the longer one; where that is a border, the two beside it count by halves.
         let at = |sequence: &[PatternId], position: usize| match self.span {
@@ -285,8 +285,8 @@ impl Similarity {
             Sum::Euclidean => libm::sqrt(squares),
         };
         let greatest = match self.difference {
-            Difference::Prototypes => dictionary.greatest_distance(),
-            Difference::Indices => dictionary.len().saturating_sub(1) as f64,
+            PatternDifference::Prototypes => dictionary.greatest_distance(),
+            PatternDifference::Indices => dictionary.len().saturating_sub(1) as f64,
         };
         if epsilon > 0.0 {
             1.0 - epsilon / greatest

@@ -53,7 +53,7 @@ pub struct Traversal {
     /// 𝔸 of Definition 1: the common patterns observed on the way, without those of the places at its ends.
     pub patterns: Vec<PatternId>,
     /// What dead reckoning says; none if the robot has none, as the paper's.
-    pub motion: Option<Motion>,
+    pub motion: Option<DeadReckoning>,
     /// The place it led to.
     pub sighting: Sighting,
     /// Where the ways out of that place lead, counted from the one by which the robot came; none if it did not look, as the paper's.
@@ -64,7 +64,7 @@ pub struct Traversal {
 /// knows them, with the drift of its heading since then allowed for in the bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Motion {
+pub struct DeadReckoning {
     /// Where the end lies, seen from the beginning, m.
     pub displacement: PointBox,
     /// The heading in which the robot left, rad; not wrapped.
@@ -73,7 +73,7 @@ pub struct Motion {
     pub arrival: Interval,
 }
 
-impl Motion {
+impl DeadReckoning {
     /// The same walked the other way.
     #[must_use]
     pub fn reversed(self) -> Self {

@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use tolman_geom::PointBox;
 
 use super::{
-    Choice, Contradiction, Culprit, Fate, Ground, Hints, LinkId, Matcher, Move, Observer, PlaceId,
-    Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
+    Choice, Contradiction, Culprit, Fate, Ground, Hints, LinkId, Matcher, ObservedMove, Observer,
+    PlaceId, Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
 };
 
 /// How many of the places met before the last are related to a new one directly: two moves back, three, …
@@ -17,7 +17,7 @@ impl Observer {
     pub(super) fn write(
         &mut self,
         track: &Track,
-        step: &Move,
+        step: &ObservedMove,
         projection: &Projection,
         choice: &Choice,
         contradictions: &mut Vec<Contradiction>,

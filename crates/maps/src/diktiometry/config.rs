@@ -90,7 +90,7 @@ pub struct SignatureKind {
     /// Share of the columns that have to agree, 0 < … ≤ 1.
     pub share: f64,
     /// Whether views may be turned against each other.
-    pub rotation: Rotation,
+    pub rotation: ViewRotation,
     /// How many views a place keeps, ≥ 1.
     pub views: usize,
 }
@@ -98,7 +98,7 @@ pub struct SignatureKind {
 /// Whether views of one place may be turned against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Rotation {
+pub enum ViewRotation {
     /// No: a compass turns them all north.
     Aligned,
     /// By any number of columns.
@@ -170,7 +170,7 @@ pub struct Matching {
     /// What an unexpected place has to show.
     pub identity: Identity,
     /// How matchers take precedence.
-    pub order: Order,
+    pub order: Precedence,
     /// CONTINUE. Without it, an expected place has to show what an unexpected one has to, but to α-MATCH.
     pub continuation: Use,
     /// LINK. Without it, unexpected places are noted at best.
@@ -202,7 +202,7 @@ pub enum Identity {
 /// How matchers take precedence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Order {
+pub enum Precedence {
     /// One order for all: CONTINUE, LINK, α, new place, β. The paper's prototype.
     Static,
     /// By what is known of the area and by the track's confidence.
@@ -333,7 +333,7 @@ impl Config {
             },
             matching: Matching {
                 identity: Identity::Certain,
-                order: Order::Dynamic,
+                order: Precedence::Dynamic,
                 continuation: Use::On,
                 link: Use::On,
                 alpha: Use::On,
@@ -409,12 +409,12 @@ impl Config {
     /// Whether the fields are in their ranges.
     ///
     /// # Errors
-    /// [`ConfigError`] names the first field that is not.
-    pub fn check(&self) -> Result<(), ConfigError> {
+    /// [`DiktiometryConfigError`] names the first field that is not.
+    pub fn check(&self) -> Result<(), DiktiometryConfigError> {
         let actions = self.actions.len();
         let mut reverses = self.actions.iter().filter_map(|kind| kind.reverse);
         if let Some(reverse) = reverses.find(|action| action.0 as usize >= actions) {
-            return Err(ConfigError::NoSuchReverse { reverse, actions });
+            return Err(DiktiometryConfigError::NoSuchReverse { reverse, actions });
         }
         self.check_numbers()?;
         match self.percepts {
@@ -423,7 +423,7 @@ impl Config {
         }
     }
 
-    fn check_numbers(&self) -> Result<(), ConfigError> {
+    fn check_numbers(&self) -> Result<(), DiktiometryConfigError> {
         let (tracks, limits, transients) = (&self.tracks, &self.restructuring, &self.transients);
         let [most_links, least_links] = limits.links;
         within("separation", self.separation, POSITIVE)?;
@@ -457,12 +457,12 @@ impl SignatureKind {
         enough.max(1)
     }
 
-    fn check(&self, indexing: PerceptualIndexing) -> Result<(), ConfigError> {
+    fn check(&self, indexing: PerceptualIndexing) -> Result<(), DiktiometryConfigError> {
         let columns = self.columns;
         within("tolerance", self.tolerance, 0.0..)?;
         within("share", self.share, POSITIVE_SHARE)?;
         if indexing == PerceptualIndexing::Triangles && columns < 3 {
-            return Err(ConfigError::NoTriangles { columns });
+            return Err(DiktiometryConfigError::NoTriangles { columns });
         }
         not_zero("rows", self.rows)?;
         not_zero("columns", columns)?;
@@ -478,16 +478,16 @@ fn within(
     field: &'static str,
     value: f64,
     range: impl RangeBounds<f64>,
-) -> Result<(), ConfigError> {
+) -> Result<(), DiktiometryConfigError> {
     if range.contains(&value) && value.is_finite() {
         return Ok(());
     }
-    Err(ConfigError::OutOfRange { field, value })
+    Err(DiktiometryConfigError::OutOfRange { field, value })
 }
 
-const fn not_zero(field: &'static str, count: usize) -> Result<(), ConfigError> {
+const fn not_zero(field: &'static str, count: usize) -> Result<(), DiktiometryConfigError> {
     match count {
-        0 => Err(ConfigError::Zero { field }),
+        0 => Err(DiktiometryConfigError::Zero { field }),
         _ => Ok(()),
     }
 }
@@ -495,7 +495,7 @@ const fn not_zero(field: &'static str, count: usize) -> Result<(), ConfigError> 
 /// Why a configuration is none.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum ConfigError {
+pub enum DiktiometryConfigError {
     /// An action's reverse does not exist.
     #[error(
         "action {} is given as a reverse, and there are only {actions}; name one of them or none",

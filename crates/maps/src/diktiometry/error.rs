@@ -1,12 +1,12 @@
 use thiserror::Error;
 use tolman_geom::PoseBox;
 
-use super::{Action, ConfigError};
+use super::{Action, DiktiometryConfigError};
 
 /// Why a move is none. The observer is as it was before.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum StepError {
+pub enum ObservedMoveError {
     /// The robot has no such action.
     #[error("action {} is not one of the {actions} of the configuration", action.0)]
     UnknownAction {
@@ -56,8 +56,8 @@ pub enum StepError {
 pub enum StartError {
     /// The configuration is none.
     #[error("the configuration is out of its bounds")]
-    Config(#[from] ConfigError),
+    Config(#[from] DiktiometryConfigError),
     /// What the robot sees at first does not fit the configuration.
     #[error("what the robot sees at the start does not fit the configuration")]
-    Start(#[from] StepError),
+    Start(#[from] ObservedMoveError),
 }

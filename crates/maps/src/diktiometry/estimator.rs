@@ -6,8 +6,9 @@ use tolman_geom::PointBox;
 
 use super::{
     Action, ActiveFrame, Candidate, Choice, Contradiction, Culprit, GeometricIndexing, Hints,
-    LinkId, Match, Matcher, Move, Observer, PlaceId, Predicted, Projection, Similarity, Situation,
-    Standing, StepReport, Track, TrackId, TrackReport, Use, choose, expected, moved, plies, search,
+    LinkId, LinkStatus, Matcher, ObservedMove, Observer, PlaceId, Predicted, Projection,
+    Similarity, Situation, StepReport, Track, TrackEntry, TrackId, TrackReport, Use, choose,
+    expected, moved, plies, search,
 };
 
 /// Whether a track may change the map. Only the best may, lest a dying hypothesis damage it; in the paper all do.
@@ -24,7 +25,7 @@ impl Observer {
         &mut self,
         track: &Track,
         rank: Rank,
-        step: &Move,
+        step: &ObservedMove,
         report: &mut StepReport,
         hints: &mut Hints,
         next: &mut Vec<(Track, TrackReport)>,
@@ -58,7 +59,7 @@ impl Observer {
                 Matcher::Continue => 0.0,
                 _ => projection.astray,
             };
-            let entry = Match {
+            let entry = TrackEntry {
                 place,
                 action: Some(step.action),
                 doubts: choice.doubts.clone(),
@@ -126,7 +127,12 @@ impl Observer {
 
     /// The robot is not where it was expected to be: it may be wherever it looks like here, however far away. "Good candidate
     /// places can be found based on perceptual cues, even if they are geometrically distant."
-    fn suppose(&mut self, track: &Track, step: &Move, next: &mut Vec<(Track, TrackReport)>) {
+    fn suppose(
+        &mut self,
+        track: &Track,
+        step: &ObservedMove,
+        next: &mut Vec<(Track, TrackReport)>,
+    ) {
         let Some(percept) = &step.percept else {
             return;
         };
@@ -144,7 +150,7 @@ impl Observer {
     }
 
     /// The indexer and the matching engine for one track.
-    fn matches(&self, track: &Track, step: &Move, projection: &Projection) -> Choice {
+    fn matches(&self, track: &Track, step: &ObservedMove, projection: &Projection) -> Choice {
         let situation = Situation {
             map: &self.map,
             config: &self.config,
@@ -232,7 +238,7 @@ impl Observer {
     pub(super) fn take_sides(&mut self, kept: PlaceId, new: PlaceId) {
         for track in self.tracks.iter_mut().filter(|track| track.place == kept) {
             let came = track.link.map(|link| self.map.link(link));
-            let moved = came.filter(|link| link.standing == Standing::Removed);
+            let moved = came.filter(|link| link.standing == LinkStatus::Removed);
             if let Some(link) = moved
                 && let Some(id) = self.map.paths.between(link.from, link.action, new)
             {
@@ -261,7 +267,7 @@ impl Observer {
 }
 
 /// The odometry of a move, if nothing says that it is wrong or that the robot was carried off.
-pub(super) fn trusted_odometry(step: &Move, choice: &Choice, matcher: Matcher) -> PointBox {
+pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Matcher) -> PointBox {
     let plain = matches!(
         matcher,
         Matcher::Continue | Matcher::Link | Matcher::NewPlace

@@ -4,7 +4,10 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-use super::{Config, JournalLength, Move, Observer, PlaceId, Start, StartError, StepError};
+use super::{
+    Config, FirstPlace, JournalLength, ObservedMove, ObservedMoveError, Observer, PlaceId,
+    StartError,
+};
 
 /// All that an observer was told, in order. What it decided follows from that, to the bit: to replay the journal is to decide
 /// again.
@@ -12,9 +15,9 @@ use super::{Config, JournalLength, Move, Observer, PlaceId, Start, StartError, S
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Journal {
     /// How it began.
-    pub start: Start,
+    pub start: FirstPlace,
     /// The moves.
-    pub moves: Vec<Move>,
+    pub moves: Vec<ObservedMove>,
     /// Pairs of places that were told to be different.
     pub distinctions: Vec<Distinction>,
 }
@@ -52,7 +55,7 @@ pub enum UndoError {
 /// Why a journal cannot be replayed.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum ReplayError {
+pub enum JournalError {
     /// There is no observer to begin with.
     #[error("the journal's beginning fits no observer")]
     Start(#[from] StartError),
@@ -62,7 +65,7 @@ pub enum ReplayError {
         /// Which, from 1.
         number: usize,
         /// Why.
-        source: StepError,
+        source: ObservedMoveError,
     },
 }
 
@@ -76,13 +79,13 @@ impl Observer {
     /// An observer that was told all that a journal holds. O(moves).
     ///
     /// # Errors
-    /// [`ReplayError`] if the journal does not fit the configuration.
-    pub fn replay(config: Config, journal: &Journal) -> Result<Self, ReplayError> {
+    /// [`JournalError`] if the journal does not fit the configuration.
+    pub fn replay(config: Config, journal: &Journal) -> Result<Self, JournalError> {
         let mut observer = Self::new(config, journal.start.clone())?;
         observer.journal.distinctions = journal.distinctions.clone();
         for (number, step) in (1..).zip(&journal.moves) {
             let told = observer.step(step);
-            told.map_err(|source| ReplayError::Move { number, source })?;
+            told.map_err(|source| JournalError::Move { number, source })?;
         }
         Ok(observer)
     }

@@ -3,8 +3,8 @@ use alloc::vec::Vec;
 use tolman_geom::PointBox;
 
 use super::{
-    Fate, Frame, FrameId, Link, LinkId, Looks, PathGraph, Place, PlaceId, ReferenceGraph,
-    SearchLimits, Standing, search,
+    Fate, Frame, FrameId, Link, LinkId, LinkStatus, Looks, PathGraph, Place, PlaceId,
+    ReferenceGraph, SearchLimits, search,
 };
 
 /// "A diktiometric representation (a *diktiometry*) consists of two graphs, a path graph and a reference graph …
@@ -21,7 +21,7 @@ pub struct Diktiometry {
 
 /// Where a place is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drawn {
+pub struct DrawnPlace {
     /// The place.
     pub place: PlaceId,
     /// What is known of its position, m: it is drawn in the middle.
@@ -76,7 +76,7 @@ impl Diktiometry {
     /// All places that can be reached from `origin` in the reference graph, where they are for the eye: as seen from
     /// `origin`, which is at (0, 0). By id. O(frames · degree · log frames + places · log places).
     #[must_use]
-    pub fn layout(&self, origin: PlaceId) -> Vec<Drawn> {
+    pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
         let Some(origin) = self.paths.resolve(origin) else {
             return Vec::new();
         };
@@ -84,12 +84,12 @@ impl Diktiometry {
         let reached = search(&self.reference, start, &SearchLimits::UNLIMITED);
         let places = reached.iter().flat_map(|frame| {
             let places = self.frame(frame.frame).places.iter();
-            places.map(|&place| Drawn {
+            places.map(|&place| DrawnPlace {
                 place,
                 bounds: frame.position + self.place(place).position - here,
             })
         });
-        let mut drawn: Vec<Drawn> = places.collect();
+        let mut drawn: Vec<DrawnPlace> = places.collect();
         drawn.sort_by_key(|drawn| drawn.place);
         drawn
     }
@@ -173,7 +173,7 @@ impl Diktiometry {
             }
             let belongs = |link: &LinkId, end: fn(&Link) -> PlaceId| {
                 let link = self.link(*link);
-                stands && link.standing == Standing::Standing && end(link) == id
+                stands && link.standing == LinkStatus::Standing && end(link) == id
             };
             let mut outgoing = place.outgoing.iter();
             let mut incoming = place.incoming.iter();

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Config, Journal, Observer, ReplayError};
+use super::{Config, Journal, JournalError, Observer};
 
 /// An observer as it lies in a file: the journal, from which everything follows to the bit. Any format of serde's will do.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -28,7 +28,7 @@ pub enum MapFileError {
     },
     /// The journal cannot be replayed.
     #[error("the journal does not fit the configuration")]
-    Replay(#[from] ReplayError),
+    Replay(#[from] JournalError),
 }
 
 impl MapFile {

@@ -4,24 +4,24 @@ use alloc::vec::Vec;
 use tolman_geom::Point;
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
 
-use super::{Diktiometry, Move, Observer, PlaceId, StepError, Track};
+use super::{Diktiometry, ObservedMove, ObservedMoveError, Observer, PlaceId, Track};
 
-/// An observer works on a log as on a robot: its observation is a [`Move`].
+/// An observer works on a log as on a robot: its observation is an [`ObservedMove`].
 ///
 /// ```
 /// use tolman_geom::{Interval, Point, PointBox, PoseBox};
-/// use tolman_maps::diktiometry::{Action, Config, Exits, Move, Observer, Outcome, Start};
+/// use tolman_maps::diktiometry::{Action, Config, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer};
 /// use tolman_robot::Mapper;
 ///
 /// let config = Config::new(Config::compass_actions(), 1.0);
-/// let mut observer = Observer::new(config, Start::default())?;
+/// let mut observer = Observer::new(config, FirstPlace::default())?;
 /// let way = PointBox::about(Point::new(2.0, 0.0), 0.1)?;
-/// observer.observe(&Move {
+/// observer.observe(&ObservedMove {
 ///     action: Action(1),
 ///     odometry: PoseBox::new(way, Interval::ZERO),
 ///     percept: None,
 ///     exits: Exits::Unknown,
-///     outcome: Outcome::Arrived,
+///     outcome: MoveOutcome::Arrived,
 /// })?;
 /// let map = Mapper::map(&observer);
 /// assert_eq!((map.places.len(), map.links.len()), (2, 1));
@@ -31,10 +31,10 @@ use super::{Diktiometry, Move, Observer, PlaceId, StepError, Track};
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 impl Mapper for Observer {
-    type Observation = Move;
-    type Error = StepError;
+    type Observation = ObservedMove;
+    type Error = ObservedMoveError;
 
-    fn observe(&mut self, seen: &Move) -> Result<(), StepError> {
+    fn observe(&mut self, seen: &ObservedMove) -> Result<(), ObservedMoveError> {
         self.step(seen).map(|_| ())
     }
 

@@ -9,7 +9,7 @@ use super::{Action, Signature};
 /// One move: "a sequence of actions ending with the robot in a distinguished place", told after it ended.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Move {
+pub struct ObservedMove {
     /// The control routine.
     pub action: Action,
     /// The displacement from where the move began to where it ended, along the axes of the compass (x east, y north), m,
@@ -23,13 +23,13 @@ pub struct Move {
     /// What could be tried there.
     pub exits: Exits,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: MoveOutcome,
 }
 
 /// How a move ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Outcome {
+pub enum MoveOutcome {
     /// At a distinctive place.
     Arrived,
     /// The action was not possible: the robot is where it was.
@@ -62,7 +62,7 @@ impl Exits {
 /// How the robot begins: what it sees of the first place.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Start {
+pub struct FirstPlace {
     /// What it looks like.
     pub percept: Option<Signature>,
     /// What could be tried.

@@ -4,10 +4,10 @@ use tolman_geom::PointBox;
 use tolman_planners::a_star;
 
 use super::{
-    Action, Config, Diktiometry, Exits, Hints, Journal, JournalLength, Link, Move, Outcome,
-    Percepts, PlaceId, PlanStep, Predicted, Rank, Restructured, Signature, Start, StartError,
-    StepError, StepReport, Track, TrackId, TrackReport, ViewIndex, deposit, remember, restructure,
-    steps_along,
+    Action, Config, Diktiometry, Exits, FirstPlace, Hints, Journal, JournalLength, Link,
+    MoveOutcome, ObservedMove, ObservedMoveError, Percepts, PlaceId, PlanStep, Predicted, Rank,
+    Restructured, Signature, StartError, StepReport, Track, TrackId, TrackReport, ViewIndex,
+    deposit, remember, restructure, steps_along,
 };
 
 /// The adaptive state-space model: an observer that any robot can feed, and that drives none.
@@ -36,7 +36,7 @@ impl Observer {
     ///
     /// # Errors
     /// [`StartError`] if the configuration is out of its bounds or the first percept does not fit it.
-    pub fn new(config: Config, start: Start) -> Result<Self, StartError> {
+    pub fn new(config: Config, start: FirstPlace) -> Result<Self, StartError> {
         config.check()?;
         check_percept(&config, start.percept.as_ref())?;
         check_exits(&config, &start.exits)?;
@@ -132,8 +132,8 @@ impl Observer {
     /// Takes in a move that has ended.
     ///
     /// # Errors
-    /// [`StepError`] if it is none; everything then is as it was.
-    pub fn step(&mut self, step: &Move) -> Result<StepReport, StepError> {
+    /// [`ObservedMoveError`] if it is none; everything then is as it was.
+    pub fn step(&mut self, step: &ObservedMove) -> Result<StepReport, ObservedMoveError> {
         self.admit(step)?;
         self.map.paths.now += 1;
         let mut report = StepReport {
@@ -143,8 +143,8 @@ impl Observer {
             restructured: Vec::new(),
         };
         match step.outcome {
-            Outcome::Blocked => self.blocked(step, &mut report),
-            Outcome::Arrived => self.arrived(step, &mut report),
+            MoveOutcome::Blocked => self.blocked(step, &mut report),
+            MoveOutcome::Arrived => self.arrived(step, &mut report),
         }
         if self.config.journal == JournalLength::All {
             self.journal.moves.push(step.clone());
@@ -152,23 +152,23 @@ impl Observer {
         Ok(report)
     }
 
-    fn admit(&self, step: &Move) -> Result<(), StepError> {
+    fn admit(&self, step: &ObservedMove) -> Result<(), ObservedMoveError> {
         let actions = self.config.actions.len();
-        let Move {
+        let ObservedMove {
             action, odometry, ..
         } = *step;
         if action.0 as usize >= actions {
-            return Err(StepError::UnknownAction { action, actions });
+            return Err(ObservedMoveError::UnknownAction { action, actions });
         }
         if !odometry.position.is_bounded() {
-            return Err(StepError::Unbounded { odometry });
+            return Err(ObservedMoveError::Unbounded { odometry });
         }
         check_percept(&self.config, step.percept.as_ref())?;
         check_exits(&self.config, &step.exits)
     }
 
     /// The robot is where it was, and now knows that the action leads nowhere.
-    fn blocked(&mut self, step: &Move, report: &mut StepReport) {
+    fn blocked(&mut self, step: &ObservedMove, report: &mut StepReport) {
         let here = self.place();
         self.block(here, step.action);
         let lines = self.tracks.iter().map(|track| TrackReport {
@@ -178,7 +178,7 @@ impl Observer {
         report.tracks = lines.collect();
     }
 
-    fn arrived(&mut self, step: &Move, report: &mut StepReport) {
+    fn arrived(&mut self, step: &ObservedMove, report: &mut StepReport) {
         let mut hints = Hints::default();
         let tracks = core::mem::take(&mut self.tracks);
         let mut next = Vec::new();
@@ -221,7 +221,7 @@ impl Observer {
     }
 }
 
-fn check_percept(config: &Config, percept: Option<&Signature>) -> Result<(), StepError> {
+fn check_percept(config: &Config, percept: Option<&Signature>) -> Result<(), ObservedMoveError> {
     let expected = match config.percepts {
         Percepts::None => None,
         Percepts::Signatures(kind) => Some((kind.rows, kind.columns)),
@@ -230,9 +230,9 @@ fn check_percept(config: &Config, percept: Option<&Signature>) -> Result<(), Ste
     if given == expected {
         return Ok(());
     }
-    let (rows, columns) = given.ok_or(StepError::PerceptMissing)?;
+    let (rows, columns) = given.ok_or(ObservedMoveError::PerceptMissing)?;
     let (expected_rows, expected_columns) = expected.unwrap_or_default();
-    Err(StepError::PerceptSize {
+    Err(ObservedMoveError::PerceptSize {
         rows,
         columns,
         expected_rows,
@@ -240,13 +240,13 @@ fn check_percept(config: &Config, percept: Option<&Signature>) -> Result<(), Ste
     })
 }
 
-fn check_exits(config: &Config, exits: &Exits) -> Result<(), StepError> {
+fn check_exits(config: &Config, exits: &Exits) -> Result<(), ObservedMoveError> {
     let actions = config.actions.len();
     let Exits::Seen(seen) = exits else {
         return Ok(());
     };
     match seen.iter().find(|action| action.0 as usize >= actions) {
-        Some(&action) => Err(StepError::UnknownExit { action, actions }),
+        Some(&action) => Err(ObservedMoveError::UnknownExit { action, actions }),
         None => Ok(()),
     }
 }

@@ -6,7 +6,7 @@ use tolman_geom::{Point, PointBox};
 use tolman_planners::Graph;
 
 use super::{
-    Action, Constancy, Counts, Exits, FrameId, LinkId, Match, PlaceId, PlanStep, Signature,
+    Action, Constancy, Counts, Exits, FrameId, LinkId, PlaceId, PlanStep, Signature, TrackEntry,
 };
 
 /// A place, with its reference link: where it lies in its canonical frame.
@@ -39,9 +39,9 @@ pub struct Place {
     /// Whether it was there when it was last expected, and how often that changed.
     pub constancy: Constancy,
     /// Histories of tracks left here, the oldest first.
-    pub histories: Vec<Vec<Match>>,
+    pub histories: Vec<Vec<TrackEntry>>,
     /// Delayed gratification: what is to be decided once more is known.
-    pub notes: Vec<Note>,
+    pub notes: Vec<MergeNote>,
 }
 
 impl Place {
@@ -109,7 +109,7 @@ impl Estim {
 
 /// "A note is made of the operation to be performed": a merge that waits for a narrower box or for more looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Note {
+pub struct MergeNote {
     /// The place that may be the same as the one the note is left at.
     pub other: PlaceId,
     /// Why it may be.
@@ -143,7 +143,7 @@ pub struct Link {
     /// Which link was taken after it, and how often.
     pub then: Vec<Successor>,
     /// Whether it is still part of the map.
-    pub standing: Standing,
+    pub standing: LinkStatus,
 }
 
 impl Link {
@@ -174,7 +174,7 @@ pub struct Successor {
 
 /// Whether a link is still part of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum LinkStatus {
     /// It is.
     Standing,
     /// It is not.
@@ -214,7 +214,7 @@ impl PathGraph {
     /// The links that stand, by id.
     pub fn links(&self) -> impl Iterator<Item = (LinkId, &Link)> {
         let all = (0..).map(LinkId).zip(&self.links);
-        all.filter(|(_, link)| link.standing == Standing::Standing)
+        all.filter(|(_, link)| link.standing == LinkStatus::Standing)
     }
 
     /// What a place is called now, after all merges; none if it was elided or never was.
@@ -323,7 +323,7 @@ impl PathGraph {
                 // Nearness is asked for more often than looks are.
                 Some(note) if ground == Ground::Position => note.ground = ground,
                 Some(_) => {}
-                None => notes.push(Note { other, ground }),
+                None => notes.push(MergeNote { other, ground }),
             }
         }
     }
@@ -347,7 +347,7 @@ impl PathGraph {
             counts: Counts::default(),
             constancy: Constancy::default(),
             then: Vec::new(),
-            standing: Standing::Standing,
+            standing: LinkStatus::Standing,
         });
         self.places[from.index()].outgoing.push(id);
         self.places[to.index()].incoming.push(id);
@@ -357,7 +357,7 @@ impl PathGraph {
     /// Takes a link out of the graph.
     pub(super) fn remove_link(&mut self, id: LinkId) {
         let link = &mut self.links[id.index()];
-        link.standing = Standing::Removed;
+        link.standing = LinkStatus::Removed;
         link.then.clear();
         let (from, to) = (link.from, link.to);
         self.places[from.index()].outgoing.retain(|&out| out != id);

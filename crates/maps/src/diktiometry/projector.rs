@@ -1,6 +1,6 @@
 use tolman_geom::{Interval, Point, PointBox};
 
-use super::{Action, FrameId, Move, Observer, PlaceId, Track};
+use super::{Action, FrameId, ObservedMove, Observer, PlaceId, Track};
 
 /// Where a track would be after a move, before anything is recognized: the projector "predicts new states given old state
 /// estimates and control inputs".
@@ -20,7 +20,7 @@ pub(super) struct Projection {
 }
 
 impl Observer {
-    pub(super) fn project(&self, track: &Track, step: &Move) -> Projection {
+    pub(super) fn project(&self, track: &Track, step: &ObservedMove) -> Projection {
         let (frame, position) = self.map.site(track.place);
         let displacement = self.between_places(step.odometry.position);
         Projection {

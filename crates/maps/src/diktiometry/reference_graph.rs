@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
 
-use super::{FrameId, Grid, PlaceId};
+use super::{CoverageGrid, FrameId, PlaceId};
 pub(super) use search::{Reached, search};
 
 /// A local frame. All frames lie along the axes of the compass, so that a relation is a displacement.
@@ -17,7 +17,7 @@ pub struct Frame {
     /// What is known of other frames, by their id; each is kept from both sides.
     pub relations: Vec<Relation>,
     /// How well its area is known.
-    pub grid: Grid,
+    pub grid: CoverageGrid,
 }
 
 impl Frame {
@@ -150,6 +150,6 @@ impl ReferenceGraph {
             let others = &mut self.frames[relation.to.index()].relations;
             others.retain(|other| other.to != id);
         }
-        self.frames[id.index()].grid = Grid::default();
+        self.frames[id.index()].grid = CoverageGrid::default();
     }
 }

@@ -22,14 +22,14 @@ pub struct Track {
     /// Distance gone since the last CONTINUE, m.
     pub astray: f64,
     /// What it matched lately, the newest last.
-    pub history: Vec<Match>,
+    pub history: Vec<TrackEntry>,
     /// Frames that its position tells something about.
     pub active: Vec<ActiveFrame>,
 }
 
 /// One entry of a track's history.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Match {
+pub struct TrackEntry {
     /// The place that was matched.
     pub place: PlaceId,
     /// The action that led there; none where the track began.
@@ -49,7 +49,7 @@ impl Track {
             confidence,
             link: None,
             astray: 0.0,
-            history: Vec::from([Match {
+            history: Vec::from([TrackEntry {
                 place,
                 action: None,
                 doubts: Vec::new(),
@@ -78,7 +78,7 @@ impl Track {
     }
 
     /// Adds a match; all before it lie a displacement further back.
-    pub(super) fn remember(&mut self, entry: Match, moved: PointBox, length: usize) {
+    pub(super) fn remember(&mut self, entry: TrackEntry, moved: PointBox, length: usize) {
         for before in &mut self.history {
             before.since = before.since + moved;
         }

@@ -8,7 +8,7 @@ use tolman_planners::{Graph, path_to, steps_from};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
-pub enum Zone {
+pub enum NodeZone {
     /// While the robot was in the destination zone: a destination node.
     Destination,
     /// Anywhere else.
@@ -23,16 +23,16 @@ pub struct Node {
     /// The number of the quantizer's state.
     pub state: u32,
     /// Whether it is a destination node.
-    pub zone: Zone,
+    pub zone: NodeZone,
     /// In the order they were entered. Several may bear one action.
-    pub edges: Vec<Edge>,
+    pub edges: Vec<ActionEdge>,
 }
 
 /// "If node A has an east connection to node B …, then node B also has a west connection to node A."
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Edge {
+pub struct ActionEdge {
     /// The action that leads along it.
     pub action: Direction,
     /// The node it leads to; `None` where the action failed ("Nodes can also have connections to a dummy node, which
@@ -180,7 +180,7 @@ impl MslstGraph {
     #[must_use]
     pub fn is_destination(&self, id: u32) -> bool {
         self.node(id)
-            .is_some_and(|node| node.zone == Zone::Destination)
+            .is_some_and(|node| node.zone == NodeZone::Destination)
     }
 
     /// Actions from a node to the nearest destination node; none where the graph has no destination.
@@ -241,7 +241,7 @@ struct Without<'a> {
 }
 
 impl Without<'_> {
-    fn allows(&self, tail: u32, edge: &Edge) -> bool {
+    fn allows(&self, tail: u32, edge: &ActionEdge) -> bool {
         tail != self.source || !self.failed.contains(&edge.action)
     }
 }
@@ -278,7 +278,7 @@ fn check(nodes: &[Node]) -> Result<(), GraphError> {
     };
     let state = |head: Option<u32>| nodes.get(head? as usize).map(|node| node.state);
     for (id, node) in (0..count).zip(nodes) {
-        for (place, &Edge { action, head }) in node.edges.iter().enumerate() {
+        for (place, &ActionEdge { action, head }) in node.edges.iter().enumerate() {
             if let Some(head) = head {
                 let Some(there) = nodes.get(head as usize) else {
                     return Err(GraphError::NoSuchNode {
@@ -288,7 +288,7 @@ fn check(nodes: &[Node]) -> Result<(), GraphError> {
                         count,
                     });
                 };
-                let back = Edge {
+                let back = ActionEdge {
                     action: action.opposite(),
                     head: Some(id),
                 };
@@ -300,7 +300,8 @@ fn check(nodes: &[Node]) -> Result<(), GraphError> {
                     });
                 }
             }
-            let alike = |other: &Edge| other.action == action && state(other.head) == state(head);
+            let alike =
+                |other: &ActionEdge| other.action == action && state(other.head) == state(head);
             if node.edges[..place].iter().any(alike) {
                 return Err(GraphError::Ambiguous { node: id, action });
             }

@@ -11,7 +11,7 @@ use super::hypotheses::{self, Hypothesis, turned_into};
 use super::surfaces::{Surface, Surfaces};
 use super::wheels::{WheelError, difference};
 use super::{Outline, PlaceGraphConfig};
-use crate::pose_graph::{EdgeKind, PoseEdge, PoseGraph, PoseGraphError};
+use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 
 /// What a robot has seen where it stands, and how it came there.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -230,7 +230,7 @@ impl PlaceGraph {
             place,
             here.since,
             information,
-            EdgeKind::Odometry,
+            PoseEdgeKind::Odometry,
         )?;
         for (other, share) in fit.into_iter().flat_map(seen_by) {
             let measured = self.graph.poses()[other as usize].between(here.pose);
@@ -240,7 +240,7 @@ impl PlaceGraph {
                 place,
                 measured,
                 information * share,
-                EdgeKind::Closure,
+                PoseEdgeKind::Closure,
             )?;
         }
         self.surfaces.add(place, here.pose, &outline);
@@ -267,7 +267,7 @@ impl PlaceGraph {
         to: u32,
         measured: Pose,
         information: Matrix3<f64>,
-        kind: EdgeKind,
+        kind: PoseEdgeKind,
     ) -> Result<(), PlaceGraphError> {
         // Where nothing was measured, as along a wall, next to nothing is known.
         let information = information + Matrix3::identity() * 1e-3;
@@ -386,7 +386,7 @@ impl Mapper for PlaceGraph {
             landmark: None,
         });
         let links: BTreeSet<MapLink> = (self.graph.edges().iter())
-            .filter(|edge| edge.kind == EdgeKind::Odometry)
+            .filter(|edge| edge.kind == PoseEdgeKind::Odometry)
             .flat_map(|edge| [(edge.from, edge.to), (edge.to, edge.from)])
             .map(|(from, to)| MapLink { from, to })
             .collect();

@@ -13,13 +13,13 @@ pub struct PoseEdge {
     /// The inverse of the measurement's covariance: x and y in m, ahead and to the left of the measured pose, and the heading in rad.
     pub information: Matrix3<f64>,
     /// Whether it can be wrong altogether.
-    pub kind: EdgeKind,
+    pub kind: PoseEdgeKind,
 }
 
 /// Whether an edge can be wrong altogether.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum EdgeKind {
+pub enum PoseEdgeKind {
     /// Dead reckoning, which errs but does not lie.
     Odometry,
     /// A place that was taken for one seen before.
@@ -105,7 +105,7 @@ mod tests {
                 to: 1,
                 measured: measured.compose(off),
                 information: Matrix3::identity(),
-                kind: EdgeKind::Odometry,
+                kind: PoseEdgeKind::Odometry,
             };
             let linear = edge.linearize(from, to);
             for part in 0..3 {

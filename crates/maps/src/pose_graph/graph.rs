@@ -9,7 +9,7 @@ use super::{PoseEdge, PoseGraphError};
 /// ```
 /// use tolman_maps::geom::nalgebra::Matrix3;
 /// use tolman_maps::geom::{Heading, Point, Pose};
-/// use tolman_maps::pose_graph::{EdgeKind, OptimizerConfig, PoseEdge, PoseGraph};
+/// use tolman_maps::pose_graph::{PoseEdgeKind, OptimizerConfig, PoseEdge, PoseGraph};
 ///
 /// // Round a square of 1 m, by wheels that turn 5° too far at each corner.
 /// let side = |degrees: f64| Pose::new(Point::new(1.0, 0.0), Heading::from_degrees(degrees));
@@ -19,11 +19,11 @@ use super::{PoseEdge, PoseGraphError};
 /// for corner in 0..4 {
 ///     let reckoned = graph.poses()[corner as usize].compose(side(95.0));
 ///     graph.add_pose(reckoned);
-///     graph.add_edge(edge(corner, corner + 1, side(95.0), EdgeKind::Odometry))?;
+///     graph.add_edge(edge(corner, corner + 1, side(95.0), PoseEdgeKind::Odometry))?;
 /// }
 /// assert!(graph.poses()[4].position.coords.norm() > 0.1);
 /// // It is back where it was.
-/// graph.add_edge(edge(0, 4, Pose::IDENTITY, EdgeKind::Closure))?;
+/// graph.add_edge(edge(0, 4, Pose::IDENTITY, PoseEdgeKind::Closure))?;
 /// let optimized = graph.optimize(&OptimizerConfig::robust());
 /// assert!(optimized.error_after < optimized.error_before);
 /// assert!(graph.poses()[4].position.coords.norm() < 0.1);

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::Pose;
 
 use super::system::{LinearSystem, moved};
-use super::{EdgeKind, PoseEdge, PoseGraph};
+use super::{PoseEdge, PoseEdgeKind, PoseGraph};
 
 /// How a graph of poses is optimized.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl OptimizerConfig {
     /// What an edge of squared error χ² adds to the whole (Geman and McClure).
     fn cost(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
-            (Some(doubt), EdgeKind::Closure) => doubt * squared / (doubt + squared),
+            (Some(doubt), PoseEdgeKind::Closure) => doubt * squared / (doubt + squared),
             _ => squared,
         }
     }
@@ -52,7 +52,7 @@ impl OptimizerConfig {
     /// How much an edge of squared error χ² counts: the derivative of its cost.
     fn weight(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
-            (Some(doubt), EdgeKind::Closure) => {
+            (Some(doubt), PoseEdgeKind::Closure) => {
                 let share = doubt / (doubt + squared);
                 share * share
             }
@@ -148,7 +148,7 @@ mod tests {
         Pose::new(Point::new(x, y), Heading::from_radians(heading))
     }
 
-    fn edge(from: u32, to: u32, measured: Pose, kind: EdgeKind) -> PoseEdge {
+    fn edge(from: u32, to: u32, measured: Pose, kind: PoseEdgeKind) -> PoseEdge {
         let information = Matrix3::from_diagonal(&Vector3::new(100.0, 100.0, 400.0));
         PoseEdge {
             from,
@@ -185,7 +185,7 @@ mod tests {
             graph.add_pose(reckoned);
             let (from, to) = (to as u32 - 1, to as u32);
             graph
-                .add_edge(edge(from, to, measured, EdgeKind::Odometry))
+                .add_edge(edge(from, to, measured, PoseEdgeKind::Odometry))
                 .unwrap();
         }
         // Once round are 15.7 poses.
@@ -193,13 +193,13 @@ mod tests {
             let measured = erring(to - 16, to);
             let (from, to) = (to as u32 - 16, to as u32);
             graph
-                .add_edge(edge(from, to, measured, EdgeKind::Closure))
+                .add_edge(edge(from, to, measured, PoseEdgeKind::Closure))
                 .unwrap();
         }
         for lie in 0..lies as u32 {
             let (from, to) = (lie, count - 1 - 2 * lie);
             graph
-                .add_edge(edge(from, to, Pose::IDENTITY, EdgeKind::Closure))
+                .add_edge(edge(from, to, Pose::IDENTITY, PoseEdgeKind::Closure))
                 .unwrap();
         }
         (truth, graph)
@@ -239,7 +239,7 @@ mod tests {
             let (_, mut graph) = way(&errors, 0, Pose::IDENTITY);
             let before = graph.optimize(&config).error_after;
             let measured = graph.poses()[from as usize].between(graph.poses()[to as usize]);
-            graph.add_edge(edge(from, to, measured, EdgeKind::Closure)).unwrap();
+            graph.add_edge(edge(from, to, measured, PoseEdgeKind::Closure)).unwrap();
             let after = graph.optimize(&config).error_after;
             prop_assert!(after <= before + 1e-12);
         }
@@ -288,7 +288,7 @@ mod tests {
         let mut graph = PoseGraph::new();
         graph.add_pose(Pose::IDENTITY);
         graph.add_pose(Pose::IDENTITY);
-        let sound = edge(0, 1, Pose::IDENTITY, EdgeKind::Closure);
+        let sound = edge(0, 1, Pose::IDENTITY, PoseEdgeKind::Closure);
         let refuse = |graph: &mut PoseGraph, edge| graph.add_edge(edge).unwrap_err();
         let far = PoseEdge { to: 2, ..sound };
         assert_eq!(

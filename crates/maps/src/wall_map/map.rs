@@ -2,22 +2,22 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Wall, Walls};
 use tolman_planners::TooLarge;
 
 use super::log::Log;
-use super::{Ray, RayEnd};
+use super::{CellRay, RayEnd};
 
 /// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been.
 ///
 /// The last `LOG` walls learned can be forgotten again. Cells that do not lie on the grid are walled in.
 ///
 /// ```
-/// use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+/// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 /// use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 ///
 /// let mut map: WallMap<16> = WallMap::new(Grid::new(16, 16), ClosedCells::Possible)?;
 /// let start = Cell::new(0, 0);
 /// let rays = [
-///     Ray::to_wall(Direction::West, 0),
-///     Ray::to_wall(Direction::North, 11),
-///     Ray::to_wall(Direction::East, 0),
+///     CellRay::to_wall(Direction::West, 0),
+///     CellRay::to_wall(Direction::North, 11),
+///     CellRay::to_wall(Direction::East, 0),
 /// ];
 /// assert_eq!(map.observe(start, &rays)?, 13, "the wall in the west is the border: that was known");
 /// assert_eq!(map.knowledge(Cell::new(0, 10), Direction::North), Knowledge::Open);
@@ -170,7 +170,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
     ///
     /// # Errors
     /// If a ray says the contrary of what is known, or leaves the maze; then nothing is taken in.
-    pub fn observe(&mut self, cell: Cell, rays: &[Ray]) -> Result<u16, ObserveError> {
+    pub fn observe(&mut self, cell: Cell, rays: &[CellRay]) -> Result<u16, ObserveError> {
         let grid = self.grid;
         if !grid.contains(cell) {
             return Err(ObserveError::Outside { cell, grid });
@@ -275,7 +275,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
     }
 
     /// Whether the ray can be true.
-    fn check(&self, cell: Cell, ray: Ray) -> Result<(), ObserveError> {
+    fn check(&self, cell: Cell, ray: CellRay) -> Result<(), ObserveError> {
         let direction = ray.direction;
         let refuse = |cell, known| {
             Err(ObserveError::Contradiction {

@@ -8,15 +8,15 @@
 //!
 //! Two bits a wall and no allocation: `WallMap<16>` holds mazes up to 16 × 16, `WallMap<32>` up to 32 × 32.
 
+mod cell_ray;
 mod draw;
 mod log;
 mod map;
-mod ray;
 #[cfg(feature = "serde")]
 mod saved;
 
+pub use cell_ray::{CellRay, RayEnd};
 pub use map::{ClosedCells, ObserveError, WallMap};
-pub use ray::{Ray, RayEnd};
 #[cfg(feature = "serde")]
 pub use saved::{SavedWallMap, SavedWallMapError};
 pub use tolman_planners::TooLarge;

@@ -9,11 +9,11 @@ use super::{ClosedCells, TooLarge, WallMap};
 /// A [`WallMap`] as it lies in a file. Any format of serde's will do.
 ///
 /// ```
-/// use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+/// use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 /// use tolman_maze::{Cell, Direction, Grid};
 ///
 /// let mut map: WallMap<16> = WallMap::new(Grid::new(9, 9), ClosedCells::Possible)?;
-/// map.observe(Cell::new(0, 0), &[Ray::to_wall(Direction::North, 3)])?;
+/// map.observe(Cell::new(0, 0), &[CellRay::to_wall(Direction::North, 3)])?;
 /// let text = serde_json::to_string(&map)?;
 /// let mut read: WallMap<16> = serde_json::from_str(&text)?;
 /// assert_eq!(read, map);

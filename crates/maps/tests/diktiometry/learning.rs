@@ -4,10 +4,11 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
 use tolman_maps::diktiometry::{
-    Config, ConfigError, GeometricMerge, Identity, Link, Matcher, Percepts, PerceptualIndexing, Use,
+    Config, DiktiometryConfigError, GeometricMerge, Identity, Link, Matcher, Percepts,
+    PerceptualIndexing, Use,
 };
 use tolman_maze::Direction;
-use tolman_sim::abstract_world::{AbstractWorld, MoveError};
+use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
 use super::walk::{
     COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
@@ -61,7 +62,7 @@ fn boxes_that_merely_meet_confuse_places() {
 
 #[test]
 fn a_matcher_that_is_off_matches_nothing() {
-    let errors = MoveError {
+    let errors = MoveNoise {
         outliers: 0.05,
         outlier_factor: 3.0,
         ..ODOMETRY
@@ -117,7 +118,7 @@ fn scripts_teach_corridors_in_which_a_robot_stops_only_roughly() {
             assert_eq!(world.neighbour(there, direction.opposite()), Some(place));
         }
     }
-    let errors = MoveError {
+    let errors = MoveNoise {
         stop: 0.0175,
         ..ODOMETRY
     };
@@ -132,7 +133,7 @@ fn scripts_teach_corridors_in_which_a_robot_stops_only_roughly() {
 }
 
 /// Boxes so wide that geometry cannot close the loops of the world.
-const ROUGH: MoveError = MoveError {
+const ROUGH: MoveNoise = MoveNoise {
     distance: 0.2,
     compass: 2.0 * COMPASS,
     look: 0.2,
@@ -192,7 +193,7 @@ fn looks_that_deceive_confuse_no_places() {
 /// A wall is painted anew: the place is still where it was, and is known by either look.
 #[test]
 fn the_view_set_of_a_place_that_looks_new_grows() {
-    let errors = MoveError {
+    let errors = MoveNoise {
         look: 0.2,
         ..ODOMETRY
     };
@@ -337,7 +338,7 @@ fn a_place_that_appears_hides_none_behind_it() {
 
 #[test]
 fn an_error_of_scale_shared_by_all_moves_does_no_harm() {
-    let errors = MoveError {
+    let errors = MoveNoise {
         distance: 0.02,
         shared_scale: 0.1,
         ..ODOMETRY
@@ -355,7 +356,7 @@ fn an_error_of_scale_shared_by_all_moves_does_no_harm() {
 
 #[test]
 fn moves_that_break_their_bounds_are_told_and_confuse_no_places() {
-    let errors = MoveError {
+    let errors = MoveNoise {
         outliers: 0.01,
         outlier_factor: 4.0,
         ..ODOMETRY
@@ -377,7 +378,7 @@ fn moves_that_break_their_bounds_are_told_and_confuse_no_places() {
 
 #[test]
 fn a_kidnapped_robot_is_found_again_by_what_it_sees() {
-    let errors = MoveError {
+    let errors = MoveNoise {
         look: 0.2,
         ..ODOMETRY
     };
@@ -407,6 +408,6 @@ fn views_of_two_columns_have_no_triangles() {
     }
     assert_eq!(config.check(), Ok(()));
     config.indexing.perceptual = PerceptualIndexing::Triangles;
-    let refused = ConfigError::NoTriangles { columns: 2 };
+    let refused = DiktiometryConfigError::NoTriangles { columns: 2 };
     assert_eq!(config.check(), Err(refused));
 }

@@ -3,9 +3,9 @@
 use proptest::prelude::*;
 use tolman_geom::{Interval, Point, PointBox, PoseBox};
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, GeometricIndexing, GeometricMerge, Identity, JournalLength, Move,
-    Observer, Order, Outcome, Percepts, PerceptualIndexing, Rotation, Signature, SignatureKind,
-    Start, StepError, Use,
+    Action, Config, Exits, FirstPlace, GeometricIndexing, GeometricMerge, Identity, JournalLength,
+    MoveOutcome, ObservedMove, ObservedMoveError, Observer, Percepts, PerceptualIndexing,
+    Precedence, Signature, SignatureKind, Use, ViewRotation,
 };
 
 use super::walk::{ODOMETRY, Walk, open};
@@ -19,7 +19,7 @@ fn config(seed: u32) -> Config {
         config.matching.identity = Identity::Meets;
     }
     if bit(1) {
-        config.matching.order = Order::Static;
+        config.matching.order = Precedence::Static;
     }
     config.indexing.geometric = match seed >> 2 & 3 {
         0 => GeometricIndexing::Off,
@@ -40,7 +40,7 @@ fn config(seed: u32) -> Config {
             columns: 4,
             tolerance: 0.5,
             share: 0.6,
-            rotation: Rotation::Free,
+            rotation: ViewRotation::Free,
             views: 2,
         });
     }
@@ -70,7 +70,7 @@ fn config(seed: u32) -> Config {
 }
 
 /// A move of a robot that says what it likes.
-fn any_move() -> impl Strategy<Value = Move> {
+fn any_move() -> impl Strategy<Value = ObservedMove> {
     let coordinate = prop_oneof![6 => (-2_i32..=2).prop_map(f64::from), 1 => -3.0..3.0, 1 => Just(1e300), 1 => Just(-1e-300)];
     (
         0..ACTIONS,
@@ -81,25 +81,30 @@ fn any_move() -> impl Strategy<Value = Move> {
         prop::option::of(prop::collection::vec(0..ACTIONS, 0..4)),
         prop::bool::weighted(0.1),
     )
-        .prop_map(|(action, x, y, margin, look, exits, blocked)| Move {
-            action: Action(action),
-            odometry: PoseBox::new(
-                PointBox::about(Point::new(x, y), margin).unwrap(),
-                Interval::ZERO,
-            ),
-            percept: Some(Signature::new(1, look).unwrap()),
-            exits: exits.map_or(Exits::Unknown, |exits| {
-                Exits::Seen(exits.into_iter().map(Action).collect())
-            }),
-            outcome: if blocked {
-                Outcome::Blocked
-            } else {
-                Outcome::Arrived
+        .prop_map(
+            |(action, x, y, margin, look, exits, blocked)| ObservedMove {
+                action: Action(action),
+                odometry: PoseBox::new(
+                    PointBox::about(Point::new(x, y), margin).unwrap(),
+                    Interval::ZERO,
+                ),
+                percept: Some(Signature::new(1, look).unwrap()),
+                exits: exits.map_or(Exits::Unknown, |exits| {
+                    Exits::Seen(exits.into_iter().map(Action).collect())
+                }),
+                outcome: if blocked {
+                    MoveOutcome::Blocked
+                } else {
+                    MoveOutcome::Arrived
+                },
             },
-        })
+        )
 }
 
-fn observer_and_moves(config: &Config, mut moves: Vec<Move>) -> (Observer, Vec<Move>) {
+fn observer_and_moves(
+    config: &Config,
+    mut moves: Vec<ObservedMove>,
+) -> (Observer, Vec<ObservedMove>) {
     let sees = config.percepts != Percepts::None;
     if !sees {
         for step in &mut moves {
@@ -107,7 +112,7 @@ fn observer_and_moves(config: &Config, mut moves: Vec<Move>) -> (Observer, Vec<M
         }
     }
     let percept = sees.then(|| Signature::new(1, vec![0.0; 4]).unwrap());
-    let start = Start {
+    let start = FirstPlace {
         percept,
         exits: Exits::Unknown,
     };
@@ -187,18 +192,18 @@ proptest! {
         let step = &moves[0];
         let unbounded = PoseBox::new(PointBox::new(Interval::UNBOUNDED, Interval::ZERO), Interval::ZERO);
         let bad = [
-            Move { action: Action(ACTIONS), ..step.clone() },
-            Move { odometry: unbounded, ..step.clone() },
-            Move { percept: Some(Signature::new(2, vec![0.0; 6]).unwrap()), ..step.clone() },
-            Move { exits: Exits::Seen(vec![Action(9)]), ..step.clone() },
+            ObservedMove { action: Action(ACTIONS), ..step.clone() },
+            ObservedMove { odometry: unbounded, ..step.clone() },
+            ObservedMove { percept: Some(Signature::new(2, vec![0.0; 6]).unwrap()), ..step.clone() },
+            ObservedMove { exits: Exits::Seen(vec![Action(9)]), ..step.clone() },
         ];
         for (number, bad) in bad.iter().enumerate() {
             let error = observer.step(bad).unwrap_err();
             let named = match error {
-                StepError::UnknownAction { .. } => 0,
-                StepError::Unbounded { .. } => 1,
-                StepError::PerceptSize { .. } => 2,
-                StepError::UnknownExit { .. } => 3,
+                ObservedMoveError::UnknownAction { .. } => 0,
+                ObservedMoveError::Unbounded { .. } => 1,
+                ObservedMoveError::PerceptSize { .. } => 2,
+                ObservedMoveError::UnknownExit { .. } => 3,
                 _ => 4,
             };
             prop_assert_eq!(named, number);
@@ -257,9 +262,12 @@ fn configurations_out_of_range_make_no_observer() {
     for (number, spoil) in spoiled.iter().enumerate() {
         let mut config = good();
         spoil(&mut config);
-        assert!(Observer::new(config, Start::default()).is_err(), "{number}");
+        assert!(
+            Observer::new(config, FirstPlace::default()).is_err(),
+            "{number}"
+        );
     }
-    assert!(Observer::new(good(), Start::default()).is_ok());
+    assert!(Observer::new(good(), FirstPlace::default()).is_ok());
 }
 
 #[test]

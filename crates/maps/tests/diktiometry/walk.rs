@@ -5,23 +5,23 @@ use alloc::collections::{BTreeMap, VecDeque};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Outcome, Percepts, PlaceId, Rotation, Signature,
-    SignatureKind, Start, StepReport, Use,
+    Action, Config, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer, Percepts, PlaceId,
+    Signature, SignatureKind, StepReport, Use, ViewRotation,
 };
 use tolman_maze::{Braided, Cell, Direction, Grid, Maze};
-use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveError};
+use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveNoise};
 
 pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
 
 /// 10 % of the distance, and a compass of ± 4°.
-pub(crate) const ODOMETRY: MoveError = MoveError {
+pub(crate) const ODOMETRY: MoveNoise = MoveNoise {
     distance: 0.1,
     compass: COMPASS,
-    ..MoveError::NONE
+    ..MoveNoise::NONE
 };
 
 /// The simulated robot of the offices goes past the middle of an opening and back: on 4 m it drives a good metre more.
-pub(crate) const ROUGH: MoveError = MoveError {
+pub(crate) const ROUGH: MoveNoise = MoveNoise {
     distance: 0.13,
     compass: 1.3 * ODOMETRY.compass,
     ..ODOMETRY
@@ -40,7 +40,7 @@ pub(crate) fn painted() -> Config {
             columns: 4,
             tolerance: 0.4,
             share: 1.0,
-            rotation: Rotation::Aligned,
+            rotation: ViewRotation::Aligned,
             views: 2,
         }),
         ..alike()
@@ -91,10 +91,10 @@ pub(crate) struct Score {
 }
 
 impl Walk {
-    pub(crate) fn new(world: AbstractWorld, errors: MoveError, config: Config, seed: u64) -> Self {
+    pub(crate) fn new(world: AbstractWorld, errors: MoveNoise, config: Config, seed: u64) -> Self {
         let sees = config.percepts != tolman_maps::diktiometry::Percepts::None;
         let robot = AbstractRobot::new(world.into(), 0, errors, seed).unwrap();
-        let start = Start {
+        let start = FirstPlace {
             percept: sees.then(|| percept(robot.look())),
             exits: exits(&robot),
         };
@@ -116,13 +116,13 @@ impl Walk {
         (moved, report)
     }
 
-    pub(crate) fn told(&self, moved: &AbstractMove) -> Move {
-        Move {
+    pub(crate) fn told(&self, moved: &AbstractMove) -> ObservedMove {
+        ObservedMove {
             action: Action(moved.direction as u32),
             odometry: moved.odometry,
             percept: self.sees.then(|| percept(moved.look)),
             exits: exits(&self.robot),
-            outcome: Outcome::Arrived,
+            outcome: MoveOutcome::Arrived,
         }
     }
 
@@ -277,7 +277,7 @@ pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let maze = shape.generate(&mut rng).unwrap();
     let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
-    let errors = MoveError {
+    let errors = MoveNoise {
         stop: 0.0175,
         look: 0.2,
         ..ROUGH

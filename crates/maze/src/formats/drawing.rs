@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::lines::{Line, Lines, Place};
-use super::{Fault, MazeError, Parsed};
+use super::{MazeError, MazeFault, Parsed};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
 
 /// Characters from one post to the next.
@@ -39,18 +39,20 @@ const fn middle(column: u16) -> usize {
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     let rows = rows(lines)?;
     let Some((first, _)) = rows.split_first() else {
-        return Err(MazeError::at_start(Fault::Empty));
+        return Err(MazeError::at_start(MazeFault::Empty));
     };
     let width = width(first);
     let height = rows.len() / 2;
     for side in [width, height] {
         if side > usize::from(Grid::MAX_SIDE) {
-            return Err(first.line.fault(0, Fault::TooLarge { side }));
+            return Err(first.line.fault(0, MazeFault::TooLarge { side }));
         }
     }
     if rows.len() < 3 || rows.len().is_multiple_of(2) {
         let last = rows.last().unwrap_or(first);
-        return Err(last.line.fault(0, Fault::Unfinished { lines: rows.len() }));
+        return Err(last
+            .line
+            .fault(0, MazeFault::Unfinished { lines: rows.len() }));
     }
 
     // Both sides were held to MAX_SIDE above.
@@ -118,7 +120,7 @@ impl Reader {
                             && first != cell
                         {
                             let second = cell;
-                            return Err(row.fault(offset, Fault::TwoStarts { first, second }));
+                            return Err(row.fault(offset, MazeFault::TwoStarts { first, second }));
                         }
                     }
                     'G' | 'g' => self.goals.push(cell),
@@ -145,7 +147,7 @@ impl Reader {
                 Direction::West => post(cell.x),
                 Direction::East => post(cell.x + 1),
             };
-            let fault = Fault::Maze(CheckError::OpenBorder { cell, direction });
+            let fault = MazeFault::Maze(CheckError::OpenBorder { cell, direction });
             return Err(row.fault(offset, fault));
         }
         self.maze.set_wall(cell, direction, stands);
@@ -220,7 +222,7 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
             &line.text[indent..]
         };
         if text.starts_with('\t') {
-            return Err(line.fault(indent, Fault::Tab));
+            return Err(line.fault(indent, MazeFault::Tab));
         }
         // A remark below the drawing may begin with an o, too: `begins` looks at the next character.
         if begins(text) || text.starts_with(['|', ' ']) {
@@ -265,7 +267,7 @@ impl Row<'_> {
         self.line.place(0).right(self.indent + offset)
     }
 
-    fn fault(&self, offset: usize, fault: Fault) -> MazeError {
+    fn fault(&self, offset: usize, fault: MazeFault) -> MazeError {
         self.place(offset).fault(fault)
     }
 
@@ -278,8 +280,8 @@ impl Row<'_> {
         self.fault(
             offset,
             match found {
-                Some('\t') => Fault::Tab,
-                found => Fault::Character {
+                Some('\t') => MazeFault::Tab,
+                found => MazeFault::Character {
                     found: found.unwrap_or('\n'),
                     expected,
                 },
@@ -324,7 +326,7 @@ impl Row<'_> {
         if found > width * PITCH || drawn.contains('\t') {
             return Ok(());
         }
-        Err(self.fault(found, Fault::TooShort { found, width }))
+        Err(self.fault(found, MazeFault::TooShort { found, width }))
     }
 
     /// Beyond the east border remarks may stand, but no walls: those belong to a wider maze.
@@ -332,7 +334,7 @@ impl Row<'_> {
         let offset = post(width) + 1;
         match self.line.text.get(self.indent + offset..) {
             Some(rest) if rest.contains('|') || rest.contains("--") => {
-                Err(self.fault(offset, Fault::BeyondBorder { width }))
+                Err(self.fault(offset, MazeFault::BeyondBorder { width }))
             }
             _ => Ok(()),
         }

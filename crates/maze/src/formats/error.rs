@@ -16,11 +16,11 @@ pub struct MazeError {
     /// The character in the line, counted from 1.
     pub column: usize,
     /// What is wrong there.
-    pub fault: Fault,
+    pub fault: MazeFault,
 }
 
 impl MazeError {
-    pub(super) fn at_start(fault: Fault) -> Self {
+    pub(super) fn at_start(fault: MazeFault) -> Self {
         super::Place::default().fault(fault)
     }
 }
@@ -28,7 +28,7 @@ impl MazeError {
 /// What can be wrong with a maze file. Every message names the offending value and the repair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum MazeFault {
     /// Nothing but blanks.
     #[error("the file is empty: expected a maze")]
     Empty,
@@ -225,7 +225,7 @@ pub enum Fault {
     Maze(#[from] CheckError),
 }
 
-impl Fault {
+impl MazeFault {
     pub(super) fn unknown_format(found: &str) -> Self {
         Self::UnknownFormat {
             found: excerpt(found),

@@ -1,6 +1,6 @@
 //! Lines of a text with their numbers, so that every fault can say where it is.
 
-use super::{Fault, MazeError};
+use super::{MazeError, MazeFault};
 
 /// A position in a text, both counted from 1; columns count characters.
 #[derive(Clone, Copy, Debug)]
@@ -10,7 +10,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub(super) const fn fault(self, fault: Fault) -> MazeError {
+    pub(super) const fn fault(self, fault: MazeFault) -> MazeError {
         MazeError {
             line: self.line,
             column: self.column,
@@ -65,7 +65,7 @@ impl<'a> Line<'a> {
         self.place((piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize))
     }
 
-    pub(super) fn fault(self, offset: usize, fault: Fault) -> MazeError {
+    pub(super) fn fault(self, offset: usize, fault: MazeFault) -> MazeError {
         self.place(offset).fault(fault)
     }
 

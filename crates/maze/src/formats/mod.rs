@@ -15,7 +15,7 @@ use core::fmt;
 use core::str::FromStr;
 
 pub(crate) use drawing::draw;
-pub use error::{Fault, MazeError, UnknownFormat, WriteError};
+pub use error::{MazeError, MazeFault, UnknownFormat, WriteError};
 use lines::{Lines, Place};
 
 use crate::{Cell, Direction, Maze};
@@ -120,7 +120,7 @@ impl Format {
     /// commas) [`Format::Numbers`], several parted by blanks [`Format::Num`].
     ///
     /// # Errors
-    /// [`Fault::Empty`], or [`Fault::UnknownFormat`] with the line.
+    /// [`MazeFault::Empty`], or [`MazeFault::UnknownFormat`] with the line.
     ///
     /// ```
     /// use tolman_maze::Format;
@@ -133,14 +133,14 @@ impl Format {
         let mut lines = Lines::of(text);
         let line = lines
             .next_filled()
-            .ok_or(MazeError::at_start(Fault::Empty))?;
+            .ok_or(MazeError::at_start(MazeFault::Empty))?;
         let first = line.text.trim();
         if drawing::begins(first) {
             Ok(Self::Mazefiles)
         } else if first.starts_with('#') || first.contains('=') {
             Ok(Self::Tolman)
         } else if first.contains(|c: char| !c.is_ascii_digit() && !matches!(c, ',' | ' ' | '\t')) {
-            Err(line.place_of(first).fault(Fault::unknown_format(first)))
+            Err(line.place_of(first).fault(MazeFault::unknown_format(first)))
         } else if first.contains([' ', '\t']) && !first.contains(',') {
             Ok(Self::Num)
         } else {
@@ -234,7 +234,7 @@ pub fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
 fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
     let mut lines = Lines::of(text);
     if lines.clone().next_filled().is_none() {
-        return Err(MazeError::at_start(Fault::Empty));
+        return Err(MazeError::at_start(MazeFault::Empty));
     }
     match format {
         Format::Numbers => numbers::parse(&mut lines),
@@ -273,7 +273,7 @@ impl Parsed {
         Err(place
             .copied()
             .unwrap_or(self.begin)
-            .fault(Fault::Maze(error)))
+            .fault(MazeFault::Maze(error)))
     }
 }
 

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::lines::{Line, Lines};
 use super::sides::{self, Sides};
-use super::{Fault, Format, MazeError, Parsed, WriteError, expect_classic};
+use super::{Format, MazeError, MazeFault, Parsed, WriteError, expect_classic};
 use crate::{Cell, Direction, Grid, Maze};
 
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
@@ -16,7 +16,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     }
     let side = |coordinate: fn(&(Cell, Sides)) -> u16| cells.iter().map(coordinate).max();
     let (Some(x), Some(y)) = (side(|(cell, _)| cell.x), side(|(cell, _)| cell.y)) else {
-        return Err(MazeError::at_start(Fault::Empty));
+        return Err(MazeError::at_start(MazeFault::Empty));
     };
     let grid = Grid::new(x + 1, y + 1);
 
@@ -31,7 +31,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         if let [(cell, first), (next, second)] = pair
             && cell == next
         {
-            let fault = Fault::Duplicate {
+            let fault = MazeFault::Duplicate {
                 cell: *cell,
                 first_line: first.place.line(),
             };
@@ -47,7 +47,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         .zip(listed)
         .find(|(cell, listed)| *listed != Some(*cell))
     {
-        return Err(end.fault(Fault::Missing { cell, grid }));
+        return Err(end.fault(MazeFault::Missing { cell, grid }));
     }
 
     let sides: Vec<Sides> = cells.into_iter().map(|(_, sides)| sides).collect();
@@ -65,7 +65,7 @@ fn cell(line: Line<'_>) -> Result<(Cell, Sides), MazeError> {
         found += 1;
     }
     if found != words.len() {
-        let fault = Fault::Count {
+        let fault = MazeFault::Count {
             found,
             expected: words.len(),
             what: "numbers",
@@ -77,11 +77,11 @@ fn cell(line: Line<'_>) -> Result<(Cell, Sides), MazeError> {
     let [x, y, walls @ ..] = words;
     let coordinate = |word| -> Result<u16, MazeError> {
         let place = line.place_of(word);
-        let fault = |_| place.fault(Fault::number(word, "a column or row counted from 0"));
+        let fault = |_| place.fault(MazeFault::number(word, "a column or row counted from 0"));
         let number = word.parse::<u32>().map_err(fault)?;
         match u16::try_from(number) {
             Ok(number) if number < Grid::MAX_SIDE => Ok(number),
-            _ => Err(place.fault(Fault::TooLarge {
+            _ => Err(place.fault(MazeFault::TooLarge {
                 side: number as usize + 1,
             })),
         }
@@ -93,7 +93,7 @@ fn cell(line: Line<'_>) -> Result<(Cell, Sides), MazeError> {
             "0" => open |= 1 << direction.index(),
             "1" => {}
             _ => {
-                let fault = Fault::number(word, "1 for a wall or 0 for none");
+                let fault = MazeFault::number(word, "1 for a wall or 0 for none");
                 return Err(line.place_of(word).fault(fault));
             }
         }

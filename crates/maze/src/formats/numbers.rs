@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::lines::{Line, Lines};
 use super::sides::{self, Sides};
-use super::{Fault, Format, MazeError, Parsed, WriteError, expect_classic};
+use super::{Format, MazeError, MazeFault, Parsed, WriteError, expect_classic};
 use crate::{Cell, Grid, Maze};
 
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
@@ -16,7 +16,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     let mut columns: Vec<Sides> = Vec::new();
     for x in 0..side {
         let Some(line) = lines.next().filter(|line| !line.is_blank()) else {
-            let fault = Fault::Count {
+            let fault = MazeFault::Count {
                 found: x,
                 expected: side,
                 what: "columns",
@@ -31,7 +31,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         };
         let count = line.text.split(',').count();
         if count != side {
-            let fault = Fault::Count {
+            let fault = MazeFault::Count {
                 found: count,
                 expected: side,
                 what: "numbers",
@@ -48,7 +48,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
             let here = place.right(blanks.min(item.chars().count().saturating_sub(1)));
             let open = number.parse::<u8>().ok().filter(|open| *open < 16);
             let Some(open) = open else {
-                return Err(here.fault(Fault::number(
+                return Err(here.fault(MazeFault::number(
                     number,
                     "a sum of open sides, 0 … 15: 1 north, 2 east, 4 south, 8 west",
                 )));
@@ -58,7 +58,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         }
     }
     if let Some(line) = lines.next_filled() {
-        let fault = Fault::Count {
+        let fault = MazeFault::Count {
             found: side + 1,
             expected: side,
             what: "columns",
@@ -75,21 +75,21 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
 fn size(lines: &mut Lines<'_>) -> Result<Grid, MazeError> {
     const EXPECTED: &str = "the size of the maze, an even number of cells";
     let Some(line) = lines.next_filled() else {
-        return Err(MazeError::at_start(Fault::Empty));
+        return Err(MazeError::at_start(MazeFault::Empty));
     };
     let text = line.text.trim();
     let place = line.place_of(text);
     let side = text
         .parse::<u32>()
-        .map_err(|_| place.fault(Fault::number(text, EXPECTED)))?;
+        .map_err(|_| place.fault(MazeFault::number(text, EXPECTED)))?;
     match u16::try_from(side) {
         Ok(side) if side <= Grid::MAX_SIDE => {
             if side == 0 || !side.is_multiple_of(2) {
-                return Err(place.fault(Fault::number(text, EXPECTED)));
+                return Err(place.fault(MazeFault::number(text, EXPECTED)));
             }
             Ok(Grid::new(side, side))
         }
-        _ => Err(place.fault(Fault::TooLarge {
+        _ => Err(place.fault(MazeFault::TooLarge {
             side: side as usize,
         })),
     }

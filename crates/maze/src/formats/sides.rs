@@ -1,6 +1,6 @@
 //! Mazes told cell by cell: each wall is told twice, and the two must agree.
 
-use super::{CLASSIC_START, Fault, MazeError, Parsed, Place};
+use super::{CLASSIC_START, MazeError, MazeFault, Parsed, Place};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
 
 /// What a text says of one cell.
@@ -42,7 +42,7 @@ fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
                 Some(neighbour) => {
                     let there = sides[grid.index(neighbour)];
                     if there.is_open(direction.opposite()) != open {
-                        let fault = Fault::Disagree {
+                        let fault = MazeFault::Disagree {
                             cell,
                             direction,
                             open,
@@ -53,7 +53,7 @@ fn maze(grid: Grid, sides: &[Sides]) -> Result<Maze, MazeError> {
                     maze.set_wall(cell, direction, !open);
                 }
                 None if open => {
-                    let fault = Fault::Maze(CheckError::OpenBorder { cell, direction });
+                    let fault = MazeFault::Maze(CheckError::OpenBorder { cell, direction });
                     return Err(here.place.fault(fault));
                 }
                 None => {}

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use super::error::excerpt;
 use super::lines::{Line, Lines, Place};
-use super::{Fault, MazeError, MazeFile, Parsed, WriteError, drawing};
+use super::{MazeError, MazeFault, MazeFile, Parsed, WriteError, drawing};
 use crate::{Cell, CheckError, Direction, Maze};
 
 const FORMAT: &str = "format";
@@ -28,7 +28,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     if let Some(line) = lines.find(|line| !line.is_blank() && !is_comment(line.text)) {
         return Err(line.fault(
             0,
-            Fault::BelowDrawing {
+            MazeFault::BelowDrawing {
                 found: excerpt(line.text.trim()),
             },
         ));
@@ -82,7 +82,7 @@ fn header<'a>(lines: &mut Lines<'a>) -> Result<Vec<Entry<'a>>, MazeError> {
                 number: lines.read(),
                 text: "",
             }
-            .fault(0, Fault::NoDrawing));
+            .fault(0, MazeFault::NoDrawing));
         };
         let text = line.text.trim();
         if drawing::begins(text) {
@@ -91,7 +91,7 @@ fn header<'a>(lines: &mut Lines<'a>) -> Result<Vec<Entry<'a>>, MazeError> {
         if !text.is_empty() && !is_comment(text) {
             let entry = Entry::parse(line, text)?;
             if let Some(first) = entries.iter().find(|first| first.key == entry.key) {
-                let fault = Fault::RepeatedKey {
+                let fault = MazeFault::RepeatedKey {
                     key: entry.key,
                     first_line: first.place.line(),
                 };
@@ -108,12 +108,12 @@ impl<'a> Entry<'a> {
     fn parse(line: Line<'a>, text: &'a str) -> Result<Self, MazeError> {
         let Some((key, value)) = text.split_once('=') else {
             let found = excerpt(text);
-            return Err(line.place_of(text).fault(Fault::NotAKey { found }));
+            return Err(line.place_of(text).fault(MazeFault::NotAKey { found }));
         };
         let (key, value) = (key.trim(), value.trim());
         let Some(key) = KEYS.into_iter().find(|known| *known == key) else {
             let found = excerpt(key);
-            return Err(line.place_of(text).fault(Fault::UnknownKey { found }));
+            return Err(line.place_of(text).fault(MazeFault::UnknownKey { found }));
         };
         // A name may hold any sign; no other value has a `#` in it.
         let value = match value.split_once('#') {
@@ -141,7 +141,7 @@ impl<'a> Entry<'a> {
     }
 
     fn expected(&self, expected: &'static str) -> MazeError {
-        self.place.fault(Fault::Value {
+        self.place.fault(MazeFault::Value {
             key: self.key,
             found: excerpt(self.value),
             expected,
@@ -185,13 +185,15 @@ impl<'a> Entry<'a> {
                 start: cell,
                 grid: maze.grid(),
             };
-            return Err(self.place.fault(Fault::Maze(fault)));
+            return Err(self.place.fault(MazeFault::Maze(fault)));
         }
         match maze.start() {
-            Some((drawing, _)) if drawing != cell => Err(self.place.fault(Fault::StartDisagrees {
-                header: cell,
-                drawing,
-            })),
+            Some((drawing, _)) if drawing != cell => {
+                Err(self.place.fault(MazeFault::StartDisagrees {
+                    header: cell,
+                    drawing,
+                }))
+            }
             _ => {
                 maze.set_start(Some((cell, heading)));
                 Ok(())
@@ -210,7 +212,7 @@ impl<'a> Entry<'a> {
         let grid = maze.grid();
         if let Some(goal) = cells.iter().find(|cell| !grid.contains(**cell)) {
             let fault = CheckError::GoalOutside { goal: *goal, grid };
-            return Err(self.place.fault(Fault::Maze(fault)));
+            return Err(self.place.fault(MazeFault::Maze(fault)));
         }
         maze.set_goals(cells);
         if drawing.is_empty() || drawing == maze.goals() {
@@ -219,7 +221,7 @@ impl<'a> Entry<'a> {
         let header = maze.goals().to_vec();
         Err(self
             .place
-            .fault(Fault::DestinationDisagrees { header, drawing }))
+            .fault(MazeFault::DestinationDisagrees { header, drawing }))
     }
 }
 

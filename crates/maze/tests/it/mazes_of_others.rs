@@ -5,7 +5,9 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 
-use tolman_maze::{CheckError, Direction, Fault, Format, MazeFile, WriteError, parse, read, write};
+use tolman_maze::{
+    CheckError, Direction, Format, MazeFault, MazeFile, WriteError, parse, read, write,
+};
 
 /// The maze files of a folder and the folders in it, or none with a message.
 fn files(folder: &str) -> Vec<PathBuf> {
@@ -91,7 +93,7 @@ fn competition_mazes_parse_solve_and_round_trip() {
                 Ok(read) => assert_eq!(read, file),
                 Err(error) => {
                     assert!(
-                        matches!(error.fault, Fault::Maze(CheckError::NoWay { .. })),
+                        matches!(error.fault, MazeFault::Maze(CheckError::NoWay { .. })),
                         "{error}"
                     );
                     unsolvable.push(path.file_name().unwrap().to_owned());

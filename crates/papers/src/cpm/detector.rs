@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
-use tolman_control::epuck::{Alignment, Pilot, Place, Profile, SegmentConfig};
+use tolman_control::epuck::{Pilot, PlaceKind, Profile, SegmentConfig, SensorAlignment};
 use tolman_control::heading_of;
 use tolman_geom::{Pose, Vector};
 use tolman_robot::Robot as _;
@@ -23,24 +23,24 @@ pub(super) const DETECTOR: &str = "detector";
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Setting {
     name: &'static str,
-    alignment: Alignment,
+    alignment: SensorAlignment,
     segments: SegmentConfig,
 }
 
 const SETTINGS: [Setting; 3] = [
     Setting {
         name: "Literal averaging",
-        alignment: Alignment::Literal,
+        alignment: SensorAlignment::Literal,
         segments: SegmentConfig::paper(),
     },
     Setting {
         name: "Aligned averaging",
-        alignment: Alignment::Mounts,
+        alignment: SensorAlignment::Mounts,
         segments: SegmentConfig::paper(),
     },
     Setting {
         name: "Ours",
-        alignment: Alignment::Mounts,
+        alignment: SensorAlignment::Mounts,
         segments: SegmentConfig::cut(),
     },
 ];
@@ -99,7 +99,7 @@ impl DetectorRun {
     }
 
     /// The kinds of places, and how many were told rightly, were told, and are there.
-    const fn kinds(&mut self) -> [(Place, [&mut u32; 3]); 2] {
+    const fn kinds(&mut self) -> [(PlaceKind, [&mut u32; 3]); 2] {
         let junctions = [
             &mut self.junctions_right,
             &mut self.junctions_told,
@@ -110,7 +110,10 @@ impl DetectorRun {
             &mut self.dead_ends_told,
             &mut self.dead_ends_there,
         ];
-        [(Place::Junction, junctions), (Place::DeadEnd, dead_ends)]
+        [
+            (PlaceKind::Junction, junctions),
+            (PlaceKind::DeadEnd, dead_ends),
+        ]
     }
 
     /// A place of so many openings looked as one of that many.
@@ -125,7 +128,7 @@ impl DetectorRun {
         self.place(None, place_of(truth));
     }
 
-    fn place(&mut self, seen: Option<Place>, truth: Place) {
+    fn place(&mut self, seen: Option<PlaceKind>, truth: PlaceKind) {
         for (kind, [right, told, there]) in self.kinds() {
             let (is_told, is_there) = (seen == Some(kind), truth == kind);
             *right += u32::from(is_told && is_there);
@@ -278,11 +281,11 @@ fn walk(course: &Course, seed: u64, tally: &mut DetectorRun) -> Result<(), BoxEr
 }
 
 /// What a cell with so many ways out is.
-const fn place_of(degree: usize) -> Place {
+const fn place_of(degree: usize) -> PlaceKind {
     match degree {
-        0 => Place::Closed,
-        1 => Place::DeadEnd,
-        2 => Place::Path,
-        _ => Place::Junction,
+        0 => PlaceKind::Closed,
+        1 => PlaceKind::DeadEnd,
+        2 => PlaceKind::Path,
+        _ => PlaceKind::Junction,
     }
 }

@@ -10,7 +10,9 @@ use tolman_sim::World;
 
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{Fit, Layout};
-use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, NodeMark, Plan, Series, Zone};
+use tolman_draw::{
+    Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, ZoneStyle,
+};
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
@@ -62,11 +64,11 @@ pub fn drive(map: &CpMap, course: &Course, path: &[Pose]) -> Drawing {
     plan.drawing("A drive by a common-pattern map.")
 }
 
-fn plan_with(map: &CpMap, course: &Course) -> Plan {
+fn plan_with(map: &CpMap, course: &Course) -> FloorPlan {
     let world = &course.world;
     let layout = Layout::of(map, &course.maze);
     let mut plan = plan_of(course);
-    let mut graph = Graph::new().radius(RADIUS);
+    let mut graph = GraphPicture::new().radius(RADIUS);
     let mut signs = Vec::new();
     let bounds = world.bounds();
     let unit = (bounds.max.x - bounds.min.x) / WIDTH;
@@ -105,19 +107,19 @@ fn plan_with(map: &CpMap, course: &Course) -> Plan {
 
 /// The plan of a maze; what the robot cannot come to is solid.
 #[must_use]
-pub fn plan_of(course: &Course) -> Plan {
+pub fn plan_of(course: &Course) -> FloorPlan {
     let world = &course.world;
-    let mut plan = Plan::of_world(world, WIDTH);
+    let mut plan = FloorPlan::of_world(world, WIDTH);
     // Cell (0, 0) begins at the origin.
     let side = 2.0 * world.cell_centre(Cell::new(0, 0)).x;
     for cell in course.maze.sealed() {
-        plan.square(world.cell_centre(cell), side, Zone::Solid);
+        plan.square(world.cell_centre(cell), side, ZoneStyle::Solid);
     }
     plan
 }
 
 /// Adds a node; where one stands already, as where the map has one place twice, it is named there.
-fn add(graph: &mut Graph, node: GraphNode) {
+fn add(graph: &mut GraphPicture, node: GraphNode) {
     let same = |other: &&mut GraphNode| {
         other.mark == node.mark
             && !other.label.is_empty()
@@ -140,7 +142,7 @@ fn add(graph: &mut Graph, node: GraphNode) {
 pub fn graph(map: &CpMap, course: &Course) -> Drawing {
     let world = &course.world;
     let layout = Layout::of(map, &course.maze);
-    let mut graph = Graph::new().radius(RADIUS + 1.0);
+    let mut graph = GraphPicture::new().radius(RADIUS + 1.0);
     stubs(&mut graph, &layout, world);
     let mut junctions = Vec::new();
     for (id, junction) in map.junctions() {
@@ -177,7 +179,7 @@ pub fn graph(map: &CpMap, course: &Course) -> Drawing {
     // Names stand to the right of their nodes.
     let mut bounds = world.bounds();
     bounds.max.x += 0.1 * (bounds.max.x - bounds.min.x);
-    let mut plan = Plan::of_bounds(&bounds, WIDTH);
+    let mut plan = FloorPlan::of_bounds(&bounds, WIDTH);
     plan.graph(&graph);
     plan.drawing(format!(
         "A common-pattern map: {} fragment nodes and {} junction nodes.",
@@ -257,7 +259,7 @@ fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
 }
 
 /// Dashed stubs where nobody has been.
-fn stubs(graph: &mut Graph, layout: &Layout, world: &World) {
+fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
     for open in layout.open_ports() {
         let at = world.cell_centre(open.cell);
         let on = world.cell_centre(open.next) - at;
@@ -288,7 +290,7 @@ pub fn middle_of(cells: &[Cell], world: &World) -> Point {
 }
 
 /// A point along a way from which straight lines to both its ends pass no node: the middle, or as near to it as may be.
-fn free(points: &[Point], graph: &Graph) -> Point {
+fn free(points: &[Point], graph: &GraphPicture) -> Point {
     let (Some(start), Some(end)) = (points.first(), points.last()) else {
         return Point::origin();
     };

@@ -9,9 +9,9 @@ use tolman_maze::{Cell, Maze};
 
 use super::trials;
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{TrueFragments, Way};
+use tolman_arena::cpm::{TrueFragments, WayOut};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
-use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
+use tolman_systems::baselines::q_learning::{LearningTask, QLearner, QLearningConfig, Transition};
 use tolman_systems::cpm::CommonPatterns;
 
 /// The name of the table.
@@ -134,7 +134,7 @@ impl Walked {
 /// The ways out of each place of a maze; costs are cells.
 struct JunctionTask {
     places: Vec<Cell>,
-    ways: Vec<Vec<(usize, Way)>>,
+    ways: Vec<Vec<(usize, WayOut)>>,
     start: usize,
     goals: Vec<usize>,
 }
@@ -142,7 +142,7 @@ struct JunctionTask {
 impl JunctionTask {
     fn of(maze: &Maze) -> Result<Self, BoxError> {
         let fragments = TrueFragments::of(maze);
-        let mut out: BTreeMap<Cell, Vec<Way>> = BTreeMap::new();
+        let mut out: BTreeMap<Cell, Vec<WayOut>> = BTreeMap::new();
         for (from, _, way) in fragments.ways() {
             out.entry(from).or_default().push(way);
         }
@@ -155,7 +155,7 @@ impl JunctionTask {
             .iter()
             .filter_map(|goal| index(*goal))
             .collect();
-        let numbered = |ways: &Vec<Way>| {
+        let numbered = |ways: &Vec<WayOut>| {
             let ways = ways.iter();
             ways.filter_map(|way| Some((index(way.to)?, *way)))
                 .collect()
@@ -180,7 +180,7 @@ fn length_of(cells: impl Iterator<Item = Cell>) -> u32 {
     length
 }
 
-impl Task for &JunctionTask {
+impl LearningTask for &JunctionTask {
     fn start(&self) -> usize {
         self.start
     }
@@ -193,9 +193,9 @@ impl Task for &JunctionTask {
         self.ways[state].len() as u32
     }
 
-    fn act(&self, state: usize, action: u32) -> Outcome {
+    fn act(&self, state: usize, action: u32) -> Transition {
         let (next, way) = self.ways[state][action as usize % self.ways[state].len()];
-        Outcome {
+        Transition {
             next,
             cost: way.cells,
         }
@@ -250,7 +250,7 @@ fn wander(graph: &JunctionTask, rng: &mut impl Rng) -> u64 {
     let mut came: Option<u32> = None;
     for _ in 0..MOST_FRAGMENTS {
         let ways = &graph.ways[at];
-        let on: Vec<&(usize, Way)> = ways
+        let on: Vec<&(usize, WayOut)> = ways
             .iter()
             .filter(|(_, way)| ways.len() == 1 || Some(way.fragment) != came)
             .collect();

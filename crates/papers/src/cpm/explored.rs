@@ -4,7 +4,7 @@ use tolman_systems::cpm::Done;
 
 use super::trials::{Setting, Trials, better, in_both_modes};
 use tolman_arena::course::Course;
-use tolman_arena::cpm::Trial;
+use tolman_arena::cpm::CpmTrial;
 use tolman_experiment::{BoxError, Fields, Record, Table, record, require};
 
 /// The name of the table.
@@ -82,7 +82,7 @@ pub(super) fn explored(courses: &[Course], papers: bool, quick: bool) -> Trials 
 }
 
 /// Explores one maze.
-fn measure(trial: &Trial<'_>) -> Result<Fields, BoxError> {
+fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
     let found = trial.explore()?;
     let is_within = found.seconds.is_some_and(|seconds| seconds <= found.bound);
     let is_finished = found.done == Some(Done::Reached);

@@ -6,9 +6,9 @@ use super::Cpm;
 use super::drawing;
 use super::trials::{BETTER, FIGURE_9, TrialRun};
 use tolman_arena::course::Course;
-use tolman_arena::cpm::Record;
+use tolman_arena::cpm::TrialRecord;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, RecordError, Run};
+use tolman_experiment::{BoxError, FieldsError, Run};
 
 pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
@@ -18,7 +18,7 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
             let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
             let runs = runs.iter().filter(of_row);
             let runs = runs.map(|run| Ok((run, run.record()?)));
-            let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, RecordError>>()?;
+            let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, FieldsError>>()?;
             let Some(longest) = longest(&runs) else {
                 continue;
             };
@@ -71,7 +71,7 @@ fn times(row: &str, name: &str, runs: &[(&Run, TrialRun)]) -> Figure {
 }
 
 /// The paper's figure 8, (b) and (c): the ways of both episodes in the trial whose first took longest.
-fn ways(course: &Course, record: &Record, row: &str, name: &str) -> Figure {
+fn ways(course: &Course, record: &TrialRecord, row: &str, name: &str) -> Figure {
     let mut plan = drawing::plan_of(course);
     let positions: Vec<Point> = record.path.iter().map(|pose| pose.position).collect();
     let (first, second) = positions.split_at(record.second_from.min(positions.len()));
@@ -96,7 +96,7 @@ fn ways(course: &Course, record: &Record, row: &str, name: &str) -> Figure {
 }
 
 /// The paper's figure 8 (a): the map that the first episode ended with, over the maze and by itself.
-fn maps(course: &Course, record: &Record, row: &str, name: &str) -> [Figure; 2] {
+fn maps(course: &Course, record: &TrialRecord, row: &str, name: &str) -> [Figure; 2] {
     let over = drawing::over_maze(&record.map, course);
     let graph = drawing::graph(&record.map, course);
     [

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::{mazes, trials};
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, Record, epuck};
+use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, TrialRecord, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Row, Table, record, require, run_seed};
 use tolman_systems::cpm::{Approach, CommonPatterns};
@@ -97,7 +97,7 @@ impl LocalizationRun {
 
 /// What the robot learned of each maze, several times, by whoever asks first.
 #[derive(Debug, Default)]
-pub(super) struct Known([OnceLock<Vec<Record>>; MAPS]);
+pub(super) struct Known([OnceLock<Vec<TrialRecord>>; MAPS]);
 
 /// The maze of a row, and the robot's approach.
 fn cast(row: &str) -> (&str, Approach) {
@@ -136,7 +136,7 @@ impl Known {
         patterns: &CommonPatterns,
         master_seed: u64,
         run: u32,
-    ) -> Result<&[Record], BoxError> {
+    ) -> Result<&[TrialRecord], BoxError> {
         let number = run as usize % MAPS;
         if let Some(records) = self.0[number].get() {
             return Ok(records);

@@ -9,7 +9,7 @@ use tolman_maze::{Cell, Direction, Maze, Perfect};
 use super::trials::BETTER;
 use crate::maze_file;
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{CORRIDOR_WIDTH, Likeness, epuck_course};
+use tolman_arena::cpm::{BendLikeness, CORRIDOR_WIDTH, epuck_course};
 use tolman_experiment::BoxError;
 
 /// Cells along each side of an aliased maze.
@@ -63,7 +63,7 @@ pub(super) fn aliased(seed: u64) -> Result<Course, BoxError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     loop {
         let maze = braided(&mut rng)?;
-        if Likeness::of(&maze).alike_pairs > 0 {
+        if BendLikeness::of(&maze).alike_pairs > 0 {
             return Ok(Course::new("Aliased", maze, CORRIDOR_WIDTH)?);
         }
     }

@@ -21,7 +21,7 @@ use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{Record, epuck, learn};
+use tolman_arena::cpm::{TrialRecord, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_draw::Figure;
 use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table};
@@ -145,7 +145,7 @@ impl Cpm {
     }
 
     /// Plays the trial of a run, and says where; none of a run that is no trial.
-    fn play(&self, job: &Job<'_>) -> Result<Option<(Course, Record)>, BoxError> {
+    fn play(&self, job: &Job<'_>) -> Result<Option<(Course, TrialRecord)>, BoxError> {
         let Some((course, mode)) = self.cast(job)? else {
             return Ok(None);
         };

@@ -10,7 +10,8 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, learn_by, slow_epuck, walker_config};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::cpm::{
-    CommonPatterns, CpmConfig, Done, Episode, Layer3, Lesson, Step, Walker, WalkerConfig,
+    CommonPatterns, CpmConfig, Done, EpisodeSummary, FragmentStep, Layer3, Lesson, Walker,
+    WalkerConfig,
 };
 
 /// The name of the table.
@@ -78,7 +79,7 @@ impl Real {
     pub(super) fn play(
         &self,
         job: &Job<'_>,
-        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &Step),
+        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
     ) -> Result<RoundTrip, BoxError> {
         let body =
             self.course
@@ -175,14 +176,15 @@ pub(super) fn table(course: &Course) -> Table {
 }
 
 fn measured(trip: &RoundTrip) -> Result<Fields, BoxError> {
-    let reached = |episode: Option<Episode>| episode.filter(|one| one.done == Done::Reached);
+    let reached = |episode: Option<EpisodeSummary>| episode.filter(|one| one.done == Done::Reached);
     let (there, back) = (reached(Some(trip.there)), reached(trip.back));
     let again = reached(trip.again);
     let all = there.zip(back).zip(again);
     let again = all.map(|(_, again)| again);
-    let both_ways =
-        |((there, back), _): ((Episode, Episode), Episode)| there.observations + back.observations;
-    let saved = |measure: fn(Episode) -> f64| {
+    let both_ways = |((there, back), _): ((EpisodeSummary, EpisodeSummary), EpisodeSummary)| {
+        there.observations + back.observations
+    };
+    let saved = |measure: fn(EpisodeSummary) -> f64| {
         all.map(|((there, _), again)| less([measure(there), measure(again)]))
     };
     let run = RoundTripRun {

@@ -3,22 +3,22 @@
 use alloc::collections::BTreeMap;
 
 use tolman_geom::Pose;
-use tolman_maps::cpm::{Arrival, CpMap, FragmentId, JunctionId, Sign};
+use tolman_maps::cpm::{CpMap, FragmentId, JunctionId, MapUpdate, Sign};
 use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
 
 use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{Layout, SimulatedEpuck, Trial, slow_epuck};
+use tolman_arena::cpm::{CpmTrial, Layout, SimulatedEpuck, slow_epuck};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
-    Edge, Fact, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series, Track,
+    Fact, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery, TimeSeries,
 };
-use tolman_systems::cpm::{Layer3, Step, Walker};
+use tolman_systems::cpm::{FragmentStep, Layer3, Walker};
 
 /// Plays a trial again and watches it.
-pub(super) fn of(trial: &Trial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
+pub(super) fn of(trial: &CpmTrial<'_>, job: &Job<'_>) -> Result<Replay, BoxError> {
     let mut watch = Watch::new(trial.course);
     let record = trial.watch(|layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&record.path);
@@ -61,11 +61,11 @@ pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxErr
 }
 
 /// Where an e-puck was after every step.
-fn track(path: &[Pose]) -> Track {
+fn track(path: &[Pose]) -> RobotTrack {
     let body = Body::Circle {
         radius: BODY_RADIUS,
     };
-    Track::new("e-puck", body, path.to_vec())
+    RobotTrack::new("e-puck", body, path.to_vec())
 }
 
 /// Nodes that moved less than this are left where they are, m.
@@ -74,13 +74,13 @@ const STILL: f64 = 1e-6;
 /// What is noted at the end of each fragment.
 struct Watch<'a> {
     course: &'a Course,
-    nodes: Vec<Node>,
+    nodes: Vec<MapNode>,
     /// The nodes that stand for parts of the map as it is.
     live: BTreeMap<Part, usize>,
-    edges: Vec<Edge>,
+    edges: Vec<MapEdge>,
     joints: BTreeMap<(FragmentId, Sign), usize>,
     arrivals: Notes,
-    fragments: Series,
+    fragments: TimeSeries,
 }
 
 /// What a node stands for.
@@ -99,12 +99,12 @@ impl<'a> Watch<'a> {
             edges: Vec::new(),
             joints: BTreeMap::new(),
             arrivals: Notes::new("last fragment"),
-            fragments: Series::new("fragments on the map", ""),
+            fragments: TimeSeries::new("fragments on the map", ""),
         }
     }
 
     /// The replay of a track, with what was seen on it.
-    fn replay(self, step_us: u64, job: &Job<'_>, mut track: Track) -> Replay {
+    fn replay(self, step_us: u64, job: &Job<'_>, mut track: RobotTrack) -> Replay {
         let scenery = Scenery::of_world(&self.course.world);
         track.maps = vec![MapGrowth {
             name: "common-pattern map".to_owned(),
@@ -120,7 +120,7 @@ impl<'a> Watch<'a> {
             .fact("seed", job.seed.to_string())
     }
 
-    fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &Step) {
+    fn see(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>, step: &FragmentStep) {
         let now = walker.body().path().len().saturating_sub(1) as u32;
         let word = match step.arrival {
             Some(arrival) => word_for(arrival),
@@ -174,7 +174,7 @@ impl<'a> Watch<'a> {
                 None => {
                     let id = self.nodes.len() as u32;
                     self.live.insert(part, self.nodes.len());
-                    let mut node = Node::new(id, at, now);
+                    let mut node = MapNode::new(id, at, now);
                     node.label = label;
                     self.nodes.push(node);
                 }
@@ -211,7 +211,7 @@ impl<'a> Watch<'a> {
         });
         for ((fragment, sign), (a, b)) in wanted {
             if !self.joints.contains_key(&(fragment, sign)) {
-                let mut edge = Edge::new(a, b, now);
+                let mut edge = MapEdge::new(a, b, now);
                 edge.label = sign.to_string();
                 self.joints.insert((fragment, sign), self.edges.len());
                 self.edges.push(edge);
@@ -220,13 +220,13 @@ impl<'a> Watch<'a> {
     }
 }
 
-const fn word_for(arrival: Arrival) -> &'static str {
+const fn word_for(arrival: MapUpdate) -> &'static str {
     match arrival {
-        Arrival::New => "new",
-        Arrival::Known => "known",
-        Arrival::Duplicate => "a duplicate: a loop is closed",
-        Arrival::Loop => "new, to a known place: a loop is closed",
-        Arrival::Revised => "the map is revised",
-        Arrival::Contradiction => "not what the map says",
+        MapUpdate::New => "new",
+        MapUpdate::Known => "known",
+        MapUpdate::Duplicate => "a duplicate: a loop is closed",
+        MapUpdate::Loop => "new, to a known place: a loop is closed",
+        MapUpdate::Revised => "the map is revised",
+        MapUpdate::Contradiction => "not what the map says",
     }
 }

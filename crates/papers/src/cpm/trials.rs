@@ -4,7 +4,7 @@ use alloc::collections::BTreeMap;
 
 use super::{agree, less, mazes};
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{Likeness, Record, Trial, epuck};
+use tolman_arena::cpm::{BendLikeness, CpmTrial, TrialRecord, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Row, Table, record, require};
 use tolman_systems::cpm::{CommonPatterns, CpmConfig, Mode};
@@ -33,7 +33,7 @@ pub(super) struct Trials {
     pub(super) table: Table,
     settings: Vec<Setting>,
     /// Plays a trial and measures it.
-    measure: fn(&Trial<'_>) -> Result<Fields, BoxError>,
+    measure: fn(&CpmTrial<'_>) -> Result<Fields, BoxError>,
 }
 
 /// What a row tries.
@@ -198,7 +198,7 @@ pub(super) fn aliased(quick: bool) -> Trials {
     Trials::new(table, settings, row, |trial| {
         let record = trial.play()?;
         let is_solved = record.is_solved() && record.is_map_right;
-        let likeness = Likeness::of(&trial.course.maze);
+        let likeness = BendLikeness::of(&trial.course.maze);
         let run = AliasedRun {
             trial: TrialRun::of(trial.course, &record, is_solved),
             shortest_known: record.is_solved(),
@@ -304,7 +304,7 @@ impl Trials {
         table: Table,
         settings: Vec<Setting>,
         row: impl Fn(&Setting) -> Row,
-        measure: fn(&Trial<'_>) -> Result<Fields, BoxError>,
+        measure: fn(&CpmTrial<'_>) -> Result<Fields, BoxError>,
     ) -> Self {
         Self {
             table: table.rows(settings.iter().map(row)),
@@ -341,7 +341,7 @@ impl Trials {
 }
 
 /// Plays a trial and measures both episodes.
-fn measure(trial: &Trial<'_>) -> Result<Fields, BoxError> {
+fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
     let record = trial.play()?;
     Ok(TrialRun::of(trial.course, &record, record.is_solved()).fields()?)
 }
@@ -352,8 +352,8 @@ pub(super) fn trial<'a>(
     patterns: &'a CommonPatterns,
     mode: Mode,
     seed: u64,
-) -> Trial<'a> {
-    Trial {
+) -> CpmTrial<'a> {
+    CpmTrial {
         course,
         patterns,
         robot: epuck(),
@@ -363,7 +363,7 @@ pub(super) fn trial<'a>(
 }
 
 impl TrialRun {
-    fn of(course: &Course, record: &Record, solved: bool) -> Self {
+    fn of(course: &Course, record: &TrialRecord, solved: bool) -> Self {
         let closures = record.closures;
         let shortest = course.shortest_metres();
         let long = solved && shortest.is_some_and(|shortest| metres(record) >= LONG * shortest);
@@ -420,7 +420,7 @@ impl TrialRun {
 }
 
 /// How far the robot drove in the first episode, m.
-pub(super) fn metres(record: &Record) -> f64 {
+pub(super) fn metres(record: &TrialRecord) -> f64 {
     let first = record
         .path
         .get(..record.second_from)

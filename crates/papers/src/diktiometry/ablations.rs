@@ -1,7 +1,7 @@
 //! The mapper without each of its parts.
 
 use tolman_maps::diktiometry::{
-    Config, GeometricIndexing, GeometricMerge, Identity, Order, PerceptualIndexing, Use,
+    Config, GeometricIndexing, GeometricMerge, Identity, PerceptualIndexing, Precedence, Use,
 };
 
 /// A change to the mapper.
@@ -55,7 +55,7 @@ pub const ABLATIONS: [(&str, Change); 20] = [
     }),
     ("one track", |config| config.tracks.cap = 1),
     ("static priorities", |config| {
-        config.matching.order = Order::Static;
+        config.matching.order = Precedence::Static;
     }),
     ("boxes that meet are the same", |config| {
         config.matching.identity = Identity::Meets;

@@ -3,7 +3,9 @@
 use tolman_sim::Bounds;
 
 use tolman_arena::diktiometry::{Office, Survey};
-use tolman_draw::{Drawing, EdgeLine, Graph, GraphEdge, GraphNode, Plan, Region, Series};
+use tolman_draw::{
+    Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, Region, Series,
+};
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 560.0;
@@ -15,12 +17,12 @@ const MOST_BOXES: usize = 100;
 /// than a hundred places are drawn without boxes.
 #[must_use]
 pub fn map_over_world(office: &Office, survey: &Survey) -> Drawing {
-    let mut plan = Plan::of_world(&office.course.world, WIDTH);
+    let mut plan = FloorPlan::of_world(&office.course.world, WIDTH);
     let drawn = survey.drawn();
     for place in drawn.iter().filter(|_| drawn.len() <= MOST_BOXES) {
         plan.region(&Region::within(&place.bounds), Series(1));
     }
-    let mut graph = Graph::new();
+    let mut graph = GraphPicture::new();
     let nodes = drawn.iter().map(|place| {
         let Bounds { min, max } = place.bounds;
         let node = GraphNode::at(min + 0.5 * (max - min)).note(&place.label);

@@ -3,15 +3,16 @@
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, PointBox};
-use tolman_maps::diktiometry::{LinkId, PlaceId, Standing};
+use tolman_maps::diktiometry::{LinkId, LinkStatus, PlaceId};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::settings::Setting;
-use tolman_arena::diktiometry::{Survey, Surveyed};
+use tolman_arena::diktiometry::{Survey, SurveyedMove};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
-    Belief, BeliefAt, Edge, Fact, MapGrowth, Node, Notes, Replay, Scenery, Series, Shape, Track,
+    Belief, BeliefAt, Fact, MapEdge, MapGrowth, MapNode, Notes, Replay, RobotTrack, Scenery, Shape,
+    TimeSeries,
 };
 use tolman_systems::diktiometry::Reason;
 
@@ -34,7 +35,7 @@ pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
     };
     let path = survey.robot().path().iter();
     let poses = path.step_by(COARSE).copied().collect();
-    let mut track = Track::new("robot", body, poses);
+    let mut track = RobotTrack::new("robot", body, poses);
     track.maps = vec![watch.growth()];
     track.beliefs = vec![watch.belief];
     track.series = vec![watch.places, watch.error];
@@ -63,12 +64,12 @@ pub(super) fn of(setting: &Setting, job: &Job<'_>) -> Result<Replay, BoxError> {
 struct Watch {
     start: Point,
     home: PlaceId,
-    nodes: BTreeMap<PlaceId, Node>,
+    nodes: BTreeMap<PlaceId, MapNode>,
     /// By link and its ends: a merge of places gives a link other ends, which makes it another edge.
-    edges: BTreeMap<(LinkId, PlaceId, PlaceId), Edge>,
+    edges: BTreeMap<(LinkId, PlaceId, PlaceId), MapEdge>,
     belief: Belief,
-    places: Series,
-    error: Series,
+    places: TimeSeries,
+    error: TimeSeries,
     matcher: Notes,
     reason: Notes,
 }
@@ -81,8 +82,8 @@ impl Watch {
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
             belief: Belief::new("where the robot may be"),
-            places: Series::new("places", ""),
-            error: Series::new("squared error", "m²"),
+            places: TimeSeries::new("places", ""),
+            error: TimeSeries::new("squared error", "m²"),
             matcher: Notes::new("match"),
             reason: Notes::new("why"),
         };
@@ -90,11 +91,11 @@ impl Watch {
         watch
     }
 
-    fn see(&mut self, survey: &Survey, surveyed: &Surveyed) {
+    fn see(&mut self, survey: &Survey, surveyed: &SurveyedMove) {
         let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
         let best = surveyed.report.tracks.first();
         let before = best.and_then(|track| self.nodes.get(&track.from));
-        let before = before.map(Node::latest);
+        let before = before.map(MapNode::latest);
         self.map(survey, step);
         let tracks = survey.observer().tracks().iter();
         let shapes = tracks.map(|track| Shape::Node {
@@ -136,7 +137,7 @@ impl Watch {
             let position = self.start + drawn.bounds.middle().coords;
             let id = drawn.place;
             let node = self.nodes.entry(id);
-            let node = node.or_insert_with(|| Node::new(id.0, position, step));
+            let node = node.or_insert_with(|| MapNode::new(id.0, position, step));
             node.move_to(step, position, STILL);
         }
         for (id, node) in &mut self.nodes {
@@ -151,14 +152,14 @@ impl Watch {
         for (id, link) in map.paths.links() {
             let ends = [link.from, link.to];
             if ends.iter().all(|end| self.nodes.contains_key(end)) {
-                let edge = || Edge::new(link.from.0, link.to.0, step);
+                let edge = || MapEdge::new(link.from.0, link.to.0, step);
                 let key = (id, link.from, link.to);
                 self.edges.entry(key).or_insert_with(edge);
             }
         }
         for ((id, from, to), edge) in &mut self.edges {
             let stands = map.paths.link(*id).is_some_and(|link| {
-                link.standing == Standing::Standing && link.from == *from && link.to == *to
+                link.standing == LinkStatus::Standing && link.from == *from && link.to == *to
             });
             if edge.died.is_none() && !stands {
                 edge.died = Some(step);
@@ -167,7 +168,7 @@ impl Watch {
     }
 
     fn growth(&self) -> MapGrowth {
-        let mut nodes: Vec<Node> = self.nodes.values().cloned().collect();
+        let mut nodes: Vec<MapNode> = self.nodes.values().cloned().collect();
         for node in &mut nodes {
             node.facts = vec![Fact::new("visits", node.visits.len().to_string())];
         }

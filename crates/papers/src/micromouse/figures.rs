@@ -9,8 +9,8 @@ use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
 use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::Micromouse;
-use tolman_arena::micromouse::{Event, Referee, brief};
-use tolman_draw::{Drawing, Figure, Plan, Series, Shade};
+use tolman_arena::micromouse::{Referee, Ruling, brief};
+use tolman_draw::{Drawing, Figure, FloorPlan, Series, Shade};
 use tolman_experiment::{BoxError, Run};
 use tolman_systems::micromouse::{
     Certify, CounterSearch, Driver, RunTwo, SIDE, Search, Searcher, TargetSearch,
@@ -62,7 +62,7 @@ fn known_after<S: Search>(
     let mut referee = Referee::new(maze)?;
     while referee.steps() < steps && !referee.is_over() {
         let order = mouse.next(referee.sight())?;
-        if referee.take(order)? == Event::RunTwo {
+        if referee.take(order)? == Ruling::RunTwo {
             break;
         }
     }
@@ -108,14 +108,14 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let mut referee = Referee::new(maze)?;
     while !referee.is_over() {
         let order = mouse.next(referee.sight())?;
-        if referee.take(order)? == Event::RunTwo {
+        if referee.take(order)? == Ruling::RunTwo {
             break;
         }
         let map = mouse.map();
         let open = run(map, Unknown::Open, maze, start)?;
         let closed = run(map, Unknown::Closed, maze, start)?;
         if closed.len() > 1 && open.len() < closed.len() {
-            let mut plan = Plan::of_walls(&walls(map), WIDTH);
+            let mut plan = FloorPlan::of_walls(&walls(map), WIDTH);
             plan.trajectory(&open, Series(1));
             plan.trajectory(&closed, Series(0));
             let drawing = plan.drawing("The walls known so far with two runs from start to goal.");
@@ -147,7 +147,7 @@ fn run(
 }
 
 fn values(map: &WallMap<SIDE>, shade: &Shade, value: impl Fn(Cell) -> f64) -> Drawing {
-    let mut plan = Plan::of_walls(&walls(map), WIDTH);
+    let mut plan = FloorPlan::of_walls(&walls(map), WIDTH);
     let cells: Vec<(Point, f64)> = map
         .grid()
         .cells()

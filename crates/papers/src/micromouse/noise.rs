@@ -8,7 +8,7 @@ use super::check_score;
 use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table, record, require};
-use tolman_systems::micromouse::noisy::Localization;
+use tolman_systems::micromouse::noisy::PoseSource;
 
 /// The name of the table.
 pub(super) const NOISE: &str = "noise";
@@ -16,9 +16,9 @@ pub(super) const NOISE: &str = "noise";
 /// Multiples of ordinary noise.
 const LEVELS: [f64; 7] = [0.0, 0.25, 1.0, 2.0, 4.0, 5.0, 6.0];
 
-const LOCALIZATIONS: [(Localization, &str); 2] = [
-    (Localization::ParticleFilter, "particle filter"),
-    (Localization::DeadReckoning, "dead reckoning"),
+const LOCALIZATIONS: [(PoseSource, &str); 2] = [
+    (PoseSource::ParticleFilter, "particle filter"),
+    (PoseSource::DeadReckoning, "dead reckoning"),
 ];
 
 /// Mazes of each row, the same in all.

@@ -1,10 +1,10 @@
 //! Pictures of what was learned, for reports and the command.
 
-use tolman_maps::mslst_graph::Zone;
+use tolman_maps::mslst_graph::NodeZone;
 
 use crate::plan::model_scan;
 use tolman_arena::course::Course;
-use tolman_draw::{Drawing, Graph, GraphEdge, GraphNode, NodeMark, Series, Tiles};
+use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, Tiles};
 use tolman_systems::mslst::Learned;
 
 /// Width of a plan, user units.
@@ -32,7 +32,7 @@ pub const SHOWN_ACTIONS: u32 = 500;
 /// it was made, those of the destination filled.
 #[must_use]
 pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
-    let mut graph = Graph::new().radius(2.0);
+    let mut graph = GraphPicture::new().radius(2.0);
     let made_by = learned.survey.made_by.iter();
     let shown = made_by
         .take_while(|action| **action <= SHOWN_ACTIONS)
@@ -40,8 +40,8 @@ pub fn graph_over_maze(course: &Course, learned: &Learned) -> Drawing {
     let nodes = &learned.map.graph.nodes()[..shown];
     for (node, position) in nodes.iter().zip(&learned.survey.positions) {
         let mark = match node.zone {
-            Zone::Destination => NodeMark::Disc,
-            Zone::Elsewhere => NodeMark::Ring,
+            NodeZone::Destination => NodeMark::Disc,
+            NodeZone::Elsewhere => NodeMark::Ring,
         };
         graph.node(GraphNode::at(*position).mark(mark).series(Series(0)));
     }

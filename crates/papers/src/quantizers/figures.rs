@@ -11,11 +11,11 @@ use super::states::Mazes;
 use super::{five, shapes, states};
 use crate::plan::model_scan;
 use tolman_draw::{
-    Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Line, LinePoint, NodeMark, Points,
-    Series, Tiles,
+    Axis, Chart, Drawing, Figure, GraphEdge, GraphNode, GraphPicture, Line, LinePoint, NodeMark,
+    Points, Series, Tiles,
 };
 use tolman_experiment::{BoxError, Record, Run};
-use tolman_stats::{Interval, quantile};
+use tolman_stats::{ConfidenceInterval, quantile};
 
 /// How many data points a picture shows at most.
 const SHOWN: usize = 700;
@@ -128,7 +128,7 @@ fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
     let points = data.iter().step_by(every);
     let points = points.map(|point| Point::new(point[0], point[1]));
     chart.points(Points::new("", Series(DOTS), points.collect()));
-    let mut graph = Graph::new().radius(2.6);
+    let mut graph = GraphPicture::new().radius(2.6);
     let mut nodes = BTreeMap::new();
     for (id, cluster) in network.clusters().iter() {
         let mut at = network.prototype(id).into_iter().flatten();
@@ -159,7 +159,7 @@ fn errors(runs: &[Run]) -> Result<Figure, BoxError> {
             .filter_map(|(mark, inputs)| {
                 let values: Vec<f64> = of_row.iter().map(|run| run.errors()[mark]).collect();
                 let at = |share| quantile(&values, share).ok();
-                let spread = Interval::new(at(0.0)?, at(1.0)?);
+                let spread = ConfidenceInterval::new(at(0.0)?, at(1.0)?);
                 Some(LinePoint::new(f64::from(inputs), at(0.5)?).spread(spread))
             });
         chart.line(Line::new(row, Series(series), points.collect()));

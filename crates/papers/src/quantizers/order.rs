@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_quantizers::{Gng, GngConfig, Quantizer, Replay, ReplayConfig};
+use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayConfig, ReplayQuantizer};
 
 use super::states::Mazes;
 use tolman_arena::pioneer;
@@ -61,7 +61,7 @@ pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
     let fields = if job.row == REPLAYED {
         let gng = Gng::<f64>::new(features, GngConfig::in_order(UNITS))?;
         learn(
-            Replay::new(gng, ReplayConfig::measured(job.seed))?,
+            ReplayQuantizer::new(gng, ReplayConfig::measured(job.seed))?,
             stream(),
             &scans,
         )?

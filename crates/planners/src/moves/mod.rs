@@ -14,7 +14,7 @@
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid, Maze};
-//! use tolman_planners::moves::{MoveMap, MouseStep, Turn};
+//! use tolman_planners::moves::{MouseStep, MoveMap, QuarterTurn};
 //! use tolman_planners::{Passages, Unknown};
 //!
 //! // Four cells to the north, then one to the west: three steps.
@@ -28,9 +28,9 @@
 //! let mut heading = Direction::South;
 //! let steps = leaps.map(|leap| MouseStep::of_leap(&mut heading, leap));
 //! let expect = [
-//!     MouseStep { turn: Turn::None, cells: -1 },
-//!     MouseStep { turn: Turn::None, cells: -3 },
-//!     MouseStep { turn: Turn::Right, cells: 1 },
+//!     MouseStep { turn: QuarterTurn::None, cells: -1 },
+//!     MouseStep { turn: QuarterTurn::None, cells: -3 },
+//!     MouseStep { turn: QuarterTurn::Right, cells: 1 },
 //! ];
 //! assert!(steps.eq(expect));
 //! # Ok::<(), tolman_planners::TooLarge>(())
@@ -57,4 +57,4 @@ pub use explorer::{MoveDecision, MoveExplorer};
 pub use leap::Leap;
 pub use map::{MoveMap, Way};
 pub use rollouts::{RolloutConfig, Rollouts};
-pub use step::{MouseStep, Turn};
+pub use step::{MouseStep, QuarterTurn};

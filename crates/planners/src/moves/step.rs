@@ -6,14 +6,14 @@ use super::Leap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MouseStep {
     /// The turn.
-    pub turn: Turn,
+    pub turn: QuarterTurn,
     /// Cells to drive, −3 to 3; back where it is negative, without turning round.
     pub cells: i8,
 }
 
 /// A quarter turn, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
+pub enum QuarterTurn {
     /// −90°.
     Left,
     /// 0°.
@@ -22,7 +22,7 @@ pub enum Turn {
     Right,
 }
 
-impl Turn {
+impl QuarterTurn {
     /// Degrees clockwise, as the paper counts them.
     #[must_use]
     pub const fn degrees(self) -> i32 {
@@ -50,13 +50,13 @@ impl MouseStep {
     pub fn of_leap(heading: &mut Direction, leap: Leap) -> Self {
         let cells = leap.cells.min(Leap::MOST_CELLS) as i8;
         let (turn, cells) = if leap.direction == heading.opposite() {
-            (Turn::None, -cells)
+            (QuarterTurn::None, -cells)
         } else if leap.direction == heading.left() {
-            (Turn::Left, cells)
+            (QuarterTurn::Left, cells)
         } else if leap.direction == heading.right() {
-            (Turn::Right, cells)
+            (QuarterTurn::Right, cells)
         } else {
-            (Turn::None, cells)
+            (QuarterTurn::None, cells)
         };
         *heading = turn.applied_to(*heading);
         Self { turn, cells }

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use thiserror::Error;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
-use super::{Drive, RunMove, Side, Slalom, SpeedRunConfig};
+use super::{RunMove, Side, Slalom, SpeedProfile, SpeedRunConfig};
 use crate::{Arcs, costs_from};
 
 /// A speed run of which somebody says that none is faster.
@@ -25,7 +25,7 @@ pub struct SpeedRunCertificate {
 /// Why a [`SpeedRunCertificate`] is worth nothing.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum CertificateError {
+pub enum SpeedRunCertificateError {
     /// A straight or turn that cannot be made where the mouse is, such as a diagonal in the middle of a cell.
     #[error("move {number} ({run_move:?}) cannot be made from where the mouse is then")]
     Impossible {
@@ -77,7 +77,7 @@ impl SpeedRunCertificate {
         walls: &impl Walls,
         config: &SpeedRunConfig,
         goals: &[Cell],
-    ) -> Result<(), CertificateError> {
+    ) -> Result<(), SpeedRunCertificateError> {
         let mut at = Spot::middle(self.start, self.heading);
         let mut actual_ms = 0;
         for (number, run_move) in self.moves.iter().copied().enumerate() {
@@ -85,29 +85,31 @@ impl SpeedRunCertificate {
                 .moves(&|_| true, walls.grid())
                 .into_iter()
                 .find(|made| made.run_move == run_move)
-                .ok_or(CertificateError::Impossible { number, run_move })?;
+                .ok_or(SpeedRunCertificateError::Impossible { number, run_move })?;
             if made
                 .passed
                 .iter()
                 .any(|point| knowledge(walls, *point) != Knowledge::Open)
             {
-                return Err(CertificateError::NotOpen { number, run_move });
+                return Err(SpeedRunCertificateError::NotOpen { number, run_move });
             }
             actual_ms += time_ms(run_move, config);
             at = made.to;
         }
         if !is_goal(at, goals) {
-            return Err(CertificateError::NotAtGoal);
+            return Err(SpeedRunCertificateError::NotAtGoal);
         }
         let time_ms = self.time_ms;
         if actual_ms != time_ms {
-            return Err(CertificateError::WrongTime { time_ms, actual_ms });
+            return Err(SpeedRunCertificateError::WrongTime { time_ms, actual_ms });
         }
         match best_possible_ms(walls, config, (self.start, self.heading), goals) {
-            Some(possible_ms) if possible_ms < time_ms => Err(CertificateError::NotTheBest {
-                time_ms,
-                possible_ms,
-            }),
+            Some(possible_ms) if possible_ms < time_ms => {
+                Err(SpeedRunCertificateError::NotTheBest {
+                    time_ms,
+                    possible_ms,
+                })
+            }
             _ => Ok(()),
         }
     }
@@ -367,7 +369,7 @@ fn knowledge(walls: &impl Walls, (x, y): Point) -> Knowledge {
 }
 
 fn time_ms(run_move: RunMove, config: &SpeedRunConfig) -> u32 {
-    let seconds = |drive: Drive, length: f64| {
+    let seconds = |drive: SpeedProfile, length: f64| {
         let (slow, fast, gain) = (
             config.turn_speed_mm_s,
             drive.top_speed_mm_s,

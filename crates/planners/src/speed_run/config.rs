@@ -15,9 +15,9 @@ pub struct SpeedRunConfig {
     /// above 0.
     pub turn_speed_mm_s: f64,
     /// Straights from cell to cell.
-    pub straight: Drive,
+    pub straight: SpeedProfile,
     /// Straights from wall to wall at 45°.
-    pub diagonal: Drive,
+    pub diagonal: SpeedProfile,
     /// How long the slalom turns take.
     pub slalom: SlalomTimes,
 }
@@ -27,7 +27,7 @@ pub struct SpeedRunConfig {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Drive {
+pub struct SpeedProfile {
     /// mm/s², above 0.
     pub acceleration_mm_s2: f64,
     /// mm/s, not below the speed in the turns.
@@ -65,11 +65,11 @@ impl SpeedRunConfig {
         Self {
             cell_mm: 90.0,
             turn_speed_mm_s: 420.0,
-            straight: Drive {
+            straight: SpeedProfile {
                 acceleration_mm_s2: 4200.0,
                 top_speed_mm_s: 1500.0,
             },
-            diagonal: Drive {
+            diagonal: SpeedProfile {
                 acceleration_mm_s2: 3600.0,
                 top_speed_mm_s: 1200.0,
             },

@@ -58,8 +58,8 @@ mod state;
 mod times;
 
 #[cfg(feature = "alloc")]
-pub use certificate::{CertificateError, SpeedRunCertificate, best_possible_ms};
-pub use config::{Drive, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
+pub use certificate::{SpeedRunCertificate, SpeedRunCertificateError, best_possible_ms};
+pub use config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 pub use explorer::{Decision, SpeedRunExplorer};
 pub use map::{Extent, SpeedRunMap};
 pub use moves::{RunMove, RunStep, Side, Slalom};

@@ -1,6 +1,6 @@
 use core::array;
 
-use super::config::{Drive, SlalomTimes, SpeedRunConfig, SpeedRunConfigError};
+use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 
 /// How long every move of a speed run takes, in whole milliseconds, for mazes of up to `N` × `N` cells: 16 for
 /// classic ones, 32 for half-size ones.
@@ -121,8 +121,8 @@ impl SlalomTimes {
 }
 
 /// How long a straight of `length` millimetres takes, rounded up.
-fn milliseconds(drive: Drive, speed: f64, length: f64) -> u64 {
-    let Drive {
+fn milliseconds(drive: SpeedProfile, speed: f64, length: f64) -> u64 {
+    let SpeedProfile {
         acceleration_mm_s2: acceleration,
         top_speed_mm_s: top,
     } = drive;

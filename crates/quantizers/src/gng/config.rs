@@ -1,6 +1,6 @@
 //! What can be chosen about a growing neural gas.
 
-use crate::ConfigError;
+use crate::QuantizerConfigError;
 use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 
 /// The parameters of a growing neural gas. Its `Default` is [`fritzke`](Self::fritzke).
@@ -157,9 +157,9 @@ impl GngConfig {
         }
     }
 
-    /// For inputs in the order of a robot's way, behind a [`Replay`](crate::Replay): Fritzke's values, but for units that move to where they
-    /// are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to tell where that is (d = 0.9995). Our own;
-    /// measured in `docs/quantizers.md`.
+    /// For inputs in the order of a robot's way, behind a [`ReplayQuantizer`](crate::ReplayQuantizer): Fritzke's values, but for
+    /// units that move to where they are needed ([`Removal::WhenFull`], k = 4) and errors that remember long enough to tell
+    /// where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.
     pub fn in_order(max_units: usize) -> Self {
         Self {
             max_units,
@@ -174,7 +174,7 @@ impl GngConfig {
 
     /// # Errors
     /// If a field is outside its range.
-    pub(super) fn check(&self) -> Result<(), ConfigError> {
+    pub(super) fn check(&self) -> Result<(), QuantizerConfigError> {
         within("winner_rate", self.winner_rate, SHARE)?;
         within("neighbour_rate", self.neighbour_rate, SHARE)?;
         within("max_age", self.max_age, AT_LEAST_1)?;

@@ -1,6 +1,6 @@
 //! The errors of all units decay at once.
 
-use crate::ConfigError;
+use crate::QuantizerConfigError;
 use crate::error::within;
 
 /// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is kept of a sum is the
@@ -19,7 +19,7 @@ impl Decay {
     }
 
     /// Refuses a factor below 2⁻⁶³ or above 1.
-    pub(super) fn with_factor(factor: f64) -> Result<Self, ConfigError> {
+    pub(super) fn with_factor(factor: f64) -> Result<Self, QuantizerConfigError> {
         let holds = |factor| (SMALLEST..=1.0).contains(&factor);
         within("factor", factor, (holds, "between 2⁻⁶³ and 1"))?;
         Ok(Self { factor })

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::{Decay, Gng, GngConfig, Sums};
 use crate::error::{SUM, check_count, check_header, within};
-use crate::{Network, Scalar, Snapshot, SnapshotError};
+use crate::{Network, NetworkSnapshot, Scalar, SnapshotError};
 
 const FORMAT: &str = "tolman-gng";
 const VERSION: u32 = 1;
@@ -23,7 +23,7 @@ pub struct SavedGng<S> {
     /// The parameters.
     pub config: GngConfig,
     /// The units and edges.
-    pub network: Snapshot<S>,
+    pub network: NetworkSnapshot<S>,
     /// The error and the utility of each unit, both to be multiplied by `factor`.
     pub sums: Vec<(f64, f64)>,
     /// What errors have decayed by since all of them were last brought up to date; above 0, at most 1.

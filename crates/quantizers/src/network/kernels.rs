@@ -16,7 +16,7 @@ pub enum Lanes {
 
 /// How the nearest units are found. The results are the same to the bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Search {
+pub enum UnitSearch {
     /// Whatever is fastest: the index for many units of few features, else the scan.
     #[default]
     Automatic,
@@ -26,7 +26,7 @@ pub enum Search {
     Index,
 }
 
-impl Search {
+impl UnitSearch {
     /// Whether an index shall be built for so many units.
     pub(crate) fn wants_tree(self, dimension: usize, units: usize) -> bool {
         if dimension > MOST_FEATURES {
@@ -82,14 +82,14 @@ mod tests {
     #[test]
     fn many_features_want_no_index() {
         for dimension in [MOST_FEATURES + 1, 63, 64, 72, 100_000] {
-            for search in [Search::Automatic, Search::Scan, Search::Index] {
+            for search in [UnitSearch::Automatic, UnitSearch::Scan, UnitSearch::Index] {
                 assert!(
                     !search.wants_tree(dimension, usize::MAX),
                     "{search:?}, {dimension}"
                 );
             }
         }
-        assert!(Search::Automatic.wants_tree(2, 256));
-        assert!(!Search::Automatic.wants_tree(2, 255));
+        assert!(UnitSearch::Automatic.wants_tree(2, 256));
+        assert!(!UnitSearch::Automatic.wants_tree(2, 255));
     }
 }

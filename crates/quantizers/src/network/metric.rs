@@ -2,7 +2,7 @@
 
 use alloc::boxed::Box;
 
-use crate::{ConfigError, InputError, Scalar};
+use crate::{InputError, QuantizerConfigError, Scalar};
 
 /// Σ w (x − p)² over the features of inputs of one size.
 #[derive(Clone, Debug)]
@@ -16,9 +16,9 @@ pub(crate) struct Metric<S> {
 
 impl<S: Scalar> Metric<S> {
     /// All weights 1.
-    pub(crate) fn uniform(dimension: usize) -> Result<Self, ConfigError> {
+    pub(crate) fn uniform(dimension: usize) -> Result<Self, QuantizerConfigError> {
         if dimension == 0 {
-            return Err(ConfigError::NoFeatures);
+            return Err(QuantizerConfigError::NoFeatures);
         }
         Ok(Self {
             dimension,
@@ -28,20 +28,20 @@ impl<S: Scalar> Metric<S> {
     }
 
     /// The weights of the squares, one a feature.
-    pub(crate) fn weighted(weights: &[S]) -> Result<Self, ConfigError> {
+    pub(crate) fn weighted(weights: &[S]) -> Result<Self, QuantizerConfigError> {
         let mut total = 0.0;
         for (feature, weight) in weights.iter().enumerate() {
             if !weight.is_finite() || *weight < S::ZERO {
                 let value = weight.to_f64();
-                return Err(ConfigError::BadWeight { feature, value });
+                return Err(QuantizerConfigError::BadWeight { feature, value });
             }
             total += weight.to_f64();
         }
         if weights.is_empty() {
-            return Err(ConfigError::NoFeatures);
+            return Err(QuantizerConfigError::NoFeatures);
         }
         if total <= 0.0 {
-            return Err(ConfigError::NoWeight);
+            return Err(QuantizerConfigError::NoWeight);
         }
         Ok(Self {
             dimension: weights.len(),

@@ -9,7 +9,7 @@ use crate::{Scalar, SnapshotError, UnitId};
 /// The units and edges of a network at one moment.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Snapshot<S> {
+pub struct NetworkSnapshot<S> {
     /// How many features an input has.
     pub dimension: usize,
     /// The weights of the features in the squared distance; none if all are 1.
@@ -34,12 +34,12 @@ pub struct SnapshotUnit<S> {
 
 impl<S: Scalar> Network<S> {
     /// A copy of the units and edges as they are now.
-    pub fn snapshot(&self) -> Snapshot<S> {
+    pub fn snapshot(&self) -> NetworkSnapshot<S> {
         let unit = |slot| SnapshotUnit {
             id: self.ids[slot],
             prototype: self.values(slot).collect(),
         };
-        Snapshot {
+        NetworkSnapshot {
             dimension: self.dimension(),
             weights: self.weights().map(Into::into),
             next_id: self.next_id,
@@ -49,7 +49,7 @@ impl<S: Scalar> Network<S> {
     }
 
     /// The network that the snapshot is a copy of; slots are units in order. Nobody listens to its events.
-    pub(crate) fn from_snapshot(snapshot: &Snapshot<S>) -> Result<Self, SnapshotError> {
+    pub(crate) fn from_snapshot(snapshot: &NetworkSnapshot<S>) -> Result<Self, SnapshotError> {
         let mut network = match &snapshot.weights {
             Some(weights) => {
                 check_count("weights", snapshot.dimension, weights.len())?;

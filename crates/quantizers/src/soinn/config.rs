@@ -1,6 +1,6 @@
 //! What can be chosen about a SOINN.
 
-use crate::ConfigError;
+use crate::QuantizerConfigError;
 use crate::error::{AT_LEAST_1, NOT_NEGATIVE, SHARE, within};
 
 /// The parameters of one layer of a SOINN. Its `Default` is [`shen_hasegawa`](Self::shen_hasegawa).
@@ -124,7 +124,7 @@ impl SoinnConfig {
 
     /// # Errors
     /// If a field is outside its range.
-    pub(super) fn check(&self) -> Result<(), ConfigError> {
+    pub(super) fn check(&self) -> Result<(), QuantizerConfigError> {
         within("max_age", self.max_age, AT_LEAST_1)?;
         within("period", self.period, AT_LEAST_1)?;
         if let Denoising::FewWins { c } | Denoising::LowRate { c } = self.denoising {

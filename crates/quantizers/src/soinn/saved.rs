@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::{Soinn, SoinnConfig, Tally};
 use crate::error::{SUM, check_count, check_header, within};
-use crate::{ConfigError, Network, Scalar, Snapshot, SnapshotError};
+use crate::{Network, NetworkSnapshot, QuantizerConfigError, Scalar, SnapshotError};
 
 const FORMAT: &str = "tolman-soinn";
 const VERSION: u32 = 1;
@@ -23,7 +23,7 @@ pub struct SavedSoinn<S> {
     /// The parameters.
     pub config: SoinnConfig,
     /// The units and edges.
-    pub network: Snapshot<S>,
+    pub network: NetworkSnapshot<S>,
     /// What each unit remembers.
     pub tallies: Vec<Tally>,
     /// Inputs learnt.
@@ -63,7 +63,7 @@ impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
 
 impl Tally {
     /// Whether a unit can remember this after so many inputs.
-    fn check(&self, steps: u64) -> Result<(), ConfigError> {
+    fn check(&self, steps: u64) -> Result<(), QuantizerConfigError> {
         let wins = |wins| (f64::MIN_POSITIVE..1e280).contains(&wins);
         within("the error of a unit", self.error, SUM)?;
         within(
@@ -75,7 +75,7 @@ impl Tally {
         if self.since <= steps {
             return Ok(());
         }
-        Err(ConfigError::OutOfRange {
+        Err(QuantizerConfigError::OutOfRange {
             field: "since of a unit",
             value: self.since as f64,
             range: "at most the steps",

@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::{SimilarityThreshold, Soinn, SoinnConfig};
 use crate::error::within;
-use crate::{ConfigError, Scalar};
+use crate::{QuantizerConfigError, Scalar};
 
 /// How the second layer learns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +72,7 @@ impl SecondLayerConfig {
 pub enum SecondLayerError {
     /// A field is outside its range.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] QuantizerConfigError),
     /// A graph of fewer than two units has no lengths.
     #[error("the first layer has {found} units and needs two: let it observe more")]
     TooFewUnits {

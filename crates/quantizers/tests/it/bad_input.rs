@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use tolman_quantizers::{
-    ConfigError, ErrorKind, Gng, GngConfig, InputError, Quantizer, SavedGng, UnitId,
+    ErrorKind, Gng, GngConfig, InputError, Quantizer, QuantizerConfigError, SavedGng, UnitId,
 };
 
 use super::streams::cube;
@@ -80,7 +80,7 @@ fn refuses_bad_configurations() {
         Gng::<f64>::new(2, config).unwrap_err()
     };
     let field = |error| match error {
-        ConfigError::OutOfRange { field, .. } => field,
+        QuantizerConfigError::OutOfRange { field, .. } => field,
         other => panic!("{other}"),
     };
     assert_eq!(field(refused(&|config| config.max_units = 0)), "max_units");
@@ -105,19 +105,19 @@ fn refuses_bad_configurations() {
     );
 
     let weighted = |weights: &[f64]| Gng::weighted(weights, GngConfig::fritzke()).unwrap_err();
-    assert_eq!(weighted(&[]), ConfigError::NoFeatures);
-    assert_eq!(weighted(&[0.0, 0.0]), ConfigError::NoWeight);
+    assert_eq!(weighted(&[]), QuantizerConfigError::NoFeatures);
+    assert_eq!(weighted(&[0.0, 0.0]), QuantizerConfigError::NoWeight);
     assert!(matches!(
         weighted(&[1.0, -1.0]),
-        ConfigError::BadWeight { feature: 1, .. }
+        QuantizerConfigError::BadWeight { feature: 1, .. }
     ));
     assert!(matches!(
         weighted(&[f64::NAN]),
-        ConfigError::BadWeight { feature: 0, .. }
+        QuantizerConfigError::BadWeight { feature: 0, .. }
     ));
     assert_eq!(
         Gng::<f64>::new(0, GngConfig::fritzke()).unwrap_err(),
-        ConfigError::NoFeatures
+        QuantizerConfigError::NoFeatures
     );
 
     let mut gng = Gng::<f64>::new(1, GngConfig::fritzke()).unwrap();

@@ -6,7 +6,8 @@ use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_quantizers::{
-    ConfigError, Gng, GngConfig, InputError, Memory, Quantizer, Replay, ReplayConfig, SavedReplay,
+    Gng, GngConfig, InputError, Quantizer, QuantizerConfigError, ReplayConfig, ReplayMemory,
+    ReplayQuantizer, SavedReplay,
 };
 
 const FEATURES: usize = 11;
@@ -125,7 +126,7 @@ fn the_order_of_a_stream_does_not_matter() {
             // Whichever way of learning does better with the shuffled stream.
             let best = mse(&learnt(new(fritzke), &shuffled), &stream)
                 .min(mse(&learnt(new(in_order), &shuffled), &stream));
-            let replay = Replay::new(new(in_order), ReplayConfig::measured(seed)).unwrap();
+            let replay = ReplayQuantizer::new(new(in_order), ReplayConfig::measured(seed)).unwrap();
             let replay = learnt(replay, &stream);
             assert!(replay.network().len() <= UNITS);
             let ratio = mse(&replay, &stream) / best;
@@ -149,16 +150,16 @@ fn remembers_what_it_is_told_to() {
         };
         let gng = Gng::new(1, GngConfig::fritzke()).unwrap();
         let stream: Vec<_> = (0..1000).map(|step| vec![f64::from(step)]).collect();
-        let replay = learnt(Replay::new(gng, config).unwrap(), &stream);
+        let replay = learnt(ReplayQuantizer::new(gng, config).unwrap(), &stream);
         assert_eq!(replay.remembered(), 50);
         SavedReplay::from(replay).memory
     };
-    let mut recent = remembered(Memory::Recent);
+    let mut recent = remembered(ReplayMemory::Recent);
     recent.sort_by(f64::total_cmp);
     let last: Vec<_> = (950..1000).map(f64::from).collect();
     assert_eq!(recent, last);
     // The mean of 50 of 0 to 999 is within 4 standard deviations of 500.
-    let reservoir = remembered(Memory::Reservoir);
+    let reservoir = remembered(ReplayMemory::Reservoir);
     let mean = reservoir.iter().sum::<f64>() / 50.0;
     assert!((337.0..663.0).contains(&mean), "{mean}");
 }
@@ -171,8 +172,8 @@ fn a_resumed_memory_goes_on_as_if_nothing_were() {
     };
     let stream = rooms(600, 1);
     let gng = Gng::new(FEATURES, GngConfig::in_order(30)).unwrap();
-    let replay = learnt(Replay::new(gng, config).unwrap(), &stream[..300]);
-    let resumed = Replay::try_from(SavedReplay::from(replay.clone())).unwrap();
+    let replay = learnt(ReplayQuantizer::new(gng, config).unwrap(), &stream[..300]);
+    let resumed = ReplayQuantizer::try_from(SavedReplay::from(replay.clone())).unwrap();
     let (went_on, resumed) = (
         learnt(replay, &stream[300..]),
         learnt(resumed, &stream[300..]),
@@ -184,10 +185,10 @@ fn a_resumed_memory_goes_on_as_if_nothing_were() {
 
     let mut spoilt = went_on.clone();
     spoilt.memory[5] = f64::NAN;
-    assert!(Replay::try_from(spoilt).is_err());
+    assert!(ReplayQuantizer::try_from(spoilt).is_err());
     let mut spoilt = went_on;
     spoilt.memory.pop();
-    assert!(Replay::try_from(spoilt).is_err());
+    assert!(ReplayQuantizer::try_from(spoilt).is_err());
 }
 
 #[test]
@@ -199,18 +200,18 @@ fn refuses_what_it_cannot_do() {
             per_input,
             ..ReplayConfig::measured(0)
         };
-        Replay::new(gng, config)
+        ReplayQuantizer::new(gng, config)
     };
     assert!(matches!(
         new(0, 1),
-        Err(ConfigError::OutOfRange {
+        Err(QuantizerConfigError::OutOfRange {
             field: "capacity",
             ..
         })
     ));
     assert!(matches!(
         new(1, 0),
-        Err(ConfigError::OutOfRange {
+        Err(QuantizerConfigError::OutOfRange {
             field: "per_input",
             ..
         })

@@ -1,7 +1,7 @@
 //! To save, resume and go on is to go on.
 
 use proptest::prelude::*;
-use tolman_quantizers::{ConfigError, Gng, Quantizer, SavedGng, SnapshotError};
+use tolman_quantizers::{Gng, Quantizer, QuantizerConfigError, SavedGng, SnapshotError};
 
 use super::gng::{configs, streams};
 
@@ -89,10 +89,16 @@ fn refuses_what_is_no_network() {
     assert!(matches!(error, E::WrongCount { .. }));
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         let error = refused(&|saved| saved.sums[0].0 = bad);
-        assert!(matches!(error, E::Config(ConfigError::OutOfRange { .. })));
+        assert!(matches!(
+            error,
+            E::Config(QuantizerConfigError::OutOfRange { .. })
+        ));
     }
     let error = refused(&|saved| saved.factor = 0.0);
-    assert!(matches!(error, E::Config(ConfigError::OutOfRange { .. })));
+    assert!(matches!(
+        error,
+        E::Config(QuantizerConfigError::OutOfRange { .. })
+    ));
 }
 
 #[cfg(feature = "serde")]

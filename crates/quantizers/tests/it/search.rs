@@ -1,15 +1,15 @@
 //! Every way to search finds the same units at the same distances, to the bit.
 
 use proptest::prelude::*;
-use tolman_quantizers::{Gng, GngConfig, Lanes, NearestTwo, Quantizer, Scalar, Search, UnitId};
+use tolman_quantizers::{Gng, GngConfig, Lanes, NearestTwo, Quantizer, Scalar, UnitId, UnitSearch};
 
 use super::streams::{cube, grid, narrowed};
 
-const WAYS: [(Search, Lanes); 4] = [
-    (Search::Scan, Lanes::Baseline),
-    (Search::Scan, Lanes::Widest),
-    (Search::Index, Lanes::Baseline),
-    (Search::Automatic, Lanes::Widest),
+const WAYS: [(UnitSearch, Lanes); 4] = [
+    (UnitSearch::Scan, Lanes::Baseline),
+    (UnitSearch::Scan, Lanes::Widest),
+    (UnitSearch::Index, Lanes::Baseline),
+    (UnitSearch::Automatic, Lanes::Widest),
 ];
 
 /// Distances one by one, feature after feature, and the ids of the least two.

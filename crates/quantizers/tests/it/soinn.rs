@@ -8,9 +8,9 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_quantizers::{
-    AssociativeMemory, ConfigError, Denoising, ErrorInsertion, Event, InputError, Quantizer,
-    Recall, SavedSoinn, SecondLayerConfig, SecondLayerError, SecondThreshold, SimilarityThreshold,
-    SnapshotError, Soinn, SoinnConfig, UnitId,
+    AssociativeMemory, Denoising, ErrorInsertion, Event, InputError, Quantizer,
+    QuantizerConfigError, Recall, SavedSoinn, SecondLayerConfig, SecondLayerError, SecondThreshold,
+    SimilarityThreshold, SnapshotError, Soinn, SoinnConfig, UnitId,
 };
 
 /// Algorithm 3.1 word for word: every unit a struct, every edge a map entry, every sum a loop.
@@ -394,14 +394,26 @@ fn refuses_what_is_no_network() {
     assert!(matches!(error, E::WrongCount { .. }));
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         let error = refused(&|saved| saved.tallies[0].error = bad);
-        assert!(matches!(error, E::Config(ConfigError::OutOfRange { .. })));
+        assert!(matches!(
+            error,
+            E::Config(QuantizerConfigError::OutOfRange { .. })
+        ));
         let error = refused(&|saved| saved.tallies[0].radius = Some(bad));
-        assert!(matches!(error, E::Config(ConfigError::OutOfRange { .. })));
+        assert!(matches!(
+            error,
+            E::Config(QuantizerConfigError::OutOfRange { .. })
+        ));
     }
     let error = refused(&|saved| saved.tallies[0].since = saved.steps + 1);
-    assert!(matches!(error, E::Config(ConfigError::OutOfRange { .. })));
+    assert!(matches!(
+        error,
+        E::Config(QuantizerConfigError::OutOfRange { .. })
+    ));
     let error = refused(&|saved| saved.tallies[0].wins = 0.0);
-    assert!(matches!(error, E::Config(ConfigError::OutOfRange { .. })));
+    assert!(matches!(
+        error,
+        E::Config(QuantizerConfigError::OutOfRange { .. })
+    ));
 }
 
 #[test]
@@ -409,7 +421,7 @@ fn configurations_out_of_range_are_refused() {
     let paper = SoinnConfig::default();
     let refused = |config| Soinn::<f64>::new(2, config).map(|_| ()).unwrap_err();
     let field = |error| match error {
-        ConfigError::OutOfRange { field, .. } => field,
+        QuantizerConfigError::OutOfRange { field, .. } => field,
         other => panic!("{other}"),
     };
     let max_age = SoinnConfig {
@@ -435,7 +447,7 @@ fn configurations_out_of_range_are_refused() {
     }
     assert_eq!(
         Soinn::<f64>::new(0, paper).map(|_| ()),
-        Err(ConfigError::NoFeatures)
+        Err(QuantizerConfigError::NoFeatures)
     );
 }
 
@@ -482,7 +494,9 @@ fn the_second_layer_s_threshold_is_the_gap_between_clusters() {
     }
     assert!(matches!(
         second(SecondThreshold::WithinClusters { factor: 1.0 }),
-        Err(SecondLayerError::Config(ConfigError::OutOfRange { .. }))
+        Err(SecondLayerError::Config(
+            QuantizerConfigError::OutOfRange { .. }
+        ))
     ));
     assert!(matches!(
         Soinn::<f64>::new(2, SoinnConfig::noisy())
@@ -590,8 +604,8 @@ fn noisy_lessons_are_learnt_to_their_means() {
 #[test]
 fn a_memory_refuses_what_it_cannot_hold() {
     let new = |key, response| AssociativeMemory::<f64>::new(key, response, SoinnConfig::exact());
-    assert_eq!(new(0, 1).map(|_| ()), Err(ConfigError::NoFeatures));
-    assert_eq!(new(1, 0).map(|_| ()), Err(ConfigError::NoFeatures));
+    assert_eq!(new(0, 1).map(|_| ()), Err(QuantizerConfigError::NoFeatures));
+    assert_eq!(new(1, 0).map(|_| ()), Err(QuantizerConfigError::NoFeatures));
     let mut memory = new(2, 1).unwrap();
     assert_eq!(memory.response(&[0.0, 0.0]), Err(InputError::NoUnits));
     let wrong = |expected, found| InputError::WrongDimension { expected, found };

@@ -3,7 +3,7 @@ use core::array;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{Chunk, LANES, Sweep};
+use super::beam_sweep::{BeamSweep, Chunk, LANES};
 use super::{Caster, Kernels, Lanes, WallIndex};
 use crate::World;
 use crate::world::{BitRows, Lattice};
@@ -166,7 +166,7 @@ impl LatticeWalk {
 
     /// All beams, each crossing `COUNT` lines of each axis at most.
     #[inline(always)]
-    fn cross<const COUNT: usize>(&self, cell: (usize, usize), sweep: &mut Sweep) {
+    fn cross<const COUNT: usize>(&self, cell: (usize, usize), sweep: &mut BeamSweep) {
         for (quadrant, (west, south)) in
             (0..).zip([(true, true), (false, true), (false, false), (true, false)])
         {
@@ -280,7 +280,7 @@ impl Caster for LatticeWalk {
         }
     }
 
-    fn scan(&self, sweep: &mut Sweep) {
+    fn scan(&self, sweep: &mut BeamSweep) {
         let Some(cell) = self.lattice.cell(sweep.origin) else {
             return self.index.scan(sweep);
         };

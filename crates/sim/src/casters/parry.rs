@@ -6,7 +6,7 @@ use parry2d_f64::shape::Polyline;
 use tolman_geom::{Point, Vector};
 
 use super::Caster;
-use crate::Wall;
+use crate::WallSegment;
 
 /// parry2d's polyline: a bounding volume hierarchy over all walls. The reference.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub struct ParryPolyline {
 impl ParryPolyline {
     /// The polyline of `walls`.
     #[must_use]
-    pub fn new(walls: &[Wall]) -> Self {
+    pub fn new(walls: &[WallSegment]) -> Self {
         let ends = walls
             .iter()
             .flat_map(|wall| [vec2(wall.start.coords), vec2(wall.end.coords)]);

@@ -2,9 +2,9 @@ use core::ops::Range;
 
 use tolman_geom::{Point, Vector};
 
-use super::sweep::{LANES, Order, Seen, Sweep, bearing};
+use super::beam_sweep::{BeamSweep, LANES, Order, Seen, bearing};
 use super::{Caster, Kernels, Lanes};
-use crate::{Bounds, Wall};
+use crate::{Bounds, WallSegment};
 
 /// All walls by place: a loose grid on several levels.
 ///
@@ -18,7 +18,7 @@ use crate::{Bounds, Wall};
 pub struct WallIndex {
     levels: Vec<Level>,
     /// Sorted by level, row and column.
-    walls: Vec<Wall>,
+    walls: Vec<WallSegment>,
     /// What a scan needs of the same walls.
     traces: Vec<Trace>,
     bounds: Bounds,
@@ -53,7 +53,7 @@ struct Level {
 impl WallIndex {
     /// The index of `walls`, all of them finite.
     #[must_use]
-    pub fn new(walls: &[Wall], lanes: Lanes) -> Self {
+    pub fn new(walls: &[WallSegment], lanes: Lanes) -> Self {
         let bounds = Bounds::of(walls.iter().flat_map(|wall| [wall.start, wall.end]));
         let count = walls.len().max(1) as f64;
         // On the lowest level: most walls, but no more of them to a cell than one on average.
@@ -70,7 +70,7 @@ impl WallIndex {
         let (mut levels, mut sorted) = (Vec::new(), Vec::with_capacity(walls.len()));
         let (mut rest, mut cell) = (walls.to_vec(), base);
         while !rest.is_empty() {
-            let (larger, fitting): (Vec<Wall>, _) =
+            let (larger, fitting): (Vec<WallSegment>, _) =
                 rest.into_iter().partition(|wall| extent(wall) > cell);
             if !fitting.is_empty() {
                 levels.push(Level::new(fitting, cell, &mut sorted));
@@ -78,7 +78,7 @@ impl WallIndex {
             rest = larger;
             cell *= 2.0;
         }
-        let trace = |wall: &Wall| Trace {
+        let trace = |wall: &WallSegment| Trace {
             start: wall.start,
             end: wall.end,
             per_square: (wall.end - wall.start).norm_squared().recip(),
@@ -95,7 +95,12 @@ impl WallIndex {
 
     /// Calls `visit` with all walls that come within `reach` of `centre`, and some that do not, in
     /// slices.
-    pub(crate) fn near<'a>(&'a self, centre: Point, reach: f64, mut visit: impl FnMut(&'a [Wall])) {
+    pub(crate) fn near<'a>(
+        &'a self,
+        centre: Point,
+        reach: f64,
+        mut visit: impl FnMut(&'a [WallSegment]),
+    ) {
         self.places(centre, reach, |places| visit(&self.walls[places]));
     }
 
@@ -151,12 +156,12 @@ impl WallIndex {
 
 impl Level {
     /// The level of `walls` that extend no further than `largest`; appends them to `sorted` in order of cells.
-    fn new(mut walls: Vec<Wall>, largest: f64, sorted: &mut Vec<Wall>) -> Self {
+    fn new(mut walls: Vec<WallSegment>, largest: f64, sorted: &mut Vec<WallSegment>) -> Self {
         let cell = 0.5 * largest;
         let middles = Bounds::of(walls.iter().map(middle));
         let columns = (middles.width() / cell) as usize + 1;
         let rows = (middles.height() / cell) as usize + 1;
-        let cell_of = |wall: &Wall| {
+        let cell_of = |wall: &WallSegment| {
             let from_corner = middle(wall) - middles.min;
             let column = ((from_corner.x / cell) as usize).min(columns - 1);
             let row = ((from_corner.y / cell) as usize).min(rows - 1);
@@ -182,12 +187,12 @@ impl Level {
     }
 }
 
-fn extent(wall: &Wall) -> f64 {
+fn extent(wall: &WallSegment) -> f64 {
     let along = wall.end - wall.start;
     along.x.abs().max(along.y.abs())
 }
 
-fn middle(wall: &Wall) -> Point {
+fn middle(wall: &WallSegment) -> Point {
     nalgebra::center(&wall.start, &wall.end)
 }
 
@@ -255,7 +260,7 @@ impl Caster for WallIndex {
         range
     }
 
-    fn scan(&self, sweep: &mut Sweep) {
+    fn scan(&self, sweep: &mut BeamSweep) {
         self.kernels.run(
             #[inline(always)]
             || self.draw(sweep),
@@ -273,7 +278,7 @@ impl WallIndex {
     }
 
     #[inline(always)]
-    fn draw(&self, sweep: &mut Sweep) {
+    fn draw(&self, sweep: &mut BeamSweep) {
         let max_range = sweep.ring().max_range;
         let origin = sweep.origin;
         let mut block = Block::empty();
@@ -295,7 +300,7 @@ impl WallIndex {
 
     /// Draws the walls of a block, and empties it.
     #[inline(always)]
-    fn draw_block(&self, block: &mut Block, sweep: &mut Sweep) {
+    fn draw_block(&self, block: &mut Block, sweep: &mut BeamSweep) {
         let order = sweep.order;
         let count = block.count.min(BLOCK);
         for walls in &mut block.walls[..count.div_ceil(LANES)] {

@@ -48,7 +48,7 @@ use crate::Draws;
 ///     ..LaserPioneerDisturbances::default()
 /// };
 /// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?.with_disturbances(outside);
-/// # Ok::<(), tolman_sim::robots::ConfigError>(())
+/// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
 /// ```
 pub trait Disturbance<V>: CloneDisturbance<V> + Debug + Send + Sync {
     /// Changes a reading, or takes it away with `None`. Called once for each reading, in the order of time.
@@ -96,7 +96,7 @@ pub type Disturbances<V> = Vec<Box<dyn Disturbance<V>>>;
 ///     ..LaserPioneerDisturbances::default()
 /// };
 /// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?.with_disturbances(outside);
-/// # Ok::<(), tolman_sim::robots::ConfigError>(())
+/// # Ok::<(), tolman_sim::robots::RobotConfigError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Noise<D> {

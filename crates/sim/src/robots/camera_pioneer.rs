@@ -1,7 +1,7 @@
 use thiserror::Error;
 use tolman_robot::{Body, CameraSensing, ColumnImage, TurnTranslate};
 
-use super::{ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, names};
+use super::{LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, RobotConfigError, names};
 use crate::noise::{Disturbances, Fault, Faults, FaultsError};
 use crate::sensors::{CameraError, ColumnCamera, Sensor};
 use crate::trace::Recordable;
@@ -133,5 +133,5 @@ pub enum CameraPioneerError {
     Camera(#[from] CameraError),
     /// The rest cannot be built.
     #[error("`pioneer`: {0}")]
-    Pioneer(#[from] ConfigError),
+    Pioneer(#[from] RobotConfigError),
 }

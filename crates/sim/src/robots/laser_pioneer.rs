@@ -110,7 +110,7 @@ impl LaserPioneerConfig {
         }
     }
 
-    fn check(&self) -> Result<(), ConfigError> {
+    fn check(&self) -> Result<(), RobotConfigError> {
         let noises = [
             ("motor_noise.turn", self.motor_noise.turn),
             ("motor_noise.translate", self.motor_noise.translate),
@@ -129,7 +129,7 @@ impl LaserPioneerConfig {
         ];
         for (field, value) in sds.chain(rates) {
             if !(0.0..=1e3).contains(&value) {
-                return Err(ConfigError::Field { field, value });
+                return Err(RobotConfigError::Field { field, value });
             }
         }
         let faults = [
@@ -144,7 +144,7 @@ impl LaserPioneerConfig {
             Fault::check_all(field, faults)?;
         }
         if self.step_us == 0 {
-            return Err(ConfigError::Field {
+            return Err(RobotConfigError::Field {
                 field: "step_us",
                 value: 0.0,
             });
@@ -172,7 +172,7 @@ impl LaserPioneer {
     ///
     /// # Errors
     /// If a field of the configuration has no sense.
-    pub fn new(config: LaserPioneerConfig) -> Result<Self, ConfigError> {
+    pub fn new(config: LaserPioneerConfig) -> Result<Self, RobotConfigError> {
         config.check()?;
         let body = Body::Circle {
             radius: config.radius,
@@ -299,13 +299,13 @@ impl Model for LaserPioneer {
 
 impl Recordable for LaserPioneer {
     type Config = LaserPioneerConfig;
-    type ConfigError = ConfigError;
+    type ConfigError = RobotConfigError;
 
     fn config(&self) -> &LaserPioneerConfig {
         &self.config
     }
 
-    fn from_config(config: LaserPioneerConfig) -> Result<Self, ConfigError> {
+    fn from_config(config: LaserPioneerConfig) -> Result<Self, RobotConfigError> {
         Self::new(config)
     }
 
@@ -323,7 +323,7 @@ impl Recordable for LaserPioneer {
 /// Why a robot cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum ConfigError {
+pub enum RobotConfigError {
     /// A number of the configuration has no sense.
     #[error("`{field}` is {value}; give a number from 0 to 1000 (a time step must be positive)")]
     Field {

@@ -2,13 +2,13 @@ use thiserror::Error;
 use tolman_robot::{Ring, Scan};
 
 use super::Sensor;
-use crate::casters::Sweep;
+use crate::casters::BeamSweep;
 use crate::{Chance, Surroundings};
 
 /// A laser ring or fan in the middle of the robot: one exact range per beam.
 #[derive(Clone, Debug)]
 pub struct Laser {
-    sweep: Sweep,
+    sweep: BeamSweep,
 }
 
 impl Laser {
@@ -36,7 +36,7 @@ impl Laser {
             });
         }
         Ok(Self {
-            sweep: Sweep::new(ring),
+            sweep: BeamSweep::new(ring),
         })
     }
 

@@ -37,7 +37,7 @@ pub(super) struct Start<M: Recordable> {
 /// Any line of a trace but the first.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", bound = "")]
-pub enum Event<M: Recordable> {
+pub enum TraceLine<M: Recordable> {
     /// A robot carried out a command.
     Step(StepRecord<M>),
     /// A robot was lifted and set down after the steps so far.

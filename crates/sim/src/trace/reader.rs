@@ -4,7 +4,7 @@ use serde::de::DeserializeOwned;
 use tolman_geom::Pose;
 
 use super::lines::{FORMAT, Header, VERSION};
-use super::{Event, Recordable, ReplayError};
+use super::{Recordable, ReplayError, TraceLine};
 use crate::World;
 use crate::world::Head;
 
@@ -17,10 +17,10 @@ use crate::world::Head;
 /// use tolman_geom::{Heading, Point, Pose};
 /// use tolman_robot::TurnTranslate;
 /// use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-/// use tolman_sim::trace::{Detail, Event, Reader, Recording};
-/// use tolman_sim::{Wall, World};
+/// use tolman_sim::trace::{Detail, Reader, Recording, TraceLine};
+/// use tolman_sim::{WallSegment, World};
 ///
-/// let wall = Wall::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));
+/// let wall = WallSegment::between(Point::new(3.0, -2.0), Point::new(3.0, 2.0));
 /// let world = World::from_segments(vec![wall])?;
 /// let robot = LaserPioneer::new(LaserPioneerConfig::noiseless())?;
 /// let start = Pose::new(Point::origin(), Heading::EAST);
@@ -32,7 +32,7 @@ use crate::world::Head;
 /// let mut trace = Reader::<LaserPioneer, _>::open(file.as_slice())?;
 /// assert_eq!(trace.seed(), 7);
 /// let (_, event) = trace.next().unwrap()?;
-/// assert!(matches!(event, Event::Step(step) if !step.bump && step.tick == 1));
+/// assert!(matches!(event, TraceLine::Step(step) if !step.bump && step.tick == 1));
 /// assert!(trace.next().is_none());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -107,10 +107,10 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
     }
 
     /// Checks that a line stands where it may.
-    fn in_order(&mut self, event: &Event<M>) -> Result<(), ReplayError> {
+    fn in_order(&mut self, event: &TraceLine<M>) -> Result<(), ReplayError> {
         let robots = self.header.robots.len();
         match event {
-            Event::Step(step) => {
+            TraceLine::Step(step) => {
                 if self.read == robots || self.tick == 0 {
                     (self.tick, self.read) = (self.tick + 1, 0);
                 }
@@ -120,8 +120,8 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
                 self.read += 1;
                 Ok(())
             }
-            Event::Place { .. } if self.is_within_a_tick() => Err(self.disorder()),
-            Event::Place { .. } | Event::Door { .. } => Ok(()),
+            TraceLine::Place { .. } if self.is_within_a_tick() => Err(self.disorder()),
+            TraceLine::Place { .. } | TraceLine::Door { .. } => Ok(()),
         }
     }
 
@@ -140,7 +140,7 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
 
 impl<M: Recordable, R: BufRead> Iterator for Reader<M, R> {
     /// The number of the line, from 1, and what it says.
-    type Item = Result<(usize, Event<M>), ReplayError>;
+    type Item = Result<(usize, TraceLine<M>), ReplayError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.line += 1;
@@ -155,7 +155,7 @@ impl<M: Recordable, R: BufRead> Iterator for Reader<M, R> {
             }
             None => return None,
         };
-        let event = parse::<Event<M>>(&text, self.line);
+        let event = parse::<TraceLine<M>>(&text, self.line);
         let event = event.and_then(|event| self.in_order(&event).map(|()| event));
         Some(event.map(|event| (self.line, event)))
     }

@@ -6,7 +6,7 @@ use tolman_geom::Pose;
 use tolman_robot::Robot;
 
 use super::lines::{FORMAT, Header, Start, VERSION};
-use super::{Event, RecordError, Recordable, StepRecord};
+use super::{RecordError, Recordable, StepRecord, TraceLine};
 use crate::{DoorState, RobotId, Simulation, World};
 
 /// How much of a run is written down.
@@ -84,7 +84,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), RecordError> {
         self.simulation.step(commands)?;
         for (robot, command) in self.simulation.robots().zip(commands) {
-            let line = Event::Step(self.line(robot, command));
+            let line = TraceLine::Step(self.line(robot, command));
             self.write(&line)?;
         }
         Ok(())
@@ -114,7 +114,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// If it cannot stand there, there is no such robot, or the line cannot be written.
     pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), RecordError> {
         self.simulation.place(robot, pose)?;
-        self.write(&Event::<M>::Place { robot, pose })
+        self.write(&TraceLine::<M>::Place { robot, pose })
     }
 
     /// Opens or shuts a door, as [`Simulation::set_door`] does, and writes it down.
@@ -123,7 +123,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// If there is no such door, or the line cannot be written.
     pub fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), RecordError> {
         self.simulation.set_door(name, state)?;
-        self.write(&Event::<M>::Door {
+        self.write(&TraceLine::<M>::Door {
             name: name.to_owned(),
             state,
         })

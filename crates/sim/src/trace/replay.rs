@@ -1,6 +1,6 @@
 use std::io::{self, BufRead};
 
-use super::{Detail, Event, Reader, Recordable, Recording, ReplayError, StepRecord};
+use super::{Detail, Reader, Recordable, Recording, ReplayError, StepRecord, TraceLine};
 use crate::{RobotId, Simulation};
 
 /// Simulates a trace again and compares every number of every line; gives the simulation as it stands
@@ -30,18 +30,18 @@ pub fn replay_with<M: Recordable, E: core::error::Error + Send + Sync + 'static>
     let mut tick: Vec<(usize, StepRecord<M>)> = Vec::new();
     for event in reader {
         match event? {
-            (line, Event::Step(step)) => {
+            (line, TraceLine::Step(step)) => {
                 tick.push((line, step));
                 if tick.len() == robots {
                     again(&mut recording, &tick)?;
                     tick.clear();
                 }
             }
-            (line, Event::Place { robot, pose }) => {
+            (line, TraceLine::Place { robot, pose }) => {
                 let placed = recording.place(robot, pose);
                 placed.map_err(|source| refused(line, source))?;
             }
-            (line, Event::Door { name, state }) => {
+            (line, TraceLine::Door { name, state }) => {
                 recording
                     .set_door(&name, state)
                     .map_err(|source| refused(line, source))?;

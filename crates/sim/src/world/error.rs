@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::Wall;
+use super::WallSegment;
 
 /// Why a world cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -30,7 +30,7 @@ pub enum WorldError {
         /// Which wall, from 0.
         index: usize,
         /// The wall.
-        wall: Wall,
+        wall: WallSegment,
         /// What is wrong with it.
         what: &'static str,
     },

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
 
-use super::{Cells, Lattice, Material, Wall, World, WorldError, Zone};
+use super::{Cells, Lattice, Material, WallSegment, World, WorldError, Zone};
 use crate::Door;
 
 const FORMAT: &str = "tolman-world";
@@ -37,18 +37,21 @@ pub struct Polyline {
 
 impl Polyline {
     /// Its walls.
-    pub fn walls(&self) -> impl Iterator<Item = Wall> + '_ {
+    pub fn walls(&self) -> impl Iterator<Item = WallSegment> + '_ {
         let closing = self
             .points
             .first()
             .filter(|_| self.closed && self.points.len() > 2);
         let ends = self.points.iter().skip(1).chain(closing);
         let material = self.material;
-        self.points.iter().zip(ends).map(move |(start, end)| Wall {
-            start: *start,
-            end: *end,
-            material,
-        })
+        self.points
+            .iter()
+            .zip(ends)
+            .map(move |(start, end)| WallSegment {
+                start: *start,
+                end: *end,
+                material,
+            })
     }
 }
 
@@ -67,7 +70,7 @@ struct WorldFile {
     format: String,
     version: u32,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    walls: Vec<Wall>,
+    walls: Vec<WallSegment>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     polylines: Vec<Polyline>,
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,7 +1,7 @@
 use tolman_geom::Point;
 use tolman_maze::{Direction, Maze};
 
-use super::{BitRows, Bounds, Material, Wall, WorldError};
+use super::{BitRows, Bounds, Material, WallSegment, WorldError};
 
 /// An occupancy grid as plain data.
 #[derive(Clone, Debug, PartialEq)]
@@ -252,9 +252,9 @@ impl Lattice {
     }
 
     /// The walls, those in a row joined.
-    pub(super) fn walls(&self, material: Material) -> Vec<Wall> {
+    pub(super) fn walls(&self, material: Material) -> Vec<WallSegment> {
         let corner = |x, y| Point::new(self.columns.line(x), self.rows.line(y));
-        let wall = |start, end| Wall {
+        let wall = |start, end| WallSegment {
             start,
             end,
             material,

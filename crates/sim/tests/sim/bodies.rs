@@ -5,8 +5,8 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Maze};
 use tolman_robot::Body;
 use tolman_sim::{
-    Chance, CommandError, Contact, Door, DoorState, Model, Motion, Simulation, Surroundings, Wall,
-    World,
+    Chance, CommandError, Contact, Door, DoorState, Model, Motion, Simulation, Surroundings,
+    WallSegment, World,
 };
 
 use crate::worlds::{maze, size};
@@ -143,7 +143,7 @@ proptest! {
     #[test]
     fn contact_does_not_hold(robot in blind(), heading in -0.7..0.7_f64) {
         let (body, contact) = (robot.body.clone(), robot.contact);
-        let wall = Wall::between(Point::new(2.0, -5.0), Point::new(2.0, 5.0));
+        let wall = WallSegment::between(Point::new(2.0, -5.0), Point::new(2.0, 5.0));
         let world = World::from_segments(vec![wall]).unwrap();
         let mut sim = Simulation::new(world, 1);
         let start = Pose::new(Point::new(0.0, 0.0), Heading::from_radians(heading));
@@ -163,7 +163,10 @@ proptest! {
 
 #[test]
 fn a_door_waits_for_the_body_in_it() {
-    let walls = vec![Wall::between(Point::new(0.0, 0.0), Point::new(4.0, 0.0))];
+    let walls = vec![WallSegment::between(
+        Point::new(0.0, 0.0),
+        Point::new(4.0, 0.0),
+    )];
     let door = Door {
         name: "north".to_owned(),
         start: Point::new(2.0, 0.0),

@@ -6,7 +6,7 @@ use tolman_sim::noise::Fault;
 use tolman_sim::robots::{
     CameraPioneer, CameraPioneerConfig, CameraPioneerError, LaserPioneerConfig,
 };
-use tolman_sim::{Material, Solo, Wall, World};
+use tolman_sim::{Material, Solo, WallSegment, World};
 
 const RED: [u8; 3] = [255, 0, 0];
 const BLUE: [u8; 3] = [0, 0, 255];
@@ -22,7 +22,7 @@ fn config() -> CameraPioneerConfig {
 
 /// A red wall in the east, a blue one in the north.
 fn corner() -> World {
-    let wall = |start: (f64, f64), end: (f64, f64), colour| Wall {
+    let wall = |start: (f64, f64), end: (f64, f64), colour| WallSegment {
         start: Point::new(start.0, start.1),
         end: Point::new(end.0, end.1),
         material: Material {

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::Ring;
-use tolman_sim::Wall;
-use tolman_sim::casters::{Caster, Lanes, LatticeWalk, ParryPolyline, Sweep, WallIndex};
+use tolman_sim::WallSegment;
+use tolman_sim::casters::{BeamSweep, Caster, Lanes, LatticeWalk, ParryPolyline, WallIndex};
 
 use crate::worlds;
 
@@ -23,13 +23,13 @@ struct Reference {
 }
 
 impl Reference {
-    fn new(walls: &[Wall]) -> Self {
+    fn new(walls: &[WallSegment]) -> Self {
         let by = |length: f64| {
-            let walls: Vec<Wall> = walls
+            let walls: Vec<WallSegment> = walls
                 .iter()
                 .map(|wall| {
                     let along = (wall.end - wall.start).normalize() * length;
-                    Wall::between(wall.start - along, wall.end + along)
+                    WallSegment::between(wall.start - along, wall.end + along)
                 })
                 .collect();
             ParryPolyline::new(&walls)
@@ -112,7 +112,7 @@ proptest! {
     ) {
         let reference = Reference::new(world.walls());
         let index = WallIndex::new(world.walls(), Lanes::Baseline);
-        let mut sweep = Sweep::new(ring);
+        let mut sweep = BeamSweep::new(ring);
         for caster in [world.caster(), &index] {
             sweep.aim(Pose::new(point, heading));
             caster.scan(&mut sweep);
@@ -143,7 +143,7 @@ proptest! {
         {
             casters.push([Box::new(baseline), Box::new(widest)]);
         }
-        let mut sweep = Sweep::new(ring);
+        let mut sweep = BeamSweep::new(ring);
         for pair in casters {
             let [baseline, widest] = pair.map(|caster| {
                 sweep.aim(Pose::new(point, heading));
@@ -162,7 +162,7 @@ proptest! {
         heading in heading(),
         max_range in 0.1..4.0_f64,
     ) {
-        let mut sweep = Sweep::new(Ring::full(72, max_range));
+        let mut sweep = BeamSweep::new(Ring::full(72, max_range));
         sweep.aim(Pose::new(point, heading));
         world.caster().scan(&mut sweep);
         for beam in 0..sweep.beams() {
@@ -191,7 +191,7 @@ proptest! {
     ) {
         let to_centre = centre - point;
         prop_assume!(to_centre.norm() > radius + 1e-6);
-        let mut sweep = Sweep::new(ring);
+        let mut sweep = BeamSweep::new(ring);
         sweep.aim(Pose::new(point, heading));
         sweep.meet_disc(centre, radius);
         for beam in 0..sweep.beams() {
@@ -219,13 +219,13 @@ proptest! {
         prop_assume!(to_joint.norm() > 1e-3);
         let ahead = Heading::of(to_joint);
         let wall = |turn: f64, length: f64| {
-            Wall::between(joint, joint + ahead.turned(turn).unit() * length)
+            WallSegment::between(joint, joint + ahead.turned(turn).unit() * length)
         };
         let walls = [wall(left.0, left.1), wall(-right.0, right.1)];
         let index = WallIndex::new(&walls, Lanes::Baseline);
         let range = index.cast(origin, to_joint.normalize(), 100.0);
         prop_assert!(range <= to_joint.norm() + CLOSE, "{range} of {}", to_joint.norm());
-        let mut sweep = Sweep::new(Ring { first_bearing: 0.0, max_range: 100.0, ..ring });
+        let mut sweep = BeamSweep::new(Ring { first_bearing: 0.0, max_range: 100.0, ..ring });
         sweep.aim(Pose::new(origin, ahead));
         index.scan(&mut sweep);
         prop_assert!(sweep.range(0) <= to_joint.norm() + CLOSE);

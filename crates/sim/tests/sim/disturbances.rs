@@ -8,8 +8,8 @@ use tolman_robot::epuck::{PROXIMITY_SENSORS, WheelSpeeds};
 use tolman_robot::{LaserSensing, Robot, Scan, TurnTranslate};
 use tolman_sim::noise::{Disturbance, Fault, Faults, Gaussian, Noise};
 use tolman_sim::robots::{
-    ConfigError, Epuck, EpuckConfig, EpuckDisturbances, LaserPioneer, LaserPioneerConfig,
-    LaserPioneerDisturbances,
+    Epuck, EpuckConfig, EpuckDisturbances, LaserPioneer, LaserPioneerConfig,
+    LaserPioneerDisturbances, RobotConfigError,
 };
 use tolman_sim::trace::{Detail, Reader, Recording, ReplayError, replay, replay_with};
 use tolman_sim::{Chance, CorridorSize, Draws, Solo, Truth, World};
@@ -254,14 +254,14 @@ fn a_trace_names_what_it_cannot_hold() {
         replay_with(trace.as_bytes(), |_, config| {
             let mut outside = ageing();
             outside.scan = vec![Box::new(Ageing { readings })];
-            Ok::<_, ConfigError>(LaserPioneer::new(config)?.with_disturbances(outside))
+            Ok::<_, RobotConfigError>(LaserPioneer::new(config)?.with_disturbances(outside))
         })
     };
     assert_eq!(with(0).unwrap().tick(), 20);
     assert!(matches!(with(1), Err(ReplayError::Disturbances { .. })));
     // A robot that is disturbed where the recorded one was not is refused as well.
     let disturbed = replay_with(plain.as_bytes(), |_, config| {
-        Ok::<_, ConfigError>(LaserPioneer::new(config)?.with_disturbances(ageing()))
+        Ok::<_, RobotConfigError>(LaserPioneer::new(config)?.with_disturbances(ageing()))
     });
     assert!(matches!(disturbed, Err(ReplayError::Disturbances { .. })));
 }

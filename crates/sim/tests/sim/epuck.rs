@@ -9,7 +9,7 @@ use tolman_sim::noise::Fault;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_sim::sensors::{ResponseCurve, ResponsePoint};
 use tolman_sim::trace::{Detail, Recording, replay};
-use tolman_sim::{Contact, Material, Simulation, Solo, Wall, World};
+use tolman_sim::{Contact, Material, Simulation, Solo, WallSegment, World};
 
 fn quiet() -> EpuckConfig {
     let mut config = EpuckConfig {
@@ -34,9 +34,9 @@ fn room(material: Material) -> World {
     let corner =
         [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| Point::new(x, y));
     let walls = (0..4)
-        .map(|i| Wall {
+        .map(|i| WallSegment {
             material,
-            ..Wall::between(corner[i], corner[(i + 1) % 4])
+            ..WallSegment::between(corner[i], corner[(i + 1) % 4])
         })
         .collect();
     World::from_segments(walls).unwrap()

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_robot::Ring;
-use tolman_sim::casters::{Caster, Lanes, LatticeWalk, Sweep, WallIndex};
+use tolman_sim::casters::{BeamSweep, Caster, Lanes, LatticeWalk, WallIndex};
 use tolman_sim::{CorridorSize, World};
 
 /// Origins are multiples of 1 / `GRAIN` of a cell.
@@ -111,7 +111,7 @@ fn fuzz(count: u64, seed: u64) -> u64 {
         let lattice = LatticeWalk::new(&world, Lanes::Widest).unwrap();
         let index = WallIndex::new(world.walls(), Lanes::Widest);
         let max_range = [0.8, 2.5, 20.0][rng.random_range(0..3_u32) as usize];
-        let mut sweep = Sweep::new(Ring::full(72, max_range));
+        let mut sweep = BeamSweep::new(Ring::full(72, max_range));
         for _ in 0..50 {
             // Half of the origins lie on a coarse raster, so that beams meet posts head on.
             let coarse = rng.random::<bool>();

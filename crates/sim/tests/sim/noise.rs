@@ -5,7 +5,7 @@ use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::{LaserSensing, Robot, TurnTranslate};
 use tolman_sim::noise::{Fault, Faults, Gaussian};
 use tolman_sim::robots::{
-    ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise,
+    LaserPioneer, LaserPioneerConfig, LaserPioneerFaults, MotorNoise, RobotConfigError,
 };
 use tolman_sim::{Chance, Channel, CorridorSize, Simulation, Solo, Truth, World};
 
@@ -240,7 +240,7 @@ fn numbers_without_sense_are_refused() {
         change(&mut config);
         LaserPioneer::new(config).map(|_| ())
     };
-    let field = |result: Result<(), ConfigError>| result.unwrap_err().to_string();
+    let field = |result: Result<(), RobotConfigError>| result.unwrap_err().to_string();
     assert!(with(&|_| {}).is_ok());
     assert!(field(with(&|config| config.radius = f64::NAN)).contains("radius"));
     assert!(field(with(&|config| config.ring.beams = 0)).contains("beams"));

@@ -5,8 +5,8 @@ use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_robot::{Robot, TurnTranslate};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_sim::{
-    CorridorSize, Door, DoorState, Material, PlaceError, Simulation, Solo, StepError, Wall, World,
-    WorldError,
+    CorridorSize, Door, DoorState, Material, PlaceError, Simulation, Solo, StepError, WallSegment,
+    World, WorldError,
 };
 
 fn robot() -> LaserPioneer {
@@ -19,7 +19,7 @@ fn at(x: f64, y: f64, degrees: f64) -> Pose {
 
 /// One wall across, at x = 3.
 fn wall() -> World {
-    World::from_segments(vec![Wall::between(
+    World::from_segments(vec![WallSegment::between(
         Point::new(3.0, -2.0),
         Point::new(3.0, 2.0),
     )])
@@ -237,14 +237,14 @@ fn impossible_worlds_are_refused() {
         WorldError::NoWalls
     );
     let point = Point::new(1.0, 1.0);
-    let error = World::from_segments(vec![Wall::between(point, point)]).unwrap_err();
+    let error = World::from_segments(vec![WallSegment::between(point, point)]).unwrap_err();
     assert!(
         error
             .to_string()
             .contains("wall 0 from (1, 1) to (1, 1) m has no length"),
         "{error}"
     );
-    let nan = Wall::between(point, Point::new(f64::NAN, 0.0));
+    let nan = WallSegment::between(point, Point::new(f64::NAN, 0.0));
     assert!(matches!(
         World::from_segments(vec![nan]),
         Err(WorldError::Wall { index: 0, .. })

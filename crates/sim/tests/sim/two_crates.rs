@@ -10,7 +10,7 @@ use tolman_sim::robot::Odometry;
 use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::{
     Chance, Channel, CommandError, Contact, CorridorSize, Draws, Model, Motion, Solo, Surroundings,
-    Wall, World,
+    WallSegment, World,
 };
 
 #[test]
@@ -38,7 +38,7 @@ fn a_robot_is_built_stepped_and_read() {
 
 #[test]
 fn an_epuck_meets_a_wall_of_free_segments() {
-    let wall = Wall::between(Point::new(0.06, -1.0), Point::new(0.06, 1.0));
+    let wall = WallSegment::between(Point::new(0.06, -1.0), Point::new(0.06, 1.0));
     let turned = Rotation2::new(0.0) * Vector::new(0.0, 0.0);
     let start = Pose::new(Point::from(turned), Heading::EAST);
     let robot = Epuck::new(EpuckConfig::cpm()).unwrap();
@@ -102,7 +102,7 @@ fn random_share(rng: &mut impl Rng) -> f64 {
 
 #[test]
 fn a_model_of_ones_own_runs() {
-    let wall = Wall::between(Point::new(9.0, -1.0), Point::new(9.0, 1.0));
+    let wall = WallSegment::between(Point::new(9.0, -1.0), Point::new(9.0, 1.0));
     let world = World::from_segments(vec![wall]).unwrap();
     let flea = Flea(Body::Circle { radius: 0.01 });
     let start = Pose::new(Point::origin(), Heading::EAST);

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use tolman_geom::{Point, Vector};
 use tolman_maze::{Direction, Grid, Maze};
-use tolman_sim::{CorridorSize, Material, Occupancy, Polyline, Wall, World};
+use tolman_sim::{CorridorSize, Material, Occupancy, Polyline, WallSegment, World};
 
 pub(crate) fn maze() -> impl Strategy<Value = Maze> {
     let walls = prop::collection::vec(any::<bool>(), 72);
@@ -92,7 +92,7 @@ pub(crate) fn with_point(
 }
 
 /// A few polylines, so that many walls share an end.
-pub(crate) fn free_walls() -> impl Strategy<Value = Vec<Wall>> {
+pub(crate) fn free_walls() -> impl Strategy<Value = Vec<WallSegment>> {
     let polyline =
         (prop::collection::vec(point(), 2..8), any::<bool>()).prop_map(|(points, closed)| {
             Polyline {
@@ -102,7 +102,7 @@ pub(crate) fn free_walls() -> impl Strategy<Value = Vec<Wall>> {
             }
         });
     prop::collection::vec(polyline, 1..12).prop_filter_map("no wall has length", |polylines| {
-        let walls: Vec<Wall> = polylines
+        let walls: Vec<WallSegment> = polylines
             .iter()
             .flat_map(|polyline| polyline.walls().collect::<Vec<_>>())
             .filter(|wall| (wall.end - wall.start).norm() > 1e-3)

@@ -13,12 +13,12 @@ use crate::{Brain, Doing, TimeStep};
 /// Failed actions are forgotten as soon as one succeeds. Where all three others have failed the robot
 /// is in a dead end and turns back; where that fails too it forgets and tries again.
 #[derive(Clone, Debug, Default)]
-pub struct Avoid {
+pub struct AvoidBrain {
     pub(super) travelling: Option<Direction>,
     pub(super) failed: Vec<Direction>,
 }
 
-impl Avoid {
+impl AvoidBrain {
     /// Takes in what the robot did, whoever chose it.
     pub(crate) fn learn(&mut self, doing: Doing) {
         match doing {
@@ -57,7 +57,7 @@ impl Avoid {
     }
 }
 
-impl Mapper for Avoid {
+impl Mapper for AvoidBrain {
     type Observation = TimeStep;
     type Error = Infallible;
 
@@ -67,7 +67,7 @@ impl Mapper for Avoid {
     }
 }
 
-impl Brain for Avoid {
+impl Brain for AvoidBrain {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         self.wander(rng)
     }

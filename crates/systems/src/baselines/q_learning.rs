@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 
 /// What is to be learned: the cheapest way from the start to a goal.
-pub trait Task {
+pub trait LearningTask {
     /// The state each episode begins in.
     fn start(&self) -> usize;
     /// How many states there are.
@@ -11,14 +11,14 @@ pub trait Task {
     /// How many actions a state has, at least 1.
     fn actions(&self, state: usize) -> u32;
     /// What an action leads to.
-    fn act(&self, state: usize, action: u32) -> Outcome;
+    fn act(&self, state: usize, action: u32) -> Transition;
     /// Whether an episode ends in a state.
     fn is_goal(&self, state: usize) -> bool;
 }
 
 /// What an action led to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Outcome {
+pub struct Transition {
     /// The state after it.
     pub next: usize,
     /// What it cost, in a unit of the task's own.
@@ -54,17 +54,17 @@ impl QLearningConfig {
 /// ```
 /// use rand::SeedableRng;
 /// use rand_chacha::ChaCha8Rng;
-/// use tolman_systems::baselines::q_learning::{Outcome, QLearner, QLearningConfig, Task};
+/// use tolman_systems::baselines::q_learning::{LearningTask, QLearner, QLearningConfig, Transition};
 ///
 /// /// Three states in a row, the last of which is the goal: action 0 leads back, 1 on.
 /// struct Row;
-/// impl Task for Row {
+/// impl LearningTask for Row {
 ///     fn start(&self) -> usize { 0 }
 ///     fn states(&self) -> usize { 3 }
 ///     fn actions(&self, _: usize) -> u32 { 2 }
-///     fn act(&self, state: usize, action: u32) -> Outcome {
+///     fn act(&self, state: usize, action: u32) -> Transition {
 ///         let next = if action == 0 { state.saturating_sub(1) } else { state + 1 };
-///         Outcome { next, cost: 1 }
+///         Transition { next, cost: 1 }
 ///     }
 ///     fn is_goal(&self, state: usize) -> bool { state == 2 }
 /// }
@@ -86,7 +86,7 @@ pub struct QLearner<T> {
     at: usize,
 }
 
-impl<T: Task> QLearner<T> {
+impl<T: LearningTask> QLearner<T> {
     /// A learner at the start that knows nothing.
     #[must_use]
     pub fn new(config: QLearningConfig, task: T) -> Self {
@@ -100,7 +100,7 @@ impl<T: Task> QLearner<T> {
     }
 
     /// One action, and what came of it; after the goal the learner is at the start again.
-    pub fn step(&mut self, rng: &mut impl Rng) -> Outcome {
+    pub fn step(&mut self, rng: &mut impl Rng) -> Transition {
         let (state, action) = (self.at, self.action(rng));
         let outcome = self.task.act(state, action);
         let done = self.task.is_goal(outcome.next);

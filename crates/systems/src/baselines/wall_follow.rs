@@ -7,7 +7,7 @@ use tolman_geom::Heading;
 use tolman_maze::Direction;
 use tolman_robot::{Mapper, Scan};
 
-use super::Avoid;
+use super::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
 /// MSLST's Wall-follow brain: "always sticks to the wall on its right".
@@ -23,7 +23,7 @@ use crate::{Brain, Doing, TimeStep};
 pub struct WallFollow {
     corridor_width: f64,
     /// It remembers what came of its actions as Avoid does.
-    memory: Avoid,
+    memory: AvoidBrain,
     /// What it saw last, and which way it was headed; `None` while either sensor drops out.
     view: Option<(Scan, Heading)>,
 }
@@ -38,7 +38,7 @@ impl WallFollow {
     pub fn new(corridor_width: f64) -> Self {
         Self {
             corridor_width,
-            memory: Avoid::default(),
+            memory: AvoidBrain::default(),
             view: None,
         }
     }

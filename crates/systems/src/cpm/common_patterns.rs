@@ -2,7 +2,9 @@ use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_control::epuck::FEATURES;
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId};
-use tolman_quantizers::{ConfigError, Denoising, InputError, Quantizer, Soinn, SoinnConfig};
+use tolman_quantizers::{
+    Denoising, InputError, Quantizer, QuantizerConfigError, Soinn, SoinnConfig,
+};
 
 use super::robot::CpmRobot;
 use super::walker::{Observation, WalkResult, Walker};
@@ -83,8 +85,11 @@ impl CommonPatterns {
     /// Clusters observations.
     ///
     /// # Errors
-    /// [`LearnError`].
-    pub fn learn(observations: &[Observation], config: SoinnConfig) -> Result<Self, LearnError> {
+    /// [`LearnPatternsError`].
+    pub fn learn(
+        observations: &[Observation],
+        config: SoinnConfig,
+    ) -> Result<Self, LearnPatternsError> {
         let mut soinn = Soinn::<f64>::new(FEATURES, config)?;
         for observation in observations {
             soinn.observe(&observation.feature)?;
@@ -115,7 +120,7 @@ impl CommonPatterns {
         }
         learn_landmark(&mut dictionary)?;
         if units.is_empty() {
-            return Err(LearnError::Nothing {
+            return Err(LearnPatternsError::Nothing {
                 observations: observations.len(),
             });
         }
@@ -234,10 +239,10 @@ fn learn_landmark(dictionary: &mut Dictionary) -> Result<(), DictionaryError> {
 /// Why no patterns were learned.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum LearnError {
+pub enum LearnPatternsError {
     /// SOINN's configuration.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] QuantizerConfigError),
     /// An observation.
     #[error(transparent)]
     Input(#[from] InputError),

@@ -1,4 +1,4 @@
-use tolman_maps::cpm::{Candidates, CpMapperConfig, Mapping, Matching};
+use tolman_maps::cpm::{Candidates, CpMapperConfig, FragmentMatching, Mapping};
 
 /// How CPM maps and decides.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -6,7 +6,7 @@ pub struct CpmConfig {
     /// When the map is looked at.
     pub mapping: Mapping,
     /// How fragments are compared.
-    pub matching: Matching,
+    pub matching: FragmentMatching,
     /// Which fragments are compared.
     pub candidates: Candidates,
     /// What to do at a junction without unknown ports.

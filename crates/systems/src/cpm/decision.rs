@@ -16,7 +16,7 @@ pub enum Aim {
 
 /// What to do at a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Decision {
+pub enum JunctionDecision {
     /// Turn and follow the path.
     Go(Leg),
     /// Nothing more to do for this aim.

@@ -4,7 +4,7 @@ use super::walker::Walker;
 
 /// What became of an episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Episode {
+pub struct EpisodeSummary {
     /// Why it ended.
     pub done: Done,
     /// How long it took, s.
@@ -30,8 +30,8 @@ impl Begun {
     }
 
     /// Returns the episode that has ended now.
-    pub fn ended<B: CpmRobot>(&self, done: Done, walker: &Walker<B>) -> Episode {
-        Episode {
+    pub fn ended<B: CpmRobot>(&self, done: Done, walker: &Walker<B>) -> EpisodeSummary {
+        EpisodeSummary {
             done,
             seconds: (walker.time_us() - self.time_us) as f64 * 1e-6,
             observations: walker.observations() - self.observations,

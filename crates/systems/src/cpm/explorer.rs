@@ -5,7 +5,7 @@ use tolman_maps::cpm::{
 use tolman_robot::Landmark;
 
 use super::config::{CpmConfig, Onward};
-use super::decision::{Aim, Decision, Done, Leg};
+use super::decision::{Aim, Done, JunctionDecision, Leg};
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
@@ -45,12 +45,12 @@ impl Explorer {
 
     /// What to do here. Asking changes nothing but the generator. O(fragments · log fragments); [`Aim::WayBack`] and
     /// [`Aim::Shortest`] junctions times that.
-    pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> Decision {
+    pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> JunctionDecision {
         if let Some(done) = self.is_done(aim) {
-            return Decision::Done(done);
+            return JunctionDecision::Done(done);
         }
         if self.mapper.traversals() >= self.config.most_traversals {
-            return Decision::Done(Done::OutOfPatience);
+            return JunctionDecision::Done(Done::OutOfPatience);
         }
         let leg = match aim {
             Aim::Find(landmark) => self.towards(landmark).or_else(|| self.explore(rng)),
@@ -59,9 +59,9 @@ impl Explorer {
             Aim::Shortest => self.towards_helpful(rng),
         };
         match (leg, aim) {
-            (Some(leg), _) => Decision::Go(leg),
-            (None, Aim::Explore | Aim::Shortest) => Decision::Done(Done::Reached),
-            (None, _) => Decision::Done(Done::NotThere),
+            (Some(leg), _) => JunctionDecision::Go(leg),
+            (None, Aim::Explore | Aim::Shortest) => JunctionDecision::Done(Done::Reached),
+            (None, _) => JunctionDecision::Done(Done::NotThere),
         }
     }
 

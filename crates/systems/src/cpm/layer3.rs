@@ -3,15 +3,15 @@ use core::ops::ControlFlow;
 use rand::Rng;
 use tolman_geom::{Interval, IntervalError, PointBox, Pose};
 use tolman_maps::cpm::{
-    Arrival, Bearings, CpMap, CpmError, Junction, Motion, PatternId, Plan, PlanLeg, Port, Sighting,
-    Traversal, Turn,
+    Bearings, CpMap, CpmError, DeadReckoning, Junction, MapUpdate, PatternId, Plan, PlanLeg, Port,
+    Sighting, Traversal, Turn,
 };
 use tolman_robot::Landmark;
 
 use super::common_patterns::CommonPatterns;
 use super::config::CpmConfig;
-use super::decision::{Aim, Decision, Done, Leg};
-use super::episode::{Begun, Episode};
+use super::decision::{Aim, Done, JunctionDecision, Leg};
+use super::episode::{Begun, EpisodeSummary};
 use super::explorer::Explorer;
 use super::failure::{CpmFailure, CpmResult};
 use super::robot::CpmRobot;
@@ -37,7 +37,7 @@ const HEADING_MARGIN: f64 = 0.6;
 
 /// What CPM learns from: where a map begins, or a fragment that was walked.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Experience {
+pub enum CpmObservation {
     /// The place at which the robot began, with its first way out behind it.
     Began(Sighting),
     /// A fragment.
@@ -54,20 +54,20 @@ pub struct Walked {
     /// What stands at its end; `None` if the robot turned round in it.
     pub sighting: Option<Sighting>,
     /// What dead reckoning says of the way; `None` if it is not trusted, as in the paper.
-    pub motion: Option<Motion>,
+    pub motion: Option<DeadReckoning>,
     /// Where the ways out of its end lead; `None` where they are numbered alone, as in the paper.
     pub bearings: Option<Bearings>,
 }
 
 /// What happened at the end of a fragment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step {
+pub struct FragmentStep {
     /// What layer 3 had decided.
     pub leg: Leg,
     /// What the robot met.
     pub walked: Walked,
     /// What the arrival taught; none where the robot turned back.
-    pub arrival: Option<Arrival>,
+    pub arrival: Option<MapUpdate>,
 }
 
 impl Layer3 {
@@ -167,7 +167,7 @@ impl Layer3 {
     ///
     /// # Errors
     /// [`CpmError`]; the map is as before then.
-    pub fn take_in(&mut self, walked: &Walked) -> Result<Option<Arrival>, CpmError> {
+    pub fn take_in(&mut self, walked: &Walked) -> Result<Option<MapUpdate>, CpmError> {
         let Some(sighting) = walked.sighting else {
             let observations = walked.observations.len() as u32;
             self.explorer
@@ -194,11 +194,11 @@ impl Layer3 {
         walker: &mut Walker<B>,
         aim: Aim,
         rng: &mut impl Rng,
-    ) -> CpmResult<ControlFlow<Done, Step>, B> {
+    ) -> CpmResult<ControlFlow<Done, FragmentStep>, B> {
         // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
         let leg = match self.explorer.decide(aim, rng) {
-            Decision::Done(done) => return Ok(ControlFlow::Break(done)),
-            Decision::Go(leg) => leg,
+            JunctionDecision::Done(done) => return Ok(ControlFlow::Break(done)),
+            JunctionDecision::Go(leg) => leg,
         };
         // "… then it lets the lower layers regain the control of the robot."
         let from = walker.pose();
@@ -211,7 +211,7 @@ impl Layer3 {
             bearings: bearings(walker),
         };
         let arrival = self.take_in(&walked)?;
-        Ok(ControlFlow::Continue(Step {
+        Ok(ControlFlow::Continue(FragmentStep {
             leg,
             walked,
             arrival,
@@ -237,7 +237,7 @@ impl Layer3 {
         &self,
         walker: &mut Walker<B>,
         plan: &Plan,
-    ) -> CpmResult<Episode, B> {
+    ) -> CpmResult<EpisodeSummary, B> {
         let begun = Begun::now(walker);
         // It may stand at the goal already.
         let here = self.map().junction(self.explorer.mapper.at().junction);
@@ -290,7 +290,10 @@ fn bearings<B: CpmRobot>(walker: &Walker<B>) -> Option<Bearings> {
 }
 
 /// Returns what dead reckoning says of the walk from one place to where the robot is now; `None` if it is not trusted, as in the paper.
-fn motion<B: CpmRobot>(walker: &Walker<B>, from: Pose) -> Result<Option<Motion>, IntervalError> {
+fn motion<B: CpmRobot>(
+    walker: &Walker<B>,
+    from: Pose,
+) -> Result<Option<DeadReckoning>, IntervalError> {
     if walker.config().heading == HeadingBy::Encoders {
         return Ok(None);
     }
@@ -298,7 +301,7 @@ fn motion<B: CpmRobot>(walker: &Walker<B>, from: Pose) -> Result<Option<Motion>,
     let left = walker.departed();
     let displacement = PointBox::about((to.position - from.position).into(), POSITION_MARGIN)?;
     let about = |pose: Pose| Interval::about(pose.heading.radians(), HEADING_MARGIN);
-    Ok(Some(Motion {
+    Ok(Some(DeadReckoning {
         displacement,
         departure: about(left)?,
         arrival: about(to)?,

@@ -4,7 +4,8 @@
 //! In the order of the paper: a [`CpmRobot`] senses landmarks; a [`Walker`] is its layers 0 and 1 and
 //! its observations (sections 3.2 and 4.1). [`CommonPatterns`] are the dictionary it learns in the
 //! learning maze (section 4.1). [`Layer3`] maps, reasons and plans on `tolman_maps::cpm` (sections 4.2,
-//! 4.3 and 6), as its [`Explorer`] decides, and plays the paper's episodes. A [`MapFile`] keeps a map. A [`Search`] tells a robot that was put down somewhere where it is (section 8).
+//! 4.3 and 6), as its [`Explorer`] decides, and plays the paper's episodes. A [`MapFile`] keeps a map. A [`Relocalization`]
+//! tells a robot that was put down somewhere where it is (section 8).
 //! [`Cpm`] is all this as a system that is lent a robot for a fragment at a time.
 //!
 //! A robot with a laser ring looks like an e-puck behind [`RingAsEpuck`].
@@ -76,27 +77,27 @@ mod layer3;
 mod map_file;
 mod mode;
 mod reckoned;
+mod relocalization;
 mod ring_as_epuck;
 mod robot;
-mod search;
 mod system;
 mod walker;
 mod walker_config;
 mod whereabouts;
 
-pub use common_patterns::{CommonPatterns, LearnError, Lesson, soinn, wander};
+pub use common_patterns::{CommonPatterns, LearnPatternsError, Lesson, soinn, wander};
 pub use config::{CpmConfig, Onward};
-pub use decision::{Aim, Decision, Done, Leg};
-pub use episode::{Begun, Episode};
+pub use decision::{Aim, Done, JunctionDecision, Leg};
+pub use episode::{Begun, EpisodeSummary};
 pub use explorer::Explorer;
 pub use failure::{CpmFailure, CpmResult};
-pub use layer3::{Experience, Layer3, Step, Walked};
+pub use layer3::{CpmObservation, FragmentStep, Layer3, Walked};
 pub use map_file::{MapFile, MapFileError};
 pub use mode::Mode;
+pub use relocalization::Relocalization;
 pub use ring_as_epuck::{RingAsEpuck, RingMeasures, UnfitRing};
 pub use robot::CpmRobot;
-pub use search::Search;
-pub use system::{Cpm, ObserveError};
+pub use system::{Cpm, CpmObserveError};
 pub use walker::{
     BeforePlace, Observation, Prospect, RestingWalker, Walk, WalkError, WalkResult, Walker,
 };

@@ -13,10 +13,10 @@ use super::config::CpmConfig;
 use super::decision::{Aim, Done};
 use super::explorer::Explorer;
 use super::failure::{CpmFailure, CpmResult};
-use super::layer3::{Experience, Layer3};
+use super::layer3::{CpmObservation, Layer3};
 use super::mode::Mode;
+use super::relocalization::Relocalization;
 use super::robot::CpmRobot;
-use super::search::Search;
 use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
 use super::whereabouts::Approach;
@@ -51,7 +51,7 @@ enum Stance {
     /// Nobody knows where: it has just been switched on, or was carried.
     Anywhere,
     /// It is finding out where.
-    Searching(Box<(RestingWalker, Search)>),
+    Searching(Box<(RestingWalker, Relocalization)>),
     /// At the place where its map has it.
     AtPlace(RestingWalker),
 }
@@ -189,7 +189,7 @@ impl Cpm {
                 }
                 (
                     Walker::new(robot, self.walker.clone()),
-                    Search::new(&maps, layer.patterns(), Approach::ToAndFro, MOST_PLACES)?,
+                    Relocalization::new(&maps, layer.patterns(), Approach::ToAndFro, MOST_PLACES)?,
                 )
             }
         };
@@ -306,20 +306,20 @@ impl Cpm {
 }
 
 impl Mapper for Cpm {
-    type Observation = Experience;
-    type Error = ObserveError;
+    type Observation = CpmObservation;
+    type Error = CpmObserveError;
 
-    fn observe(&mut self, seen: &Experience) -> Result<(), ObserveError> {
+    fn observe(&mut self, seen: &CpmObservation) -> Result<(), CpmObserveError> {
         match (seen, &mut self.layer) {
-            (Experience::Began(start), _) => {
+            (CpmObservation::Began(start), _) => {
                 let explorer = Explorer::new(self.config, *start)?;
                 let patterns = self.patterns.clone();
                 self.layer = Some(Layer3::new(patterns, self.novelty, explorer));
             }
-            (Experience::Walked(walked), Some(layer)) => {
+            (CpmObservation::Walked(walked), Some(layer)) => {
                 layer.take_in(walked)?;
             }
-            (Experience::Walked(_), None) => return Err(ObserveError::NotBegun),
+            (CpmObservation::Walked(_), None) => return Err(CpmObserveError::NotBegun),
         }
         Ok(())
     }
@@ -400,9 +400,9 @@ impl<R: CpmRobot> System<R> for Cpm {
 /// Why CPM refuses an observation.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum ObserveError {
+pub enum CpmObserveError {
     /// No map was begun.
-    #[error("a walk before the place where it began: observe `Experience::Began` first")]
+    #[error("a walk before the place where it began: observe `CpmObservation::Began` first")]
     NotBegun,
     /// The map refuses it.
     #[error(transparent)]

@@ -2,7 +2,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use thiserror::Error;
 use tolman_control::epuck::{
-    FEATURES, Forward, Pilot, PilotError, Place, Profile, ProfileError, SegmentError, Segments,
+    FEATURES, Forward, Pilot, PilotError, PlaceKind, Profile, ProfileError, SegmentError, Segments,
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::cpm::{Bearings, Sighting};
@@ -300,9 +300,9 @@ impl<B: CpmRobot> Walker<B> {
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         let is_place = match view.segments.place() {
-            Place::Junction => true,
-            Place::DeadEnd => self.is_before_a_wall(&view.segments, 0.75),
-            Place::Path | Place::Closed => false,
+            PlaceKind::Junction => true,
+            PlaceKind::DeadEnd => self.is_before_a_wall(&view.segments, 0.75),
+            PlaceKind::Path | PlaceKind::Closed => false,
         };
         let seen = self.observation(&view)?;
         if is_place || landmark.is_some() {
@@ -425,16 +425,16 @@ impl<B: CpmRobot> Walker<B> {
         }
         let is_under_way = self.is_beyond(course, driven, PLACE);
         match view.segments.place() {
-            Place::Junction => {
+            PlaceKind::Junction => {
                 let middle = self.pose().transform(self.middle_of(&view));
                 let is_next = is_under_way && !self.is_origin(course, driven, middle);
                 return Ok(is_next.then_some(Ahead::Junction(view)));
             }
-            Place::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
+            PlaceKind::DeadEnd if is_under_way && self.is_before_a_wall(&view.segments, 0.75) => {
                 return Ok(Some(Ahead::DeadEnd(view)));
             }
             // A way on may be hidden for a moment.
-            Place::DeadEnd | Place::Closed | Place::Path => {}
+            PlaceKind::DeadEnd | PlaceKind::Closed | PlaceKind::Path => {}
         }
         if self.is_beyond(course, driven, TRIMMED) {
             let seen = self.observation(&view)?;
@@ -549,11 +549,11 @@ impl<B: CpmRobot> Walker<B> {
         let glimpse = self.glimpse(&view);
         for _ in 0..ROUNDS {
             let middle = match view.segments.place() {
-                Place::Junction => self.middle_of(&view),
-                Place::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => {
+                PlaceKind::Junction => self.middle_of(&view),
+                PlaceKind::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => {
                     self.before_the_wall()
                 }
-                Place::DeadEnd | Place::Path | Place::Closed => break,
+                PlaceKind::DeadEnd | PlaceKind::Path | PlaceKind::Closed => break,
             };
             if middle.coords.norm() < NEAR {
                 break;

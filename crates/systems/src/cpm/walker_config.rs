@@ -1,7 +1,8 @@
 use core::f64::consts::TAU;
 
 use tolman_control::epuck::{
-    Alignment, ForwardConfig, KeepOff, MeetPointConfig, PilotConfig, RangeCurve, SegmentConfig,
+    ForwardConfig, KeepOff, MeetPointConfig, PilotConfig, RangeCurve, SegmentConfig,
+    SensorAlignment,
 };
 
 /// What of an e-puck has to be measured before it can be driven.
@@ -21,7 +22,7 @@ pub struct WalkerConfig {
     /// The robot's layers.
     pub pilot: PilotConfig,
     /// How the vectors of a sweep are averaged.
-    pub alignment: Alignment,
+    pub alignment: SensorAlignment,
     /// How they are segmented to tell junctions from paths.
     pub segments: SegmentConfig,
     /// How they are segmented to make features.
@@ -74,7 +75,7 @@ impl WalkerConfig {
                 forward: ForwardConfig::for_width(width),
                 keep_off: KeepOff::ours(),
             },
-            alignment: Alignment::Mounts,
+            alignment: SensorAlignment::Mounts,
             segments: SegmentConfig::cut(),
             features: SegmentConfig::joined(),
             meet_point: MeetPointConfig::for_width(width),

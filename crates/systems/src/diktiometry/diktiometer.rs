@@ -1,7 +1,9 @@
 use core::error::Error;
 
 use thiserror::Error as ThisError;
-use tolman_maps::diktiometry::{Config, Move, Observer, PlaceId, Start, StartError, StepError};
+use tolman_maps::diktiometry::{
+    Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
+};
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
     System, Task, TurnTranslate,
@@ -84,7 +86,7 @@ pub enum RefusedMove {
     Start(#[from] StartError),
     /// The observer refuses it.
     #[error(transparent)]
-    Step(#[from] StepError),
+    Step(#[from] ObservedMoveError),
 }
 
 impl<E> Diktiometer<E> {
@@ -124,17 +126,17 @@ impl<E> Diktiometer<E> {
 }
 
 impl<E> Mapper for Diktiometer<E> {
-    type Observation = Move;
+    type Observation = ObservedMove;
     type Error = RefusedMove;
 
     /// Takes in a move that another made. Without a map it begins one at a place that nothing is
     /// known of, which a mapper with percepts refuses.
-    fn observe(&mut self, seen: &Move) -> Result<(), RefusedMove> {
+    fn observe(&mut self, seen: &ObservedMove) -> Result<(), RefusedMove> {
         if let Some(observer) = self.guide.observer_mut() {
             observer.step(seen)?;
             return Ok(());
         }
-        let mut observer = Observer::new(self.config.mapper.clone(), Start::default())?;
+        let mut observer = Observer::new(self.config.mapper.clone(), FirstPlace::default())?;
         observer.step(seen)?;
         self.guide.take_over(observer);
         Ok(())

@@ -1,4 +1,4 @@
-use tolman_maps::diktiometry::{Percepts, Rotation, SignatureKind};
+use tolman_maps::diktiometry::{Percepts, SignatureKind, ViewRotation};
 use tolman_robot::{Ranges, Sees};
 
 use super::{SenseError, round_scan};
@@ -74,7 +74,7 @@ pub const fn aligned_signatures(rows: usize, columns: usize) -> Percepts {
         columns,
         tolerance: 0.15,
         share: 0.6,
-        rotation: Rotation::Aligned,
+        rotation: ViewRotation::Aligned,
         views: 4,
     })
 }

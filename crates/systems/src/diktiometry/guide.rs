@@ -8,13 +8,13 @@ use tolman_maze::Direction;
 use tolman_planners::path_to;
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::{MapError, Mapping, Planner, Rover};
+use super::{MapError, Planner, Rover, RoverMap};
 use crate::stream;
 
 /// Chooses the next move of a task by the map of a rover. It knows no robot.
 #[derive(Clone, Debug)]
 pub(super) struct Guide {
-    mapping: Option<Mapping>,
+    mapping: Option<RoverMap>,
     whereabouts: Whereabouts,
     /// Direction of the routine that is under way or broke off.
     under_way: Option<Direction>,
@@ -62,7 +62,7 @@ const WALK_STREAM: u64 = 1;
 impl Guide {
     pub(super) fn new(observer: Option<Observer>, heed: f64, seed: u64) -> Self {
         Self {
-            mapping: observer.map(Mapping::of),
+            mapping: observer.map(RoverMap::of),
             whereabouts: Whereabouts::Unknown,
             under_way: None,
             planner: Planner::new(heed),
@@ -72,19 +72,19 @@ impl Guide {
     }
 
     pub(super) fn observer(&self) -> Option<&Observer> {
-        self.mapping.as_ref().map(Mapping::observer)
+        self.mapping.as_ref().map(RoverMap::observer)
     }
 
     /// Returns the observer, to tell it of moves that the guide did not choose.
     pub(super) fn observer_mut(&mut self) -> Option<&mut Observer> {
         self.whereabouts = Whereabouts::Unknown;
-        self.mapping.as_mut().map(Mapping::observer_mut)
+        self.mapping.as_mut().map(RoverMap::observer_mut)
     }
 
     /// Begins with the map of `observer`.
     pub(super) fn take_over(&mut self, observer: Observer) {
         self.whereabouts = Whereabouts::Unknown;
-        self.mapping = Some(Mapping::of(observer));
+        self.mapping = Some(RoverMap::of(observer));
     }
 
     /// Lets `rover` look round if nothing is known of where it stands. From amid a corridor it first
@@ -106,7 +106,7 @@ impl Guide {
                 Whereabouts::SetDown { moves: 0 }
             }
             None => {
-                self.mapping = Some(Mapping::begin(rover, config.clone())?);
+                self.mapping = Some(RoverMap::begin(rover, config.clone())?);
                 Whereabouts::Followed
             }
         };

@@ -5,7 +5,7 @@
 //! 1. A [`Surveyor`] makes a [`Rover`] of any robot that turns and translates and that senses
 //!    ranges, compass and wheels: its control routines end at corners and doorways.
 //! 2. An [`Odometer`] bounds how the robot moved; an [`Eye`] makes a signature of what it senses.
-//! 3. A [`Mapping`] tells each [`Arrival`] to the
+//! 3. A [`RoverMap`] tells each [`Arrival`] to the
 //!    [`Observer`](tolman_maps::diktiometry::Observer), which makes the map.
 //! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
 //!
@@ -20,12 +20,12 @@ mod diktiometer;
 mod errors;
 mod eye;
 mod guide;
-mod mapping;
 mod odometer;
 mod place_middle;
 mod planner;
 mod routine_config;
 mod rover;
+mod rover_map;
 mod surveyor;
 #[cfg(test)]
 mod tests;
@@ -33,11 +33,11 @@ mod tests;
 pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
 pub use errors::{RoutineError, SenseError};
 pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures};
-pub use mapping::{MapError, MappedMove, Mapping};
 pub use odometer::Odometer;
-pub use planner::{Decision, Planner, Reason};
+pub use planner::{PlannedMove, Planner, Reason};
 pub use routine_config::{RoutineConfig, RoutineConfigError};
 pub use rover::{Arrival, Rover};
+pub use rover_map::{MapError, MappedMove, RoverMap};
 pub use surveyor::Surveyor;
 
 use corridor::{Around, Beside, View, compass, round_scan};

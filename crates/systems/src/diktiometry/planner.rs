@@ -16,7 +16,7 @@ pub struct Planner {
 
 /// Where a planner goes next.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Decision {
+pub struct PlannedMove {
     /// Direction to go in.
     pub direction: Direction,
     /// Reason it was chosen.
@@ -57,7 +57,7 @@ impl Planner {
         observer: &Observer,
         exits: &[bool; 4],
         rng: &mut impl Rng,
-    ) -> Option<Decision> {
+    ) -> Option<PlannedMove> {
         // As many draws in any case, so that runs that heed and runs that do not walk alike.
         let heeds = rng.random_range(0.0..1.0) < self.heed;
         let mut open = Vec::from(Direction::ALL);
@@ -74,13 +74,13 @@ impl Planner {
             reason = Reason::Advice(best);
         }
         match self.script.pop_front() {
-            Some(direction) if exits[direction.index()] => Some(Decision { direction, reason }),
+            Some(direction) if exits[direction.index()] => Some(PlannedMove { direction, reason }),
             // The world is not as the script has it: "failure of a mapper goal does not invalidate a plan".
             _ => {
                 self.script.clear();
                 let direction = *open.get(chosen)?;
                 let reason = Reason::Walk;
-                Some(Decision { direction, reason })
+                Some(PlannedMove { direction, reason })
             }
         }
     }

@@ -1,7 +1,7 @@
 use core::error::Error;
 
 use tolman_geom::PointBox;
-use tolman_maps::diktiometry::{Outcome, Signature};
+use tolman_maps::diktiometry::{MoveOutcome, Signature};
 use tolman_maze::Direction;
 
 /// A robot whose control routines end at distinctive places.
@@ -30,7 +30,7 @@ pub trait Rover {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrival {
     /// Whether the robot came to the next place or there was no way.
-    pub outcome: Outcome,
+    pub outcome: MoveOutcome,
     /// Displacement of the robot, east and north, m. The true one lies inside.
     pub moved: PointBox,
     /// What the place looks like, turned by the compass: column 0 looks east, the others follow

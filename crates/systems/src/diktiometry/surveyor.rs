@@ -3,7 +3,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use tolman_control::heading_of;
 use tolman_geom::Heading;
-use tolman_maps::diktiometry::{Outcome, Signature};
+use tolman_maps::diktiometry::{MoveOutcome, Signature};
 use tolman_maze::Direction;
 use tolman_robot::{Compass, Odometry, Ranges, Robot, Rolls, TurnTranslate};
 
@@ -182,7 +182,7 @@ where
     }
 
     /// Ends a routine: what the place looks like is taken in standing still.
-    fn arrive(&mut self, outcome: Outcome) -> Result<Arrival, RoutineError<R::Error>> {
+    fn arrive(&mut self, outcome: MoveOutcome) -> Result<Arrival, RoutineError<R::Error>> {
         self.robot.stop().map_err(RoutineError::Robot)?;
         Ok(Arrival {
             outcome,
@@ -233,7 +233,7 @@ where
 
     fn look(&mut self) -> Result<Arrival, Self::Error> {
         self.odometer.begin();
-        self.arrive(Outcome::Arrived)
+        self.arrive(MoveOutcome::Arrived)
     }
 
     /// Follows the corridor in `direction` to the next corner or doorway: turns there, drives
@@ -244,10 +244,10 @@ where
         let ahead = heading_of(direction);
         self.turn_to(ahead)?;
         if self.config.is_closed(self.view(ahead)?.ahead) {
-            return self.arrive(Outcome::Blocked);
+            return self.arrive(MoveOutcome::Blocked);
         }
         self.follow(direction)?;
         self.settle(ahead)?;
-        self.arrive(Outcome::Arrived)
+        self.arrive(MoveOutcome::Arrived)
     }
 }

@@ -3,7 +3,7 @@ use tolman_planners::moves::{
     MoveDecision, MoveExplorer, MoveExplorerConfig, RolloutConfig, Rollouts,
 };
 
-use super::driver::{Next, Search, View};
+use super::driver::{Next, Search, SearchView};
 use super::{MouseError, SIDE};
 use tolman_maze::{Cell, Grid};
 
@@ -47,7 +47,7 @@ impl Certify {
 }
 
 impl Search for Certify {
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         let decision = match &mut self.0 {
             Explorer::Plain(explorer) => explorer.decide(view.map, view.goals, view.at),
             Explorer::Small(explorer) => explorer.decide(view.map, view.goals, view.at),

@@ -28,10 +28,10 @@
 //! ```
 
 use thiserror::Error;
-use tolman_maps::wall_map::{ClosedCells, ObserveError, Ray, TooLarge, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::speed_run::{
-    CertificateError, Decision, SpeedRunCertificate, SpeedRunConfig, SpeedRunConfigError,
+    Decision, SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig, SpeedRunConfigError,
     SpeedRunExplorer, SpeedRunTimes,
 };
 use tolman_planners::{Passages, Unknown};
@@ -40,14 +40,14 @@ use super::Brief;
 
 /// What came of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Exploration {
+pub struct SpeedRunExploration {
     /// Moves from a cell to the next, from the start to the goal, wherever else, and back to the
     /// start.
     pub cells: u32,
     /// The run that the mouse found.
     pub certificate: SpeedRunCertificate,
     /// What the checker says to it: it sees the walls that the mouse knows, and no more.
-    pub verdict: Result<(), CertificateError>,
+    pub verdict: Result<(), SpeedRunCertificateError>,
 }
 
 /// Why a maze cannot be explored.
@@ -77,7 +77,7 @@ pub enum CompetitionNext {
     /// It drives to the next cell on this side.
     Drive(Direction),
     /// It is back at the start, and no run is faster than the one it found.
-    Finished(Exploration),
+    Finished(SpeedRunExploration),
 }
 
 /// A mouse that looks at the walls of its cell and remembers all.
@@ -139,7 +139,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         Ok(CompetitionNext::Drive(side))
     }
 
-    fn exploration(&self, run_ms: u16) -> Result<Exploration, TooLarge> {
+    fn exploration(&self, run_ms: u16) -> Result<SpeedRunExploration, TooLarge> {
         let Brief {
             start,
             heading,
@@ -154,7 +154,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
             moves: run.map(|step| step.run_move).collect(),
             time_ms: run_ms.into(),
         };
-        Ok(Exploration {
+        Ok(SpeedRunExploration {
             cells: self.cells,
             verdict: certificate.check(&self.walls, self.config, goals),
             certificate,
@@ -163,9 +163,9 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
 }
 
 /// What sensors see that look no farther than the walls of their own cell.
-fn rays(open: [bool; 4]) -> [Ray; 4] {
+fn rays(open: [bool; 4]) -> [CellRay; 4] {
     Direction::ALL.map(|side| match open[side.index()] {
-        true => Ray::out_of_range(side, 1),
-        false => Ray::to_wall(side, 0),
+        true => CellRay::out_of_range(side, 1),
+        false => CellRay::to_wall(side, 0),
     })
 }

@@ -5,7 +5,7 @@ use tolman_planners::moves::Leap;
 use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::SIDE;
-use super::driver::{Next, Search, View};
+use super::driver::{Next, Search, SearchView};
 
 /// The paper's *counter search* (section 3.3.2): to the adjacent cell that was visited least and is
 /// no dead end, until enough of the maze is visited; section 3.4: "the search will continue even
@@ -33,7 +33,7 @@ impl CounterSearch {
 }
 
 impl Search for CounterSearch {
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         self.arrived |= view.goals.contains(&view.at);
         let cells = view.map.grid().cell_count();
         let visited = view.map.visited_count();

@@ -1,6 +1,6 @@
 //! What all our mice have in common: the map, the place, the two runs.
 
-use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
 use tolman_planners::moves::{Leap, MouseStep};
 use tolman_planners::{Passages, TooLarge, Unknown};
@@ -13,18 +13,18 @@ pub trait Search {
     ///
     /// # Errors
     /// If the maze is larger than what the search holds.
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge>;
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge>;
 }
 
 impl<S: Search + ?Sized> Search for Box<S> {
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         (**self).next(view)
     }
 }
 
 /// What a search decides on.
 #[derive(Debug)]
-pub struct View<'a> {
+pub struct SearchView<'a> {
     /// What is known, and how often the mouse has stood where.
     pub map: &'a WallMap<SIDE>,
     /// Where the mouse stands.
@@ -89,9 +89,9 @@ impl<S: Search> Driver<S> {
 
     fn look(&mut self, sight: Sight) -> Result<(), MouseError> {
         let rays = [
-            Ray::to_wall(self.heading.left(), sight.left),
-            Ray::to_wall(self.heading, sight.front),
-            Ray::to_wall(self.heading.right(), sight.right),
+            CellRay::to_wall(self.heading.left(), sight.left),
+            CellRay::to_wall(self.heading, sight.front),
+            CellRay::to_wall(self.heading.right(), sight.right),
         ];
         self.map.observe(self.at, &rays)?;
         Ok(())
@@ -132,7 +132,7 @@ impl<S: Search> Driver<S> {
             return Ok(self.drive(leap));
         }
         self.look(sight)?;
-        let view = View {
+        let view = SearchView {
             map: &self.map,
             at: self.at,
             start: self.brief.start,

@@ -53,7 +53,7 @@ pub use brief::Brief;
 pub use certificate::Certificate;
 pub use certify::Certify;
 pub use counter::CounterSearch;
-pub use driver::{Driver, Next, Search, View};
+pub use driver::{Driver, Next, Search, SearchView};
 pub use mouse::{MouseError, SIDE, Sight};
 pub use order::{Movement, Order, OrderError, Rotation};
 pub use random::RandomSearch;

@@ -5,7 +5,7 @@ use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::SIDE;
 use super::counter::pick;
-use super::driver::{Next, Search, View};
+use super::driver::{Next, Search, SearchView};
 
 /// The paper's *random exploration* (section 3.2): any way, "and choose to stop after we gain about
 /// 70-80 percent knowledge out of the entire maze", here 75 % of the inner walls. It knows neither
@@ -31,7 +31,7 @@ impl RandomSearch {
 }
 
 impl Search for RandomSearch {
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         self.arrived |= view.goals.contains(&view.at);
         let grid = view.map.grid();
         let inner = (grid.wall_count() - grid.border().count()) as u32;

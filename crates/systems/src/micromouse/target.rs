@@ -3,7 +3,7 @@ use tolman_planners::moves::Leap;
 use tolman_planners::{Passages, StepMap, TooLarge, Unknown};
 
 use super::SIDE;
-use super::driver::{Next, Search, View};
+use super::driver::{Next, Search, SearchView};
 
 /// The paper's *target search* (section 3.3.2): "in each timestamp" to the nearest of the cells of
 /// largest uncertainty, by the shortest path, unknown walls taken for open. It ends when a goal was
@@ -25,7 +25,7 @@ impl TargetSearch {
 }
 
 impl Search for TargetSearch {
-    fn next(&mut self, view: &View<'_>) -> Result<Next, TooLarge> {
+    fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
         self.arrived |= view.goals.contains(&view.at);
         let cells = |unknown| {
             let passages = Passages::<SIDE>::new(view.map, unknown)?;
@@ -50,7 +50,7 @@ impl Search for TargetSearch {
 }
 
 /// The path to the nearest of the cells of largest uncertainty.
-fn path_to_target(view: &View<'_>) -> Result<Vec<Direction>, TooLarge> {
+fn path_to_target(view: &SearchView<'_>) -> Result<Vec<Direction>, TooLarge> {
     let hoped = Passages::<SIDE>::new(view.map, Unknown::Open)?;
     let steps = StepMap::new(&hoped, [view.at]);
     let cells = view.map.grid().cells();
@@ -63,7 +63,7 @@ fn path_to_target(view: &View<'_>) -> Result<Vec<Direction>, TooLarge> {
 }
 
 /// As far along the path as one step goes.
-fn leap(view: &View<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLarge> {
+fn leap(view: &SearchView<'_>, path: &[Direction]) -> Result<Option<Leap>, TooLarge> {
     let known = Passages::<SIDE>::new(view.map, Unknown::Closed)?;
     let Some(&direction) = path.first() else {
         return Ok(None);

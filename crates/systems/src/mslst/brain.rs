@@ -5,7 +5,7 @@ use rand::Rng;
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
 
-use super::{MslstConfig, MslstMap, Navigator, Scans, States, StatesError, Topology};
+use super::{MslstConfig, MslstMap, Navigator, ScanRecorder, States, StatesError, Topology};
 use crate::{Brain, Doing, TimeStep};
 
 /// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology (Phase II), and
@@ -21,7 +21,7 @@ pub struct Mslst {
 
 #[derive(Clone, Debug)]
 enum Phase {
-    Scans(Scans),
+    Scans(ScanRecorder),
     Topology(Box<Topology>),
     Navigation(Navigator),
 }
@@ -32,7 +32,7 @@ impl Mslst {
     pub fn new(config: MslstConfig) -> Self {
         Self {
             config,
-            phase: Phase::Scans(Scans::new(config.scan_steps)),
+            phase: Phase::Scans(ScanRecorder::new(config.scan_steps)),
         }
     }
 

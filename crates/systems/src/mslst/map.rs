@@ -1,5 +1,5 @@
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{MslstGraph, Node, Zone};
+use tolman_maps::mslst_graph::{MslstGraph, Node, NodeZone};
 use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::States;
@@ -19,13 +19,13 @@ pub struct Learned {
     /// What the brain gets.
     pub map: MslstMap,
     /// What it does not.
-    pub survey: Survey,
+    pub survey: GrowthRecord,
 }
 
 /// What a watcher saw while a map was learned, for pictures and scores; no brain reads it. Empty where nobody
 /// watched, as with a real robot.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Survey {
+pub struct GrowthRecord {
     /// Where the robot truly was when each node was made, by id; metres.
     pub positions: Vec<Point>,
     /// The action of Phase II, from 1, that made each node; 0 for the first one.
@@ -46,7 +46,7 @@ pub(super) fn view(nodes: &[Node]) -> MapView {
     let place = |(id, node): (u32, &Node)| MapPlace {
         id,
         position: None,
-        landmark: (node.zone == Zone::Destination).then_some(Landmark::Goal),
+        landmark: (node.zone == NodeZone::Destination).then_some(Landmark::Goal),
     };
     MapView {
         places: (0..).zip(nodes).map(place).collect(),

@@ -1,10 +1,10 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
-use tolman_maps::mslst_graph::{Edge, GraphError, MslstGraph, Node, Zone};
+use tolman_maps::mslst_graph::{ActionEdge, GraphError, MslstGraph, Node, NodeZone};
 use tolman_maze::Direction;
 
-use super::{Learned, MslstConfig, MslstMap, States, StatesError, Survey};
+use super::{GrowthRecord, Learned, MslstConfig, MslstMap, States, StatesError};
 use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles { system: "mslst" };
@@ -81,7 +81,7 @@ impl MapFile {
             nodes: nodes
                 .map(|(id, node)| SavedNode {
                     state: node.state,
-                    destination: node.zone == Zone::Destination,
+                    destination: node.zone == NodeZone::Destination,
                     edges: node
                         .edges
                         .iter()
@@ -126,13 +126,13 @@ impl MapFile {
 }
 
 /// Returns what a watcher saw; nothing of what it did not see of every node.
-fn surveyed(nodes: &[SavedNode]) -> Survey {
+fn surveyed(nodes: &[SavedNode]) -> GrowthRecord {
     let positions: Option<Vec<Point>> = nodes
         .iter()
         .map(|node| node.made_at.map(Point::from))
         .collect();
     let made_by: Option<Vec<u32>> = nodes.iter().map(|node| node.made_by).collect();
-    Survey {
+    GrowthRecord {
         positions: positions.unwrap_or_default(),
         made_by: made_by.unwrap_or_default(),
     }
@@ -143,10 +143,12 @@ fn restored(node: SavedNode) -> Node {
     Node {
         state: node.state,
         zone: if node.destination {
-            Zone::Destination
+            NodeZone::Destination
         } else {
-            Zone::Elsewhere
+            NodeZone::Elsewhere
         },
-        edges: edges.map(|(action, head)| Edge { action, head }).collect(),
+        edges: edges
+            .map(|(action, head)| ActionEdge { action, head })
+            .collect(),
     }
 }

@@ -5,7 +5,7 @@
 //! and finally using that graph to localize a robot within the maze and find the most direct path to the
 //! destination."
 //!
-//! - [`Scans`] and [`States`] are Phase I: scans of a wandering robot become states.
+//! - [`ScanRecorder`] and [`States`] are Phase I: scans of a wandering robot become states.
 //! - [`Topology`] is Phase II: the graph of the states, an action at a time. Both leave an [`MslstMap`].
 //! - [`Navigator`] is Phase III: the brain that navigates by one.
 //! - [`Mslst`] is all three, one after the other.
@@ -41,16 +41,16 @@ mod map;
 mod map_file;
 mod navigate;
 mod north_scan;
-mod scans;
+mod scan_recorder;
 mod states;
 mod topology;
 
 pub use brain::Mslst;
 pub use config::MslstConfig;
-pub use map::{Learned, MslstMap, Survey};
+pub use map::{GrowthRecord, Learned, MslstMap};
 pub use map_file::{MapFile, MapFileError};
-pub use navigate::{Navigator, Situation};
+pub use navigate::{NavigationState, Navigator};
 pub use north_scan::{ROBOT_UNIT, heading_free};
-pub use scans::Scans;
+pub use scan_recorder::ScanRecorder;
 pub use states::{States, StatesError};
 pub use topology::Topology;

@@ -9,7 +9,7 @@ use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, T
 
 use super::north_scan::north_scan;
 use super::{MslstConfig, MslstMap};
-use crate::baselines::Avoid;
+use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
 /// The brain of Phase III, *Navigation Using the Graph*.
@@ -29,15 +29,15 @@ pub struct Navigator {
     /// What failed since the robot last moved.
     failed: Vec<Direction>,
     /// Its random actions are those of Avoid.
-    wander: Avoid,
+    wander: AvoidBrain,
     /// How many random actions are still to come after it believed to have arrived.
     doubts_left: u32,
-    situation: Situation,
+    situation: NavigationState,
 }
 
 /// What the brain makes of where it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Situation {
+pub enum NavigationState {
     /// It acts randomly: it has no state yet, or the graph suggests nothing that has not failed.
     #[default]
     Lost,
@@ -62,9 +62,9 @@ impl Navigator {
             memory: Memory::new(config.memory as usize),
             state: None,
             failed: Vec::new(),
-            wander: Avoid::default(),
+            wander: AvoidBrain::default(),
             doubts_left: 0,
-            situation: Situation::Lost,
+            situation: NavigationState::Lost,
         }
     }
 
@@ -76,7 +76,7 @@ impl Navigator {
 
     /// Returns what it makes of where it is.
     #[must_use]
-    pub const fn situation(&self) -> &Situation {
+    pub const fn situation(&self) -> &NavigationState {
         &self.situation
     }
 
@@ -107,23 +107,23 @@ impl Navigator {
     }
 
     /// What the graph suggests.
-    fn consult(&mut self) -> Situation {
+    fn consult(&mut self) -> NavigationState {
         if self.doubts_left > 0 {
             self.doubts_left -= 1;
-            return Situation::Doubtful;
+            return NavigationState::Doubtful;
         }
         let belief = localize(&self.map.graph, &self.memory);
         let Some(node) = belief.node else {
-            return Situation::Lost;
+            return NavigationState::Lost;
         };
         if self.map.graph.is_destination(node) {
             // This action is the first of them.
             self.doubts_left = self.config.doubt.saturating_sub(1);
-            return Situation::Doubtful;
+            return NavigationState::Doubtful;
         }
         match self.path_from(node) {
-            Some(path) if !path.is_empty() => Situation::OnPath { belief, path },
-            _ => Situation::Lost,
+            Some(path) if !path.is_empty() => NavigationState::OnPath { belief, path },
+            _ => NavigationState::Lost,
         }
     }
 
@@ -182,7 +182,7 @@ impl Mapper for Navigator {
 
     /// Nothing while it acts randomly.
     fn belief(&self) -> Vec<Guess> {
-        let Situation::OnPath { belief, .. } = &self.situation else {
+        let NavigationState::OnPath { belief, .. } = &self.situation else {
             return Vec::new();
         };
         let guess = |weight: f64| {
@@ -202,8 +202,8 @@ impl Mapper for Navigator {
 impl Brain for Navigator {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         match &self.situation {
-            Situation::OnPath { path, .. } => path[0],
-            Situation::Lost | Situation::Doubtful => self.wander.wander(rng),
+            NavigationState::OnPath { path, .. } => path[0],
+            NavigationState::Lost | NavigationState::Doubtful => self.wander.wander(rng),
         }
     }
 
@@ -220,9 +220,9 @@ impl Brain for Navigator {
 
     fn words(&self) -> String {
         match &self.situation {
-            Situation::Lost => "lost: acts randomly".to_owned(),
-            Situation::Doubtful => "believes to have arrived: acts randomly".to_owned(),
-            Situation::OnPath { belief, path } => format!(
+            NavigationState::Lost => "lost: acts randomly".to_owned(),
+            NavigationState::Doubtful => "believes to have arrived: acts randomly".to_owned(),
+            NavigationState::OnPath { belief, path } => format!(
                 "one of {} nodes that match {}, {} actions to go",
                 belief.candidates.len(),
                 belief.matched,

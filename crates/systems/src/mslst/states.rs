@@ -1,5 +1,5 @@
 use thiserror::Error;
-use tolman_quantizers::{ConfigError, Gng, GngConfig, InputError, Quantizer};
+use tolman_quantizers::{Gng, GngConfig, InputError, Quantizer, QuantizerConfigError};
 
 /// Why there are no states.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -10,7 +10,7 @@ pub enum StatesError {
     NoScans,
     /// The quantizer cannot begin.
     #[error("no states can be made")]
-    Config(#[from] ConfigError),
+    Config(#[from] QuantizerConfigError),
     /// A scan cannot be used.
     #[error("scan {scan} cannot be used")]
     Scan {

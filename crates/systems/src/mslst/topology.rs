@@ -1,15 +1,15 @@
 use core::convert::Infallible;
 
 use rand::Rng;
-use tolman_maps::mslst_graph::{Mapper as GraphMapper, Node, Zone};
+use tolman_maps::mslst_graph::{GraphMapper, Node, NodeZone};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
 use super::map::view;
 use super::north_scan::north_scan;
-use super::scans::standing_of_phase;
+use super::scan_recorder::standing_of_phase;
 use super::{MslstMap, States};
-use crate::baselines::Avoid;
+use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
 /// Phase II: "the robot wanders at random as in Phase I, but this time instead of recording sensor data it
@@ -25,7 +25,7 @@ pub struct Topology {
     state: u32,
     actions: u32,
     wanted: u32,
-    wander: Avoid,
+    wander: AvoidBrain,
 }
 
 impl Topology {
@@ -39,7 +39,7 @@ impl Topology {
             state,
             actions: 0,
             wanted: actions,
-            wander: Avoid::default(),
+            wander: AvoidBrain::default(),
         }
     }
 
@@ -133,9 +133,9 @@ fn state_of(states: &States, seen: &TimeStep) -> Option<u32> {
     states.nearest(&north_scan(seen)?).ok()
 }
 
-fn zone(seen: &TimeStep) -> Zone {
+fn zone(seen: &TimeStep) -> NodeZone {
     match seen.landmark {
-        Some(Landmark::Goal) => Zone::Destination,
-        _ => Zone::Elsewhere,
+        Some(Landmark::Goal) => NodeZone::Destination,
+        _ => NodeZone::Elsewhere,
     }
 }

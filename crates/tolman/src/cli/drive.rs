@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::run::End;
+use tolman_arena::run::TaskEnd;
 use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
@@ -79,7 +79,7 @@ pub(super) fn carry_out(
     let task = Task::Reach(Goal::Landmark(Landmark::Goal));
     let Pursued { ended, told } =
         send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
-    let arrived = ended.end == End::Done && outing.landmark() == Some(Landmark::Goal);
+    let arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
     if arguments.looks.json {
         let json = json!({
             "system": system.name(),

@@ -4,7 +4,8 @@ use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_arena::Outing;
 use tolman_replay::{
-    Belief, Edge, Floor, MapGrowth, Mark, Marks, Node, Notes, Replay, Scenery, Series, Track,
+    Belief, Floor, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery,
+    TimeSeries,
 };
 use tolman_robot::Landmark;
 
@@ -20,9 +21,9 @@ pub(super) struct Film {
     actions: u32,
     thoughts: Notes,
     belief: Belief,
-    nodes: BTreeMap<u32, Node>,
-    edges: BTreeMap<(u32, u32), Edge>,
-    places: Series,
+    nodes: BTreeMap<u32, MapNode>,
+    edges: BTreeMap<(u32, u32), MapEdge>,
+    places: TimeSeries,
     /// The place that is labelled as the goal.
     goal: Option<u32>,
 }
@@ -36,7 +37,7 @@ impl Film {
             belief: Belief::new("belief"),
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
-            places: Series::new("places on the map", ""),
+            places: TimeSeries::new("places on the map", ""),
             goal: None,
         };
         film.map(outing, 0);
@@ -65,7 +66,7 @@ impl Film {
             ..
         } = self;
         let site = |id: u32| {
-            let node = nodes.get(&id).map(Node::latest);
+            let node = nodes.get(&id).map(MapNode::latest);
             node.or_else(|| sites.get(&id).copied())
         };
         shown.note(step, &belief, site);
@@ -88,7 +89,7 @@ impl Film {
                 continue;
             };
             let node = self.nodes.entry(place.id);
-            let node = node.or_insert_with(|| Node::new(place.id, at, step));
+            let node = node.or_insert_with(|| MapNode::new(place.id, at, step));
             node.move_to(step, at, STILL);
             // Many nodes may be at the goal: one of them says so.
             if place.landmark == Some(Landmark::Goal)
@@ -110,7 +111,7 @@ impl Film {
         }
         for (a, b) in wanted {
             let edge = self.edges.entry((a, b));
-            edge.or_insert_with(|| Edge::new(a, b, step));
+            edge.or_insert_with(|| MapEdge::new(a, b, step));
         }
     }
 
@@ -120,7 +121,7 @@ impl Film {
         let step = path.len().saturating_sub(1) as u32;
         self.map(outing, step);
         let robot = outing.robot();
-        let mut track = Track::new(robot.name, robot.body, path.to_vec());
+        let mut track = RobotTrack::new(robot.name, robot.body, path.to_vec());
         track.ring = robot.ring;
         let world = &outing.course().world;
         let mut scenery = Scenery::of_world(world);

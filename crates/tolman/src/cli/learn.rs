@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use serde_json::{Value, json};
-use tolman_arena::run::End;
+use tolman_arena::run::TaskEnd;
 use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
@@ -81,11 +81,11 @@ pub(super) fn carry_out(
         send(&mut *outing, task, &setup, system.name(), &arguments.looks)?;
     let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
     let complaint = match &ended.end {
-        End::Done => outing.complaint(task),
-        End::OutOfTime => {
+        TaskEnd::Done => outing.complaint(task),
+        TaskEnd::OutOfTime => {
             Some("the time was up before it had learned all: give it more --steps".to_owned())
         }
-        End::GaveUp { why } => Some(why.clone()),
+        TaskEnd::GaveUp { why } => Some(why.clone()),
     };
     let Some(text) = text else {
         let why = complaint.unwrap_or_else(|| "it keeps none".to_owned());

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::mms::{Ended, Hosted, Limits, Log, host};
+use tolman_arena::mms::{Hosted, Limits, Log, MouseExit, host};
 
 use super::maze::Collection;
 use super::{Failure, OrBadInput, maze};
@@ -130,13 +130,13 @@ impl Arguments {
 /// No mouse is given more than a day.
 const LONGEST: Duration = Duration::from_secs(24 * 60 * 60);
 
-fn how(ended: Ended) -> &'static str {
+fn how(ended: MouseExit) -> &'static str {
     match ended {
-        Ended::Done => "done",
-        Ended::Failed => "ended with a failure",
-        Ended::OutOfTime => "out of time",
-        Ended::OutOfMovements => "out of movements",
-        Ended::LineTooLong => "wrote a line that no command can be",
+        MouseExit::Done => "done",
+        MouseExit::Failed => "ended with a failure",
+        MouseExit::OutOfTime => "out of time",
+        MouseExit::OutOfMovements => "out of movements",
+        MouseExit::LineTooLong => "wrote a line that no command can be",
         _ => "stopped",
     }
 }

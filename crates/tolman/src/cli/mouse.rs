@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
-use tolman_arena::micromouse::{self, Judgement, Trial};
+use tolman_arena::micromouse::{self, Judgement, MouseTrial};
 use tolman_maze::Maze;
 use tolman_systems::micromouse::Searcher;
 use tolman_systems::micromouse::mms::Until;
@@ -74,7 +74,7 @@ const UNTIL: [(&str, &str, Until); 2] = [
 struct Tried<'a> {
     file: &'a Path,
     maze: &'a Maze,
-    trial: Trial,
+    trial: MouseTrial,
     judgement: Judgement,
 }
 
@@ -193,7 +193,7 @@ fn summary(tried: &[Tried<'_>]) -> String {
 }
 
 /// The orders, a line each.
-fn steps(trial: &Trial) -> Result<String, Failure> {
+fn steps(trial: &MouseTrial) -> Result<String, Failure> {
     let mut text = String::new();
     for step in &trial.steps {
         text += &serde_json::to_string(&step.order)?;

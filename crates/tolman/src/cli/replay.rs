@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::Value;
-use tolman_replay::{Portrait, Replay, Trace, Verdict};
+use tolman_replay::{Portrait, Replay, Trace, TraceComparison};
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer};
 
 use super::replay_file::{self, Overwrite};
@@ -95,7 +95,7 @@ impl Arguments {
 fn of<M: Portrait>(
     arguments: &Arguments,
     texts: &[(&PathBuf, String)],
-) -> Result<(Replay, Vec<Verdict>), Failure> {
+) -> Result<(Replay, Vec<TraceComparison>), Failure> {
     let mut traces = Vec::new();
     for (path, text) in texts {
         let trace = Trace::<M>::read(arguments.short_name(path), text.as_bytes());

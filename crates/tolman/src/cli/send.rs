@@ -5,7 +5,7 @@ use std::io::Write;
 
 use anyhow::{Context, anyhow};
 use tolman_arena::Outing;
-use tolman_arena::run::{self, End, Ended};
+use tolman_arena::run::{self, Ended, TaskEnd};
 use tolman_robot::{Standing, Task};
 
 use super::film::Film;
@@ -108,9 +108,9 @@ fn scene(outing: &dyn Outing, setup: &Setup<'_>, word: &str) -> Scene {
 /// The outcome in words.
 fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     let end = match &ended.end {
-        End::Done => "is done",
-        End::OutOfTime => "is out of time",
-        End::GaveUp { why } => &format!("gave up: {why}"),
+        TaskEnd::Done => "is done",
+        TaskEnd::OutOfTime => "is out of time",
+        TaskEnd::GaveUp { why } => &format!("gave up: {why}"),
     };
     let seconds = f64::from(ended.steps) * outing.robot().step_us as f64 * 1e-6;
     format!(

@@ -27,7 +27,7 @@ use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
 
 /// [`cpm`] on the e-puck, or on the laser Pioneer taken for one.
 #[derive(Clone, Copy, Debug)]
-pub struct Cpm;
+pub struct CpmEntry;
 
 const PRESETS: [(&str, &str); 3] = [
     (
@@ -58,7 +58,7 @@ const EPUCK: &str = "e-puck";
 /// Where common patterns are learned.
 const LEARNING_MAZE: &str = include_str!("../../../../mazes/cpm-learning.maze");
 
-impl SystemEntry for Cpm {
+impl SystemEntry for CpmEntry {
     fn name(&self) -> &'static str {
         "cpm"
     }
@@ -146,7 +146,7 @@ struct Ground {
 
 impl Ground {
     fn of(setup: &Setup<'_>, mode: Mode, usual: Start) -> Result<Self, Error> {
-        let robot = setup.robot(Cpm.robots())?;
+        let robot = setup.robot(CpmEntry.robots())?;
         let course = match robot {
             EPUCK => epuck_course(setup.world, setup.maze.clone())?,
             _ => Course::for_body(setup.world, setup.maze, &body())?,
@@ -325,7 +325,7 @@ impl LearnedMap for MapFile {
             map,
         } = self;
         json!({
-            "system": Cpm.name(),
+            "system": CpmEntry.name(),
             "maze": world,
             "seed": seed,
             "mode": mode,

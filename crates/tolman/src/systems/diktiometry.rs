@@ -25,7 +25,7 @@ use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
 
 /// The [diktiometry](tolman_systems::diktiometry) on a Pioneer in an office.
 #[derive(Clone, Copy, Debug)]
-pub struct Diktiometry;
+pub struct DiktiometryEntry;
 
 const PRESETS: [(&str, &str); 1] = [(
     "paper",
@@ -68,7 +68,7 @@ struct Driving {
     heed: f64,
 }
 
-impl SystemEntry for Diktiometry {
+impl SystemEntry for DiktiometryEntry {
     fn name(&self) -> &'static str {
         "diktiometry"
     }
@@ -359,7 +359,7 @@ impl LearnedMap for Surveyed {
             })
         });
         json!({
-            "system": Diktiometry.name(),
+            "system": DiktiometryEntry.name(),
             "maze": file.origin.world,
             "moves": file.observer.moves(),
             "here": file.observer.place().0,

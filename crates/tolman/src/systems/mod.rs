@@ -4,7 +4,7 @@ mod cpm;
 mod diktiometry;
 mod mslst;
 
-pub use cpm::Cpm;
+pub use cpm::CpmEntry;
 pub(crate) use cpm::patterns_of_epuck;
-pub use diktiometry::Diktiometry;
-pub use mslst::Mslst;
+pub use diktiometry::DiktiometryEntry;
+pub use mslst::MslstEntry;

@@ -8,14 +8,14 @@ use tolman_arena::{Outing, Sent};
 use tolman_draw::Drawing;
 use tolman_maze::MazeFile;
 use tolman_papers::mslst::drawing::graph_over_maze;
-use tolman_systems::mslst::{self, Learned, MapFile, MslstConfig, Survey};
+use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use tolman_systems::{Actor, Origin};
 
 use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
 
 /// [`mslst`] on the laser Pioneer.
 #[derive(Clone, Copy, Debug)]
-pub struct Mslst;
+pub struct MslstEntry;
 
 const PRESETS: [(&str, &str); 2] = [
     (
@@ -25,7 +25,7 @@ const PRESETS: [(&str, &str); 2] = [
     ("j", "As in the paper's J maze"),
 ];
 
-impl SystemEntry for Mslst {
+impl SystemEntry for MslstEntry {
     fn name(&self) -> &'static str {
         "mslst"
     }
@@ -58,7 +58,7 @@ impl SystemEntry for Mslst {
                 let Some(map) = actor.brain().learned() else {
                     return Ok(None);
                 };
-                let survey = Survey {
+                let survey = GrowthRecord {
                     positions: sites.iter().map(|site| site.position).collect(),
                     made_by: sites.iter().map(|site| site.action).collect(),
                 };
@@ -162,7 +162,7 @@ impl LearnedMap for MapFile {
         } = self;
         let graph = &learned.map.graph;
         json!({
-            "system": Mslst.name(),
+            "system": MslstEntry.name(),
             "maze": world,
             "seed": seed,
             "config": config,

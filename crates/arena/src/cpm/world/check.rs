@@ -2,7 +2,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{World, WorldPort};
+use super::{PlaneMaze, WorldPort};
 use tolman_maps::cpm::{CpMap, JunctionId, Port};
 
 /// How a map compares with the world.
@@ -18,7 +18,7 @@ pub enum MapCheck {
     Wrong,
 }
 
-impl World {
+impl PlaneMaze {
     /// Compares a map with this world, given where the robot is on both. Only corridors that can be reached count.
     /// O(fragments · log fragments).
     #[must_use]

@@ -6,8 +6,8 @@ use thiserror::Error;
 use tolman_geom::Point;
 
 use super::rover::uniform;
-use super::{World, WorldBuilder, WorldError};
-use tolman_maps::cpm::{Dictionary, DictionaryError, Matching, PatternId, Similarity};
+use super::{PlaneMaze, PlaneMazeError, WorldBuilder};
+use tolman_maps::cpm::{Dictionary, DictionaryError, FragmentMatching, PatternId, Similarity};
 use tolman_robot::Landmark;
 
 /// What a random world shall be like.
@@ -47,7 +47,7 @@ pub enum Likeness {
 /// Why there is no such world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum MazeError {
+pub enum MazeConfigError {
     /// A field of the configuration is outside its range.
     #[error("{field} is {value} but has to be {range}")]
     OutOfRange {
@@ -68,7 +68,7 @@ pub enum MazeError {
     },
     /// The drawing is no world.
     #[error(transparent)]
-    World(#[from] WorldError),
+    World(#[from] PlaneMazeError),
     /// The dictionary refuses a pattern.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
@@ -113,7 +113,7 @@ impl MazeConfig {
         }
     }
 
-    fn check(&self) -> Result<(), MazeError> {
+    fn check(&self) -> Result<(), MazeConfigError> {
         let kinds = match self.likeness {
             Likeness::Kinds(kinds) => kinds,
             Likeness::Distinctive => 1,
@@ -137,7 +137,7 @@ impl MazeConfig {
         ];
         for (field, value, allowed, range) in fields {
             if !allowed.contains(&value) {
-                return Err(MazeError::OutOfRange {
+                return Err(MazeConfigError::OutOfRange {
                     field,
                     value,
                     range,
@@ -148,13 +148,13 @@ impl MazeConfig {
     }
 }
 
-impl World {
+impl PlaneMaze {
     /// A random maze: a random tree of corridors on a grid of cells, some loops, a start and a goal, in dead ends if there are any.
     /// Cells with two ways out are no places but bends of a corridor.
     ///
     /// # Errors
-    /// [`MazeError`] if a field is outside its range or the corridors cannot all be distinctive.
-    pub fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeError> {
+    /// [`MazeConfigError`] if a field is outside its range or the corridors cannot all be distinctive.
+    pub fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeConfigError> {
         config.check()?;
         let dictionary = random_dictionary(config.patterns, rng)?;
         Self::random_of(dictionary, config, rng)
@@ -163,12 +163,12 @@ impl World {
     /// The same, of the patterns of a dictionary, whatever number the configuration has: another maze for one robot.
     ///
     /// # Errors
-    /// [`MazeError`] as [`random`](Self::random), or if there are less than two patterns.
+    /// [`MazeConfigError`] as [`random`](Self::random), or if there are less than two patterns.
     pub fn random_of(
         dictionary: Dictionary,
         config: &MazeConfig,
         rng: &mut impl Rng,
-    ) -> Result<Self, MazeError> {
+    ) -> Result<Self, MazeConfigError> {
         let config = &MazeConfig {
             patterns: dictionary.len() as u32,
             ..*config
@@ -357,11 +357,11 @@ impl<'a> Looks<'a> {
         length: f64,
         dictionary: &Dictionary,
         rng: &mut impl Rng,
-    ) -> Result<Vec<PatternId>, MazeError> {
+    ) -> Result<Vec<PatternId>, MazeConfigError> {
         let config = self.config;
         let count = libm::round(length * config.observations_per_cell).max(1.0) as usize;
         let symmetrical = uniform(rng) < config.symmetrical;
-        let matching = Matching::Positions(Similarity {
+        let matching = FragmentMatching::Positions(Similarity {
             mu: 0.8,
             ..Similarity::paper()
         });
@@ -392,7 +392,7 @@ impl<'a> Looks<'a> {
             }
         }
         let corridor = self.drawn.len() as u32;
-        Err(MazeError::NotDistinctive { corridor })
+        Err(MazeConfigError::NotDistinctive { corridor })
     }
 }
 

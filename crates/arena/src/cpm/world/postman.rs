@@ -3,9 +3,9 @@ use alloc::vec::Vec;
 
 use tolman_planners::{Graph, steps_from};
 
-use super::{World, WorldPort};
+use super::{PlaneMaze, WorldPort};
 
-impl World {
+impl PlaneMaze {
     /// How many corridors the shortest walk passes that begins at the start, ends anywhere, and has been through all that can be
     /// reached: the yardstick of an exploration, with perfect knowledge. None where more than 16 places have an odd number
     /// of ports, for which there is no patience.
@@ -72,7 +72,7 @@ pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> 
 }
 
 /// The places of a world, a corridor from each to the next.
-impl Graph for World {
+impl Graph for PlaneMaze {
     fn node_count(&self) -> usize {
         self.places.len()
     }

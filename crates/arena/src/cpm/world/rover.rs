@@ -3,15 +3,16 @@ use alloc::vec::Vec;
 use rand::{Rng, RngExt};
 use tolman_geom::{Heading, Interval, Point, PointBox, Vector};
 
-use super::{Corridor, CorridorEnd, World, WorldPort};
+use super::{CorridorEnd, MazeCorridor, PlaneMaze, WorldPort};
 use tolman_maps::cpm::{
-    Arrival, Bearings, CpmError, Motion, NoSuchTurn, PatternId, Sighting, Sign, Traversal, Turn,
+    Bearings, CpmError, DeadReckoning, MapUpdate, NoSuchTurn, PatternId, Sighting, Sign, Traversal,
+    Turn,
 };
-use tolman_systems::cpm::{Aim, Decision, Done, Explorer, Leg};
+use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 
 /// How a rover's senses err.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Noise {
+pub struct WalkerNoise {
     /// The chance that an observation is taken for another pattern, any; 0 to 1.
     pub substitution: f64,
     /// The chance of an additional observation, any pattern, after each; 0 to 1.
@@ -25,7 +26,7 @@ pub struct Noise {
     pub heading: f64,
 }
 
-impl Noise {
+impl WalkerNoise {
     /// What is, is seen.
     pub const NONE: Self = Self {
         substitution: 0.0,
@@ -56,9 +57,9 @@ pub enum Reckoning {
 
 /// A walker in a world.
 #[derive(Clone, Debug)]
-pub struct Rover<'a> {
-    world: &'a World,
-    noise: Noise,
+pub struct PlaneWalker<'a> {
+    world: &'a PlaneMaze,
+    noise: WalkerNoise,
     reckoning: Reckoning,
     at: WorldPort,
     observations: u32,
@@ -66,17 +67,17 @@ pub struct Rover<'a> {
 
 /// What came of a walk.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum WalkOutcome {
     /// It reached the end of the fragment.
     Arrived(Traversal),
     /// It gave up, having observed this, and is back where it was, with the port it tried behind it.
     TurnedBack(Vec<PatternId>),
 }
 
-impl<'a> Rover<'a> {
+impl<'a> PlaneWalker<'a> {
     /// At the world's start.
     #[must_use]
-    pub const fn new(world: &'a World, noise: Noise, reckoning: Reckoning) -> Self {
+    pub const fn new(world: &'a PlaneMaze, noise: WalkerNoise, reckoning: Reckoning) -> Self {
         Self {
             world,
             noise,
@@ -120,7 +121,7 @@ impl<'a> Rover<'a> {
         turn: Turn,
         give_up_after: Option<u32>,
         rng: &mut impl Rng,
-    ) -> Result<Outcome, NoSuchTurn> {
+    ) -> Result<WalkOutcome, NoSuchTurn> {
         let WorldPort { place, number } = self.at;
         let degree = self.sighting().degree;
         let number = turn.exit(number, degree)?;
@@ -143,12 +144,12 @@ impl<'a> Rover<'a> {
             // There and back.
             self.observations += 2 * patterns.len() as u32;
             self.at = exit;
-            return Ok(Outcome::TurnedBack(patterns));
+            return Ok(WalkOutcome::TurnedBack(patterns));
         }
         self.observations += patterns.len() as u32;
         self.at = arrival;
         let sighting = self.sighting();
-        Ok(Outcome::Arrived(Traversal {
+        Ok(WalkOutcome::Arrived(Traversal {
             patterns,
             motion,
             sighting,
@@ -166,22 +167,22 @@ impl<'a> Rover<'a> {
         explorer: &mut Explorer,
         aim: Aim,
         rng: &mut G,
-        mut see: impl FnMut(&Self, &Explorer, &Leg, Arrival),
+        mut see: impl FnMut(&Self, &Explorer, &Leg, MapUpdate),
     ) -> Result<Done, CpmError> {
         loop {
             let leg = match explorer.decide(aim, rng) {
-                Decision::Done(done) => return Ok(done),
-                Decision::Go(leg) => leg,
+                JunctionDecision::Done(done) => return Ok(done),
+                JunctionDecision::Go(leg) => leg,
             };
             match self.go(leg.turn, leg.give_up_after, rng)? {
-                Outcome::Arrived(walk) => {
+                WalkOutcome::Arrived(walk) => {
                     let arrival =
                         explorer
                             .mapper
                             .arrive(leg.turn, &walk, &self.world.dictionary)?;
                     see(self, explorer, &leg, arrival);
                 }
-                Outcome::TurnedBack(seen) => {
+                WalkOutcome::TurnedBack(seen) => {
                     explorer.mapper.turned_back(leg.turn, seen.len() as u32)?;
                 }
             }
@@ -229,7 +230,7 @@ impl<'a> Rover<'a> {
     }
 
     /// What is to be observed of a corridor.
-    fn truth(&self, corridor: &Corridor, enter: Sign) -> Vec<PatternId> {
+    fn truth(&self, corridor: &MazeCorridor, enter: Sign) -> Vec<PatternId> {
         match enter {
             Sign::Minus => corridor.patterns.clone(),
             Sign::Plus => {
@@ -261,11 +262,11 @@ impl<'a> Rover<'a> {
 
     fn reckon(
         &self,
-        corridor: &Corridor,
+        corridor: &MazeCorridor,
         enter: Sign,
         stretch: f64,
         rng: &mut impl Rng,
-    ) -> Option<Motion> {
+    ) -> Option<DeadReckoning> {
         let (minus, plus) = (corridor.line.first()?, corridor.line.last()?);
         let truth = match enter {
             Sign::Minus => plus - minus,
@@ -280,7 +281,7 @@ impl<'a> Rover<'a> {
         let displacement = PointBox::new(side(believed.x)?, side(believed.y)?)
             .rotated(Interval::about(0.0, heading).ok()?);
         let mut about = |truth: Heading| Interval::about(truth.radians() + drift(), heading).ok();
-        Some(Motion {
+        Some(DeadReckoning {
             displacement,
             departure: about(corridor.bearing(enter))?,
             arrival: about(corridor.bearing(enter.opposite()).reversed())?,

@@ -1,4 +1,4 @@
-use crate::diktiometry::{Matcher, Order, Situation, Tracking};
+use crate::diktiometry::{Matcher, Precedence, Situation, Tracking};
 
 impl Situation<'_> {
     /// Whether matcher `a` takes precedence over `b`: the *dynamic partial order*. `visits` are those of the place that α-MATCH would grow.
@@ -9,7 +9,7 @@ impl Situation<'_> {
         use Matcher::{Alpha, Beta, Continue, Link, NewPlace};
         let Tracking { high, low, .. } = self.config.tracks;
         let matching = &self.config.matching;
-        if matching.order == Order::Static {
+        if matching.order == Precedence::Static {
             return a < b;
         }
         match (a, b) {

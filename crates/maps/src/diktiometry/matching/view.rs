@@ -1,4 +1,4 @@
-use crate::diktiometry::{Percepts, Place, Rotation, Signature, SignatureKind, Similarity};
+use crate::diktiometry::{Percepts, Place, Signature, SignatureKind, Similarity, ViewRotation};
 
 /// Whether a place may look like this: one of its views does, or none is known.
 pub(crate) fn agrees(place: &Place, percept: Option<&Signature>, percepts: &Percepts) -> bool {
@@ -21,8 +21,8 @@ pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarit
 /// Whether two signatures may be views of one place.
 fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -> bool {
     let offsets = match kind.rotation {
-        Rotation::Aligned => 1,
-        Rotation::Free => kind.columns,
+        ViewRotation::Aligned => 1,
+        ViewRotation::Free => kind.columns,
     };
     (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= kind.enough())
 }

@@ -7,7 +7,7 @@ use tolman_geom::{Point, PointBox};
 use super::look_agreement::{Agreement, agreement, offset_anywhere};
 use super::{Diagnosis, Verdict};
 use crate::diktiometry::{
-    Config, Diktiometry, Estim, GeometricMerge, Ground, Note, PlaceId, Use, learn_of_two,
+    Config, Diktiometry, Estim, GeometricMerge, Ground, MergeNote, PlaceId, Use, learn_of_two,
     merge_estims, search, share_a_view, similarity, wanted_anywhere,
 };
 
@@ -50,7 +50,7 @@ pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
 }
 
 /// The notes at `place`, taken from it, with the places they mean by their names now; those that were settled elsewhere are left out.
-pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<Note> {
+pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote> {
     let mut notes = core::mem::take(&mut map.place_mut(place).notes);
     let mut seen: Vec<PlaceId> = Vec::new();
     notes.retain_mut(|note| {

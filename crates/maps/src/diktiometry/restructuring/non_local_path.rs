@@ -3,14 +3,19 @@
 
 use super::Verdict;
 use super::geometric::Pair;
-use crate::diktiometry::{Config, Diktiometry, Match, PlaceId, Use};
+use crate::diktiometry::{Config, Diktiometry, PlaceId, TrackEntry, Use};
 
 /// A history that tells of fewer moves in a row says nothing.
 const LEAST: usize = 3;
 
 /// Leaves a copy of a track's history at the place it matched, if there was ever a doubt in it: "when a track matches a place,
 /// it deposits copies of its histories at the place".
-pub(crate) fn deposit(map: &mut Diktiometry, place: PlaceId, history: &[Match], config: &Config) {
+pub(crate) fn deposit(
+    map: &mut Diktiometry,
+    place: PlaceId,
+    history: &[TrackEntry],
+    config: &Config,
+) {
     let used = config.restructuring.non_local_merge == Use::On;
     if !used || history.len() < LEAST || history.iter().all(|entry| entry.doubts.is_empty()) {
         return;
@@ -37,7 +42,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
 
 /// How many pairs of places there are along a history that ended at the one and, with the same actions, could have ended at the
 /// other place: matched, and considered but rejected. From the newest on, as far back as the map has the links.
-fn seam(map: &Diktiometry, history: &[Match], other: PlaceId) -> usize {
+fn seam(map: &Diktiometry, history: &[TrackEntry], other: PlaceId) -> usize {
     let mut pairs = 0;
     let mut there = other;
     for (number, entry) in history.iter().enumerate().rev() {

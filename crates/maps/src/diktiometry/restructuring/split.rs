@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Interval, PointBox};
 
 use super::Diagnosis;
-use crate::diktiometry::{Counts, Diktiometry, Estim, Link, LinkId, PlaceId, Standing};
+use crate::diktiometry::{Counts, Diktiometry, Estim, Link, LinkId, LinkStatus, PlaceId};
 
 /// Makes two places of one: the new one, in the same frame.
 ///
@@ -57,7 +57,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
     }
     for id in outgoing {
         let link = map.link(id).clone();
-        if link.to != place && link.standing == Standing::Standing && link.from == place {
+        if link.to != place && link.standing == LinkStatus::Standing && link.from == place {
             copy(map, &link, new, link.to);
         }
     }

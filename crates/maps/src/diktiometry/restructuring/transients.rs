@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::diktiometry::{
-    Config, Counts, Diktiometry, Fate, PlaceId, Restructured, Standing, Transients, Use,
+    Config, Counts, Diktiometry, Fate, LinkStatus, PlaceId, Restructured, Transients, Use,
 };
 
 /// Elides the links from `place`'s neighbours to it and from it, and the places they lead to, that are met far less often than
@@ -21,7 +21,7 @@ pub(super) fn elide(
     let mut ends = Vec::new();
     for id in map.place(place).links() {
         let link = map.link(id);
-        if link.standing == Standing::Standing && is_transient(&link.counts, &config.transients) {
+        if link.standing == LinkStatus::Standing && is_transient(&link.counts, &config.transients) {
             ends.push(link.to);
             map.paths.remove_link(id);
             done.push(Restructured::LinkElided(id));

@@ -2,16 +2,16 @@
 //! makes the run that scores least.
 //!
 //! [`play`] speaks the protocol of mms over any two streams: a command a line out, a reply a line
-//! in. The mouse's [`Place`] lies on a lattice of half-steps, since mms scores diagonals.
+//! in. The mouse's [`LatticePoint`] lies on a lattice of half-steps, since mms scores diagonals.
 
 mod error;
+mod lattice;
 mod link;
 mod mouse;
-mod place;
 mod plan;
 mod roads;
 
 pub use error::PlayError;
+pub use lattice::{Gate, LatticeHeading, LatticePoint};
 pub use mouse::{Played, Until, play};
-pub use place::{Gate, Heading, Place};
 pub use plan::best_score;

@@ -2,14 +2,14 @@
 
 use std::io::{BufRead, Write};
 
-use tolman_maps::wall_map::{ClosedCells, Ray, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 use tolman_planners::{Passages, StepMap, TooLarge, Unknown, costs_from};
 
 use super::link::{Driven, Link};
 use super::plan::{Plan, ends_run, plan, score};
 use super::roads::{Roads, Stand, TurnsAtStart};
-use super::{Heading, Place, PlayError};
+use super::{LatticeHeading, LatticePoint, PlayError};
 
 /// When a mouse has explored enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,7 +195,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 
     /// How far the mouse sees to one side. What is known is not asked for again.
-    fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<Ray, PlayError> {
+    fn ray(&mut self, command: &str, cell: Cell, side: Direction) -> Result<CellRay, PlayError> {
         let (mut open, mut end) = (0, cell);
         loop {
             let is_wall = match self.walls.knowledge(end, side) {
@@ -206,7 +206,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
                 Knowledge::Unknown => self.link.truth(&format!("{command} {}", 2 * open + 1))?,
             };
             if is_wall {
-                return Ok(Ray::to_wall(side, open));
+                return Ok(CellRay::to_wall(side, open));
             }
             end = self.neighbour(end, side);
             open += 1;
@@ -266,9 +266,9 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         let roads = Roads::new(grid, &known, TurnsAtStart::Count);
         let costs = costs_from(&roads, [roads.node(self.at)]);
         let cost_to = |cell: Cell| {
-            let headings = (0..8).map(Heading::from_index);
+            let headings = (0..8).map(LatticeHeading::from_index);
             let nodes = headings.map(|heading| {
-                let place = Place::middle_of(cell);
+                let place = LatticePoint::middle_of(cell);
                 roads.node(Stand { place, heading })
             });
             nodes
@@ -288,7 +288,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             })
             .min_by_key(|(cost, _)| *cost);
         Ok(stop.and_then(|(_, cell)| {
-            let place = Place::middle_of(cell);
+            let place = LatticePoint::middle_of(cell);
             plan(&roads, self.at, |stand| stand.place == place)
         }))
     }
@@ -297,7 +297,9 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     fn way_home(&self) -> Result<Option<Plan>, TooLarge> {
         let known = Passages::<N>::new(&self.walls, Unknown::Closed)?;
         let roads = Roads::new(self.walls.grid(), &known, TurnsAtStart::Count);
-        Ok(plan(&roads, self.at, |stand| stand.place == Place::START))
+        Ok(plan(&roads, self.at, |stand| {
+            stand.place == LatticePoint::START
+        }))
     }
 
     /// Drives from stand to stand, the first of which is a turn away at most.

@@ -1,7 +1,7 @@
 use tolman_maze::{Cell, Direction, Grid, Walls};
 use tolman_planners::{Found, Passages, TooLarge, Unknown, a_star};
 
-use super::Place;
+use super::LatticePoint;
 use super::roads::{Roads, Stand, TurnsAtStart, edges};
 
 /// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in
@@ -22,7 +22,7 @@ pub fn best_score(walls: &impl Walls) -> Result<Option<f32>, TooLarge> {
 /// Whether a movement that ends there ends a run. In the smallest mazes the start lies in the
 /// middle as well.
 pub(super) fn ends_run(stand: Stand, goals: &[Cell]) -> bool {
-    stand.place != Place::START && goals.contains(&stand.place.cell())
+    stand.place != LatticePoint::START && goals.contains(&stand.place.cell())
 }
 
 /// Stands one movement apart, and what the movements cost, in halves.

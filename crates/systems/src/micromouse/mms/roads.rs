@@ -3,20 +3,20 @@
 use tolman_maze::{Cell, Direction, Grid};
 use tolman_planners::{Graph, Passages};
 
-use super::{Gate, Heading, Place};
+use super::{Gate, LatticeHeading, LatticePoint};
 
 /// A place and a heading: what a movement leads from and to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stand {
-    pub(super) place: Place,
-    pub(super) heading: Heading,
+    pub(super) place: LatticePoint,
+    pub(super) heading: LatticeHeading,
 }
 
 impl Stand {
     /// Where every mouse of mms starts.
     pub(super) const START: Self = Self {
-        place: Place::START,
-        heading: Heading::NORTH,
+        place: LatticePoint::START,
+        heading: LatticeHeading::NORTH,
     };
 }
 
@@ -69,15 +69,15 @@ impl<'a, const N: usize> Roads<'a, N> {
     pub(super) const fn stand(&self, node: u32) -> Stand {
         let place = node / 8;
         Stand {
-            place: Place {
+            place: LatticePoint {
                 x: place % self.columns(),
                 y: place / self.columns(),
             },
-            heading: Heading::from_index(node % 8),
+            heading: LatticeHeading::from_index(node % 8),
         }
     }
 
-    fn is_open(&self, place: Place, heading: Heading) -> bool {
+    fn is_open(&self, place: LatticePoint, heading: LatticeHeading) -> bool {
         match place.gate(heading, self.grid) {
             Gate::None => true,
             Gate::Edge(cell, side) => self.passages.is_open(cell, side),
@@ -103,7 +103,7 @@ impl<const N: usize> Graph for Roads<'_, N> {
             let place = ahead;
             visit(self.node(Stand { place, heading }), straight(half_steps));
         }
-        let free = self.at_start == TurnsAtStart::Free && place == Place::START;
+        let free = self.at_start == TurnsAtStart::Free && place == LatticePoint::START;
         for eighths in [-2, -1, 1, 2] {
             let heading = heading.turned(eighths);
             let cost = if free { 0 } else { TURN };

@@ -7,7 +7,7 @@ use tolman_planners::moves::MoveExplorerConfigError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyMouseConfig {
     /// How it knows where it is.
-    pub localization: Localization,
+    pub localization: PoseSource,
     /// What its filter takes for noise.
     pub filter: PoseFilterConfig,
     /// From the middle of a cell to the next, m. > 0.
@@ -22,7 +22,7 @@ pub struct NoisyMouseConfig {
 
 /// How a mouse knows where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Localization {
+pub enum PoseSource {
     /// It believes that its wheels do what they are told.
     DeadReckoning,
     /// It compares what it sees with the walls it knows.

@@ -10,5 +10,5 @@
 mod config;
 mod mouse;
 
-pub use config::{Localization, NoisyMouseConfig, NoisyMouseError};
+pub use config::{NoisyMouseConfig, NoisyMouseError, PoseSource};
 pub use mouse::{NoisyBody, NoisyMouse, NoisyNext};

@@ -10,7 +10,7 @@ use tolman_planners::moves::{
 use tolman_planners::{Passages, Unknown};
 use tolman_robot::{Bumps, Ranges, Robot, TurnTranslate};
 
-use super::{Localization, NoisyMouseConfig, NoisyMouseError};
+use super::{NoisyMouseConfig, NoisyMouseError, PoseSource};
 use crate::micromouse::Brief;
 
 /// The largest maze, columns or rows.
@@ -97,8 +97,8 @@ impl NoisyMouse {
     #[must_use]
     pub fn pose(&self) -> Pose {
         match self.config.localization {
-            Localization::DeadReckoning => self.reckoned,
-            Localization::ParticleFilter => self.filter.estimate(),
+            PoseSource::DeadReckoning => self.reckoned,
+            PoseSource::ParticleFilter => self.filter.estimate(),
         }
     }
 
@@ -248,7 +248,7 @@ impl NoisyMouse {
             command.translate * self.config.translate_per_step,
         );
         self.reckoned = self.reckoned.displaced(distance, turn);
-        if self.config.localization == Localization::ParticleFilter {
+        if self.config.localization == PoseSource::ParticleFilter {
             let readings = readings(sensing);
             self.filter.drive(distance, turn, &mut self.rng);
             self.filter.sense(&self.belief, &readings, &mut self.rng);

@@ -6,7 +6,7 @@ use tolman_planners::{Passages, TooLarge, Unknown};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::MazeMouse;
-use crate::micromouse::{Next, Search, View};
+use crate::micromouse::{Next, Search, SearchView};
 
 /// What to do in a cell.
 pub(super) enum Choice {
@@ -36,7 +36,7 @@ impl<S: Search> MazeMouse<S> {
     }
 
     fn choose_to_explore(&mut self) -> Result<Choice, TooLarge> {
-        let view = View {
+        let view = SearchView {
             map: &self.walls,
             at: self.at,
             start: self.brief.start,

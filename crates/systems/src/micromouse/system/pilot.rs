@@ -1,7 +1,7 @@
 //! The motion from cell to cell.
 
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::wall_map::Ray;
+use tolman_maps::wall_map::CellRay;
 use tolman_robot::{Compass, Ranges, Robot, Rolls, TurnTranslate};
 
 use super::whereabouts::next_pose;
@@ -60,7 +60,7 @@ impl Pilot {
         &mut self,
         robot: &mut R,
         middle: Point,
-    ) -> Result<Option<Vec<Ray>>, R::Error> {
+    ) -> Result<Option<Vec<CellRay>>, R::Error> {
         for _ in 0..LOOKS {
             self.step(robot, TurnTranslate::STOP)?;
             if let Some(scan) = robot.sensing().scan() {

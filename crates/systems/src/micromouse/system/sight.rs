@@ -2,7 +2,7 @@
 
 use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
-use tolman_maps::wall_map::Ray;
+use tolman_maps::wall_map::CellRay;
 use tolman_maze::{Cell, Direction};
 use tolman_robot::Scan;
 
@@ -14,7 +14,7 @@ pub struct CellSight {
     /// The cell it stands in.
     pub cell: Cell,
     /// One ray for each side it sees.
-    pub rays: Vec<Ray>,
+    pub rays: Vec<CellRay>,
 }
 
 /// A beam that looks along the grid.
@@ -78,7 +78,12 @@ fn nearest_middle(point: Point, pitch: f64) -> Point {
 }
 
 /// What a scan made at `pose` says of the walls, seen from the cell whose middle is `middle`.
-pub(super) fn rays(scan: &Scan, pose: Pose, middle: Point, config: &MazeMouseConfig) -> Vec<Ray> {
+pub(super) fn rays(
+    scan: &Scan,
+    pose: Pose,
+    middle: Point,
+    config: &MazeMouseConfig,
+) -> Vec<CellRay> {
     Direction::ALL
         .into_iter()
         .filter_map(|side| {
@@ -91,7 +96,7 @@ pub(super) fn rays(scan: &Scan, pose: Pose, middle: Point, config: &MazeMouseCon
 }
 
 /// What a beam says that begins `offset` metres beyond the middle of its cell.
-fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> Ray {
+fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> CellRay {
     let pitch = config.pitch;
     let to_side = 0.5 * pitch - offset;
     // How far beyond the side of its cell, in cells, the wall stands that it met.
@@ -110,9 +115,9 @@ fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> Ray {
     }
     let ended = f64::from(open) < passed;
     if at_wall && !ended && inside(line) {
-        Ray::to_wall(beam.side, open)
+        CellRay::to_wall(beam.side, open)
     } else {
-        Ray::out_of_range(beam.side, open)
+        CellRay::out_of_range(beam.side, open)
     }
 }
 
@@ -131,17 +136,17 @@ mod tests {
     fn a_beam_tells_of_walls_across_it_and_of_no_others() {
         let north = Direction::North;
         for (along, met, slope, expected) in [
-            (0.225, true, 0.0, Ray::to_wall(north, 0)),
-            (0.725, true, 0.0, Ray::to_wall(north, 1)),
+            (0.225, true, 0.0, CellRay::to_wall(north, 0)),
+            (0.725, true, 0.0, CellRay::to_wall(north, 1)),
             // Noise, and a range that ends nowhere near a wall.
-            (0.76, true, 0.0, Ray::to_wall(north, 1)),
-            (0.5, true, 0.0, Ray::out_of_range(north, 1)),
+            (0.76, true, 0.0, CellRay::to_wall(north, 1)),
+            (0.5, true, 0.0, CellRay::out_of_range(north, 1)),
             // It reaches no farther.
-            (0.725, false, 0.0, Ray::out_of_range(north, 1)),
-            (0.2, false, 0.0, Ray::out_of_range(north, 0)),
+            (0.725, false, 0.0, CellRay::out_of_range(north, 1)),
+            (0.2, false, 0.0, CellRay::out_of_range(north, 0)),
             // Far away it meets the wall beside the corridor, or a post.
-            (1.225, true, 0.1, Ray::to_wall(north, 2)),
-            (1.725, true, 0.14, Ray::out_of_range(north, 2)),
+            (1.225, true, 0.1, CellRay::to_wall(north, 2)),
+            (1.725, true, 0.14, CellRay::out_of_range(north, 2)),
         ] {
             let beam = Beam {
                 side: north,

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
-use tolman_arena::cpm::{Pair, distinctness, epuck_course};
+use tolman_arena::cpm::{WalkPair, distinctness, epuck_course};
 use tolman_maps::cpm::Sense;
 
 use super::{Failure, OrBadInput, name, read};
@@ -54,8 +54,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     Ok(())
 }
 
-fn told(pair: &Pair) -> String {
-    let Pair {
+fn told(pair: &WalkPair) -> String {
+    let WalkPair {
         one,
         other,
         sense,

@@ -1,11 +1,11 @@
 //! A maze with the stops of both runs.
 
-use tolman_arena::micromouse::{Event, Trial};
+use tolman_arena::micromouse::{MouseTrial, Ruling};
 use tolman_maze::{Cell, Maze};
 
 /// The maze as it draws itself, with a dot on every stop of the first run and a star on those of the second; marks
 /// of start and goal stay.
-pub(super) fn of(maze: &Maze, trial: &Trial) -> String {
+pub(super) fn of(maze: &Maze, trial: &MouseTrial) -> String {
     let mut lines: Vec<Vec<char>> = maze
         .to_string()
         .lines()
@@ -13,7 +13,7 @@ pub(super) fn of(maze: &Maze, trial: &Trial) -> String {
         .collect();
     let mut mark = '.';
     for step in &trial.steps {
-        if step.event == Event::RunTwo {
+        if step.event == Ruling::RunTwo {
             mark = '*';
         }
         put(&mut lines, maze, step.cell, mark);

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use crate::diktiometry::{Rotation, Signature, SignatureKind};
+use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 
 /// All views of all places, by their columns: "an input signature's columns are used to index the columns close to them,
 /// marking each signature found at the offset implied by the column match. When enough of a database signature's
@@ -26,7 +26,7 @@ impl ColumnIndex {
         let number = self.views.len() as u32;
         self.views.push(view.clone());
         let groups = Groups::of(kind);
-        let turned = kind.rotation == Rotation::Free;
+        let turned = kind.rotation == ViewRotation::Free;
         self.trees
             .resize_with(if turned { 1 } else { groups.count }, FeatureTree::default);
         let starts: Vec<usize> = if turned {
@@ -119,7 +119,7 @@ mod tests {
             tolerance in 0.0..2.0,
             turned in any::<bool>(),
         ) {
-            let rotation = if turned { Rotation::Free } else { Rotation::Aligned };
+            let rotation = if turned { ViewRotation::Free } else { ViewRotation::Aligned };
             let kind = SignatureKind { rows: ROWS, columns: COLUMNS, tolerance, share, rotation, views: 1 };
             let signature = |values: &Vec<f64>| Signature::new(ROWS, values.clone()).unwrap();
             let percept = signature(&percept);

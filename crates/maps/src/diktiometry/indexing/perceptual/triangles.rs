@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
-use crate::diktiometry::{Rotation, Signature, SignatureKind};
+use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 
 /// How many edges of a view are kept, the clearest: 56 triangles.
 const EDGES: usize = 8;
@@ -99,7 +99,7 @@ impl TriangleIndex {
                 votes.push(Vote::of(known, seen.column, percept.columns));
             });
         }
-        votes.retain(|vote| vote.offset == 0 || kind.rotation == Rotation::Free);
+        votes.retain(|vote| vote.offset == 0 || kind.rotation == ViewRotation::Free);
         votes.sort_unstable();
         let views = votes.chunk_by(|a, b| a == b).filter_map(|alike| {
             let view = alike[0].view;
@@ -196,7 +196,7 @@ mod tests {
     const ROWS: usize = 2;
     const COLUMNS: usize = 12;
 
-    fn kind(rotation: Rotation) -> SignatureKind {
+    fn kind(rotation: ViewRotation) -> SignatureKind {
         SignatureKind {
             rows: ROWS,
             columns: COLUMNS,
@@ -246,7 +246,7 @@ mod tests {
             wrong in prop::collection::vec(-0.1..0.1, ROWS * COLUMNS),
             brighter in -2.0..2.0,
         ) {
-            let kind = kind(Rotation::Free);
+            let kind = kind(ViewRotation::Free);
             // What is stored was seen with an error, too.
             let stored: Vec<Vec<f64>> = views
                 .iter()
@@ -265,7 +265,7 @@ mod tests {
             percept in view(),
             turned in 0..COLUMNS,
         ) {
-            let kind = kind(Rotation::Free);
+            let kind = kind(ViewRotation::Free);
             let index = index(&views, &kind);
             let still = vec![0.0; ROWS * COLUMNS];
             let [north, other] = [0, turned].map(|turned| {
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn with_a_compass_a_view_is_found_as_it_lies_alone() {
-        let kind = kind(Rotation::Aligned);
+        let kind = kind(ViewRotation::Aligned);
         let mut view = vec![0.0; ROWS * COLUMNS];
         // Walls from columns 1 to 3 and 5 to 9: four edges.
         for column in [1, 2, 5, 6, 7, 8] {
@@ -300,7 +300,7 @@ mod tests {
         const MANY: usize = 2000;
         let kind = SignatureKind {
             columns: MANY,
-            ..kind(Rotation::Free)
+            ..kind(ViewRotation::Free)
         };
         let mut view = vec![0.0; ROWS * MANY];
         for column in (100..300).chain(700..1600) {

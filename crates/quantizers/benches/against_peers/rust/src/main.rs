@@ -1,7 +1,7 @@
 //! `ours|ours-plain|scirs2 FILE UNITS PERIOD`: inputs per second of processor time at the end, mean squared error, units.
 
 use cpu_time::ThreadTime;
-use tolman_quantizers::{ErrorKind, Gng, GngConfig, Lanes, Quantizer, Search};
+use tolman_quantizers::{ErrorKind, Gng, GngConfig, Lanes, Quantizer, UnitSearch};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -42,7 +42,7 @@ fn ours(inputs: &[Vec<f64>], units: usize, period: u32, lanes: Lanes) -> Result<
         ..GngConfig::fritzke()
     };
     let mut gng = Gng::<f32>::new(inputs[0].len(), config)?;
-    gng.set_search(Search::Automatic, lanes);
+    gng.set_search(UnitSearch::Automatic, lanes);
     for input in &inputs {
         gng.observe(input)?;
     }

@@ -4,7 +4,7 @@ use tolman_maze::Direction;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Ray {
+pub struct CellRay {
     /// Where it looks.
     pub direction: Direction,
     /// How many walls in a row, from the cell it looks from, do not stand.
@@ -24,7 +24,7 @@ pub enum RayEnd {
     OutOfRange,
 }
 
-impl Ray {
+impl CellRay {
     /// A ray that meets a wall after `open` cells.
     #[must_use]
     pub const fn to_wall(direction: Direction, open: u16) -> Self {

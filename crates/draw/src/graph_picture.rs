@@ -7,30 +7,30 @@ use super::Series;
 use super::number::{line, tenths};
 use super::words;
 
-/// A graph to be drawn over a [`Plan`](super::Plan) or in a [`Chart`](super::Chart), each node at its
+/// A graph to be drawn over a [`FloorPlan`](super::FloorPlan) or in a [`Chart`](super::Chart), each node at its
 /// coordinates.
 ///
 /// Nodes that are not finite are left out, and so are edges that end at such a node or at none.
 ///
 /// ```
-/// use tolman_draw::{Graph, GraphEdge, GraphNode, NodeMark, Plan, Series};
+/// use tolman_draw::{GraphPicture, GraphEdge, GraphNode, NodeMark, FloorPlan, Series};
 /// use tolman_geom::Point;
 ///
 /// let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(|(x, y)| Point::new(x, y));
 /// let walls: Vec<[Point; 2]> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
-/// let mut map = Graph::new();
+/// let mut map = GraphPicture::new();
 /// let start = map.node(GraphNode::at(Point::new(0.5, 0.5)));
 /// let goal = GraphNode::at(Point::new(2.5, 1.5)).mark(NodeMark::Disc).label("goal");
 /// let goal = map.node(goal.series(Series(2)));
 /// map.edge(GraphEdge::between(start, goal).label("east"));
 ///
-/// let mut plan = Plan::of_walls(&walls, 400.0);
+/// let mut plan = FloorPlan::of_walls(&walls, 400.0);
 /// plan.graph(&map);
 /// let drawing = plan.drawing("A room with a map of two places.");
 /// assert!(drawing.body.into_string().contains("goal"));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Graph {
+pub struct GraphPicture {
     /// The nodes, known by their index.
     pub nodes: Vec<GraphNode>,
     /// The edges.
@@ -95,7 +95,7 @@ pub enum EdgeLine {
     Arrow,
 }
 
-impl Graph {
+impl GraphPicture {
     /// No nodes, which will be 3.2 user units in radius.
     pub const fn new() -> Self {
         Self {
@@ -313,7 +313,7 @@ impl Patch {
     }
 }
 
-impl Default for Graph {
+impl Default for GraphPicture {
     fn default() -> Self {
         Self::new()
     }
@@ -416,14 +416,14 @@ fn is_finite(node: &GraphNode) -> bool {
 mod tests {
     use super::*;
 
-    fn drawn(graph: &Graph) -> String {
+    fn drawn(graph: &GraphPicture) -> String {
         let markup = graph.markup(&|at| (10.0 * at.x, -10.0 * at.y));
         markup.into_string()
     }
 
     #[test]
     fn nodes_and_edges_lie_at_their_coordinates() {
-        let mut graph = Graph::new();
+        let mut graph = GraphPicture::new();
         let a = graph.node(GraphNode::at(Point::new(1.0, -2.0)).label("a & b"));
         let b = graph.node(GraphNode::at(Point::new(3.0, 0.0)).mark(NodeMark::Square));
         graph.edge(GraphEdge::between(a, b));
@@ -438,7 +438,7 @@ mod tests {
     #[test]
     fn labels_stand_beside_their_edges() {
         let label = |to: Point| {
-            let mut graph = Graph::new();
+            let mut graph = GraphPicture::new();
             let from = graph.node(GraphNode::at(Point::new(0.0, 0.0)));
             let to = graph.node(GraphNode::at(to));
             graph.edge(GraphEdge::between(from, to).label("here"));
@@ -454,12 +454,12 @@ mod tests {
 
     #[test]
     fn labels_of_nodes_cover_neither_nodes_nor_signs_nor_each_other() {
-        let place = |graph: &Graph, label: &str| {
+        let place = |graph: &GraphPicture, label: &str| {
             let at = |at: Point| (10.0 * at.x, -10.0 * at.y);
             let labels = graph.labels(&at);
             labels.iter().find(|placed| placed.0 == label).unwrap().1
         };
-        let mut graph = Graph::new();
+        let mut graph = GraphPicture::new();
         graph.node(GraphNode::at(Point::new(0.0, 0.0)).label("goal"));
         assert_eq!(place(&graph, "goal"), (5.2, -3.2), "above, to the right");
         graph.signs.push(Point::new(1.5, 0.7));
@@ -476,7 +476,7 @@ mod tests {
 
     #[test]
     fn a_class_of_edges_is_one_path() {
-        let mut graph = Graph::new();
+        let mut graph = GraphPicture::new();
         for i in 0..500_u32 {
             graph.node(GraphNode::at(Point::new(f64::from(i), 0.0)));
         }
@@ -492,7 +492,7 @@ mod tests {
 
     #[test]
     fn what_has_no_place_is_left_out() {
-        let mut graph = Graph::new();
+        let mut graph = GraphPicture::new();
         graph.node(GraphNode::at(Point::new(f64::NAN, 0.0)));
         graph.node(GraphNode::at(Point::new(0.0, 0.0)));
         graph.edge(GraphEdge::between(0, 1));
@@ -509,7 +509,7 @@ mod tests {
 
     #[test]
     fn arrow_heads_point_to_the_end_of_their_edge() {
-        let mut graph = Graph::new().radius(5.0);
+        let mut graph = GraphPicture::new().radius(5.0);
         graph.node(GraphNode::at(Point::new(0.0, 0.0)));
         graph.node(GraphNode::at(Point::new(9.0, 0.0)));
         graph.edge(GraphEdge::between(0, 1).line(EdgeLine::Arrow));

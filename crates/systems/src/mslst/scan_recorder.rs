@@ -5,7 +5,7 @@ use tolman_maze::Direction;
 use tolman_robot::{Mapper, Standing, Task};
 
 use super::north_scan::north_scan;
-use crate::baselines::Avoid;
+use crate::baselines::AvoidBrain;
 use crate::{Brain, Doing, TimeStep};
 
 /// Phase I: "the robot wanders the maze at random, using the Avoid brain … It records its input vector at every
@@ -14,14 +14,14 @@ use crate::{Brain, Doing, TimeStep};
 /// Each scan is [turned to the north](super::heading_free). Time steps in which ranges or heading drop out record
 /// nothing.
 #[derive(Clone, Debug)]
-pub struct Scans {
+pub struct ScanRecorder {
     scans: Vec<Vec<f64>>,
     steps: u32,
     wanted: u32,
-    wander: Avoid,
+    wander: AvoidBrain,
 }
 
-impl Scans {
+impl ScanRecorder {
     /// Returns a recorder of `steps` time steps.
     #[must_use]
     pub fn new(steps: u32) -> Self {
@@ -29,7 +29,7 @@ impl Scans {
             scans: Vec::new(),
             steps: 0,
             wanted: steps,
-            wander: Avoid::default(),
+            wander: AvoidBrain::default(),
         }
     }
 
@@ -52,7 +52,7 @@ impl Scans {
     }
 }
 
-impl Mapper for Scans {
+impl Mapper for ScanRecorder {
     type Observation = TimeStep;
     type Error = Infallible;
 
@@ -70,7 +70,7 @@ impl Mapper for Scans {
     }
 }
 
-impl Brain for Scans {
+impl Brain for ScanRecorder {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         self.wander.wander(rng)
     }

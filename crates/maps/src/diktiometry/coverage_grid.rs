@@ -7,7 +7,7 @@ use tolman_geom::{Point, Vector};
 
 /// How well the area around a frame's origin was traversed, in square cells of the length that its user names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Grid {
+pub struct CoverageGrid {
     /// Cells that the robot was in, by their number.
     cells: BTreeMap<CellNumber, Traversals>,
 }
@@ -18,7 +18,7 @@ type CellNumber = (i32, i32);
 /// How often a cell was traversed heading east, north, west, south.
 type Traversals = [u32; 4];
 
-impl Grid {
+impl CoverageGrid {
     /// The robot went straight from one point to the other.
     pub(super) fn traverse(&mut self, from: Point, to: Point, cell: f64) {
         let heading = quadrant(to - from);

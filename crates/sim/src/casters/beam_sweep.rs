@@ -3,7 +3,7 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::Ring;
 
-use crate::Wall;
+use crate::WallSegment;
 
 /// Beams are padded to a multiple of this many, so that lanes need no remainder.
 pub(super) const LANES: usize = 4;
@@ -16,18 +16,18 @@ pub(super) const LANES: usize = 4;
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
 /// use tolman_robot::Ring;
-/// use tolman_sim::Wall;
-/// use tolman_sim::casters::Sweep;
+/// use tolman_sim::WallSegment;
+/// use tolman_sim::casters::BeamSweep;
 ///
-/// let mut sweep = Sweep::new(Ring::full(4, 5.0));
+/// let mut sweep = BeamSweep::new(Ring::full(4, 5.0));
 /// sweep.aim(Pose::new(Point::new(1.0, 1.0), Heading::NORTH));
-/// sweep.meet_wall(&Wall::between(Point::new(3.0, 0.0), Point::new(3.0, 2.0)));
+/// sweep.meet_wall(&WallSegment::between(Point::new(3.0, 0.0), Point::new(3.0, 2.0)));
 /// // Beam 3 looks right, and right of north is east.
 /// assert!((sweep.range(3) - 2.0).abs() < 1e-12);
 /// assert_eq!(sweep.range(0), 5.0);
 /// ```
 #[derive(Clone, Debug)]
-pub struct Sweep {
+pub struct BeamSweep {
     ring: Ring,
     /// The beams in the robot's frame, at their full range.
     local: Vec<Chunk>,
@@ -158,7 +158,7 @@ impl Seen {
     }
 }
 
-impl Sweep {
+impl BeamSweep {
     /// The beams of `ring`, of which there must be one at least.
     #[must_use]
     pub fn new(ring: Ring) -> Self {
@@ -260,7 +260,7 @@ impl Sweep {
     }
 
     /// Shortens the beams that meet `wall`.
-    pub fn meet_wall(&mut self, wall: &Wall) {
+    pub fn meet_wall(&mut self, wall: &WallSegment) {
         let seen = Seen::new(wall.start - self.origin, wall.end - self.origin);
         if seen.area <= 0.0 {
             self.meet_edge_on(wall);
@@ -284,7 +284,7 @@ impl Sweep {
     /// A wall in line with the origin is met by beams that run along it, and by all if the origin
     /// lies on it.
     #[cold]
-    pub(super) fn meet_edge_on(&mut self, wall: &Wall) {
+    pub(super) fn meet_edge_on(&mut self, wall: &WallSegment) {
         let origin = self.origin;
         self.shorten_each(|direction, _| wall.ray(origin, direction));
     }

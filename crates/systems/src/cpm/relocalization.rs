@@ -21,7 +21,7 @@ const CONFIG: LocalizerConfig = LocalizerConfig {
 /// It comes to the place ahead by its approach and then, at random, along further fragments that its maps have. It ends when it
 /// is sure, or has come to so many places after the first. The paper's robot begins to observe at that first place; ours does at once.
 #[derive(Clone, Debug)]
-pub struct Search {
+pub struct Relocalization {
     patterns: CommonPatterns,
     localizer: Localizer,
     approach: Approach,
@@ -32,7 +32,7 @@ pub struct Search {
     degree: u32,
 }
 
-impl Search {
+impl Relocalization {
     /// Returns a search on `maps` that ends after `most_places` places, at least one.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use crate::casters::Seen;
 /// A straight wall without thickness: a closed segment, its ends part of it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Wall {
+pub struct WallSegment {
     /// One end, m.
     pub start: Point,
     /// The other end, m.
@@ -35,7 +35,7 @@ impl Default for Material {
     }
 }
 
-impl Wall {
+impl WallSegment {
     /// A wall of the default material.
     #[must_use]
     pub fn between(start: Point, end: Point) -> Self {

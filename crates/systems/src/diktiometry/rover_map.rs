@@ -3,8 +3,8 @@ use core::error::Error;
 use thiserror::Error as ThisError;
 use tolman_geom::{Interval, PoseBox};
 use tolman_maps::diktiometry::{
-    Action, Config, Exits, Move, Observer, Percepts, Signature, Start, StartError, StepError,
-    StepReport,
+    Action, Config, Exits, FirstPlace, ObservedMove, ObservedMoveError, Observer, Percepts,
+    Signature, StartError, StepReport,
 };
 use tolman_maze::Direction;
 
@@ -14,7 +14,7 @@ use super::{Arrival, Rover};
 ///
 /// Action n of the map is direction n of [`Direction::ALL`].
 #[derive(Clone, Debug)]
-pub struct Mapping {
+pub struct RoverMap {
     observer: Observer,
     exits: [bool; 4],
 }
@@ -40,17 +40,17 @@ pub enum MapError<E: Error + 'static> {
     Start(#[from] StartError),
     /// The observer refuses a move.
     #[error("the observer refuses a move")]
-    Step(#[from] StepError),
+    Step(#[from] ObservedMoveError),
 }
 
-impl Mapping {
+impl RoverMap {
     /// Lets `rover` look and returns a map of the place it stands at alone.
     ///
     /// # Errors
     /// [`MapError`] if the rover sees nothing or `config` is out of its bounds.
     pub fn begin<R: Rover>(rover: &mut R, config: Config) -> Result<Self, MapError<R::Error>> {
         let seen = rover.look().map_err(MapError::Robot)?;
-        let start = Start {
+        let start = FirstPlace {
             percept: percept(&config, &seen),
             exits: exits(&seen),
         };
@@ -93,7 +93,7 @@ impl Mapping {
         direction: Direction,
     ) -> Result<MappedMove, MapError<R::Error>> {
         let arrival = rover.go(direction).map_err(MapError::Robot)?;
-        let report = self.observer.step(&Move {
+        let report = self.observer.step(&ObservedMove {
             action: Action(direction.index() as u32),
             odometry: PoseBox::new(arrival.moved, Interval::ZERO),
             percept: percept(self.observer.config(), &arrival),

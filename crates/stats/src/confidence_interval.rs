@@ -2,14 +2,14 @@
 
 /// The ends of a confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
+pub struct ConfidenceInterval {
     /// The lower end.
     pub low: f64,
     /// The upper end.
     pub high: f64,
 }
 
-impl Interval {
+impl ConfidenceInterval {
     /// The interval from `low` to `high`.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }

@@ -5,14 +5,14 @@ use tolman_maze::{Cell, Direction, Grid};
 /// A place on the lattice of half-steps, from the south-west corner: middles of cells have two odd
 /// coordinates, middles of walls one, posts none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct LatticePoint {
     /// Half-steps to the east.
     pub x: u32,
     /// Half-steps to the north.
     pub y: u32,
 }
 
-impl Place {
+impl LatticePoint {
     /// The middle of the south-west cell, where every mouse of mms starts.
     pub const START: Self = Self { x: 1, y: 1 };
 
@@ -24,7 +24,7 @@ impl Place {
 
     /// The place half a step on.
     #[must_use]
-    pub const fn ahead(self, heading: Heading) -> Self {
+    pub const fn ahead(self, heading: LatticeHeading) -> Self {
         let (east, north) = heading.half_step();
         Self {
             x: self.x.wrapping_add_signed(east),
@@ -34,7 +34,7 @@ impl Place {
 
     /// What a mouse comes to half a step ahead.
     #[must_use]
-    pub fn gate(self, heading: Heading, grid: Grid) -> Gate {
+    pub fn gate(self, heading: LatticeHeading, grid: Grid) -> Gate {
         let Self { x, y } = self.ahead(heading);
         let inside = |at: u32, cells: u16| at > 0 && at < 2 * u32::from(cells);
         if !inside(x, grid.width()) || !inside(y, grid.height()) {
@@ -72,9 +72,9 @@ pub enum Gate {
 
 /// One of the eight directions a mouse of mms can look: eighths of a circle, clockwise from north.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Heading(u8);
+pub struct LatticeHeading(u8);
 
-impl Heading {
+impl LatticeHeading {
     /// Where every mouse looks at the start.
     pub const NORTH: Self = Self(0);
 
@@ -102,7 +102,7 @@ impl Heading {
         self.0 as u32
     }
 
-    /// The heading of that [`Heading::index`].
+    /// The heading of that [`LatticeHeading::index`].
     #[must_use]
     pub const fn from_index(index: u32) -> Self {
         Self((index % 8) as u8)

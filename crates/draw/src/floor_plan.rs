@@ -7,14 +7,14 @@ use tolman_sim::{Bounds, World};
 use super::number::{line, short_line, tenths};
 use super::simplify::simplified;
 use super::words;
-use super::{Drawing, Graph, Region, Series, Shade};
+use super::{Drawing, GraphPicture, Region, Series, Shade};
 
 /// Free space around the outermost walls, in user units.
 const MARGIN: f64 = 8.0;
 
 /// What a zone of the floor means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Zone {
+pub enum ZoneStyle {
     /// Where the robot is to go.
     Destination,
     /// A part of the floor that is told apart.
@@ -26,7 +26,7 @@ pub enum Zone {
 /// A plan to which layers are added from the bottom up. World coordinates are metres, x to the
 /// right and y upwards.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct FloorPlan {
     west: f64,
     north: f64,
     /// User units per metre.
@@ -39,7 +39,7 @@ pub struct Plan {
     legend: Option<Shade>,
 }
 
-impl Plan {
+impl FloorPlan {
     /// A plan of a part of the world, `width` user units wide, without walls. Bounds without extent
     /// show one square metre.
     pub fn of_bounds(bounds: &Bounds, width: f64) -> Self {
@@ -89,11 +89,11 @@ impl Plan {
     }
 
     /// Adds a zone given by its corners in order.
-    pub fn zone(&mut self, corners: &[Point], zone: Zone) {
+    pub fn zone(&mut self, corners: &[Point], zone: ZoneStyle) {
         let class = match zone {
-            Zone::Destination => "destination",
-            Zone::Region => "region",
-            Zone::Solid => "solid",
+            ZoneStyle::Destination => "destination",
+            ZoneStyle::Region => "region",
+            ZoneStyle::Solid => "solid",
         };
         let path = self.path(corners);
         self.layers
@@ -139,14 +139,14 @@ impl Plan {
     }
 
     /// Adds a square zone around its middle, `side` metres wide.
-    pub fn square(&mut self, middle: Point, side: f64, zone: Zone) {
+    pub fn square(&mut self, middle: Point, side: f64, zone: ZoneStyle) {
         let half = 0.5 * side;
         let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
         self.zone(&corners.map(|(x, y)| middle + Vector::new(x, y)), zone);
     }
 
     /// Adds a graph, each node at its coordinates.
-    pub fn graph(&mut self, graph: &Graph) {
+    pub fn graph(&mut self, graph: &GraphPicture) {
         let markup = graph.markup(&|position| self.at(position));
         self.layers.push(markup);
     }
@@ -192,13 +192,13 @@ impl Plan {
     /// mean, once for all cells: give every call the same shade.
     ///
     /// ```
-    /// use tolman_draw::{Plan, Shade};
+    /// use tolman_draw::{FloorPlan, Shade};
     /// use tolman_geom::Point;
     ///
     /// let steps = [(0.5, 2.0), (1.5, 1.0), (2.5, 0.0)];
     /// let cells: Vec<_> = steps.iter().map(|&(x, steps)| (Point::new(x, 0.5), steps)).collect();
     /// let shade = Shade::of("steps to the goal", cells.iter().map(|cell| cell.1));
-    /// let mut plan = Plan::of_walls(&[[Point::new(0.0, 0.0), Point::new(3.0, 1.0)]], 400.0);
+    /// let mut plan = FloorPlan::of_walls(&[[Point::new(0.0, 0.0), Point::new(3.0, 1.0)]], 400.0);
     /// plan.cells(&cells, 1.0, &shade);
     /// let drawing = plan.drawing("How far each cell is from the goal.");
     /// # assert!(drawing.body.into_string().contains("steps to the goal"));
@@ -281,11 +281,11 @@ mod tests {
 
     use super::*;
 
-    fn square() -> Plan {
+    fn square() -> FloorPlan {
         let corners =
             [(1.0, 1.0), (5.0, 1.0), (5.0, 3.0), (1.0, 3.0)].map(|(x, y)| Point::new(x, y));
         let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
-        Plan::of_walls(&walls, 2.0 * MARGIN + 400.0)
+        FloorPlan::of_walls(&walls, 2.0 * MARGIN + 400.0)
     }
 
     #[test]
@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn no_walls_and_no_positions_give_an_empty_plan() {
-        let mut plan = Plan::of_walls(&[], 100.0);
+        let mut plan = FloorPlan::of_walls(&[], 100.0);
         plan.trajectory(&[], Series(0));
         let drawing = plan.drawing("nothing");
         assert!(drawing.height.is_finite());

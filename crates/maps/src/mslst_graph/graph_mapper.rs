@@ -3,19 +3,19 @@ use alloc::vec::Vec;
 
 use tolman_maze::Direction;
 
-use super::graph::{Edge, MslstGraph, Node, Zone, follow};
+use super::graph::{ActionEdge, MslstGraph, Node, NodeZone, follow};
 
 /// Builds the graph while the robot wanders (Phase II).
 #[derive(Clone, Debug)]
-pub struct Mapper {
+pub struct GraphMapper {
     nodes: Vec<Node>,
     at: u32,
 }
 
-impl Mapper {
+impl GraphMapper {
     /// Begins with the node of the state that the robot starts in.
     #[must_use]
-    pub fn new(state: u32, zone: Zone) -> Self {
+    pub fn new(state: u32, zone: NodeZone) -> Self {
         let first = Node {
             state,
             zone,
@@ -39,13 +39,13 @@ impl Mapper {
     /// action to a node of this state is therefore all there is to look for; and as a new node hangs on one
     /// edge, only the exact reverse of the actions that led away from a node leads back to it.
     /// O(degree of the node).
-    pub fn succeeded(&mut self, action: Direction, state: u32, zone: Zone) -> u32 {
+    pub fn succeeded(&mut self, action: Direction, state: u32, zone: NodeZone) -> u32 {
         if let Some(known) = follow(&self.nodes, self.at, action, state) {
             self.at = known;
             return known;
         }
         let new = self.nodes.len() as u32;
-        let back = Edge {
+        let back = ActionEdge {
             action: action.opposite(),
             head: Some(self.at),
         };
@@ -54,7 +54,7 @@ impl Mapper {
             zone,
             edges: vec![back],
         });
-        self.enter(Edge {
+        self.enter(ActionEdge {
             action,
             head: Some(new),
         });
@@ -65,13 +65,13 @@ impl Mapper {
     /// "If the last action failed, then it adds a connection from the previous node to the dummy node."
     /// One that is there already is not added again.
     pub fn failed(&mut self, action: Direction) {
-        let failure = Edge { action, head: None };
+        let failure = ActionEdge { action, head: None };
         if !self.nodes[self.at as usize].edges.contains(&failure) {
             self.enter(failure);
         }
     }
 
-    fn enter(&mut self, edge: Edge) {
+    fn enter(&mut self, edge: ActionEdge) {
         self.nodes[self.at as usize].edges.push(edge);
     }
 
