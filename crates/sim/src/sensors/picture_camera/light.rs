@@ -64,17 +64,17 @@ impl Light {
     #[must_use]
     pub const fn daylight(from: Heading) -> Self {
         Self {
-            brightness: 0.9,
+            brightness: 0.8,
             cast: [1.0; 3],
             from,
             shade: 0.15,
             glare: 0.3,
             drift: LightDrift {
                 pictures: 50.0,
-                brightness_sd: 0.12,
-                cast_sd: 0.04,
+                brightness_sd: 0.1,
+                cast_sd: 0.03,
                 from_sd: 0.4,
-                outside_sd: 0.3,
+                outside_sd: 0.25,
                 flicker_sd: 0.02,
             },
         }
