@@ -2,8 +2,8 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use thiserror::Error;
-use tolman_geom::Pose;
 use tolman_geom::nalgebra::Matrix3;
+use tolman_geom::{Point, Pose};
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Odometry, Position, Snapshot};
 
 use super::fit::{Fit, fit};
@@ -311,7 +311,7 @@ impl PlaceGraph {
         let weights = hypotheses::weights(&hypotheses);
         match (hypotheses.first(), weights.first()) {
             (Some(best), Some(weight)) if *weight > SURE && best.looks >= LEAST_LOOKS => {
-                let last = self.nearest(best.pose);
+                let last = self.nearest(best.pose.position);
                 Whereabouts::Known(Here {
                     since: self.graph.poses()[last as usize].between(best.pose),
                     ..Here::at(best.pose, best.covariance, last)
@@ -321,9 +321,10 @@ impl PlaceGraph {
         }
     }
 
-    /// Returns the place nearest to a pose; 0 on an empty map.
-    fn nearest(&self, pose: Pose) -> u32 {
-        let distance = |place: &Pose| (place.position - pose.position).norm();
+    /// Returns the place nearest to a point of the map; 0 on an empty map. O(places).
+    #[must_use]
+    pub fn nearest(&self, point: Point) -> u32 {
+        let distance = |place: &Pose| (place.position - point).norm();
         let places = (0..).zip(self.graph.poses());
         let nearest = places.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
         nearest.map_or(0, |(id, _)| id)
