@@ -14,8 +14,8 @@ pub struct PlaceGraphConfig {
     pub curvature_deviation: f64,
     /// The share of an outline's points that have to lie on surfaces of the map for a fit to be believed.
     pub least_share: f64,
-    /// After so many fits in a row that were not believed the robot is lost.
-    pub most_misfits: u32,
+    /// The robot is lost when so many of its last looks, or so much of them, contradict the map.
+    pub most_doubt: f64,
     /// Most hypotheses of where a lost robot is.
     pub most_hypotheses: usize,
     /// How often the graph is optimized, in new places.
@@ -35,8 +35,8 @@ impl PlaceGraphConfig {
             scale_deviation: 0.03,
             curvature_deviation: 0.15,
             least_share: 0.5,
-            most_misfits: 8,
-            most_hypotheses: 60,
+            most_doubt: 1.5,
+            most_hypotheses: 200,
             optimize_every: 5,
             optimizer: OptimizerConfig {
                 most_steps: 5,

@@ -20,8 +20,12 @@ pub(super) struct Fit {
     pub(super) information: Matrix3<f64>,
     /// The same with what the wheels say.
     pub(super) covariance: Matrix3<f64>,
+    /// How far it is from where the wheels had it: a squared distance in standard deviations.
+    pub(super) surprise: f64,
     /// The share of the outline's points that lie on surfaces of the map.
     pub(super) share: f64,
+    /// The share of them that lie where the map has surfaces of other colours or directions alone.
+    pub(super) contradicted: f64,
     /// How likely such a view is here: the logarithm, but for a constant.
     pub(super) likelihood: f64,
     /// Information by the place that first saw the surfaces.
@@ -42,7 +46,7 @@ const GATE_SHRINKS: f64 = 0.75;
 const COLOUR_GATE: f64 = 0.12;
 
 /// Nor are those whose normals have a smaller scalar product.
-const NORMAL_GATE: f64 = 0.6;
+const NORMAL_GATE: f64 = 0.88;
 
 /// A residual of so many standard deviations counts a quarter.
 const DOUBT: f64 = 2.5;
@@ -57,7 +61,7 @@ const CONE_SLACK: f64 = 0.03;
 const INDEPENDENT: f64 = 0.3;
 
 /// An arc, which may be a miss or another's echo, says this much beside a point.
-const ARC_SHARE: f64 = 0.3;
+const ARC_SHARE: f64 = 0.5;
 
 /// One residual: how far a measurement is from the map, in standard deviations, and how that changes with the pose.
 struct Residual {
@@ -101,6 +105,8 @@ pub(super) fn fit(
         information,
         covariance: (information + prior).try_inverse()?,
         share: on_map.count() as f64 / outline.points.len().max(1) as f64,
+        contradicted: contradicted(outline, surfaces, pose),
+        surprise: (prior * off).dot(&off),
         likelihood: likelihood(outline, &residuals) - 0.5 * (prior * off).dot(&off),
         by_place,
     })
@@ -131,7 +137,9 @@ fn of_point(
     let there = pose.transform(point.position);
     let normal = point.normal.map(|normal| pose.heading.rotate(normal));
     let mut nearest: Option<(f64, &Surface)> = None;
-    let mut within = gate * gate;
+    // What is far is seen vaguely.
+    let reach = gate + 2.0 * point.deviation;
+    let mut within = reach * reach;
     for surface in surfaces {
         let squared = (surface.position() - there).norm_squared();
         if squared < within && is_alike(surface, point, normal) {
@@ -156,13 +164,31 @@ fn of_point(
     })
 }
 
+/// The share of an outline's points that lie where the map has surfaces, but none alike.
+fn contradicted(outline: &Outline, surfaces: &[&Surface], pose: Pose) -> f64 {
+    let is_contradicted = |point: &&OutlinePoint| {
+        let there = pose.transform(point.position);
+        let normal = point.normal.map(|normal| pose.heading.rotate(normal));
+        let reach = FIRST_GATE * 0.5 + 2.0 * point.deviation;
+        let near = |surface: &&&Surface| {
+            surface.colour().is_some() == point.colour.is_some()
+                && (surface.position() - there).norm() < reach
+        };
+        let mut near = surfaces.iter().filter(near).peekable();
+        near.peek().is_some() && !near.any(|surface| is_alike(surface, point, normal))
+    };
+    let count = outline.points.iter().filter(is_contradicted).count();
+    count as f64 / outline.points.len().max(1) as f64
+}
+
 fn is_alike(surface: &Surface, point: &OutlinePoint, normal: Option<Vector>) -> bool {
     if normal.is_some_and(|normal| normal.dot(&surface.normal()) < NORMAL_GATE) {
         return false;
     }
     match (surface.colour(), point.colour) {
         (Some(a), Some(b)) => (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < COLOUR_GATE,
-        _ => true,
+        // What was heard alone tells nothing of what is seen.
+        (heard, seen) => heard.is_none() && seen.is_none(),
     }
 }
 
@@ -191,7 +217,7 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     if (arc.range - range).abs() > gate.max(0.15) {
         return None;
     }
-    let deviation = 0.04 + 0.02 * range;
+    let deviation = 0.02 + 0.01 * range;
     let towards = towards / range;
     let at = arc.mount.position;
     let lever = pose.heading.rotate(Vector::new(-at.y, at.x));

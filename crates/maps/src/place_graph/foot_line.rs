@@ -28,7 +28,7 @@ const COLOUR_ROWS: u32 = 3;
 const UNLIKE: f64 = 0.22;
 
 /// A foot has to be seen under at least this angle below the horizon, as a tangent: farther things have too vague a distance.
-const LEAST_DOWN: f64 = 0.06;
+const LEAST_DOWN: f64 = 0.09;
 
 fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
     let bottom = picture.height.checked_sub(FLOOR_ROWS)?;

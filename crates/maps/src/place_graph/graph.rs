@@ -2,7 +2,7 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use thiserror::Error;
-use tolman_geom::nalgebra::Matrix3;
+use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Point, Pose};
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Odometry, Position, Snapshot};
 
@@ -47,6 +47,9 @@ pub struct PlaceGraph {
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,
+    recognized: f64,
+    /// At so many places they are fitted to each other next.
+    relaxes_at: usize,
 }
 
 /// What is known of where the robot is.
@@ -68,8 +71,8 @@ struct Here {
     last: u32,
     since: Pose,
     since_covariance: Matrix3<f64>,
-    /// How many fits in a row were not believed.
-    misfits: u32,
+    /// How much of what it has seen lately contradicts the map, in looks.
+    doubt: f64,
 }
 
 /// Why a map cannot take in what was seen.
@@ -88,11 +91,19 @@ pub enum PlaceGraphError {
 }
 
 /// A hypothesis that is believed this much, after so many looks, is where the robot is.
-const SURE: f64 = 0.97;
-const LEAST_LOOKS: u32 = 3;
+const SURE: f64 = 0.98;
+const LEAST_LOOKS: u32 = 20;
 
 /// A place that brings less of a fit is not joined, in points.
 const LEAST_SEEN: f64 = 6.0;
+
+/// Places are fitted to each other so often, …
+const RELAX_ROUNDS: u32 = 4;
+/// … and may move about so far in each round, m and rad.
+const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
+
+/// The first number of places that are fitted to each other.
+const FIRST_RELAXED: usize = 20;
 
 /// So many places at most are joined by a fit, those that brought most of it.
 const MOST_JOINED: usize = 4;
@@ -110,6 +121,8 @@ impl PlaceGraph {
             whereabouts: Whereabouts::Nowhere,
             unsettled: 0,
             grows: true,
+            recognized: 0.0,
+            relaxes_at: FIRST_RELAXED,
         }
     }
 
@@ -158,6 +171,12 @@ impl PlaceGraph {
         matches!(self.whereabouts, Whereabouts::Known(_))
     }
 
+    /// Returns the share of what was last seen that lies where the map has it, 0 … 1.
+    #[must_use]
+    pub const fn recognized(&self) -> f64 {
+        self.recognized
+    }
+
     fn begin(&mut self, outline: Outline) -> Whereabouts {
         let place = self.graph.add_pose(Pose::IDENTITY);
         self.surfaces.add(place, Pose::IDENTITY, &outline);
@@ -180,10 +199,11 @@ impl PlaceGraph {
         let expected = here.pose.compose(predicted.pose);
         let surfaces: Vec<&Surface> = self.surfaces.all().collect();
         let fitted = fit(&outline, &surfaces, expected, &covariance);
-        let believed = fitted.filter(|fit| self.believes(&outline, fit));
-        match believed {
+        self.recognized = fitted.as_ref().map_or(0.0, |fit| fit.share);
+        let contradicted = fitted.as_ref().map_or(0.0, |fit| fit.contradicted);
+        here.doubt = (here.doubt + contradicted - USUAL_CONTRADICTION).max(0.0);
+        match fitted.filter(|fit| self.believes(&outline, fit)) {
             Some(fit) => {
-                here.misfits = 0;
                 let off = difference(expected, fit.pose);
                 self.wheels
                     .learn(&predicted, &off, &covariance, &fit.covariance);
@@ -194,20 +214,20 @@ impl PlaceGraph {
             None => {
                 here.pose = expected;
                 here.covariance = covariance;
-                here.misfits += u32::from(outline.points.len() >= LEAST_POINTS);
-                // What nobody has seen yet is no misfit: it makes the map grow.
                 self.grow(&mut here, outline, None)?;
             }
         }
-        if here.misfits > self.config.most_misfits {
+        // While it grows, what contradicts the map is new.
+        if !self.grows && here.doubt > self.config.most_doubt {
             return Ok(Whereabouts::Lost(Vec::new()));
         }
         Ok(Whereabouts::Known(here))
     }
 
+    /// Whether a fit is where the robot is: the map shows most of what it sees, and its wheels could have led it there.
     fn believes(&self, outline: &Outline, fit: &Fit) -> bool {
-        outline.points.len() >= LEAST_POINTS && fit.share >= self.config.least_share
-            || outline.points.len() < LEAST_POINTS
+        let tells_little = outline.points.len() < LEAST_POINTS;
+        fit.surprise < MOST_SURPRISE && (tells_little || fit.share >= self.config.least_share)
     }
 
     /// Adds the place where the robot is, if it is new.
@@ -286,12 +306,40 @@ impl PlaceGraph {
     fn settle(&mut self, here: &mut Here) {
         self.unsettled = 0;
         self.graph.optimize(&self.config.optimizer);
+        self.survey();
+        if self.places.len() >= self.relaxes_at {
+            self.relaxes_at += self.places.len() / 4;
+            self.relax();
+        }
+        here.pose = self.graph.poses()[here.last as usize].compose(here.since);
+    }
+
+    /// Puts together what all places show.
+    fn survey(&mut self) {
         self.surfaces = Surfaces::default();
         let places = self.places.iter().zip(self.graph.poses());
         for (id, (place, pose)) in (0..).zip(places) {
             self.surfaces.add(id, *pose, &place.outline);
         }
-        here.pose = self.graph.poses()[here.last as usize].compose(here.since);
+    }
+
+    /// Fits every place to what all places together show, which the first saw only in part. O(places · outline · surfaces).
+    fn relax(&mut self) {
+        let (distance, turn) = RELAX_WITHIN;
+        let variances = Vector3::new(distance * distance, distance * distance, turn * turn);
+        let covariance = Matrix3::from_diagonal(&variances);
+        for _ in 0..RELAX_ROUNDS {
+            let surfaces: Vec<&Surface> = self.surfaces.all().collect();
+            for (id, place) in (0..).zip(&self.places) {
+                let pose = self.graph.poses()[id as usize];
+                let fitted = fit(&place.outline, &surfaces, pose, &covariance);
+                if let Some(fit) = fitted.filter(|fit| fit.share >= self.config.least_share) {
+                    self.graph.move_pose(id, fit.pose);
+                }
+            }
+            self.survey();
+        }
+        self.graph.measure_closures_anew();
     }
 
     /// Looks for the robot among all places.
@@ -302,7 +350,7 @@ impl PlaceGraph {
         outline: &Outline,
     ) -> Whereabouts {
         let hypotheses = match hypotheses.is_empty() {
-            true => hypotheses::everywhere(self.graph.poses().iter().copied()),
+            true => hypotheses::everywhere(self.graph.poses()),
             false => hypotheses,
         };
         let rolled = self.wheels.predict(rolled);
@@ -331,6 +379,12 @@ impl PlaceGraph {
     }
 }
 
+/// So much of each look contradicts a map that is right, since light changes and edges are vague.
+const USUAL_CONTRADICTION: f64 = 0.05;
+
+/// A fit that is farther from where the wheels had the robot, in squared standard deviations, is none.
+const MOST_SURPRISE: f64 = 16.0;
+
 /// An outline of fewer points says nothing by itself.
 const LEAST_POINTS: usize = 8;
 
@@ -354,7 +408,7 @@ impl Here {
             last,
             since: Pose::IDENTITY,
             since_covariance: Matrix3::identity() * 1e-6,
-            misfits: 0,
+            doubt: 0.0,
         }
     }
 }

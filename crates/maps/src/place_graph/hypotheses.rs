@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::f64::consts::TAU;
 
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Heading, Point, Pose};
@@ -25,8 +26,11 @@ pub(super) struct Hypothesis {
 /// How uncertain a hypothesis is at first: it stands where another place was seen from. m and rad.
 const SPREAD: (f64, f64) = (0.25, 0.25);
 
-/// Hypotheses are made in these directions beside that of each place, rad.
-const TURNS: [f64; 3] = [-0.35, 0.0, 0.35];
+/// Hypotheses look into so many directions, wherever a place lies.
+const DIRECTIONS: u32 = 14;
+
+/// Places that are nearer to each other make hypotheses but once, m.
+const APART: f64 = 0.4;
 
 /// A hypothesis less likely than the best by this many natural logarithms is given up.
 const HOPELESS: f64 = 12.0;
@@ -35,21 +39,38 @@ const HOPELESS: f64 = 12.0;
 const SAME: (f64, f64) = (0.2, 0.2);
 
 /// What was seen before counts this much less with each look: no map is quite right.
-const FORGETS: f64 = 0.9;
+const FORGETS: f64 = 0.95;
 
-/// Returns a hypothesis near each of `places`.
-pub(super) fn everywhere(places: impl Iterator<Item = Pose>) -> Vec<Hypothesis> {
+/// What is seen counts this much of what a right map would make of it.
+const BELIEVES: f64 = 0.3;
+
+/// A look that the map contradicts altogether counts so many natural logarithms against a hypothesis.
+const REFUTES: f64 = 6.0;
+
+/// Returns hypotheses all round at each of `places`.
+pub(super) fn everywhere(places: &[Pose]) -> Vec<Hypothesis> {
+    let mut points: Vec<Point> = vec![];
+    for place in places {
+        let near = |point: &Point| (point - place.position).norm() < APART;
+        if !points.iter().any(near) {
+            points.push(place.position);
+        }
+    }
+    points.into_iter().flat_map(all_round).collect()
+}
+
+fn all_round(position: Point) -> impl Iterator<Item = Hypothesis> {
     let (distance, turn) = SPREAD;
     let variances = Vector3::new(distance * distance, distance * distance, turn * turn);
-    let at = |place: Pose| {
-        TURNS.map(|turn| Hypothesis {
-            pose: Pose::new(place.position, place.heading.turned(turn)),
+    (0..DIRECTIONS).map(move |direction| {
+        let heading = Heading::from_radians(f64::from(direction) * TAU / f64::from(DIRECTIONS));
+        Hypothesis {
+            pose: Pose::new(position, heading),
             covariance: Matrix3::from_diagonal(&variances),
             score: 0.0,
             looks: 0,
-        })
-    };
-    places.flat_map(at).collect()
+        }
+    })
 }
 
 /// Returns the hypotheses after the robot has rolled and looked, the best first.
@@ -97,12 +118,13 @@ impl Hypothesis {
             pose,
             covariance,
             likelihood,
+            contradicted,
             ..
         } = fit(outline, surfaces, predicted, &covariance)?;
         Some(Self {
             pose,
             covariance,
-            score: FORGETS * self.score + likelihood,
+            score: FORGETS * self.score + BELIEVES * likelihood - REFUTES * contradicted,
             looks: self.looks + 1,
         })
     }

@@ -13,6 +13,8 @@ pub struct Outline {
     pub points: Vec<OutlinePoint>,
     /// Readings of sensors that hear in a cone, as far as they met something.
     pub arcs: Vec<Sounding>,
+    /// Where surfaces are that face such a sensor: it heard them nearer than its neighbours did.
+    pub faced: Vec<OutlinePoint>,
 }
 
 /// A point where something stands.
@@ -51,8 +53,45 @@ impl Outline {
             find_normals(&mut feet);
             points.extend(feet);
         }
-        Self { points, arcs }
+        let faced = faced(&snapshot.soundings);
+        Self {
+            points,
+            arcs,
+            faced,
+        }
     }
+}
+
+/// A surface that is farther may face another sensor as well, m.
+const FACED_WITHIN: f64 = 3.0;
+
+/// Standard deviation of how far away a faced surface is: m, and by range.
+const FACED_DEVIATION: (f64, f64) = (0.02, 0.01);
+
+/// The surfaces that face a sonar: those that it hears nearer than both its neighbours do.
+fn faced(soundings: &[Sounding]) -> Vec<OutlinePoint> {
+    let mut sonars: Vec<&Sounding> = (soundings.iter())
+        .filter(|sounding| sounding.half_width > 0.0)
+        .collect();
+    let bearing = |sonar: &Sounding| sonar.mount.heading.radians();
+    sonars.sort_by(|a, b| bearing(a).total_cmp(&bearing(b)));
+    let count = sonars.len();
+    let range = |index: usize| sonars[index % count].range;
+    let faces = |index: &usize| {
+        let here = range(*index);
+        here <= FACED_WITHIN.min(range(index + 1)) && here <= range(index + count - 1)
+    };
+    let point = |index: usize| {
+        let Sounding { mount, range, .. } = *sonars[index];
+        let (least, share) = FACED_DEVIATION;
+        OutlinePoint {
+            position: mount.transform(Point::new(range, 0.0)),
+            normal: Some(-mount.heading.unit()),
+            deviation: least + share * range,
+            colour: None,
+        }
+    };
+    (0..count).filter(faces).map(point).collect()
 }
 
 fn point_of(beam: &Sounding) -> OutlinePoint {
@@ -64,65 +103,89 @@ fn point_of(beam: &Sounding) -> OutlinePoint {
     }
 }
 
-/// Neighbours on either side that make a surface together with a point.
-const BESIDE: usize = 3;
+/// Numbers of neighbours on either side that may make a surface together with a point: the most that lie on one line do.
+const BESIDE: [usize; 4] = [16, 10, 6, 3];
 
 /// Neighbours farther apart than this, or than a fifth of their distance, belong to different things, m.
 const GAP: f64 = 0.25;
 
 /// Gives each point the normal of the line through it and its neighbours, if they are on one.
 fn find_normals(points: &mut [OutlinePoint]) {
-    let normals: Vec<Option<Vector>> = (0..points.len())
-        .map(|index| normal(points, index))
-        .collect();
+    let normal = |index| {
+        BESIDE
+            .iter()
+            .find_map(|beside| normal(points, index, *beside))
+    };
+    let normals: Vec<Option<Vector>> = (0..points.len()).map(normal).collect();
     for (point, normal) in points.iter_mut().zip(normals) {
         point.normal = normal;
     }
 }
 
-fn normal(points: &[OutlinePoint], index: usize) -> Option<Vector> {
-    let near = |a: &OutlinePoint, b: &OutlinePoint| {
-        let gap = GAP.max(0.2 * a.position.coords.norm());
-        (a.position - b.position).norm() < gap
+/// The normal of the line through a point and as many neighbours on either side as belong to it; `None` if they lie on none.
+fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector> {
+    let around = neighbours(points, index, beside)?;
+    let line = Line::through(around)?;
+    let towards_robot = |normal: Vector| match normal.dot(&points[index].position.coords) > 0.0 {
+        true => -normal,
+        false => normal,
     };
-    let mut first = index;
-    while first > 0 && index - first < BESIDE && near(&points[first], &points[first - 1]) {
-        first -= 1;
-    }
-    let mut last = index;
-    while last + 1 < points.len() && last - index < BESIDE && near(&points[last], &points[last + 1])
-    {
-        last += 1;
-    }
-    let around = points.get(first..=last)?;
-    if around.len() < 4 {
-        return None;
-    }
-    let count = around.len() as f64;
-    let middle = around
-        .iter()
-        .fold(Vector::zeros(), |sum, point| sum + point.position.coords)
-        / count;
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for point in around {
-        let off = point.position.coords - middle;
-        xx += off.x * off.x;
-        xy += off.x * off.y;
-        yy += off.y * off.y;
-    }
-    // The direction in which they spread least.
-    let along = 0.5 * libm::atan2(2.0 * xy, xx - yy);
-    let (sin, cos) = libm::sincos(along);
-    let normal = Vector::new(-sin, cos);
-    let across = (xx * sin * sin - 2.0 * xy * sin * cos + yy * cos * cos) / count;
-    let deviation = points[index].deviation;
-    if libm::sqrt(across.max(0.0)) > 2.0 * deviation + 0.01 {
-        return None;
-    }
-    let towards = if normal.dot(&points[index].position.coords) > 0.0 {
-        -normal
-    } else {
-        normal
-    };
-    Some(towards)
+    line.is_straight(around).then(|| towards_robot(line.normal))
 }
+
+/// The points about one of them without a gap between any two.
+fn neighbours(points: &[OutlinePoint], index: usize, beside: usize) -> Option<&[OutlinePoint]> {
+    let joined = |a: &OutlinePoint, b: &OutlinePoint| {
+        (a.position - b.position).norm() < GAP.max(0.2 * a.position.coords.norm())
+    };
+    let first = (index.saturating_sub(beside)..index)
+        .rev()
+        .take_while(|before| joined(&points[*before], &points[before + 1]));
+    let last = (index + 1..points.len().min(index + beside + 1))
+        .take_while(|after| joined(&points[after - 1], &points[*after]));
+    points.get(first.last().unwrap_or(index)..=last.last().unwrap_or(index))
+}
+
+/// A line through points.
+struct Line {
+    middle: Vector,
+    normal: Vector,
+}
+
+impl Line {
+    /// The line from which the points are the least off, each as much as it is known; `None` of fewer than four.
+    fn through(points: &[OutlinePoint]) -> Option<Self> {
+        if points.len() < 4 {
+            return None;
+        }
+        let weight = |point: &OutlinePoint| 1.0 / (point.deviation * point.deviation);
+        let total: f64 = points.iter().map(weight).sum();
+        let sum = |sum: Vector, point: &OutlinePoint| sum + point.position.coords * weight(point);
+        let middle = points.iter().fold(Vector::zeros(), sum) / total;
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for point in points {
+            let off = point.position.coords - middle;
+            xx += weight(point) * off.x * off.x;
+            xy += weight(point) * off.x * off.y;
+            yy += weight(point) * off.y * off.y;
+        }
+        // The direction in which they spread most.
+        let (sin, cos) = libm::sincos(0.5 * libm::atan2(2.0 * xy, xx - yy));
+        let normal = Vector::new(-sin, cos);
+        Some(Self { middle, normal })
+    }
+
+    /// Whether the points are off the line by no more than they err: each errs along the line of sight.
+    fn is_straight(&self, points: &[OutlinePoint]) -> bool {
+        let off = |point: &OutlinePoint| {
+            let sight = point.position.coords.normalize();
+            let across = point.deviation * self.normal.dot(&sight).abs() + 0.005;
+            let off = self.normal.dot(&(point.position.coords - self.middle)) / across;
+            off * off
+        };
+        points.iter().map(off).sum::<f64>() <= MOST_BENT * points.len() as f64
+    }
+}
+
+/// The mean squared distance of points from their line, in what they err by, above which they are on none.
+const MOST_BENT: f64 = 1.5;

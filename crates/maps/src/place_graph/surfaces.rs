@@ -55,7 +55,7 @@ const LEAST_DEVIATION: f64 = 0.01;
 impl Surfaces {
     /// Adds what a place shows.
     pub(super) fn add(&mut self, place: u32, pose: Pose, outline: &Outline) {
-        for point in &outline.points {
+        for point in outline.points.iter().chain(&outline.faced) {
             if let Some(normal) = point.normal {
                 self.add_point(place, pose, point, normal);
             }

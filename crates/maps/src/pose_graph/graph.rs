@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::Pose;
 
-use super::{PoseEdge, PoseGraphError};
+use super::{PoseEdge, PoseEdgeKind, PoseGraphError};
 
 /// Poses, and what was measured between them.
 ///
@@ -86,6 +86,27 @@ impl PoseGraph {
         }
         self.edges.push(edge);
         Ok(())
+    }
+
+    /// Moves a pose to where it is believed to be now. Nothing happens if there is none, or it is the first, which never moves.
+    pub fn move_pose(&mut self, id: u32, pose: Pose) {
+        if id > 0
+            && pose.is_finite()
+            && let Some(old) = self.poses.get_mut(id as usize)
+        {
+            *old = pose;
+        }
+    }
+
+    /// Takes every closure for measured as the poses lie now, since what they were measured by has been looked at again.
+    /// O(edges).
+    pub fn measure_closures_anew(&mut self) {
+        for edge in &mut self.edges {
+            if edge.kind == PoseEdgeKind::Closure {
+                let [from, to] = [edge.from, edge.to].map(|id| self.poses[id as usize]);
+                edge.measured = from.between(to);
+            }
+        }
     }
 
     /// Returns the squared error of an edge under the poses as they are, weighted by its information; `None` if there is no

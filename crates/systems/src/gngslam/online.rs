@@ -99,8 +99,8 @@ pub struct OnlineSlam {
     route: Option<Route>,
 }
 
-/// How many time steps it backs off where it has touched something.
-const BACK_OFF: u32 = 4;
+/// How many time steps it goes away from something that it has touched, at half its full speed.
+const STEPS_FREE: u32 = 4;
 
 /// A turn takes no more time steps than this.
 const LONGEST_TURN: u32 = 60;
@@ -181,7 +181,7 @@ impl OnlineSlam {
         };
         let end = self.driver.drive(&mut robot)?;
         if end == LegEnd::Bumped {
-            self.driver.back_off(&mut robot, BACK_OFF)?;
+            go_free(&mut robot)?;
         }
         Ok(end)
     }
@@ -190,7 +190,7 @@ impl OnlineSlam {
     fn turn_on<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
-        R::Sensing: Rolls,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
         let piece = self
             .turn
@@ -199,11 +199,12 @@ impl OnlineSlam {
         self.turn_by(robot, piece)
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, as far as the wheels tell.
+    /// Turns in place by `angle`, rad, counter-clockwise, as far as the wheels tell. Where it touches something it goes free of that
+    /// instead.
     fn turn_by<R>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
-        R::Sensing: Rolls,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
         let mut robot = Counting {
             robot,
@@ -224,6 +225,9 @@ impl OnlineSlam {
                 translate: 0.0,
             };
             robot.step(&command)?;
+            if robot.sensing().bump() == Some(true) {
+                return go_free(&mut robot);
+            }
             let rolled = robot.sensing().odometry().map_or(0.0, |rolled| rolled.turn);
             turned += rolled;
             per_command = (rolled.abs() > 0.0)
@@ -334,6 +338,27 @@ impl OnlineSlam {
         }
         Ok(())
     }
+}
+
+/// Goes a little away from what is nearest: back if that lies ahead, and on if it lies behind.
+fn go_free<R>(robot: &mut R) -> Result<(), R::Error>
+where
+    R: Robot<Command = TurnTranslate>,
+    R::Sensing: TakesSnapshots,
+{
+    let nearest = robot
+        .sensing()
+        .soundings()
+        .min_by(|a, b| a.range.total_cmp(&b.range));
+    let ahead = nearest.is_none_or(|nearest| libm::cos(nearest.mount.heading.radians()) > 0.0);
+    let command = TurnTranslate {
+        turn: 0.0,
+        translate: if ahead { -0.5 } else { 0.5 },
+    };
+    for _ in 0..STEPS_FREE {
+        robot.step(&command)?;
+    }
+    Ok(())
 }
 
 /// The first command of a turn, as a fraction of the full rate.

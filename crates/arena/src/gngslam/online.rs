@@ -1,0 +1,208 @@
+//! Runs of the system that corrects its pose while it learns, with the truth beside them.
+
+use alloc::sync::Arc;
+use core::ops::Range;
+
+use thiserror::Error;
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maps::place_graph::PlaceGraph;
+use tolman_robot::{Landmark, Robot, Rolls, SensesLandmarks, Stopping, System, Task};
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxError};
+use tolman_sim::{PlaceError, StepError};
+use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig, OnlineSlamError};
+
+use super::{Pitch, PitchError};
+use crate::Simulated;
+
+/// Where a robot was at a look, and where it was believed to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookedFrom {
+    /// Where it truly was.
+    pub truth: Pose,
+    /// Where the system had it.
+    pub corrected: Pose,
+    /// Where its wheels had it, from its true first pose.
+    pub reckoned: Pose,
+    /// Whether the system knew where it was.
+    pub is_localized: bool,
+    /// The share of what it saw that the map had there.
+    pub recognized: f64,
+    /// Way that the wheels had rolled, m.
+    pub rolled: f64,
+}
+
+/// A run in an arena.
+#[derive(Clone, Debug)]
+pub struct OnlineRun {
+    /// Each look, in order.
+    pub looks: Vec<LookedFrom>,
+    /// What was learned.
+    pub map: PlaceGraph,
+    /// Where the origin of the map truly lies.
+    pub world_from_map: Pose,
+    /// Time steps in which the robot touched something.
+    pub bumps: u32,
+}
+
+impl OnlineRun {
+    /// Lays the map over the world by the looks of `learned`: the rigid motion under which the squared distances are least, as
+    /// trajectories are compared (Horn 1987). O(looks).
+    pub fn align(&mut self, learned: Range<usize>) {
+        let pairs: Vec<(Point, Point)> = (self.looks.get(learned).into_iter().flatten())
+            .map(|look| (look.corrected.position, look.truth.position))
+            .collect();
+        let world_from_world = rigid_motion(&pairs);
+        self.world_from_map = world_from_world.compose(self.world_from_map);
+        for look in &mut self.looks {
+            look.corrected = world_from_world.compose(look.corrected);
+        }
+    }
+}
+
+/// The rigid motion that brings the first points of all pairs nearest to the second.
+fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
+    let count = pairs.len().max(1) as f64;
+    let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {
+        (sum.0 + from.coords, sum.1 + to.coords)
+    };
+    let (from, to) = pairs.iter().fold((Vector::zeros(), Vector::zeros()), sum);
+    let (from, to) = (from / count, to / count);
+    let (mut along, mut across) = (0.0, 0.0);
+    for (a, b) in pairs {
+        let (a, b) = (a.coords - from, b.coords - to);
+        along += a.dot(&b);
+        across += a.perp(&b);
+    }
+    let heading = Heading::from_radians(libm::atan2(across, along));
+    Pose::new(Point::from(to - heading.rotate(from)), heading)
+}
+
+/// Why there is no run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OnlineRunError {
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] Pioneer2dxError),
+    /// There is no place for the robot in the arena.
+    #[error(transparent)]
+    Pitch(#[from] PitchError),
+    /// The robot cannot stand where it begins.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// The system cannot go on.
+    #[error("the system cannot go on")]
+    System(#[from] OnlineSlamError<StepError>),
+}
+
+/// Lets a robot learn an arena for so many looks. `seed` is that of all chance: where it begins, how its wheels are out of
+/// calibration, within ± `calibration`, its noise and its turns.
+///
+/// # Errors
+/// [`OnlineRunError`] if the robot cannot be built or put down, or the system cannot go on.
+pub fn learn_online(
+    pitch: &Pitch,
+    config: OnlineSlamConfig,
+    calibration: f64,
+    seed: u64,
+    looks: u32,
+) -> Result<OnlineRun, OnlineRunError> {
+    let system = OnlineSlam::new(config, seed);
+    let start = pitch.start(seed)?;
+    run(pitch, system, start, calibration, seed, looks)
+}
+
+/// Puts another robot down anywhere in the arena of a run, with the map that was learned there and without a word of where it is.
+///
+/// # Errors
+/// As [`learn_online`].
+pub fn localize_online(
+    pitch: &Pitch,
+    learned: &OnlineRun,
+    config: OnlineSlamConfig,
+    calibration: f64,
+    seed: u64,
+    looks: u32,
+) -> Result<OnlineRun, OnlineRunError> {
+    let map = learned.map.clone().put_down(false);
+    let system = OnlineSlam::on(map, config, seed);
+    run(
+        pitch,
+        system,
+        learned.world_from_map,
+        calibration,
+        seed,
+        looks,
+    )
+}
+
+fn run(
+    pitch: &Pitch,
+    mut system: OnlineSlam,
+    world_from_map: Pose,
+    calibration: f64,
+    seed: u64,
+    looks: u32,
+) -> Result<OnlineRun, OnlineRunError> {
+    let start = pitch.start(seed)?;
+    let model = Pioneer2dx::new(pitch.robot(seed, calibration)?)?;
+    let robot = Simulated::new(Arc::clone(&pitch.world), model, start, seed)?;
+    let mut robot = Stopping::new(Reckoning {
+        robot,
+        pose: start,
+        rolled: 0.0,
+    });
+    let mut seen = Vec::with_capacity(looks as usize);
+    for _ in 0..looks {
+        // Its standing is no matter: it has as many looks as it has.
+        system.act(&mut robot, Task::Explore)?;
+        let here = system.graph().here().unwrap_or(Pose::IDENTITY);
+        seen.push(LookedFrom {
+            truth: robot.robot.truth().pose,
+            corrected: world_from_map.compose(here),
+            reckoned: robot.pose,
+            is_localized: system.graph().is_localized(),
+            recognized: system.graph().recognized(),
+            rolled: robot.rolled,
+        });
+    }
+    Ok(OnlineRun {
+        looks: seen,
+        map: system.graph().clone(),
+        world_from_map,
+        bumps: robot.robot.bumps(),
+    })
+}
+
+/// A robot beside which its odometry is added up.
+#[derive(Debug)]
+struct Reckoning {
+    robot: Simulated<Pioneer2dx>,
+    pose: Pose,
+    rolled: f64,
+}
+
+impl Robot for Reckoning {
+    type Command = <Simulated<Pioneer2dx> as Robot>::Command;
+    type Sensing = <Simulated<Pioneer2dx> as Robot>::Sensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &Self::Sensing {
+        self.robot.sensing()
+    }
+
+    fn step(&mut self, command: &Self::Command) -> Result<(), StepError> {
+        self.robot.step(command)?;
+        if let Some(rolled) = self.robot.sensing().odometry() {
+            self.pose = rolled.applied_to(self.pose);
+            self.rolled += rolled.distance.abs();
+        }
+        Ok(())
+    }
+}
+
+impl SensesLandmarks for Reckoning {
+    fn landmark(&self) -> Option<Landmark> {
+        self.robot.landmark()
+    }
+}
