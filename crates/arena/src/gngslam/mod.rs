@@ -20,5 +20,5 @@ mod room;
 pub use cells::CellGrid;
 pub use data_set::{DataSet, GoalRecords, LabelledRecord};
 pub use data_text::DataTextError;
-pub use gather::{GatherError, gather};
-pub use pitch::{GoalPoints, Pitch, PitchError};
+pub use gather::{GatherError, gather, gather_with};
+pub use pitch::{Goals, Pitch, PitchError};

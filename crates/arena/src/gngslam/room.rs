@@ -1,4 +1,4 @@
-use tolman_geom::{Point, Vector};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_sim::{Bounds, Material, Wall, World, WorldError};
 
 /// What is built of walls: a floor with its outline, what hangs on it, furniture, and the room round it.
@@ -57,10 +57,12 @@ impl Room {
         (end - start).norm()
     }
 
-    /// The middle of a part of a side.
-    pub(super) fn middle(&self, span: Span) -> Point {
+    /// The middle of a part of a side, looking onto the floor.
+    pub(super) fn before(&self, span: Span) -> Pose {
         let (start, end) = self.side(span.side);
-        start + (end - start) * (0.5 * (span.from + span.to))
+        let along = end - start;
+        let middle = start + along * (0.5 * (span.from + span.to));
+        Pose::new(middle, Heading::of(Vector::new(-along.y, along.x)))
     }
 
     /// Hangs a goal, a window or a picture on part of a side.
