@@ -5,7 +5,9 @@
     reason = "a test that cannot set itself up has failed"
 )]
 
-use std::collections::BTreeSet;
+extern crate alloc;
+
+use alloc::collections::BTreeSet;
 
 use tolman_arena::gngslam::{DataSet, Pitch, gather};
 use tolman_maze::Cell;

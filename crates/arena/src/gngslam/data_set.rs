@@ -63,18 +63,22 @@ impl GoalRecords {
     }
 }
 
-/// How badly a goal is seen from a pose: the least where it is near and straight ahead, nothing stands before it, and it is not seen
-/// aslant.
+/// How badly a goal is seen from a pose: the least where it is straight ahead and fills the picture, nothing stands before it, and it
+/// is not seen aslant.
 fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
-    /// What counts as much as 1 m, rad.
-    const ASIDE: f64 = 0.15;
-    const ASLANT: f64 = 0.5;
+    /// From here a goal fills the picture: where the paper's limits stop the robot, m.
+    const BEST: f64 = 1.3;
+    /// What counts alike: m off that distance, rad aside and rad aslant.
+    const OFF: f64 = 0.5;
+    const ASIDE: f64 = 0.1;
+    const ASLANT: f64 = 0.4;
     /// A goal that something hides is seen worse than any that is not.
     const HIDDEN: f64 = 1e6;
     /// The goal itself stands a little before its wall, m.
     const PROUD: f64 = 0.05;
     let way = goal.position - pose.position;
     let (distance, towards) = (way.norm(), Heading::of(way));
+    let off = (distance - BEST) / OFF;
     let aside = pose.heading.turn_to(towards) / ASIDE;
     let aslant = goal.heading.turn_to(towards.reversed()) / ASLANT;
     let caster = pitch.world.caster();
@@ -84,7 +88,7 @@ fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     } else {
         0.0
     };
-    aside * aside + aslant * aslant + distance * distance + hidden
+    aside * aside + aslant * aslant + off * off + hidden
 }
 
 /// Writes a wrong cell down for the paper's share of all records.

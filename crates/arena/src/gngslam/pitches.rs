@@ -157,8 +157,8 @@ impl Pitch {
         (yellow, yellow_colour): (Span, [u8; 3]),
         look: Look,
     ) -> Result<Self, PitchError> {
-        room.hang(blue, goal(blue_colour));
-        room.hang(yellow, goal(yellow_colour));
+        room.put_goal(blue, goal(blue_colour));
+        room.put_goal(yellow, goal(yellow_colour));
         Ok(Self {
             name: name.to_owned(),
             world: Arc::new(room.world()?),

@@ -21,6 +21,9 @@ pub(super) struct Span {
 /// How far before its wall a thing hangs, m.
 const PROUD: f64 = 0.002;
 
+/// How far a goal stands before the wall: before all else that hangs there, m.
+const GOAL_PROUD: f64 = 2.0 * PROUD;
+
 impl Room {
     /// Returns a floor with these corners, counter-clockwise, and walls of one material round it.
     pub(super) fn new(corners: &[(f64, f64)], material: Material) -> Self {
@@ -65,7 +68,13 @@ impl Room {
         Pose::new(middle, Heading::of(Vector::new(-along.y, along.x)))
     }
 
-    /// Hangs a goal, a window or a picture on part of a side.
+    /// Puts a goal before part of a side.
+    pub(super) fn put_goal(&mut self, span: Span, material: Material) {
+        let (start, end) = self.side(span.side);
+        self.stand((start, end), span, GOAL_PROUD, material);
+    }
+
+    /// Hangs a window, a door or a picture on part of a side.
     pub(super) fn hang(&mut self, span: Span, material: Material) {
         let (start, end) = self.side(span.side);
         self.stand((start, end), span, PROUD, material);
