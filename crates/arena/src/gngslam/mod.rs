@@ -22,6 +22,6 @@ mod room;
 pub use cells::CellGrid;
 pub use data_set::{DataSet, GoalRecords, LabelledRecord};
 pub use data_text::DataTextError;
-pub use gather::{GatherError, gather};
+pub use gather::{GatherError, gather, gather_with};
 pub use online::{LookedFrom, OnlineRun, OnlineRunError, learn_online, localize_online};
-pub use pitch::{GoalPoints, Pitch, PitchError};
+pub use pitch::{Goals, Pitch, PitchError};

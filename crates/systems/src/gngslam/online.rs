@@ -10,7 +10,7 @@ use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{
     Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Robot, Rolls, SensesLandmarks,
-    Standing, System, TakesSnapshots, Task, TurnTranslate,
+    Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
 };
 
 use super::route::Route;
