@@ -1,4 +1,4 @@
-use tolman_geom::{Point, Vector};
+use tolman_geom::{Heading, Point, Vector};
 use tolman_maze::Cell;
 
 use super::FIELD_CELLS;
@@ -46,37 +46,53 @@ impl FieldExtent {
     }
 }
 
+/// The field that maps are held against: what is known of it in the world's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldFrame {
+    /// The direction from the blue goal to the yellow one; the paper draws it straight up.
+    pub yellow_from_blue: Heading,
+    /// What the nodes of a map are stretched over, in cells.
+    pub extent: FieldExtent,
+}
+
 /// From positions in the frame of a map to cells of the field: steps 2 and 3 of the paper's score.
 ///
 /// A rotation, then one factor for x and one for y, both positive. So nothing is ever mirrored: a map that is a mirror image
 /// of the field stays one, and scores as badly as it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldFromMap {
-    /// The direction from the blue goal to the yellow one in the frame of the map, of length 1.
-    up: Vector,
+    /// The first row of the rotation, (cos, −sin).
+    turn: Vector,
     turned: FieldExtent,
     field: FieldExtent,
 }
 
 impl FieldFromMap {
-    /// Turns the map so that the yellow goal is straight above the blue one, and stretches it so that the least and the greatest
-    /// x and y of the nodes fall on those of `field`. `None` if both goals lie at one place or there are no nodes.
+    /// Turns the map so that the yellow goal is where it has to be seen from the blue one, and stretches it so that the least and
+    /// the greatest x and y of the nodes fall on those of the field. `None` if both goals lie at one place or there are no
+    /// nodes.
     #[must_use]
     pub fn of(
         nodes: impl Iterator<Item = Point>,
         blue: Point,
         yellow: Point,
-        field: FieldExtent,
+        field: &FieldFrame,
     ) -> Option<Self> {
-        let up = (yellow - blue).try_normalize(1e-9)?;
-        let turned = FieldExtent::of(nodes.map(|node| turn(up, node)))?;
-        Some(Self { up, turned, field })
+        let from = (yellow - blue).try_normalize(1e-9)?;
+        let to = field.yellow_from_blue.unit();
+        let turn = Vector::new(from.dot(&to), -from.perp(&to));
+        let turned = FieldExtent::of(nodes.map(|node| turned(turn, node)))?;
+        Some(Self {
+            turn,
+            turned,
+            field: field.extent,
+        })
     }
 
     /// Returns where a position of the map lies on the field, in cells.
     #[must_use]
     pub fn transform(&self, in_map: Point) -> Point {
-        let at = turn(self.up, in_map);
+        let at = turned(self.turn, in_map);
         let (from, to) = (self.turned, self.field);
         Point::new(
             stretched(at.x, (from.min.x, from.max.x), (to.min.x, to.max.x)),
@@ -85,10 +101,10 @@ impl FieldFromMap {
     }
 }
 
-/// Turns a point about the origin as `up` is turned to (0, 1).
-fn turn(up: Vector, point: Point) -> Point {
-    let right = Vector::new(up.y, -up.x);
-    Point::new(right.dot(&point.coords), up.dot(&point.coords))
+/// Turns a point about the origin.
+fn turned(turn: Vector, point: Point) -> Point {
+    let second_row = Vector::new(-turn.y, turn.x);
+    Point::new(turn.dot(&point.coords), second_row.dot(&point.coords))
 }
 
 /// Maps one interval to another; what has no length, to the middle.
@@ -104,9 +120,17 @@ fn stretched(value: f64, from: (f64, f64), to: (f64, f64)) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use tolman_geom::{Heading, Pose};
+    use tolman_geom::Pose;
 
     use super::*;
+
+    const FIELD: FieldFrame = FieldFrame {
+        yellow_from_blue: Heading::NORTH,
+        extent: FieldExtent {
+            min: Point::new(0.0, 0.0),
+            max: Point::new(8.0, 8.0),
+        },
+    };
 
     /// Corners of a pitch of 4 × 4.6 m and its goals, seen from a robot that was put down somewhere.
     fn pitch(frame: Pose) -> ([Point; 4], [Point; 2]) {
@@ -121,9 +145,8 @@ mod tests {
         for (x, y, degrees) in [(0.0, 0.0, 0.0), (1.0, 3.0, 37.0), (2.0, 2.0, -160.0)] {
             let frame = Pose::new(Point::new(x, y), Heading::from_degrees(degrees));
             let (corners, [blue, yellow]) = pitch(frame);
-            let field = FieldExtent::whole();
             let nodes = corners.into_iter();
-            let found = FieldFromMap::of(nodes, blue, yellow, field).unwrap();
+            let found = FieldFromMap::of(nodes, blue, yellow, &FIELD).unwrap();
             for (corner, expect) in
                 corners
                     .iter()
@@ -141,8 +164,7 @@ mod tests {
         let (corners, [blue, yellow]) = pitch(Pose::IDENTITY);
         let mirror = |at: Point| Point::new(-at.x, at.y);
         let mirrored = corners.map(mirror);
-        let field = FieldExtent::whole();
-        let found = FieldFromMap::of(mirrored.into_iter(), mirror(blue), mirror(yellow), field);
+        let found = FieldFromMap::of(mirrored.into_iter(), mirror(blue), mirror(yellow), &FIELD);
         let east = found.unwrap().transform(mirrored[1]);
         assert!(
             (east - Point::new(0.0, 0.0)).norm() < 1e-9,
@@ -152,16 +174,17 @@ mod tests {
 
     #[test]
     fn what_has_no_extent_lies_in_the_middle() {
-        let field = FieldExtent::of_middles(&[Cell::new(1, 2), Cell::new(5, 6)]);
+        let extent = FieldExtent::of_middles(&[Cell::new(1, 2), Cell::new(5, 6)]);
+        let field = FieldFrame { extent, ..FIELD };
         assert_eq!(
-            (field.min, field.max),
+            (extent.min, extent.max),
             (Point::new(1.5, 2.5), Point::new(5.5, 6.5))
         );
         let line = [Point::new(3.0, 0.0), Point::new(3.0, 1.0)];
-        let found = FieldFromMap::of(line.into_iter(), line[0], line[1], field).unwrap();
+        let found = FieldFromMap::of(line.into_iter(), line[0], line[1], &field).unwrap();
         assert_eq!(found.transform(line[1]), Point::new(3.5, 6.5));
         assert_eq!(
-            FieldFromMap::of(line.into_iter(), line[0], line[0], field),
+            FieldFromMap::of(line.into_iter(), line[0], line[0], &field),
             None
         );
     }

@@ -7,6 +7,6 @@ mod field_from_map;
 mod point_score;
 mod score;
 
-pub use field_from_map::{FieldExtent, FieldFromMap};
+pub use field_from_map::{FieldExtent, FieldFrame, FieldFromMap};
 pub use point_score::{FIELD_CELLS, PointScore};
-pub use score::{GoalRecords, PlaceScore, PlaceScorer};
+pub use score::{GoalNodes, GoalRecords, PlaceScore, PlaceScorer};

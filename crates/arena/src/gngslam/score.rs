@@ -1,11 +1,11 @@
 use rand::{Rng, RngExt};
-use tolman_geom::{Point, Vector};
+use tolman_geom::{Heading, Point, Vector};
 use tolman_maps::place_map::{FeatureTable, PlaceMap, PlaceMapError};
 use tolman_maze::Cell;
 use tolman_quantizers::UnitId;
 
 use super::point_score::middle;
-use super::{FieldExtent, FieldFromMap, PointScore};
+use super::{FieldExtent, FieldFrame, FieldFromMap, PointScore};
 
 /// Where the goals are in a table of features: the numbers of the records that show them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,12 +16,21 @@ pub struct GoalRecords {
     pub yellow: usize,
 }
 
+/// The nodes of a map that are nearest to the goals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GoalNodes {
+    /// The node nearest to the blue goal.
+    pub blue: UnitId,
+    /// The node nearest to the yellow goal.
+    pub yellow: UnitId,
+}
+
 /// Scores place maps by what is known of where their records were taken (section 3.4, "Score").
 #[derive(Clone, Debug)]
 pub struct PlaceScorer {
     cells: Vec<Cell>,
     goals: GoalRecords,
-    extent: FieldExtent,
+    field: FieldFrame,
 }
 
 /// How good a place map is.
@@ -36,22 +45,25 @@ pub struct PlaceScore {
 
 impl PlaceScorer {
     /// Makes the paper's scorer: maps are stretched over the field as far as its cells were visited, since "the learned positions
-    /// are scaled to the manual position". `cells` has the cell of each record of a table, from record 0 on; further records,
-    /// such as those of the goals, are not asked about.
+    /// are scaled to the manual position". `cells` has the cell of each record of a table, from record 0 on, and
+    /// `yellow_from_blue` is the true direction from goal to goal.
     #[must_use]
-    pub fn paper(cells: Vec<Cell>, goals: GoalRecords) -> Self {
+    pub fn paper(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
         let extent = FieldExtent::of_middles(&cells);
         Self {
             cells,
             goals,
-            extent,
+            field: FieldFrame {
+                yellow_from_blue,
+                extent,
+            },
         }
     }
 
     /// Sets what maps are stretched over.
     #[must_use]
     pub const fn over(mut self, extent: FieldExtent) -> Self {
-        self.extent = extent;
+        self.field.extent = extent;
         self
     }
 
@@ -95,6 +107,17 @@ impl PlaceScorer {
         }))
     }
 
+    /// Returns the nodes of the goals: step 1 of the score.
+    ///
+    /// # Errors
+    /// As [`score`](Self::score).
+    pub fn goals(&self, map: &PlaceMap, table: &FeatureTable) -> Result<GoalNodes, PlaceMapError> {
+        Ok(GoalNodes {
+            blue: nearest(map, table, self.goals.blue)?,
+            yellow: nearest(map, table, self.goals.yellow)?,
+        })
+    }
+
     /// Returns how the map lies on the field: steps 1 to 3 of the score. `None` if both goals are nearest to one node.
     ///
     /// # Errors
@@ -104,13 +127,12 @@ impl PlaceScorer {
         map: &PlaceMap,
         table: &FeatureTable,
     ) -> Result<Option<FieldFromMap>, PlaceMapError> {
-        let blue = nearest(map, table, self.goals.blue)?;
-        let yellow = nearest(map, table, self.goals.yellow)?;
+        let GoalNodes { blue, yellow } = self.goals(map, table)?;
         let (Some(from), Some(to)) = (map.position(blue), map.position(yellow)) else {
             return Ok(None);
         };
         let nodes = map.positions().map(|(_, position)| position);
-        Ok(FieldFromMap::of(nodes, from, to, self.extent).filter(|_| blue != yellow))
+        Ok(FieldFromMap::of(nodes, from, to, &self.field).filter(|_| blue != yellow))
     }
 }
 
@@ -163,7 +185,7 @@ fn is_mirrored(pairs: &[(Cell, Point)]) -> bool {
 mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
-    use tolman_geom::{Heading, Pose};
+    use tolman_geom::Pose;
     use tolman_maps::place_map::{
         FeatureChoice, FeatureGroup, FeatureScaling, ImageForm, PlaceMapConfig, PlaceRecord,
     };
@@ -207,7 +229,7 @@ mod tests {
         });
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         let map = PlaceMap::learn(&table, 0..1000, config, &mut rng).unwrap();
-        let scorer = PlaceScorer::paper(cells, GOALS);
+        let scorer = PlaceScorer::paper(cells, GOALS, Heading::NORTH);
         scorer.score(&map, &table, &mut rng).unwrap()
     }
 

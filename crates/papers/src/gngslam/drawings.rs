@@ -1,0 +1,155 @@
+//! Maps with each node's image at its place: figures 4.3, A.1 and A.2.
+
+use tolman_arena::gngslam::{FieldFromMap, GoalNodes};
+use tolman_draw::{
+    Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Image, Points, Series, Tiles,
+};
+use tolman_experiment::{BoxError, Run};
+use tolman_geom::Point;
+use tolman_maps::place_map::PlaceMap;
+use tolman_quantizers::UnitId;
+use tolman_robot::Picture;
+
+use super::search_space::{COUNT, LAMBDA, Parameters, WINNER_RATE};
+use super::sets::{SETS, Set};
+use super::{GngSlam, MapRun, NAME};
+
+/// Where the appendix differs from the best parameters: the middle of "200 and 250", and 0.052.
+const MORE_NODES: f64 = 225.0;
+const SLOW: f64 = 0.052;
+
+/// The sets of figure 4.3, from 0. The text calls the second 5, the caption 6.
+const SHOWN: [usize; 2] = [0, 5];
+
+/// Width of a map and of a node's image, user units.
+const WIDTH: f64 = 460.0;
+const IMAGE: f64 = 76.0;
+
+impl GngSlam {
+    /// The maps of the best runs; a set without a map that has a score is left out.
+    pub(super) fn drawings(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        let mut figures = Vec::new();
+        let mut tiles = Tiles::new(2);
+        for place in SHOWN {
+            if let Some(best) = best(runs, &SETS[place])? {
+                let caption = format!("set {}: {}", place + 1, SETS[place].row);
+                tiles.tile(caption, self.drawing(&SETS[place], &best.0, best.1)?);
+            }
+        }
+        let drawing =
+            tiles.drawing("The best maps of sets 1 and 6, each node's image at its place.");
+        let figure = Figure::new("figure-4-3", "The best maps of sets 1 and 6", drawing);
+        figures.push(figure.caption(READ).table(NAME));
+        if let Some((parameters, seed)) = best(runs, &SETS[SHOWN[1]])? {
+            for (name, title, which, value) in [
+                (
+                    "figure-a-1",
+                    "The map of set 6 with more nodes, λ = 225",
+                    LAMBDA,
+                    MORE_NODES,
+                ),
+                (
+                    "figure-a-2",
+                    "The map of set 6 learned slowly, ε_b = 0.052",
+                    WINNER_RATE,
+                    SLOW,
+                ),
+            ] {
+                let changed = parameters.with(which, value);
+                let drawing = self.drawing(&SETS[SHOWN[1]], &changed, seed)?;
+                figures.push(Figure::new(name, title, drawing).caption(READ).table(NAME));
+            }
+        }
+        Ok(figures)
+    }
+
+    fn drawing(&self, set: &Set, parameters: &Parameters, seed: u64) -> Result<Drawing, BoxError> {
+        let map = self.learn(set, parameters, seed)?;
+        let table = self.places.table(set.image())?;
+        let scorer = self.places.scorer()?;
+        let Some(field_from_map) = scorer.field_from_map(&map, table)? else {
+            let empty = Chart::new(axis("x, cells"), axis("y, cells"));
+            return Ok(
+                empty.drawing("Both goals are nearest to one node, so the map cannot be turned.")
+            );
+        };
+        let goals = scorer.goals(&map, table)?;
+        drawn(&map, &field_from_map, goals)
+    }
+}
+
+/// How the maps are to be read.
+const READ: &str = "Each node's image has its middle where the node lies, in cells, turned so that the yellow goal is straight \
+                    above the blue one; lines are links. Nothing is mirrored: the windows are on the right, as on the pitch. \
+                    Images were converted to red, green and blue.";
+
+fn axis(title: &str) -> Axis {
+    Axis::linear(title).between(-1.0, 9.0)
+}
+
+/// A map, with its blue and its yellow goal.
+fn drawn(
+    map: &PlaceMap,
+    field_from_map: &FieldFromMap,
+    goals: GoalNodes,
+) -> Result<Drawing, BoxError> {
+    let mut chart = Chart::new(axis("x, cells"), axis("y, cells"))
+        .sized(WIDTH, WIDTH)
+        .equal();
+    let place = |node| Some(field_from_map.transform(map.position(node)?));
+    let nodes: Vec<(UnitId, Point)> = map
+        .network()
+        .ids()
+        .filter_map(|node| Some((node, place(node)?)))
+        .collect();
+    chart.graph(links(map, &nodes));
+    // Many nodes want small images.
+    let width = IMAGE.min(IMAGE * libm::sqrt(10.0 / nodes.len().max(1) as f64));
+    for (node, at) in &nodes {
+        if let Some(picture) = map.picture(*node) {
+            chart.image(*at, image(&picture)?, width, format!("node {node}"));
+        }
+    }
+    for (label, series, goal) in [
+        ("blue goal", 0, goals.blue),
+        ("yellow goal", 1, goals.yellow),
+    ] {
+        let at = place(goal).into_iter().collect();
+        chart.points(Points::new(label, Series(series), at));
+    }
+    Ok(chart.drawing(format!("{} nodes with their images.", nodes.len())))
+}
+
+fn links(map: &PlaceMap, nodes: &[(UnitId, Point)]) -> Graph {
+    let mut graph = Graph::new();
+    for (_, at) in nodes {
+        graph.node(GraphNode::at(*at).series(Series(2)));
+    }
+    let index = |id| nodes.iter().position(|(node, _)| *node == id);
+    for edge in map.network().edges() {
+        if let (Some(from), Some(to)) = (index(edge.ends.0), index(edge.ends.1)) {
+            graph.edge(GraphEdge::between(from, to).series(Series(2)));
+        }
+    }
+    graph
+}
+
+fn image(picture: &Picture) -> Result<Image, BoxError> {
+    let pixels: Vec<u8> = picture.pixels.iter().flatten().copied().collect();
+    Ok(Image::rgb(picture.width, picture.height, &pixels)?)
+}
+
+/// The parameters and the seed of the best run of a set.
+fn best(runs: &[Run], set: &Set) -> Result<Option<(Parameters, u64)>, BoxError> {
+    let mut best: Option<(f64, Parameters, u64)> = None;
+    for run in runs.iter().filter(|run| run.is_of(NAME, set.row)) {
+        let record: MapRun = run.record()?;
+        let parameters: Result<[f64; COUNT], _> = record.parameters.try_into();
+        if let (Some(score), Ok(parameters)) = (record.score, parameters)
+            && best.is_none_or(|(most, ..)| score > most)
+        {
+            best = Some((score, Parameters(parameters), run.seed));
+        }
+    }
+    Ok(best.map(|(_, parameters, seed)| (parameters, seed)))
+}
