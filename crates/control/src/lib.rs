@@ -15,7 +15,8 @@
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
 //! 6. [`Settle`], which is ours: make a turn to and fro die out, so that every action ends.
 //!
-//! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`].
+//! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`]; those of a robot that drives until something is near
+//! are in [`wander`].
 //!
 //! A [`Drive`] carries out whole actions by a stack, with any robot that senses ranges and its heading.
 //! An action that its layers do not end ends as [`Outcome::TimedOut`].
@@ -85,6 +86,7 @@ mod outcome;
 mod read;
 mod settle;
 mod stack;
+pub mod wander;
 
 pub use avoid::Avoid;
 pub use center::Center;

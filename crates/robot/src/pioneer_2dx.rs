@@ -1,11 +1,12 @@
 //! The Pioneer 2-DX: its measures and what it senses. It is told by [`TurnTranslate`](crate::TurnTranslate).
 
+use alloc::vec::Vec;
 use core::f64::consts::PI;
 
 use tolman_geom::{Heading, Point, Pose};
 
 use crate::{
-    Bumps, Clock, Odometry, Picture, PinholeCamera, Rolls, Snapshot, Sounding, Soundings,
+    Body, Bumps, Clock, Odometry, Picture, PinholeCamera, Rolls, Snapshot, Sounding, Soundings,
     TakesSnapshots,
 };
 
@@ -14,6 +15,9 @@ pub const LENGTH: f64 = 0.44;
 
 /// Width of the body, m.
 pub const WIDTH: f64 = 0.33;
+
+/// How far the body reaches ahead of the wheels' axle, m. The sonars at the back then sit within it.
+pub const FRONT: f64 = 0.18;
 
 /// Radius of a wheel, m.
 pub const WHEEL_RADIUS: f64 = 0.0825;
@@ -81,6 +85,16 @@ pub fn sonar_mounts() -> [Pose; SONARS] {
     })
 }
 
+/// Returns its outline: [`LENGTH`] by [`WIDTH`] round the middle of the wheels' axle.
+#[must_use]
+pub fn body() -> Body {
+    let (front, back, side) = (FRONT, FRONT - LENGTH, 0.5 * WIDTH);
+    let corners = [(back, -side), (front, -side), (front, side), (back, side)];
+    Body::Polygon {
+        corners: Vec::from(corners.map(|(x, y)| Point::new(x, y))),
+    }
+}
+
 /// What it senses in one time step. A sensor that gave nothing this time is `None`; the other readings still hold.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -95,6 +109,17 @@ pub struct Pioneer2dxSensing {
     pub odometry: Option<Odometry>,
     /// Whether the body touched something in this step.
     pub bump: Option<bool>,
+}
+
+impl Pioneer2dxSensing {
+    /// Before the first reading: nothing from any sensor.
+    pub const SILENT: Self = Self {
+        time_us: 0,
+        sonars: None,
+        picture: None,
+        odometry: None,
+        bump: None,
+    };
 }
 
 impl Rolls for Pioneer2dxSensing {

@@ -85,7 +85,11 @@ pub(crate) fn overlap(a: &Placed, b: &Placed) -> bool {
 
 fn crosses(a: &Wall, b: &Wall) -> bool {
     let side = |of: &Wall, point: Point| (of.end - of.start).perp(&(point - of.start));
-    side(a, b.start) * side(a, b.end) <= 0.0 && side(b, a.start) * side(b, a.end) <= 0.0
+    let apart = |(a, b): (f64, f64), (c, d): (f64, f64)| a.max(b) < c.min(d) || c.max(d) < a.min(b);
+    // Of walls in one line no end is on any side.
+    let in_reach = !apart((a.start.x, a.end.x), (b.start.x, b.end.x))
+        && !apart((a.start.y, a.end.y), (b.start.y, b.end.y));
+    in_reach && side(a, b.start) * side(a, b.end) <= 0.0 && side(b, a.start) * side(b, a.end) <= 0.0
 }
 
 /// What is near enough to a body to be met in one step. Kept from step to step for its memory.

@@ -12,7 +12,7 @@
 //! [`Simulation::place`](crate::Simulation::place).
 
 use tolman_geom::Heading;
-use tolman_robot::{ColumnImage, Scan};
+use tolman_robot::{ColumnImage, Picture, Scan};
 
 mod disturbance;
 mod fault;
@@ -91,6 +91,20 @@ impl Values for ColumnImage {
     fn is_sound(&self) -> bool {
         let mut all = self.columns.iter().flatten();
         all.all(|value| (0.0..=1.0).contains(value))
+    }
+}
+
+impl Values for Picture {
+    /// Red, green and blue of every pixel, 0 … 255, rounded.
+    fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
+        for value in self.pixels.iter_mut().flatten() {
+            *value = change(f64::from(*value)).round().clamp(0.0, 255.0) as u8;
+        }
+    }
+
+    /// As many pixels as its size says.
+    fn is_sound(&self) -> bool {
+        self.pixels.len() == self.width as usize * self.height as usize
     }
 }
 

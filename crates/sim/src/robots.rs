@@ -5,6 +5,7 @@ use crate::noise::{Faults, Values};
 mod camera_pioneer;
 mod epuck;
 mod laser_pioneer;
+mod pioneer_2dx;
 
 pub use camera_pioneer::{
     CameraPioneer, CameraPioneerConfig, CameraPioneerDisturbances, CameraPioneerError,
@@ -13,6 +14,10 @@ pub use epuck::{Epuck, EpuckConfig, EpuckDisturbances, EpuckError};
 pub use laser_pioneer::{
     ConfigError, LaserPioneer, LaserPioneerConfig, LaserPioneerDisturbances, LaserPioneerFaults,
     MotorNoise,
+};
+pub use pioneer_2dx::{
+    Pioneer2dx, Pioneer2dxConfig, Pioneer2dxDisturbances, Pioneer2dxError, Pioneer2dxFaults,
+    WheelScale,
 };
 
 /// What a trace calls the disturbances of one value: the name of the value, and how each prints itself.

@@ -1,5 +1,5 @@
 use nalgebra::Isometry2;
-use tolman_geom::{Point, Pose};
+use tolman_geom::{Point, Pose, Vector};
 use tolman_robot::Body;
 
 use crate::casters::Sweep;
@@ -68,6 +68,9 @@ impl Crowd {
     }
 }
 
+/// How many sides a disc has where it counts as a polygon.
+const DISC_SIDES: u32 = 24;
+
 /// A body somewhere.
 #[derive(Clone, Debug)]
 pub(crate) struct Placed {
@@ -129,6 +132,20 @@ impl Placed {
             .map(|(start, end)| Wall::between(*start, *end))
     }
 
+    /// A polygon's sides; of a disc, those of the regular polygon round it.
+    pub(crate) fn outline(&self) -> Vec<Wall> {
+        if !self.corners.is_empty() {
+            return self.sides().collect();
+        }
+        let step = core::f64::consts::TAU / f64::from(DISC_SIDES);
+        let corner = |index: u32| {
+            let (sin, cos) = libm::sincos(f64::from(index) * step);
+            self.pose.position + Vector::new(cos, sin) * (self.radius / libm::cos(0.5 * step))
+        };
+        let sides = (0..DISC_SIDES).map(|index| Wall::between(corner(index), corner(index + 1)));
+        sides.collect()
+    }
+
     /// Whether `point` lies in a polygon; never in a disc, which has no sides.
     pub(crate) fn encloses(&self, point: Point) -> bool {
         !self.corners.is_empty()
@@ -149,7 +166,7 @@ impl Placed {
     }
 
     /// How far a ray meets the body from outside, m; infinity if it does not.
-    pub(crate) fn ray(&self, origin: Point, direction: tolman_geom::Vector) -> f64 {
+    pub(crate) fn ray(&self, origin: Point, direction: Vector) -> f64 {
         if self.corners.is_empty() {
             let to_centre = self.pose.position - origin;
             let ahead = direction.dot(&to_centre);

@@ -27,12 +27,19 @@
 use crate::{Chance, Surroundings};
 
 mod column_camera;
+mod cone;
 mod infrared;
 mod laser;
+mod picture_camera;
+mod sonars;
 
 pub use column_camera::{CameraError, ColumnCamera};
 pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};
+pub use picture_camera::{
+    Backdrop, Light, LightDrift, PictureCamera, PictureCameraConfig, PictureCameraError,
+};
+pub use sonars::{CrossTalk, Misses, SonarConfig, SonarError, Sonars};
 
 /// Something that reads a value off the surroundings of a robot.
 pub trait Sensor {

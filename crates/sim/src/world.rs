@@ -13,6 +13,7 @@ mod bounds;
 mod error;
 mod file;
 mod lattice;
+mod material;
 mod wall;
 mod zone;
 
@@ -21,7 +22,8 @@ pub use error::WorldError;
 pub(crate) use file::Head;
 pub use file::{Polyline, WorldFileError};
 pub use lattice::Occupancy;
-pub use wall::{Material, Wall};
+pub use material::Material;
+pub use wall::Wall;
 pub use zone::{Area, Zone};
 
 pub(crate) use bit_rows::BitRows;

@@ -42,6 +42,7 @@ pub mod baselines;
 mod brain;
 pub mod cpm;
 pub mod diktiometry;
+pub mod gngslam;
 mod map_header;
 pub mod micromouse;
 pub mod mslst;

@@ -1,7 +1,7 @@
 use tolman_geom::{Heading, Point, Vector};
 use tolman_maze::Cell;
 
-use super::FIELD_CELLS;
+use super::CellGrid;
 use super::point_score::middle;
 
 /// A rectangle of the field, in cells: what the map is stretched over.
@@ -17,7 +17,7 @@ impl FieldExtent {
     /// Returns the whole field.
     #[must_use]
     pub fn whole() -> Self {
-        let side = f64::from(FIELD_CELLS);
+        let side = f64::from(CellGrid::SIDE);
         Self {
             min: Point::origin(),
             max: Point::new(side, side),

@@ -5,16 +5,7 @@ use tolman_maze::Cell;
 use tolman_quantizers::UnitId;
 
 use super::point_score::middle;
-use super::{FieldExtent, FieldFrame, FieldFromMap, PointScore};
-
-/// Where the goals are in a table of features: the numbers of the records that show them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GoalRecords {
-    /// The record of the blue goal.
-    pub blue: usize,
-    /// The record of the yellow goal.
-    pub yellow: usize,
-}
+use super::{DataSet, FieldExtent, FieldFrame, FieldFromMap, GoalRecords, Pitch, PointScore};
 
 /// The nodes of a map that are nearest to the goals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,11 +35,19 @@ pub struct PlaceScore {
 }
 
 impl PlaceScorer {
-    /// Makes the paper's scorer: maps are stretched over the field as far as its cells were visited, since "the learned positions
-    /// are scaled to the manual position". `cells` has the cell of each record of a table, from record 0 on, and
-    /// `yellow_from_blue` is the true direction from goal to goal.
+    /// Returns the paper's scorer of maps of a data set, by the cells that were written down. Maps are stretched over the field as
+    /// far as its cells were visited, since "the learned positions are scaled to the manual position". Record i of the data
+    /// set has to be record i of the table.
     #[must_use]
-    pub fn paper(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
+    pub fn paper(data: &DataSet, pitch: &Pitch) -> Self {
+        let labels = data.records.iter().map(|record| record.label);
+        let to_yellow = pitch.goals.yellow - pitch.goals.blue;
+        Self::of(labels.collect(), data.goals, Heading::of(to_yellow))
+    }
+
+    /// Returns the same of the cell of each record, from record 0 on, and the true direction from the blue goal to the yellow one.
+    #[must_use]
+    pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
         let extent = FieldExtent::of_middles(&cells);
         Self {
             cells,
@@ -193,7 +192,6 @@ mod tests {
     use tolman_robot::Snapshot;
 
     use super::*;
-    use crate::gngslam::FIELD_CELLS;
 
     /// Records anywhere on the pitch, told by a perfect odometry, and the two goals.
     fn records(seed: u64, frame: Pose) -> (Vec<PlaceRecord>, Vec<Cell>) {
@@ -229,7 +227,7 @@ mod tests {
         });
         let mut rng = ChaCha8Rng::seed_from_u64(2);
         let map = PlaceMap::learn(&table, 0..1000, config, &mut rng).unwrap();
-        let scorer = PlaceScorer::paper(cells, GOALS, Heading::NORTH);
+        let scorer = PlaceScorer::of(cells, GOALS, Heading::NORTH);
         scorer.score(&map, &table, &mut rng).unwrap()
     }
 
@@ -285,6 +283,5 @@ mod tests {
         drawn.dedup();
         assert_eq!(drawn.len(), 201);
         assert!(drawn.iter().all(|number| *number < 1006));
-        assert_eq!(FIELD_CELLS, 8);
     }
 }

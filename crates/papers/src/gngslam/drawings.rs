@@ -1,6 +1,6 @@
 //! Maps with each node's image at its place: figures 4.3, A.1 and A.2.
 
-use tolman_arena::gngslam::{FieldFromMap, GoalNodes};
+use tolman_arena::gngslam::{CellGrid, FieldFromMap, GoalNodes};
 use tolman_draw::{
     Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Image, Points, Series, Tiles,
 };
@@ -87,6 +87,11 @@ fn axis(title: &str) -> Axis {
     Axis::linear(title).between(-1.0, 9.0)
 }
 
+/// Turns the pitch, whose yellow goal lies in the west, as the paper draws it: the yellow goal up, the windows on the right.
+fn upright(at: Point) -> Point {
+    Point::new(at.y, f64::from(CellGrid::SIDE) - at.x)
+}
+
 /// A map, with its blue and its yellow goal.
 fn drawn(
     map: &PlaceMap,
@@ -96,7 +101,7 @@ fn drawn(
     let mut chart = Chart::new(axis("x, cells"), axis("y, cells"))
         .sized(WIDTH, WIDTH)
         .equal();
-    let place = |node| Some(field_from_map.transform(map.position(node)?));
+    let place = |node| Some(upright(field_from_map.transform(map.position(node)?)));
     let nodes: Vec<(UnitId, Point)> = map
         .network()
         .ids()

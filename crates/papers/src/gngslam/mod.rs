@@ -4,10 +4,10 @@ mod annealing;
 mod drawings;
 mod figures;
 mod guesses;
+mod optimum;
 mod places;
 mod search_space;
 mod sets;
-mod synthetic;
 
 use alloc::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -49,6 +49,8 @@ pub(super) const ENTRY: Entry = Entry {
 struct GngSlam {
     /// The master seed.
     seed: u64,
+    /// How many maps a search makes.
+    maps: u32,
     places: Places,
     /// By set. A map follows from those before it, so a search is kept between runs.
     searches: [Mutex<Annealing<Learned>>; SETS.len()],
@@ -68,7 +70,7 @@ struct Config {
     /// How many maps the window of the search shrinks over.
     maps: u32,
     search_space: BTreeMap<&'static str, (f64, f64)>,
-    records: toml::Table,
+    records: places::Config,
 }
 
 /// Sets the tables up. The records are gathered when the first run needs them.
@@ -81,17 +83,19 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     }
     let maps = options.runs_of(&ENTRY);
     let spaces = TABLE_3_1.map(|parameter| (parameter.name, parameter.space));
+    let places = Places::new(run_seed(options.seed, "records", 0));
     let config = toml::Table::try_from(Config {
         maps,
         search_space: spaces.into(),
-        records: Places::config()?,
+        records: places.config()?,
     })?;
     let slam = GngSlam {
         seed: options.seed,
-        places: Places::new(run_seed(options.seed, "records", 0)),
+        maps,
+        places,
         searches: SETS.map(|_| Mutex::new(Annealing::new(maps))),
     };
-    let tables = vec![table(), guesses::table()];
+    let tables = vec![table(), optimum::table(), guesses::table()];
     Ok(Experiment::new(ENTRY, tables, config, slam))
 }
 
@@ -225,6 +229,7 @@ impl Procedure for GngSlam {
         let place = SETS.iter().position(|set| set.row == job.row);
         let run = match (job.table, job.row, place) {
             (guesses::NAME, ..) => return guesses::run(job),
+            (optimum::NAME, ..) => return optimum::run(self, job),
             (NAME, RANDOM, _) => random_map(job.seed),
             (NAME, _, Some(place)) => self.map(place, job.run)?,
             (table, row, _) => return Err(format!("there is no row {row:?} of {table}").into()),

@@ -2,13 +2,19 @@
 
 use std::sync::OnceLock;
 
-use tolman_arena::gngslam::{GoalRecords, PlaceScorer};
+use serde::Serialize;
+use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
 use tolman_experiment::BoxError;
 use tolman_maps::place_map::{FeatureTable, ImageForm, PlaceRecord};
-use tolman_maze::Cell;
+use tolman_sim::robots::Pioneer2dxConfig;
 
 use super::sets::{IMAGES, choice};
-use super::synthetic;
+
+/// The paper's number of records.
+const RECORDS: usize = 1006;
+
+/// How far wheels are out of calibration, as a share. The paper says that its odometry drifts, not by how much.
+const CALIBRATION: f64 = 0.0;
 
 /// Images are told by coordinates of their span, of which nothing is left out.
 const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
@@ -17,19 +23,23 @@ const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
 #[derive(Debug)]
 pub(super) struct Places {
     seed: u64,
-    records: Once<Gathered>,
+    gathered: Once<Gathered>,
     /// By image.
     tables: [Once<FeatureTable>; IMAGES.len()],
 }
 
-/// What the robot gathered and what is true of it.
-#[derive(Clone, Debug)]
-pub(super) struct Gathered {
-    /// The records of places, then those of the goals.
-    pub(super) records: Vec<PlaceRecord>,
-    /// The cells of the records of places.
-    pub(super) cells: Vec<Cell>,
-    pub(super) goals: GoalRecords,
+#[derive(Debug)]
+struct Gathered {
+    pitch: Pitch,
+    data: DataSet,
+}
+
+/// What the records depend on but the seed.
+#[derive(Serialize)]
+pub(super) struct Config {
+    count: usize,
+    arena: String,
+    robot: Pioneer2dxConfig,
 }
 
 /// What is made once, or why it could not be.
@@ -44,43 +54,47 @@ impl Places {
     pub(super) const fn new(seed: u64) -> Self {
         Self {
             seed,
-            records: OnceLock::new(),
+            gathered: OnceLock::new(),
             tables: [const { OnceLock::new() }; IMAGES.len()],
         }
     }
 
-    /// What the records depend on but the seed.
-    pub(super) fn config() -> Result<toml::Table, BoxError> {
-        Ok(toml::Table::new())
+    /// Returns what the records depend on but the seed.
+    pub(super) fn config(&self) -> Result<Config, BoxError> {
+        let pitch = Pitch::paper()?;
+        Ok(Config {
+            count: RECORDS,
+            robot: pitch.robot(self.seed, CALIBRATION)?,
+            arena: pitch.name,
+        })
     }
 
     fn gathered(&self) -> Result<&Gathered, BoxError> {
-        once(&self.records, || Ok(synthetic::gather(self.seed)))
+        once(&self.gathered, || {
+            let pitch = Pitch::paper()?;
+            let robot = pitch.robot(self.seed, CALIBRATION)?;
+            let data = gather(&pitch, robot, self.seed, RECORDS)?;
+            Ok(Gathered { pitch, data })
+        })
     }
 
-    /// Returns the number of records of places.
+    /// Returns the number of records.
     pub(super) fn count(&self) -> Result<usize, BoxError> {
-        Ok(self.gathered()?.cells.len())
+        Ok(self.gathered()?.data.records.len())
     }
 
     /// Returns the features of all records with the image of a place among [`IMAGES`].
     pub(super) fn table(&self, image: usize) -> Result<&FeatureTable, BoxError> {
         once(&self.tables[image], || {
-            let records = &self.gathered()?.records;
-            let t = std::time::Instant::now();
-            let table = FeatureTable::of(records, &choice(IMAGES[image]), FORM)?;
-            eprintln!(
-                "table {image}: {:?} {}",
-                t.elapsed(),
-                table.space().dimension()
-            );
-            Ok(table)
+            let records = self.gathered()?.data.records.iter();
+            let records: Vec<PlaceRecord> = records.map(|record| record.record.clone()).collect();
+            Ok(FeatureTable::of(&records, &choice(IMAGES[image]), FORM)?)
         })
     }
 
     /// Returns who scores maps of these records.
     pub(super) fn scorer(&self) -> Result<PlaceScorer, BoxError> {
-        let Gathered { cells, goals, .. } = self.gathered()?;
-        Ok(PlaceScorer::paper(cells.clone(), *goals, tolman_geom::Heading::NORTH))
+        let Gathered { pitch, data } = self.gathered()?;
+        Ok(PlaceScorer::paper(data, pitch))
     }
 }

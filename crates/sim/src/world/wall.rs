@@ -1,5 +1,6 @@
 use tolman_geom::{Point, Vector};
 
+use super::Material;
 use crate::casters::Seen;
 
 /// A straight wall without thickness: a closed segment, its ends part of it.
@@ -13,26 +14,6 @@ pub struct Wall {
     /// What it is made of.
     #[serde(default)]
     pub material: Material,
-}
-
-/// How a wall looks to sensors other than the laser, which sees them all alike.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Material {
-    /// Share of infrared light it throws back, 0 … 1.
-    pub reflectance: f64,
-    /// Red, green and blue.
-    pub colour: [u8; 3],
-}
-
-impl Default for Material {
-    /// White and mirroring nothing: the reference surface of data sheets.
-    fn default() -> Self {
-        Self {
-            reflectance: 1.0,
-            colour: [255, 255, 255],
-        }
-    }
 }
 
 impl Wall {
@@ -102,6 +83,9 @@ impl Wall {
             self.end.x,
             self.end.y,
             self.material.reflectance,
+            self.material.base,
+            self.material.height,
+            self.material.glow,
         ];
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err("has a number that is not finite");

@@ -13,6 +13,7 @@ mod disturbances;
 mod epuck;
 mod leaks;
 mod noise;
+mod pioneer_2dx;
 mod sensing;
 mod traces;
 mod two_crates;

@@ -1,0 +1,107 @@
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Heading, Pose};
+use tolman_maps::place_map::PlaceRecord;
+use tolman_maze::Cell;
+
+use super::{CellGrid, Pitch};
+
+/// Records of one run with the truth beside them (section 3.2).
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataSet {
+    /// Name of the arena: see [`Pitch::named`].
+    pub arena: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// The cells over the arena's floor.
+    pub cells: CellGrid,
+    /// The records, in the order in which they were taken.
+    pub records: Vec<LabelledRecord>,
+    /// Which of them show the goals.
+    pub goals: GoalRecords,
+}
+
+/// A record, and where it was truly taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelledRecord {
+    /// What the robot knows of it.
+    pub record: PlaceRecord,
+    /// Where the robot truly was.
+    pub truth: Pose,
+    /// The cell where it truly was.
+    pub cell: Cell,
+    /// The cell that was written down by hand: of a few records a wrong one.
+    pub label: Cell,
+}
+
+/// Which record best shows each goal, as was indicated by hand (section 3.4, *Score*): taken before it, looking at it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GoalRecords {
+    /// Index of the record of the blue goal.
+    pub blue: usize,
+    /// Index of the record of the yellow goal.
+    pub yellow: usize,
+}
+
+/// Which share of the labels is wrong. Paper: 10 of 1006.
+const WRONG_LABELS: f64 = 0.01;
+
+impl GoalRecords {
+    /// Finds the records from where each goal is nearest straight ahead, with nothing between. Of no records the first, which does
+    /// not exist.
+    pub(super) fn find(pitch: &Pitch, records: &[LabelledRecord]) -> Self {
+        let best = |goal| {
+            let costs = records.iter().map(|record| cost(pitch, record.truth, goal));
+            let best = (0..).zip(costs).min_by(|a, b| a.1.total_cmp(&b.1));
+            best.map_or(0, |(index, _)| index)
+        };
+        Self {
+            blue: best(pitch.goals.blue),
+            yellow: best(pitch.goals.yellow),
+        }
+    }
+}
+
+/// How badly a goal is seen from a pose: the least where it is straight ahead and near, and nothing stands before it.
+fn cost(pitch: &Pitch, pose: Pose, goal: tolman_geom::Point) -> f64 {
+    /// What counts as much as 1 m, rad.
+    const ASIDE: f64 = 0.15;
+    /// A goal that something hides is seen worse than any that is not.
+    const HIDDEN: f64 = 1e6;
+    /// The goal itself stands a little before its wall, m.
+    const PROUD: f64 = 0.05;
+    let way = goal - pose.position;
+    let (distance, towards) = (way.norm(), Heading::of(way));
+    let aside = pose.heading.turn_to(towards) / ASIDE;
+    let caster = pitch.world.caster();
+    let sight = caster.cast(pose.position, towards.unit(), distance);
+    let hidden = if sight < distance - PROUD {
+        HIDDEN
+    } else {
+        0.0
+    };
+    aside * aside + distance * distance + hidden
+}
+
+/// Writes a wrong cell down for the paper's share of all records.
+pub(super) fn mislabel(records: &mut [LabelledRecord], rng: &mut ChaCha8Rng) {
+    let count = records.len();
+    let mut wrong = (WRONG_LABELS * count as f64).round() as usize;
+    // Each of those that are left is as likely as any other.
+    for (index, record) in records.iter_mut().enumerate() {
+        let left = (count - index) as u32;
+        if (rng.random_range(0..left) as usize) < wrong {
+            record.label = another(record.cell, rng);
+            wrong -= 1;
+        }
+    }
+}
+
+/// Any cell but this one.
+fn another(cell: Cell, rng: &mut ChaCha8Rng) -> Cell {
+    let side = u32::from(CellGrid::SIDE);
+    let own = u32::from(cell.y) * side + u32::from(cell.x);
+    let index = (own + rng.random_range(1..side * side)) % (side * side);
+    Cell::new((index % side) as u16, (index / side) as u16)
+}

@@ -1,0 +1,98 @@
+use alloc::sync::Arc;
+
+use thiserror::Error;
+use tolman_robot::Stopping;
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig, Pioneer2dxError};
+use tolman_sim::{PlaceError, Solo, StepError};
+use tolman_systems::gngslam::{Wanderer, WandererConfig, WandererError};
+use tolman_systems::stream;
+
+use super::data_set::mislabel;
+use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PitchError};
+
+/// Why no data was gathered.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum GatherError {
+    /// No records are asked for.
+    #[error("0 records were asked for; gather at least 1")]
+    NoRecords,
+    /// The robot cannot be built.
+    #[error("the robot cannot be built")]
+    Robot(#[from] Pioneer2dxError),
+    /// There is no place for the robot in the arena.
+    #[error(transparent)]
+    Pitch(#[from] PitchError),
+    /// The robot cannot stand where it begins.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// The robot got stuck or took no snapshot.
+    #[error(transparent)]
+    Wanderer(#[from] WandererError<StepError>),
+}
+
+/// Random stream of a run's seed for the labels; those of the arena are 1 and 2, that of the wanderer 0.
+const LABELS: u64 = 3;
+
+/// Lets a robot wander in an arena until it has taken `count` records, and writes down the truth beside each (section 3.2; the paper
+/// has 1006). `seed` is that of all chance: where it begins, its noise, its turns and the labels.
+///
+/// # Errors
+/// [`GatherError`] if the robot cannot be built or put down, or takes no snapshot.
+///
+/// ```
+/// use tolman_arena::gngslam::{Pitch, gather};
+///
+/// let pitch = Pitch::paper()?;
+/// let data = gather(&pitch, pitch.robot(1, 0.0)?, 1, 12)?;
+/// assert_eq!(data.records.len(), 12);
+/// assert!(data.records.iter().all(|record| pitch.holds(record.truth.position)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn gather(
+    pitch: &Pitch,
+    robot: Pioneer2dxConfig,
+    seed: u64,
+    count: usize,
+) -> Result<DataSet, GatherError> {
+    if count == 0 {
+        return Err(GatherError::NoRecords);
+    }
+    let robot = Pioneer2dx::new(robot)?;
+    let mut robot = Stopping::new(Solo::new(
+        Arc::clone(&pitch.world),
+        robot,
+        pitch.start(seed)?,
+        seed,
+    )?);
+    let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
+    let mut records = Vec::with_capacity(count);
+    for _ in 0..count {
+        records.push(next(pitch, &mut robot, &mut wanderer)?);
+    }
+    mislabel(&mut records, &mut stream(seed, LABELS));
+    Ok(DataSet {
+        arena: pitch.name.clone(),
+        seed,
+        cells: pitch.cells(),
+        goals: GoalRecords::find(pitch, &records),
+        records,
+    })
+}
+
+/// The next record, with the truth.
+fn next(
+    pitch: &Pitch,
+    robot: &mut Stopping<Solo<Pioneer2dx>>,
+    wanderer: &mut Wanderer,
+) -> Result<LabelledRecord, GatherError> {
+    let record = wanderer.leg(robot)?;
+    let truth = robot.truth().pose;
+    let cell = pitch.cell_of(truth.position);
+    Ok(LabelledRecord {
+        record,
+        truth,
+        cell,
+        label: cell,
+    })
+}

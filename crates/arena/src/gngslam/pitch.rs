@@ -1,0 +1,174 @@
+use alloc::sync::Arc;
+use core::f64::consts::PI;
+
+use rand::{Rng, RngExt};
+use thiserror::Error;
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maze::Cell;
+use tolman_robot::pioneer_2dx;
+use tolman_sim::robots::{Pioneer2dxConfig, WheelScale};
+use tolman_sim::sensors::{Backdrop, Light};
+use tolman_sim::{Bounds, World, WorldError};
+use tolman_systems::stream;
+
+use super::CellGrid;
+use super::room::Room;
+
+/// An arena of the place map: its world, and what is true of it.
+#[derive(Clone, Debug)]
+pub struct Pitch {
+    /// What it is called: see [`named`](Self::named).
+    pub name: String,
+    /// Its walls, goals, windows and furniture.
+    pub world: Arc<World>,
+    /// Where its goals stand.
+    pub goals: GoalPoints,
+    /// How it is lit.
+    pub light: Light,
+    /// Its floor and ceiling.
+    pub backdrop: Backdrop,
+    pub(super) room: Room,
+}
+
+/// The middle of each goal's foot, m. In random arenas the goals have other colours, and the first is called blue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GoalPoints {
+    /// Of the blue goal.
+    pub blue: Point,
+    /// Of the yellow goal.
+    pub yellow: Point,
+}
+
+/// Why there is no such arena, or no place in it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PitchError {
+    /// No arena has this name.
+    #[error(
+        "no arena is called {name:?}; the arenas are `pitch`, `hall`, `l-room` and `random-` with a number, such as `random-7`"
+    )]
+    Unknown {
+        /// The name asked for.
+        name: String,
+    },
+    /// The robot found no place to stand.
+    #[error(
+        "{tries} random places of arena `{name}` were too narrow to turn the robot in; use a larger arena"
+    )]
+    NoRoom {
+        /// Which arena.
+        name: String,
+        /// How many places were tried.
+        tries: u32,
+    },
+    /// How far wheels are out of calibration is no share.
+    #[error("`calibration` is {calibration}; give a share from 0 to 0.5")]
+    Calibration {
+        /// The offending share.
+        calibration: f64,
+    },
+    /// The world cannot be built.
+    #[error("the arena makes no world")]
+    World(#[from] WorldError),
+}
+
+/// Random streams of an arena's seed, one for each consumer.
+const START: u64 = 1;
+const WHEELS: u64 = 2;
+
+/// How many places are tried for a start.
+const TRIES: u32 = 10_000;
+
+impl Pitch {
+    /// Returns the arena of this name: `pitch` for the [paper's](Self::paper), `hall`, `l-room`, or `random-` with a seed.
+    ///
+    /// # Errors
+    /// [`PitchError::Unknown`] if there is none.
+    pub fn named(name: &str) -> Result<Self, PitchError> {
+        match name {
+            "pitch" => Self::paper(),
+            "hall" => Self::hall(),
+            "l-room" => Self::l_room(),
+            _ => {
+                let seed = name.strip_prefix("random-");
+                let seed = seed.and_then(|seed| seed.parse().ok());
+                let name = name.to_owned();
+                Self::random(seed.ok_or(PitchError::Unknown { name })?)
+            }
+        }
+    }
+
+    /// Returns the smallest rectangle that holds the floor.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.room.bounds()
+    }
+
+    /// Returns the 8 × 8 cells over its floor.
+    #[must_use]
+    pub fn cells(&self) -> CellGrid {
+        CellGrid::over(self.bounds())
+    }
+
+    /// Returns the cell in which a point lies.
+    #[must_use]
+    pub fn cell_of(&self, point: Point) -> Cell {
+        self.cells().cell_of(point)
+    }
+
+    /// Returns whether a point lies on the floor and in no furniture.
+    #[must_use]
+    pub fn holds(&self, point: Point) -> bool {
+        self.room.holds(point)
+    }
+
+    /// Returns where a run begins: any place where a Pioneer 2-DX can turn, any heading.
+    ///
+    /// # Errors
+    /// [`PitchError::NoRoom`] if there is none.
+    pub fn start(&self, seed: u64) -> Result<Pose, PitchError> {
+        let mut rng = stream(seed, START);
+        let radius = pioneer_2dx::body().radius() + 0.02;
+        let mut places = (0..TRIES).map(|_| self.anywhere(&mut rng));
+        let is_free = |pose: &Pose| {
+            let at = pose.position;
+            self.holds(at) && self.world.nearest_wall_distance(at) > radius
+        };
+        places.find(is_free).ok_or_else(|| PitchError::NoRoom {
+            name: self.name.clone(),
+            tries: TRIES,
+        })
+    }
+
+    /// Any place of the rectangle round the floor, any heading.
+    fn anywhere(&self, rng: &mut impl Rng) -> Pose {
+        let bounds = self.bounds();
+        let offset = Vector::new(
+            rng.random_range(0.0..bounds.width()),
+            rng.random_range(0.0..bounds.height()),
+        );
+        let heading = Heading::from_radians(rng.random_range(-PI..PI));
+        Pose::new(bounds.min + offset, heading)
+    }
+
+    /// Returns the paper's robot in this arena's light. Its wheels count wrongly by a constant share within ± `calibration`, each
+    /// its own, by `seed`; 0 for wheels that are right but for slip.
+    ///
+    /// # Errors
+    /// [`PitchError::Calibration`] if that is no share from 0 to 0.5.
+    pub fn robot(&self, seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
+        if !(0.0..=0.5).contains(&calibration) {
+            return Err(PitchError::Calibration { calibration });
+        }
+        let mut rng = stream(seed, WHEELS);
+        let mut scale = || 1.0 + calibration * rng.random_range(-1.0..=1.0);
+        let wheels = WheelScale {
+            left: scale(),
+            right: scale(),
+        };
+        let mut robot = Pioneer2dxConfig::paper().with_wheel_scale(wheels);
+        robot.camera.light = self.light;
+        robot.camera.backdrop = self.backdrop;
+        Ok(robot)
+    }
+}

@@ -1,0 +1,186 @@
+//! The robot of the place map wanders in arenas by seed: it gets everywhere and out of everywhere.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot set itself up has failed"
+)]
+
+use std::collections::BTreeSet;
+
+use tolman_arena::gngslam::{DataSet, Pitch, gather};
+use tolman_maze::Cell;
+use tolman_robot::Robot;
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
+use tolman_sim::{Solo, StepError};
+use tolman_systems::gngslam::{Wanderer, WandererConfig};
+
+/// What became of many legs.
+#[derive(Debug)]
+struct Wandered {
+    steps: u32,
+    /// Share of the steps in which something was touched.
+    bumps: f64,
+    /// Share of the legs that led nowhere.
+    idle: f64,
+    /// The cells that the robot was in.
+    visited: BTreeSet<Cell>,
+}
+
+/// Counts what a robot does.
+struct Watched<'a> {
+    solo: Solo<Pioneer2dx>,
+    pitch: &'a Pitch,
+    steps: u32,
+    visited: BTreeSet<Cell>,
+}
+
+impl Robot for Watched<'_> {
+    type Command = tolman_robot::TurnTranslate;
+    type Sensing = tolman_robot::pioneer_2dx::Pioneer2dxSensing;
+    type Error = StepError;
+
+    fn sensing(&self) -> &Self::Sensing {
+        self.solo.sensing()
+    }
+
+    fn step(&mut self, command: &Self::Command) -> Result<(), StepError> {
+        self.solo.step(command)?;
+        self.steps += 1;
+        let position = self.solo.truth().pose.position;
+        assert!(self.pitch.holds(position), "it left the floor: {position}");
+        self.visited.insert(self.pitch.cell_of(position));
+        Ok(())
+    }
+}
+
+/// The arena's robot with pictures of a few pixels: nobody looks at them here.
+fn quick(pitch: &Pitch, seed: u64) -> Pioneer2dxConfig {
+    let mut robot = pitch.robot(seed, 0.03).unwrap();
+    robot.camera.width = 4;
+    robot.camera.height = 3;
+    robot
+}
+
+fn wander(pitch: &Pitch, legs: u32, seed: u64) -> Wandered {
+    let model = Pioneer2dx::new(quick(pitch, seed)).unwrap();
+    let start = pitch.start(seed).unwrap();
+    let mut robot = Watched {
+        solo: Solo::new(pitch.world.clone(), model, start, seed).unwrap(),
+        pitch,
+        steps: 0,
+        visited: BTreeSet::new(),
+    };
+    let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
+    let (mut idle, mut before) = (0, start.position);
+    for _ in 0..legs {
+        wanderer.leg(&mut robot).unwrap();
+        let here = robot.solo.truth().pose.position;
+        idle += u32::from((here - before).norm() < 0.2);
+        before = here;
+    }
+    Wandered {
+        steps: robot.steps,
+        bumps: f64::from(robot.solo.bumps()) / f64::from(robot.steps),
+        idle: f64::from(idle) / f64::from(legs),
+        visited: robot.visited,
+    }
+}
+
+/// The cells where the middle of the robot can be: those that hold a place with room for half its width.
+fn reachable(pitch: &Pitch) -> BTreeSet<Cell> {
+    let (bounds, steps) = (pitch.bounds(), 160);
+    let points = (0..steps).flat_map(|x| (0..steps).map(move |y| (x, y)));
+    let points = points.map(|(x, y)| {
+        let along = |index: i32, size: f64| (f64::from(index) + 0.5) / f64::from(steps) * size;
+        bounds.min + tolman_geom::Vector::new(along(x, bounds.width()), along(y, bounds.height()))
+    });
+    let free = points
+        .filter(|point| pitch.holds(*point) && pitch.world.nearest_wall_distance(*point) > 0.4);
+    free.map(|point| pitch.cell_of(point)).collect()
+}
+
+fn check(pitch: &Pitch, seed: u64) {
+    let wandered = wander(pitch, 300, seed);
+    let all = reachable(pitch);
+    let missed = all.difference(&wandered.visited).count();
+    let name = &pitch.name;
+    println!(
+        "{name}: {} steps, bumps {:.4}, idle {:.3}, missed {missed} of {}",
+        wandered.steps,
+        wandered.bumps,
+        wandered.idle,
+        all.len()
+    );
+    assert!(wandered.bumps < 0.02, "{name}: {}", wandered.bumps);
+    assert!(wandered.idle < 0.05, "{name}: {}", wandered.idle);
+    assert!(missed * 12 <= all.len(), "{name}: missed {missed}");
+}
+
+#[test]
+fn it_gets_everywhere_and_out_of_everywhere() {
+    for seed in 0..20 {
+        check(&Pitch::random(seed).unwrap(), seed);
+    }
+}
+
+#[test]
+fn it_wanders_in_the_arenas_that_are_always_the_same() {
+    for name in ["pitch", "hall", "l-room"] {
+        check(&Pitch::named(name).unwrap(), 1);
+    }
+}
+
+fn data(seed: u64) -> DataSet {
+    let pitch = Pitch::paper().unwrap();
+    gather(&pitch, quick(&pitch, seed), seed, 300).unwrap()
+}
+
+/// The records are labelled by hand, of which one in a hundred is wrong, and the goals are straight ahead of theirs.
+#[test]
+fn the_truth_is_written_down_beside_the_records() {
+    let (data, pitch) = (data(1), Pitch::paper().unwrap());
+    let wrong = data
+        .records
+        .iter()
+        .filter(|record| record.label != record.cell);
+    assert_eq!(wrong.count(), 3);
+    for record in &data.records {
+        assert_eq!(record.cell, pitch.cell_of(record.truth.position));
+    }
+    let goals = [
+        (data.goals.blue, pitch.goals.blue),
+        (data.goals.yellow, pitch.goals.yellow),
+    ];
+    for (index, goal) in goals {
+        let truth = data.records[index].truth;
+        let towards = tolman_geom::Heading::of(goal - truth.position);
+        let aside = truth.heading.turn_to(towards).to_degrees();
+        assert!(aside.abs() < 15.0, "{aside}°");
+        assert!((goal - truth.position).norm() < 2.5);
+    }
+    assert_ne!(data.goals.blue, data.goals.yellow);
+}
+
+#[test]
+fn the_same_seed_gathers_the_same_data() {
+    assert_eq!(data(2), data(2));
+    assert_ne!(data(2), data(3));
+}
+
+#[test]
+fn arenas_have_names() {
+    for name in ["pitch", "hall", "l-room", "random-12"] {
+        assert_eq!(Pitch::named(name).unwrap().name, name);
+    }
+    let told = Pitch::named("beach").unwrap_err().to_string();
+    assert!(
+        told.starts_with("no arena is called \"beach\"; the arenas are"),
+        "{told}"
+    );
+    let told = Pitch::paper()
+        .unwrap()
+        .robot(1, 0.9)
+        .unwrap_err()
+        .to_string();
+    assert_eq!(told, "`calibration` is 0.9; give a share from 0 to 0.5");
+}

@@ -1,0 +1,28 @@
+use tolman_robot::Bumps;
+
+use super::{LegEnd, LegStep};
+
+/// The lowest layer: the leg ends where the body touches something.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StopAtBump {
+    /// Whether this leg has made a step: what was touched before it is no matter.
+    has_moved: bool,
+}
+
+impl StopAtBump {
+    /// A new leg starts.
+    pub const fn begin(&mut self) {
+        self.has_moved = false;
+    }
+
+    /// Corrects what the layers above propose for this time step.
+    pub fn correct(&mut self, proposal: LegStep, sensing: &impl Bumps) -> LegStep {
+        let bumped = self.has_moved && sensing.bump() == Some(true);
+        self.has_moved = true;
+        if bumped {
+            LegStep::end(LegEnd::Bumped)
+        } else {
+            proposal
+        }
+    }
+}

@@ -1,0 +1,249 @@
+use core::f64::consts::TAU;
+
+use tolman_robot::{Bumps, Robot, Rolls, Soundings, TurnTranslate};
+
+use super::{GoAhead, LegEnd, LegStep, NearLimits, StopAtBump, StopNear};
+
+/// How a robot drives until something is near.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct UntilNearConfig {
+    /// How near things may come.
+    pub limits: NearLimits,
+    /// How much farther than its limit all must be where the way is clear: a factor of at least 1. Ours: 1.25, so that a leg does
+    /// not end where it began.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
+    pub margin: f64,
+    /// Fraction of the full speed driven at, 0 … 1.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
+    pub translate: f64,
+    /// Fraction of the full turn rate turned at, 0 … 1.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
+    pub turn: f64,
+    /// Time steps that a leg takes at most.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_one")
+    )]
+    pub longest_leg: u32,
+    /// Time steps that a turn takes at most.
+    #[cfg_attr(
+        feature = "serde",
+        serde(deserialize_with = "crate::read::at_least_one")
+    )]
+    pub longest_turn: u32,
+}
+
+impl UntilNearConfig {
+    /// The paper's thresholds, on a robot that turns by some 0.2 rad and drives some 0.04 m in a time step at full rate. The
+    /// paper gives no speeds and no bounds.
+    #[must_use]
+    pub const fn paper() -> Self {
+        Self {
+            limits: NearLimits::paper(),
+            margin: 1.25,
+            translate: 1.0,
+            turn: 0.75,
+            longest_leg: 500,
+            longest_turn: 200,
+        }
+    }
+
+    /// The same at other fractions of the robot's full rates.
+    #[must_use]
+    pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
+        self.translate = translate;
+        self.turn = turn;
+        self
+    }
+}
+
+/// Drives a robot straight on until something is near, and turns it to where the way is clear.
+#[derive(Clone, Debug)]
+pub struct UntilNear {
+    config: UntilNearConfig,
+    near: StopNear,
+    bump: StopAtBump,
+}
+
+/// How a turn ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnEnd {
+    /// The way ahead is clear.
+    Clear,
+    /// It is clear in no direction.
+    Enclosed,
+    /// The body touched something whichever way it turned.
+    Wedged,
+}
+
+/// How often a robot that touches something turns the other way before it counts as wedged.
+const MOST_REVERSALS: u32 = 4;
+
+impl UntilNear {
+    /// Returns a driver that has heard nothing yet.
+    #[must_use]
+    pub fn new(config: UntilNearConfig) -> Self {
+        Self {
+            near: StopNear::new(config.limits),
+            bump: StopAtBump::default(),
+            config,
+        }
+    }
+
+    /// Multiplies all thresholds by `share`, 0 … 1, from now on; 1 for the thresholds themselves.
+    pub const fn give_way(&mut self, share: f64) {
+        self.near.give_way(share);
+    }
+
+    /// Drives straight on until something is near or touched, or the leg takes too long. O(sensors) a time step.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn drive<R>(&mut self, robot: &mut R) -> Result<LegEnd, R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: Soundings + Bumps,
+    {
+        self.bump.begin();
+        for _ in 0..self.config.longest_leg {
+            let LegStep { command, ends } = self.propose(robot.sensing());
+            if let Some(end) = ends {
+                return Ok(end);
+            }
+            robot.step(&command)?;
+        }
+        Ok(LegEnd::TooLong)
+    }
+
+    /// Returns what the layers make of this time step.
+    fn propose(&mut self, sensing: &(impl Soundings + Bumps)) -> LegStep {
+        let translate = self.config.translate;
+        let ahead = GoAhead { translate }.propose();
+        let near = self.near.correct(ahead, sensing);
+        self.bump.correct(near, sensing)
+    }
+
+    /// Turns in place by at least `angle`, rad, counter-clockwise, and on until the way ahead is clear; by one more turn at most.
+    /// Where the body touches something it turns the other way.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn turn<R>(&mut self, robot: &mut R, angle: f64) -> Result<TurnEnd, R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: Soundings + Rolls + Bumps,
+    {
+        let mut command = TurnTranslate {
+            turn: self.config.turn * if angle < 0.0 { -1.0 } else { 1.0 },
+            translate: 0.0,
+        };
+        let (mut turned, mut reversals) = (0.0, 0);
+        for _ in 0..self.config.longest_turn {
+            robot.step(&command)?;
+            let sensing = robot.sensing();
+            self.near.take_in(sensing);
+            turned += sensing.odometry().map_or(0.0, |rolled| rolled.turn.abs());
+            if turned >= angle.abs() && self.near.is_clear(self.config.margin) {
+                return Ok(TurnEnd::Clear);
+            }
+            if turned >= angle.abs() + TAU {
+                return Ok(TurnEnd::Enclosed);
+            }
+            if sensing.bump() == Some(true) {
+                command.turn = -command.turn;
+                reversals += 1;
+            }
+            if reversals > MOST_REVERSALS {
+                return Ok(TurnEnd::Wedged);
+            }
+        }
+        Ok(TurnEnd::Enclosed)
+    }
+
+    /// Backs off by `steps` time steps, at half the speed of a leg.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn back_off<R>(&mut self, robot: &mut R, steps: u32) -> Result<(), R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: Soundings,
+    {
+        let command = TurnTranslate {
+            turn: 0.0,
+            translate: -0.5 * self.config.translate,
+        };
+        for _ in 0..steps {
+            robot.step(&command)?;
+            self.near.take_in(robot.sensing());
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Point, Pose};
+    use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
+    use tolman_sim::{Polyline, Solo, World};
+
+    use super::*;
+
+    fn robot(width: f64, height: f64, pose: Pose) -> Solo<Pioneer2dx> {
+        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
+        let outline = Polyline {
+            points: corners.map(|(x, y)| Point::new(x, y)).to_vec(),
+            closed: true,
+            material: tolman_sim::Material::default(),
+        };
+        let world = World::from_segments(outline.walls().collect()).unwrap();
+        let model = Pioneer2dx::new(Pioneer2dxConfig::noiseless()).unwrap();
+        Solo::new(world, model, pose, 1).unwrap()
+    }
+
+    /// Its front sonars are 0.166 m ahead of the axle, and a mean of three readings is a step of 0.04 m late.
+    #[test]
+    fn it_stops_before_the_wall_ahead() {
+        let start = Pose::new(Point::new(1.0, 2.0), Heading::EAST);
+        let mut robot = robot(6.0, 4.0, start);
+        let end = UntilNear::new(UntilNearConfig::paper()).drive(&mut robot);
+        assert_eq!(end, Ok(LegEnd::Near));
+        let from_wall = 6.0 - robot.truth().pose.position.x - 0.166;
+        assert!((1.0..=1.1).contains(&from_wall), "{from_wall}");
+        assert_eq!(robot.bumps(), 0);
+    }
+
+    #[test]
+    fn a_leg_has_an_end_where_nothing_is_near() {
+        let start = Pose::new(Point::new(5.0, 50.0), Heading::EAST);
+        let mut robot = robot(100.0, 100.0, start);
+        let end = UntilNear::new(UntilNearConfig::paper()).drive(&mut robot);
+        assert_eq!(end, Ok(LegEnd::TooLong));
+        assert!((robot.truth().pose.position.x - 25.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn it_turns_out_of_a_corner() {
+        let start = Pose::new(Point::new(5.4, 3.4), Heading::from_degrees(45.0));
+        let mut robot = robot(6.0, 4.0, start);
+        let mut driver = UntilNear::new(UntilNearConfig::paper());
+        assert_eq!(driver.turn(&mut robot, 0.3), Ok(TurnEnd::Clear));
+        let heading = robot.truth().pose.heading.degrees();
+        assert!(!(0.0..90.0).contains(&heading), "{heading}");
+        assert_eq!(driver.drive(&mut robot), Ok(LegEnd::Near));
+    }
+
+    /// In a chest it turns once round, and drives when it gives way.
+    #[test]
+    fn it_finds_no_way_out_of_a_chest() {
+        let start = Pose::new(Point::new(0.6, 0.6), Heading::EAST);
+        let mut robot = robot(1.2, 1.2, start);
+        let mut driver = UntilNear::new(UntilNearConfig::paper());
+        assert_eq!(driver.turn(&mut robot, 0.3), Ok(TurnEnd::Enclosed));
+        driver.give_way(0.2);
+        assert_eq!(driver.turn(&mut robot, 0.3), Ok(TurnEnd::Clear));
+    }
+}

@@ -1,0 +1,241 @@
+use nalgebra::Isometry2;
+use rand::Rng;
+use thiserror::Error;
+use tolman_geom::{Heading, Vector};
+use tolman_robot::{Picture, PinholeCamera, pioneer_2dx};
+
+use super::Sensor;
+use crate::{Chance, Channel, Draws, Motion, Surroundings, Wall};
+
+mod column;
+mod light;
+mod texture;
+
+use column::Column;
+pub use light::{Light, LightDrift};
+use light::{Shine, Weather};
+
+/// What a camera's pictures are like.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct PictureCameraConfig {
+    /// Pixels across, 1 to 4096.
+    pub width: u32,
+    /// Pixels down, 1 to 4096.
+    pub height: u32,
+    /// Where the camera sits and how much it sees.
+    pub camera: PinholeCamera,
+    /// How far it sees, m.
+    pub reach: f64,
+    /// What is no wall.
+    pub backdrop: Backdrop,
+    /// How the room is lit.
+    pub light: Light,
+    /// Standard deviation of each pixel's red, green and blue, of 255.
+    pub noise_sd: f64,
+    /// How many values each of red, green and blue can have, 2 to 256.
+    pub levels: u32,
+}
+
+/// What a camera sees where no wall is.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Backdrop {
+    /// Red, green and blue of the floor.
+    pub floor: [u8; 3],
+    /// Red, green and blue of what lies above and behind all walls.
+    pub ceiling: [u8; 3],
+    /// How much lighter or darker the stains on walls and floor are at most, as a share.
+    pub stains: f64,
+}
+
+impl PictureCameraConfig {
+    /// The Pioneer 2-DX's camera in steady light: pictures of 80 × 60 pixels without noise of a green floor.
+    #[must_use]
+    pub const fn noiseless() -> Self {
+        Self {
+            width: 80,
+            height: 60,
+            camera: pioneer_2dx::CAMERA,
+            reach: 20.0,
+            backdrop: Backdrop {
+                floor: [40, 110, 60],
+                ceiling: [200, 200, 195],
+                stains: 0.0,
+            },
+            light: Light::steady(),
+            noise_sd: 0.0,
+            levels: 256,
+        }
+    }
+
+    /// The same in daylight from the west, with stains, noise and the 32 levels a colour of a frame grabber of 16 bits a
+    /// pixel. The paper names the noise of the camera and gives no values.
+    #[must_use]
+    pub const fn noisy() -> Self {
+        let perfect = Self::noiseless();
+        Self {
+            backdrop: Backdrop {
+                stains: 0.08,
+                ..perfect.backdrop
+            },
+            light: Light::daylight(Heading::WEST),
+            noise_sd: 2.5,
+            levels: 32,
+            ..perfect
+        }
+    }
+
+    fn check(&self) -> Result<(), PictureCameraError> {
+        let half_circle = core::f64::consts::PI - 1e-6;
+        let camera = &self.camera;
+        let own = [
+            ("width", f64::from(self.width), 1.0, 4096.0),
+            ("height", f64::from(self.height), 1.0, 4096.0),
+            ("camera.position.x", camera.position.x, -1e3, 1e3),
+            ("camera.position.y", camera.position.y, -1e3, 1e3),
+            ("camera.height", camera.height, 1e-6, 1e3),
+            (
+                "camera.field_across",
+                camera.field_across,
+                1e-6,
+                half_circle,
+            ),
+            ("camera.field_down", camera.field_down, 1e-6, half_circle),
+            ("reach", self.reach, 1e-6, 1e6),
+            ("backdrop.stains", self.backdrop.stains, 0.0, 1.0),
+            ("noise_sd", self.noise_sd, 0.0, 255.0),
+            ("levels", f64::from(self.levels), 2.0, 256.0),
+        ];
+        let mut all = own.into_iter().chain(self.light.parts());
+        let wrong = all.find(|(_, value, least, most)| !(least..=most).contains(&value));
+        wrong.map_or(Ok(()), |(field, value, least, most)| {
+            Err(PictureCameraError {
+                field,
+                value,
+                least,
+                most,
+            })
+        })
+    }
+}
+
+/// A colour camera that looks ahead: the floor, the walls on it as high as they are, and what stands behind low ones.
+///
+/// Each column is one vertical plane: the walls along it, the nearest first, hide what lies behind them from their base to their
+/// height. Pictures taken in motion would be blurred: there are none.
+///
+/// # Complexity
+/// Walls within reach times columns, and walls in a column times pixels.
+#[derive(Clone, Debug)]
+pub struct PictureCamera {
+    config: PictureCameraConfig,
+    weather: Weather,
+    /// Of the last picture, kept for their memory.
+    walls: Vec<Wall>,
+    canvas: Vec<[f64; 3]>,
+}
+
+impl PictureCamera {
+    /// A camera for such pictures.
+    ///
+    /// # Errors
+    /// If a number of the configuration has no sense.
+    pub fn new(config: PictureCameraConfig) -> Result<Self, PictureCameraError> {
+        config.check()?;
+        Ok(Self {
+            config,
+            weather: Weather::default(),
+            walls: Vec::new(),
+            canvas: Vec::new(),
+        })
+    }
+
+    /// Returns a black picture of its size.
+    fn blank(&self) -> Picture {
+        let config = &self.config;
+        Picture::black(config.width, config.height, config.camera)
+    }
+
+    /// Paints the canvas row by row and returns how much of it glows, 0 … 1.
+    fn paint(&mut self, around: &Surroundings<'_>, blank: &Picture, shine: &Shine) -> f64 {
+        let config = &self.config;
+        let world_from_robot = Isometry2::from(around.truth.pose);
+        let eye = world_from_robot * config.camera.position;
+        around.standing_near(eye, config.reach, &mut self.walls);
+        self.canvas.clear();
+        self.canvas.resize(blank.pixels.len(), [0.0; 3]);
+        let width = config.width as usize;
+        let mut glow = 0.0;
+        for across in 0..config.width {
+            let direction = world_from_robot * Vector::new(1.0, blank.leftward(across));
+            let height = config.camera.height;
+            let column = Column::new(eye, height, direction, &self.walls, config.reach);
+            for down in 0..config.height {
+                let pixel = column.pixel(blank.upward(down), &config.backdrop, shine);
+                self.canvas[down as usize * width + across as usize] = pixel.colour;
+                glow += pixel.glow;
+            }
+        }
+        glow / blank.pixels.len() as f64
+    }
+
+    /// Makes pixels of the canvas: with glare, noise and as many levels as there are.
+    fn develop(&self, veil: f64, picture: &mut Picture, draws: &mut Draws) {
+        let step = 255.0 / f64::from(self.config.levels - 1);
+        for (pixel, colour) in picture.pixels.iter_mut().zip(&self.canvas) {
+            let grain = grain(self.config.noise_sd, draws);
+            *pixel = core::array::from_fn(|part| {
+                let lit = colour[part] + veil * (255.0 - colour[part]) + grain[part];
+                ((lit.clamp(0.0, 255.0) / step).round() * step).round() as u8
+            });
+        }
+    }
+}
+
+/// Noise of one pixel's colours: sums of two bytes, which come as near to a Gaussian as anybody sees in a picture.
+fn grain(sd: f64, draws: &mut Draws) -> [f64; 3] {
+    if sd <= 0.0 {
+        return [0.0; 3];
+    }
+    /// Standard deviation of the sum of two bytes.
+    const SUM_SD: f64 = 104.510_765;
+    let bytes = draws.next_u64().to_le_bytes();
+    [0, 2, 4].map(|part| {
+        let sum = f64::from(bytes[part]) + f64::from(bytes[part + 1]);
+        (sum - 255.0) * (sd / SUM_SD)
+    })
+}
+
+impl Sensor for PictureCamera {
+    type Reading = Picture;
+
+    fn sense(&mut self, around: &Surroundings<'_>, chance: &Chance, reading: &mut Option<Picture>) {
+        if around.truth.motion != Motion::default() {
+            *reading = None;
+            return;
+        }
+        let mut draws = chance.draws(Channel::named("camera light"));
+        let shine = self.weather.next(&self.config.light, &mut draws);
+        let mut picture = self.blank();
+        let glowing = self.paint(around, &picture, &shine);
+        let mut draws = chance.draws(Channel::named("camera noise"));
+        self.develop(shine.veil(glowing), &mut picture, &mut draws);
+        *reading = Some(picture);
+    }
+}
+
+/// A number of a camera's configuration that has no sense.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("`{field}` is {value}; give a number from {least} to {most}")]
+pub struct PictureCameraError {
+    /// Which number.
+    pub field: &'static str,
+    /// What it is.
+    pub value: f64,
+    /// The least that has a sense.
+    pub least: f64,
+    /// The most.
+    pub most: f64,
+}

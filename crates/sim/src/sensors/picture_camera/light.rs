@@ -1,0 +1,178 @@
+use tolman_geom::{Heading, Vector};
+
+use crate::Draws;
+
+/// How a room is lit, and how that changes from one picture to the next.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Light {
+    /// How bright all is on average, 1 as the colours say.
+    pub brightness: f64,
+    /// How bright red, green and blue are on average, each 1 in white light.
+    pub cast: [f64; 3],
+    /// From where most of it comes.
+    pub from: Heading,
+    /// How much brighter a wall is that faces the light, as a share; one that faces away is as much darker.
+    pub shade: f64,
+    /// How much of full light glowing walls cast over the whole picture, as a share, where they fill it.
+    pub glare: f64,
+    /// How all that changes.
+    pub drift: LightDrift,
+}
+
+/// How light drifts: slowly to and fro round its average, by chance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LightDrift {
+    /// Over how many pictures it forgets how it was.
+    pub pictures: f64,
+    /// Standard deviation of the brightness, as a share.
+    pub brightness_sd: f64,
+    /// Standard deviation of each colour's brightness, as a share.
+    pub cast_sd: f64,
+    /// Standard deviation of the direction it comes from, rad.
+    pub from_sd: f64,
+    /// Standard deviation of the brightness outside, which windows show, as a share.
+    pub outside_sd: f64,
+    /// Standard deviation of the brightness from picture to picture, beside the drift, as a share.
+    pub flicker_sd: f64,
+}
+
+impl Light {
+    /// White light from everywhere that never changes.
+    #[must_use]
+    pub const fn steady() -> Self {
+        Self {
+            brightness: 1.0,
+            cast: [1.0; 3],
+            from: Heading::EAST,
+            shade: 0.0,
+            glare: 0.0,
+            drift: LightDrift {
+                pictures: 0.0,
+                brightness_sd: 0.0,
+                cast_sd: 0.0,
+                from_sd: 0.0,
+                outside_sd: 0.0,
+                flicker_sd: 0.0,
+            },
+        }
+    }
+
+    /// Daylight through windows that look to `from`, and lamps: it changes within some fifty pictures, and windows glare.
+    /// The paper names changing light and gives no values (section 3.4).
+    #[must_use]
+    pub const fn daylight(from: Heading) -> Self {
+        Self {
+            brightness: 0.8,
+            cast: [1.0; 3],
+            from,
+            shade: 0.15,
+            glare: 0.3,
+            drift: LightDrift {
+                pictures: 50.0,
+                brightness_sd: 0.1,
+                cast_sd: 0.03,
+                from_sd: 0.4,
+                outside_sd: 0.25,
+                flicker_sd: 0.02,
+            },
+        }
+    }
+
+    /// The numbers of it, with their names and the least and the most that has a sense.
+    pub(super) fn parts(&self) -> [(&'static str, f64, f64, f64); 13] {
+        let [red, green, blue] = self.cast;
+        let drift = &self.drift;
+        [
+            ("light.brightness", self.brightness, 0.0, 10.0),
+            ("light.cast", red, 0.0, 10.0),
+            ("light.cast", green, 0.0, 10.0),
+            ("light.cast", blue, 0.0, 10.0),
+            ("light.from", self.from.radians(), -4.0, 4.0),
+            ("light.shade", self.shade, 0.0, 1.0),
+            ("light.glare", self.glare, 0.0, 1.0),
+            ("light.drift.pictures", drift.pictures, 0.0, 1e9),
+            ("light.drift.brightness_sd", drift.brightness_sd, 0.0, 10.0),
+            ("light.drift.cast_sd", drift.cast_sd, 0.0, 10.0),
+            ("light.drift.from_sd", drift.from_sd, 0.0, 10.0),
+            ("light.drift.outside_sd", drift.outside_sd, 0.0, 10.0),
+            ("light.drift.flicker_sd", drift.flicker_sd, 0.0, 10.0),
+        ]
+    }
+}
+
+/// Where the light has drifted: standard normal numbers, each to be scaled by its standard deviation.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Weather {
+    now: Option<Drifts>,
+}
+
+/// Brightness, three colours, direction, outside.
+type Drifts = [f64; 6];
+
+impl Weather {
+    /// Lets the weather of the next picture come, and returns its light.
+    pub(super) fn next(&mut self, light: &Light, draws: &mut Draws) -> Shine {
+        let fresh: Drifts = core::array::from_fn(|_| draws.gaussian());
+        let kept = match self.now {
+            Some(_) if light.drift.pictures > 1.0 => 1.0 - light.drift.pictures.recip(),
+            _ => 0.0,
+        };
+        let new = (1.0 - kept * kept).sqrt();
+        let before = self.now.unwrap_or_default();
+        let now = core::array::from_fn(|index| kept * before[index] + new * fresh[index]);
+        self.now = Some(now);
+        Shine::new(light, &now, draws.gaussian())
+    }
+}
+
+/// The light of one picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shine {
+    gain: [f64; 3],
+    /// Unit vector to where it comes from.
+    to_light: Vector,
+    shade: f64,
+    outside: f64,
+    glare: f64,
+}
+
+impl Shine {
+    fn new(light: &Light, drifts: &Drifts, flicker: f64) -> Self {
+        let [brightness, red, green, blue, from, outside] = *drifts;
+        let drift = &light.drift;
+        let brightness = light.brightness
+            * (1.0 + drift.brightness_sd * brightness).max(0.1)
+            * (1.0 + drift.flicker_sd * flicker).max(0.1);
+        let [r, g, b] = light.cast;
+        let gain = [(r, red), (g, green), (b, blue)]
+            .map(|(cast, drifted)| brightness * cast * (1.0 + drift.cast_sd * drifted).max(0.1));
+        Self {
+            gain,
+            to_light: light.from.turned(drift.from_sd * from).unit(),
+            shade: light.shade,
+            outside: (1.0 + drift.outside_sd * outside).max(0.1),
+            glare: light.glare,
+        }
+    }
+
+    /// What a wall of this colour looks like whose `normal` points at the camera.
+    pub(super) fn on_wall(&self, colour: [f64; 3], glow: f64, normal: Vector) -> [f64; 3] {
+        let facing = 1.0 + self.shade * normal.dot(&self.to_light);
+        let lit = self.on_floor(colour);
+        core::array::from_fn(|part| {
+            (1.0 - glow) * facing * lit[part] + glow * self.outside * colour[part]
+        })
+    }
+
+    /// What the floor, or a ceiling, of this colour looks like.
+    pub(super) fn on_floor(&self, colour: [f64; 3]) -> [f64; 3] {
+        core::array::from_fn(|part| colour[part] * self.gain[part])
+    }
+
+    /// How much of full light lies over a picture of which `share` glows.
+    pub(super) fn veil(&self, share: f64) -> f64 {
+        (self.glare * self.outside * share).min(0.9)
+    }
+}

@@ -1,0 +1,281 @@
+use core::f64::consts::PI;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use thiserror::Error;
+use tolman_control::wander::{TurnEnd, UntilNear, UntilNearConfig};
+use tolman_geom::Pose;
+use tolman_maps::place_map::PlaceRecord;
+use tolman_robot::{Bumps, Robot, Rolls, TakesSnapshots, TurnTranslate};
+
+use super::DeadReckoned;
+use crate::stream;
+
+/// How a [`Wanderer`] wanders.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct WandererConfig {
+    /// How it drives and turns.
+    pub drive: UntilNearConfig,
+    /// A leg that led less far is followed by another one before a record is taken, m. Ours: 0.3.
+    pub least_way: f64,
+    /// How many legs it tries before it takes a record wherever it is, at least 1. Ours: 12.
+    pub most_tries: u32,
+    /// What all thresholds are multiplied by each time that the way is clear in no direction, 0 … 1. Ours: 0.7.
+    pub give_way: f64,
+    /// Time steps that it stands still for a snapshot at most, at least 1. Ours: 10.
+    pub patience: u32,
+}
+
+impl WandererConfig {
+    /// The paper's way of gathering data (section 3.2) on the Pioneer 2-DX; the values that it leaves open are ours.
+    #[must_use]
+    pub const fn paper() -> Self {
+        Self {
+            drive: UntilNearConfig::paper(),
+            least_way: 0.3,
+            most_tries: 12,
+            give_way: 0.7,
+            patience: 10,
+        }
+    }
+
+    /// The same on a robot of other rates: fractions of the full speed and of the full turn rate, 0 … 1.
+    #[must_use]
+    pub const fn with_rates(mut self, translate: f64, turn: f64) -> Self {
+        self.drive = self.drive.with_rates(translate, turn);
+        self
+    }
+}
+
+/// Why there is no record of a place.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum WandererError<E> {
+    /// No snapshot came while the robot stood still.
+    #[error(
+        "the robot stood still for {steps} time steps and took no snapshot; switch its camera and range sensors on, or raise `patience`"
+    )]
+    NoSnapshot {
+        /// For how many time steps it stood.
+        steps: u32,
+    },
+    /// The robot failed.
+    #[error(transparent)]
+    Robot(#[from] E),
+}
+
+/// Gathers records: a robot that drives straight on until something is near, takes a record there, and turns elsewhere by chance
+/// (section 3.2).
+///
+/// It gets out of corners: it turns until the way is clear, and where it is clear in no direction it lets things come nearer. It
+/// backs off where its body is wedged.
+#[derive(Clone, Debug)]
+pub struct Wanderer {
+    config: WandererConfig,
+    driver: UntilNear,
+    rng: ChaCha8Rng,
+    odometry: Pose,
+}
+
+/// How many time steps it backs off where it is wedged.
+const BACK_OFF: u32 = 4;
+
+impl Wanderer {
+    /// Returns a wanderer whose robot has just been put down. `seed` is that of all its turns.
+    #[must_use]
+    pub fn new(config: WandererConfig, seed: u64) -> Self {
+        Self {
+            driver: UntilNear::new(config.drive),
+            rng: stream(seed, 0),
+            odometry: Pose::IDENTITY,
+            config,
+        }
+    }
+
+    /// Returns where the wheels have the robot, from where it was put down.
+    #[must_use]
+    pub const fn odometry(&self) -> Pose {
+        self.odometry
+    }
+
+    /// Drives one leg, or more where they are short, and returns the record of the place where it ended. It takes at most
+    /// [`most_tries`](WandererConfig::most_tries) legs and turns, each with a bound on its time steps.
+    ///
+    /// # Errors
+    /// [`WandererError`] if the robot fails or takes no snapshot.
+    pub fn leg<R>(&mut self, robot: &mut R) -> Result<PlaceRecord, WandererError<R::Error>>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
+    {
+        let start = self.odometry.position;
+        let mut nearness = 1.0;
+        for _ in 0..self.config.most_tries {
+            self.driver.give_way(nearness);
+            if self.go(robot)? != TurnEnd::Clear {
+                nearness *= self.config.give_way;
+            }
+            if (self.odometry.position - start).norm() >= self.config.least_way {
+                break;
+            }
+        }
+        self.driver.give_way(1.0);
+        self.record(robot)
+    }
+
+    /// Turns to a random new heading and drives there if the way is clear.
+    fn go<R>(&mut self, robot: &mut R) -> Result<TurnEnd, R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
+    {
+        let angle = self.rng.random_range(-PI..PI);
+        let mut robot = DeadReckoned {
+            robot,
+            pose: &mut self.odometry,
+        };
+        let end = self.driver.turn(&mut robot, angle)?;
+        match end {
+            TurnEnd::Clear => {
+                self.driver.drive(&mut robot)?;
+            }
+            TurnEnd::Wedged => self.driver.back_off(&mut robot, BACK_OFF)?,
+            TurnEnd::Enclosed => {}
+        }
+        Ok(end)
+    }
+
+    /// Stands still until a snapshot comes, and returns the record of this place.
+    ///
+    /// # Errors
+    /// [`WandererError`] if the robot fails or takes no snapshot.
+    pub fn record<R>(&mut self, robot: &mut R) -> Result<PlaceRecord, WandererError<R::Error>>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: TakesSnapshots + Rolls,
+    {
+        let mut robot = DeadReckoned {
+            robot,
+            pose: &mut self.odometry,
+        };
+        for _ in 0..self.config.patience {
+            robot.stop()?;
+            if let Some(snapshot) = robot.sensing().snapshot() {
+                let odometry = *robot.pose;
+                return Ok(PlaceRecord { odometry, snapshot });
+            }
+        }
+        let steps = self.config.patience;
+        Err(WandererError::NoSnapshot { steps })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::convert::Infallible;
+
+    use tolman_geom::Point;
+    use tolman_robot::Odometry;
+    use tolman_robot::pioneer_2dx::{Pioneer2dxSensing, SONARS};
+
+    use super::*;
+
+    /// A robot on a plain with one wall in the east, which it hears ahead; its sensors come on `late` steps after it stands.
+    struct Plain {
+        pose: Pose,
+        late: u32,
+        stood: u32,
+        sensing: Pioneer2dxSensing,
+    }
+
+    impl Plain {
+        fn new(late: u32) -> Self {
+            let mut plain = Self {
+                pose: Pose::IDENTITY,
+                late,
+                stood: 0,
+                sensing: Pioneer2dxSensing::SILENT,
+            };
+            plain.sense(Odometry::default());
+            plain
+        }
+
+        fn sense(&mut self, rolled: Odometry) {
+            let cosine = libm::cos(self.pose.heading.radians());
+            let ahead = (10.0 - self.pose.position.x) / cosine;
+            let range = if cosine > 0.1 { ahead.min(5.0) } else { 5.0 };
+            let black = tolman_robot::Picture::black(2, 2, tolman_robot::pioneer_2dx::CAMERA);
+            self.sensing = Pioneer2dxSensing {
+                sonars: Some([range; SONARS]),
+                picture: (self.stood > self.late).then_some(black),
+                odometry: Some(rolled),
+                ..Pioneer2dxSensing::SILENT
+            };
+        }
+    }
+
+    impl Robot for Plain {
+        type Command = TurnTranslate;
+        type Sensing = Pioneer2dxSensing;
+        type Error = Infallible;
+
+        fn sensing(&self) -> &Pioneer2dxSensing {
+            &self.sensing
+        }
+
+        fn step(&mut self, command: &TurnTranslate) -> Result<(), Infallible> {
+            let rolled = Odometry {
+                distance: 0.04 * command.translate,
+                turn: 0.2 * command.turn,
+            };
+            self.stood = if *command == TurnTranslate::STOP {
+                self.stood + 1
+            } else {
+                0
+            };
+            self.pose = rolled.applied_to(self.pose);
+            self.sense(rolled);
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn records_are_where_the_wheels_have_the_robot() {
+        let mut robot = Plain::new(2);
+        let mut wanderer = Wanderer::new(WandererConfig::paper(), 1);
+        let mut poses = Vec::new();
+        for _ in 0..20 {
+            let record = wanderer.leg(&mut robot).unwrap();
+            let apart = record.odometry.position - robot.pose.position;
+            assert!(apart.norm() < 1e-9);
+            assert_eq!(record.snapshot.soundings.len(), SONARS);
+            assert!(record.snapshot.picture.is_some());
+            assert!(robot.pose.position.x < 9.0, "{:?}", robot.pose);
+            poses.push(record.odometry);
+        }
+        let far = |pair: &[Pose]| (pair[0].position - pair[1].position).norm() >= 0.3;
+        assert!(poses.windows(2).all(far));
+        assert!(poses.iter().any(|pose| pose.position != Point::origin()));
+    }
+
+    #[test]
+    fn the_same_seed_wanders_the_same_way_and_another_one_does_not() {
+        let end = |seed| {
+            let mut robot = Plain::new(0);
+            let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
+            wanderer.leg(&mut robot).unwrap();
+            wanderer.odometry()
+        };
+        assert_eq!(end(1), end(1));
+        assert_ne!(end(1), end(2));
+    }
+
+    #[test]
+    fn a_robot_without_a_picture_is_told_of() {
+        let mut robot = Plain::new(1000);
+        let mut wanderer = Wanderer::new(WandererConfig::paper(), 1);
+        let error = wanderer.record(&mut robot).unwrap_err();
+        assert_eq!(error, WandererError::NoSnapshot { steps: 10 });
+    }
+}
