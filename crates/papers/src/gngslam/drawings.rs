@@ -10,81 +10,149 @@ use tolman_maps::place_map::PlaceMap;
 use tolman_quantizers::UnitId;
 use tolman_robot::Picture;
 
+use super::MapRun;
 use super::search_space::{COUNT, LAMBDA, Parameters, WINNER_RATE};
-use super::sets::{SETS, Set};
-use super::{GngSlam, MapRun, NAME};
+use super::searches::Searches;
+use super::sets::{RIGHT_WHEELS, Setting, TABLE, VARIANTS, settings};
 
 /// Where the appendix differs from the best parameters: the middle of "200 and 250", and 0.052.
 const MORE_NODES: f64 = 225.0;
 const SLOW: f64 = 0.052;
 
-/// The sets of figure 4.3, from 0. The text calls the second 5, the caption 6.
+/// The rows of figure 4.3, from 0. The text calls the second set 5, the caption 6.
 const SHOWN: [usize; 2] = [0, 5];
 
 /// Width of a map and of a node's image, user units.
 const WIDTH: f64 = 460.0;
 const IMAGE: f64 = 76.0;
 
-impl GngSlam {
-    /// The maps of the best runs; a set without a map that has a score is left out.
+/// A row's best map: all that it takes to learn it again.
+struct Best {
+    setting: Setting,
+    parameters: Parameters,
+    seed: u64,
+    /// What the map is like, in words.
+    said: String,
+}
+
+impl Searches {
+    /// The maps of the best runs; a row without a map that has a score is left out.
     pub(super) fn drawings(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let mut figures = Vec::new();
-        let mut tiles = Tiles::new(2);
-        for place in SHOWN {
-            if let Some(best) = best(runs, &SETS[place])? {
-                let caption = format!("set {}: {}", place + 1, SETS[place].row);
-                tiles.tile(caption, self.drawing(&SETS[place], &best.0, best.1)?);
-            }
-        }
-        let drawing =
-            tiles.drawing("The best maps of sets 1 and 6, each node's image at its place.");
-        let figure = Figure::new("figure-4-3", "The best maps of sets 1 and 6", drawing);
-        figures.push(figure.caption(READ).table(NAME));
-        if let Some((parameters, seed)) = best(runs, &SETS[SHOWN[1]])? {
+        let mut figures = vec![self.best_maps(runs)?];
+        if let Some(best) = Best::of(runs, settings()[SHOWN[1]])? {
             for (name, title, which, value) in [
                 (
                     "figure-a-1",
-                    "The map of set 6 with more nodes, λ = 225",
+                    "Set 6 with more nodes: λ = 225",
                     LAMBDA,
                     MORE_NODES,
                 ),
                 (
                     "figure-a-2",
-                    "The map of set 6 learned slowly, ε_b = 0.052",
+                    "Set 6 learned slowly: ε_b = 0.052",
                     WINNER_RATE,
                     SLOW,
                 ),
             ] {
-                let changed = parameters.with(which, value);
-                let drawing = self.drawing(&SETS[SHOWN[1]], &changed, seed)?;
-                figures.push(Figure::new(name, title, drawing).caption(READ).table(NAME));
+                let parameters = best.parameters.with(which, value);
+                let drawing = self.drawing(&best.setting, &parameters, best.seed)?;
+                figures.push(Figure::new(name, title, drawing).caption(READ).table(TABLE));
+            }
+        }
+        for setting in settings() {
+            if setting.row == RIGHT_WHEELS
+                && let Some(best) = Best::of(runs, setting)?
+            {
+                let drawing = self.drawing(&setting, &best.parameters, best.seed)?;
+                let figure = Figure::new(
+                    "right-wheels",
+                    "The best map by wheels that are right",
+                    drawing,
+                );
+                let caption = format!("{READ} Here {}.", best.said);
+                figures.push(figure.caption(caption).table(VARIANTS));
             }
         }
         Ok(figures)
     }
 
-    fn drawing(&self, set: &Set, parameters: &Parameters, seed: u64) -> Result<Drawing, BoxError> {
-        let map = self.learn(set, parameters, seed)?;
-        let table = self.places.table(set.image())?;
-        let scorer = self.places.scorer()?;
+    /// Figure 4.3.
+    fn best_maps(&self, runs: &[Run]) -> Result<Figure, BoxError> {
+        let mut tiles = Tiles::new(2);
+        let mut caption = READ.to_owned();
+        for place in SHOWN {
+            let Some(best) = Best::of(runs, settings()[place])? else {
+                continue;
+            };
+            let name = format!("set {}: {}", place + 1, best.setting.row);
+            caption += &format!(" {name}: {}.", best.said);
+            tiles.tile(
+                name,
+                self.drawing(&best.setting, &best.parameters, best.seed)?,
+            );
+        }
+        let drawing =
+            tiles.drawing("The best maps of sets 1 and 6, each node's image at its place.");
+        let figure = Figure::new("figure-4-3", "The best maps of sets 1 and 6", drawing);
+        Ok(figure.caption(caption).table(TABLE))
+    }
+
+    fn drawing(
+        &self,
+        setting: &Setting,
+        parameters: &Parameters,
+        seed: u64,
+    ) -> Result<Drawing, BoxError> {
+        let map = self.learn(setting, parameters, seed)?;
+        let places = self.places(setting);
+        let table = places.table(setting.set.image())?;
+        let scorer = places.scorer(setting.stretch)?;
         let Some(field_from_map) = scorer.field_from_map(&map, table)? else {
-            let empty = Chart::new(axis("x, cells"), axis("y, cells"));
+            let empty = Chart::new(axis("x, cells"), axis("y, cells")).sized(WIDTH, WIDTH);
             return Ok(
                 empty.drawing("Both goals are nearest to one node, so the map cannot be turned.")
             );
         };
-        let goals = scorer.goals(&map, table)?;
-        drawn(&map, &field_from_map, goals)
+        drawn(&map, &field_from_map, scorer.goals(&map, table)?)
+    }
+}
+
+impl Best {
+    fn of(runs: &[Run], setting: Setting) -> Result<Option<Self>, BoxError> {
+        let mut best: Option<(f64, Self)> = None;
+        for run in runs
+            .iter()
+            .filter(|run| run.is_of(setting.table, setting.row))
+        {
+            let map: MapRun = run.record()?;
+            let parameters: Result<[f64; COUNT], _> = map.parameters.try_into();
+            if let (Some(score), Ok(parameters)) = (map.score, parameters)
+                && best.as_ref().is_none_or(|(most, _)| score > *most)
+            {
+                let mirrored = match map.mirrored {
+                    Some(true) => "a mirror image of the pitch",
+                    _ => "not mirrored",
+                };
+                let found = Self {
+                    setting,
+                    parameters: Parameters(parameters),
+                    seed: run.seed,
+                    said: format!("score {score:.3}, {mirrored}"),
+                };
+                best = Some((score, found));
+            }
+        }
+        Ok(best.map(|(_, best)| best))
     }
 }
 
 /// How the maps are to be read.
 const READ: &str = "Each node's image has its middle where the node lies, in cells, turned so that the yellow goal is straight \
-                    above the blue one; lines are links. Nothing is mirrored: the windows are on the right, as on the pitch. \
-                    Images were converted to red, green and blue.";
+                    above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
+                    green and blue.";
 
 fn axis(title: &str) -> Axis {
-    Axis::linear(title).between(-1.0, 9.0)
+    Axis::linear(title).between(-0.5, 8.5)
 }
 
 /// Turns the pitch, whose yellow goal lies in the west, as the paper draws it: the yellow goal up, the windows on the right.
@@ -142,19 +210,4 @@ fn links(map: &PlaceMap, nodes: &[(UnitId, Point)]) -> Graph {
 fn image(picture: &Picture) -> Result<Image, BoxError> {
     let pixels: Vec<u8> = picture.pixels.iter().flatten().copied().collect();
     Ok(Image::rgb(picture.width, picture.height, &pixels)?)
-}
-
-/// The parameters and the seed of the best run of a set.
-fn best(runs: &[Run], set: &Set) -> Result<Option<(Parameters, u64)>, BoxError> {
-    let mut best: Option<(f64, Parameters, u64)> = None;
-    for run in runs.iter().filter(|run| run.is_of(NAME, set.row)) {
-        let record: MapRun = run.record()?;
-        let parameters: Result<[f64; COUNT], _> = record.parameters.try_into();
-        if let (Some(score), Ok(parameters)) = (record.score, parameters)
-            && best.is_none_or(|(most, ..)| score > most)
-        {
-            best = Some((score, Parameters(parameters), run.seed));
-        }
-    }
-    Ok(best.map(|(_, parameters, seed)| (parameters, seed)))
 }

@@ -7,8 +7,8 @@ use tolman_experiment::{BoxError, Record, Run, run_seed};
 use tolman_geom::Point;
 use tolman_stats::{Interval, bootstrap_means, mean, percentile_interval};
 
-use super::sets::{RANDOM, SETS};
-use super::{MapRun, NAME, guesses};
+use super::sets::{RANDOM, SETS, TABLE};
+use super::{MapRun, guesses};
 
 /// The paper's number of bins, from 0 to 1.
 const BINS: usize = 150;
@@ -38,7 +38,7 @@ impl Scores {
     fn of(runs: &[Run], seed: u64) -> Result<Self, BoxError> {
         let mut rows = Vec::new();
         for set in SETS {
-            let of_row = MapRun::of_row(runs, NAME, set.row)?;
+            let of_row = MapRun::of_row(runs, TABLE, set.row)?;
             rows.push((set.row, of_row.iter().filter_map(|run| run.score).collect()));
         }
         let seed = run_seed(seed, RANDOM, 0);
@@ -64,7 +64,7 @@ impl Scores {
                 "Figure 4.1: {BINS} bins from 0 to 1, of which those up to {SHOWN} are shown. The random row is of single guesses, of \
                  which 1.6 % score 1."
             ))
-            .table(NAME)
+            .table(TABLE)
     }
 
     fn histogram(&self, rows: &[usize]) -> Drawing {
@@ -109,7 +109,7 @@ impl Scores {
                 100.0 * LEVEL,
                 said.join("; ")
             ))
-            .table(NAME))
+            .table(TABLE))
     }
 }
 

@@ -3,18 +3,15 @@
 use std::sync::OnceLock;
 
 use serde::Serialize;
-use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
+use tolman_arena::gngslam::{DataSet, FieldExtent, Pitch, PlaceScorer, gather};
 use tolman_experiment::BoxError;
-use tolman_maps::place_map::{FeatureTable, ImageForm, PlaceRecord};
+use tolman_maps::place_map::{FeatureChoice, FeatureScaling, FeatureTable, ImageForm, PlaceRecord};
 use tolman_sim::robots::Pioneer2dxConfig;
 
-use super::sets::{IMAGES, choice};
+use super::sets::{IMAGES, Source, Stretch};
 
 /// The paper's number of records.
 const RECORDS: usize = 1006;
-
-/// How far wheels are out of calibration, as a share. The paper says that its odometry drifts, not by how much.
-const CALIBRATION: f64 = 0.0;
 
 /// Images are told by coordinates of their span, of which nothing is left out.
 const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
@@ -23,6 +20,7 @@ const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
 #[derive(Debug)]
 pub(super) struct Places {
     seed: u64,
+    source: Source,
     gathered: Once<Gathered>,
     /// By image.
     tables: [Once<FeatureTable>; IMAGES.len()],
@@ -39,6 +37,7 @@ struct Gathered {
 pub(super) struct Config {
     count: usize,
     arena: String,
+    scaling: FeatureScaling,
     robot: Pioneer2dxConfig,
 }
 
@@ -51,9 +50,10 @@ fn once<T>(cell: &Once<T>, make: impl FnOnce() -> Result<T, BoxError>) -> Result
 }
 
 impl Places {
-    pub(super) const fn new(seed: u64) -> Self {
+    pub(super) const fn new(seed: u64, source: Source) -> Self {
         Self {
             seed,
+            source,
             gathered: OnceLock::new(),
             tables: [const { OnceLock::new() }; IMAGES.len()],
         }
@@ -64,7 +64,8 @@ impl Places {
         let pitch = Pitch::paper()?;
         Ok(Config {
             count: RECORDS,
-            robot: pitch.robot(self.seed, CALIBRATION)?,
+            robot: pitch.robot(self.seed, self.source.calibration)?,
+            scaling: self.source.scaling,
             arena: pitch.name,
         })
     }
@@ -72,7 +73,7 @@ impl Places {
     fn gathered(&self) -> Result<&Gathered, BoxError> {
         once(&self.gathered, || {
             let pitch = Pitch::paper()?;
-            let robot = pitch.robot(self.seed, CALIBRATION)?;
+            let robot = pitch.robot(self.seed, self.source.calibration)?;
             let data = gather(&pitch, robot, self.seed, RECORDS)?;
             Ok(Gathered { pitch, data })
         })
@@ -88,13 +89,19 @@ impl Places {
         once(&self.tables[image], || {
             let records = self.gathered()?.data.records.iter();
             let records: Vec<PlaceRecord> = records.map(|record| record.record.clone()).collect();
-            Ok(FeatureTable::of(&records, &choice(IMAGES[image]), FORM)?)
+            let choice = FeatureChoice::paper_with_sonar(IMAGES[image]);
+            let choice = choice.scaled(self.source.scaling);
+            Ok(FeatureTable::of(&records, &choice, FORM)?)
         })
     }
 
     /// Returns who scores maps of these records.
-    pub(super) fn scorer(&self) -> Result<PlaceScorer, BoxError> {
+    pub(super) fn scorer(&self, stretch: Stretch) -> Result<PlaceScorer, BoxError> {
         let Gathered { pitch, data } = self.gathered()?;
-        Ok(PlaceScorer::paper(data, pitch))
+        let scorer = PlaceScorer::paper(data, pitch);
+        Ok(match stretch {
+            Stretch::Visited => scorer,
+            Stretch::Field => scorer.over(FieldExtent::whole()),
+        })
     }
 }

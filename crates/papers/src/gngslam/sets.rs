@@ -1,6 +1,10 @@
-//! The rows of Table 4.1.
+//! The rows of Table 4.1, and variants of its first.
 
-use tolman_maps::place_map::{ColourSpace, FeatureChoice, ImageFeature};
+use tolman_maps::place_map::{ColourSpace, FeatureScaling, ImageFeature};
+
+/// The names of the tables.
+pub(super) const TABLE: &str = "4.1";
+pub(super) const VARIANTS: &str = "variants";
 
 /// The row of guesses.
 pub(super) const RANDOM: &str = "random";
@@ -62,7 +66,96 @@ impl Set {
     }
 }
 
-/// Returns the features of a table: the image, the odometry and the sonar.
-pub(super) fn choice(image: ImageFeature) -> FeatureChoice {
-    FeatureChoice::paper_with_sonar(image)
+/// Where records come from and how they become features.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source {
+    /// How far each wheel may be out of calibration, as a share.
+    pub(super) calibration: f64,
+    pub(super) scaling: FeatureScaling,
+}
+
+/// Wheels wrong by up to 1 % each: those of an air-filled tyre that nobody measured. The paper says that its odometry "suffers
+/// from an accumulated noise", not how much.
+const PAPER: Source = Source {
+    calibration: 0.01,
+    scaling: FeatureScaling::Group,
+};
+
+/// All sources.
+pub(super) const SOURCES: [Source; 4] = [
+    PAPER,
+    Source {
+        calibration: 0.0,
+        ..PAPER
+    },
+    Source {
+        calibration: 0.03,
+        ..PAPER
+    },
+    Source {
+        scaling: FeatureScaling::Raw,
+        ..PAPER
+    },
+];
+
+/// What a map is stretched over before it is scored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stretch {
+    /// The cells where records were taken.
+    Visited,
+    /// All cells.
+    Field,
+}
+
+/// A row whose maps are learned.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting {
+    pub(super) table: &'static str,
+    pub(super) row: &'static str,
+    pub(super) set: Set,
+    /// Its place among [`SOURCES`].
+    pub(super) source: usize,
+    pub(super) stretch: Stretch,
+}
+
+/// The row of the variant whose odometry is best.
+pub(super) const RIGHT_WHEELS: &str = "wheels that are right";
+
+/// How many rows have maps.
+pub(super) const SETTINGS: usize = 10;
+
+/// All rows whose maps are learned, those of Table 4.1 first.
+pub(super) const fn settings() -> [Setting; SETTINGS] {
+    [
+        of_paper(SETS[0]),
+        of_paper(SETS[1]),
+        of_paper(SETS[2]),
+        of_paper(SETS[3]),
+        of_paper(SETS[4]),
+        of_paper(SETS[5]),
+        variant(RIGHT_WHEELS, 1, Stretch::Visited),
+        variant("wheels wrong by up to 3 %", 2, Stretch::Visited),
+        variant("raw values", 3, Stretch::Visited),
+        variant("stretched over all cells", 0, Stretch::Field),
+    ]
+}
+
+const fn of_paper(set: Set) -> Setting {
+    Setting {
+        table: TABLE,
+        row: set.row,
+        set,
+        source: 0,
+        stretch: Stretch::Visited,
+    }
+}
+
+const fn variant(row: &'static str, source: usize, stretch: Stretch) -> Setting {
+    Setting {
+        table: VARIANTS,
+        row,
+        set: SETS[0],
+        source,
+        stretch,
+    }
 }
