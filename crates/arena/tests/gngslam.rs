@@ -5,19 +5,20 @@
     reason = "a test that cannot set itself up has failed"
 )]
 
-use std::collections::BTreeSet;
+extern crate alloc;
+
+use alloc::collections::BTreeSet;
 
 use tolman_arena::gngslam::{DataSet, Pitch, gather};
 use tolman_maze::Cell;
 use tolman_robot::Robot;
-use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
 use tolman_sim::{Solo, StepError};
 use tolman_systems::gngslam::{Wanderer, WandererConfig};
 
 /// What became of many legs.
 #[derive(Debug)]
 struct Wandered {
-    steps: u32,
     /// Share of the steps in which something was touched.
     bumps: f64,
     /// Share of the legs that led nowhere.
@@ -61,7 +62,7 @@ fn quick(pitch: &Pitch, seed: u64) -> Pioneer2dxConfig {
     robot
 }
 
-fn wander(pitch: &Pitch, legs: u32, seed: u64) -> Wandered {
+fn wander(pitch: &Pitch, config: WandererConfig, legs: u32, seed: u64) -> Wandered {
     let model = Pioneer2dx::new(quick(pitch, seed)).unwrap();
     let start = pitch.start(seed).unwrap();
     let mut robot = Watched {
@@ -70,7 +71,7 @@ fn wander(pitch: &Pitch, legs: u32, seed: u64) -> Wandered {
         steps: 0,
         visited: BTreeSet::new(),
     };
-    let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
+    let mut wanderer = Wanderer::new(config, seed);
     let (mut idle, mut before) = (0, start.position);
     for _ in 0..legs {
         wanderer.leg(&mut robot).unwrap();
@@ -79,7 +80,6 @@ fn wander(pitch: &Pitch, legs: u32, seed: u64) -> Wandered {
         before = here;
     }
     Wandered {
-        steps: robot.steps,
         bumps: f64::from(robot.solo.bumps()) / f64::from(robot.steps),
         idle: f64::from(idle) / f64::from(legs),
         visited: robot.visited,
@@ -99,34 +99,33 @@ fn reachable(pitch: &Pitch) -> BTreeSet<Cell> {
     free.map(|point| pitch.cell_of(point)).collect()
 }
 
-fn check(pitch: &Pitch, seed: u64) {
-    let wandered = wander(pitch, 300, seed);
+/// 300 legs miss at most `most_missed` of the cells that can be reached.
+fn check(pitch: &Pitch, config: WandererConfig, seed: u64, most_missed: f64) {
+    let wandered = wander(pitch, config, 300, seed);
     let all = reachable(pitch);
     let missed = all.difference(&wandered.visited).count();
     let name = &pitch.name;
-    println!(
-        "{name}: {} steps, bumps {:.4}, idle {:.3}, missed {missed} of {}",
-        wandered.steps,
-        wandered.bumps,
-        wandered.idle,
-        all.len()
-    );
-    assert!(wandered.bumps < 0.02, "{name}: {}", wandered.bumps);
-    assert!(wandered.idle < 0.05, "{name}: {}", wandered.idle);
-    assert!(missed * 12 <= all.len(), "{name}: missed {missed}");
+    assert!(wandered.bumps < 0.01, "{name}: {}", wandered.bumps);
+    assert!(wandered.idle < 0.02, "{name}: {}", wandered.idle);
+    let share = missed as f64 / all.len() as f64;
+    assert!(share <= most_missed, "{name}: missed {missed}");
 }
 
 #[test]
 fn it_gets_everywhere_and_out_of_everywhere() {
     for seed in 0..20 {
-        check(&Pitch::random(seed).unwrap(), seed);
+        let pitch = Pitch::random(seed).unwrap();
+        check(&pitch, WandererConfig::near_and_far(), seed, 0.1);
     }
 }
 
+/// By the paper's limits it comes to the cells in the corners by chance alone.
 #[test]
-fn it_wanders_in_the_arenas_that_are_always_the_same() {
+fn by_the_papers_limits_it_gets_nearly_everywhere() {
     for name in ["pitch", "hall", "l-room"] {
-        check(&Pitch::named(name).unwrap(), 1);
+        let pitch = Pitch::named(name).unwrap();
+        check(&pitch, WandererConfig::paper(), 1, 0.3);
+        check(&pitch, WandererConfig::near_and_far(), 1, 0.1);
     }
 }
 
@@ -153,10 +152,10 @@ fn the_truth_is_written_down_beside_the_records() {
     ];
     for (index, goal) in goals {
         let truth = data.records[index].truth;
-        let towards = tolman_geom::Heading::of(goal - truth.position);
+        let towards = tolman_geom::Heading::of(goal.position - truth.position);
         let aside = truth.heading.turn_to(towards).to_degrees();
         assert!(aside.abs() < 15.0, "{aside}°");
-        assert!((goal - truth.position).norm() < 2.5);
+        assert!((goal.position - truth.position).norm() < 2.5);
     }
     assert_ne!(data.goals.blue, data.goals.yellow);
 }
@@ -165,6 +164,25 @@ fn the_truth_is_written_down_beside_the_records() {
 fn the_same_seed_gathers_the_same_data() {
     assert_eq!(data(2), data(2));
     assert_ne!(data(2), data(3));
+}
+
+/// Any robot that turns, translates and senses ranges wanders: this one has a ring of laser beams and no camera.
+#[test]
+fn a_robot_with_a_laser_wanders_too() {
+    let pitch = Pitch::paper().unwrap();
+    let model = LaserPioneer::new(LaserPioneerConfig::noiseless()).unwrap();
+    let start = pitch.start(1).unwrap();
+    let mut robot = Solo::new(pitch.world.clone(), model, start, 1).unwrap();
+    let config = WandererConfig::paper().with_rates(0.08, 0.15);
+    let mut wanderer = Wanderer::new(config, 1);
+    for _ in 0..50 {
+        let record = wanderer.leg(&mut robot).unwrap();
+        assert_eq!(record.snapshot.soundings.len(), 72);
+        assert_eq!(record.snapshot.picture, None);
+        let there = start.compose(record.odometry).position;
+        assert!((there - robot.truth().pose.position).norm() < 1e-6);
+    }
+    assert_eq!(robot.bumps(), 0);
 }
 
 #[test]

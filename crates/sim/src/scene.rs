@@ -183,3 +183,21 @@ impl Placed {
             .fold(f64::INFINITY, f64::min)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// It touches the disc on every side and cuts nothing off.
+    #[test]
+    fn the_outline_of_a_disc_runs_round_it() {
+        let centre = Point::new(1.0, -2.0);
+        let pose = Pose::new(centre, tolman_geom::Heading::NORTH);
+        let outline = Placed::new(Body::Circle { radius: 0.25 }, pose).outline();
+        assert_eq!(outline.len(), 24);
+        for side in outline {
+            assert!((side.distance(centre) - 0.25).abs() < 1e-12);
+            assert!((side.start - centre).norm() < 0.25 * 1.01);
+        }
+    }
+}

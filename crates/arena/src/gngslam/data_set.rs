@@ -48,7 +48,7 @@ pub struct GoalRecords {
 const WRONG_LABELS: f64 = 0.01;
 
 impl GoalRecords {
-    /// Finds the records from where each goal is nearest straight ahead, with nothing between. Of no records the first, which does
+    /// Finds the records from where each goal is best seen. Of no records the first, which does
     /// not exist.
     pub(super) fn find(pitch: &Pitch, records: &[LabelledRecord]) -> Self {
         let best = |goal| {
@@ -63,17 +63,24 @@ impl GoalRecords {
     }
 }
 
-/// How badly a goal is seen from a pose: the least where it is straight ahead and near, and nothing stands before it.
-fn cost(pitch: &Pitch, pose: Pose, goal: tolman_geom::Point) -> f64 {
-    /// What counts as much as 1 m, rad.
-    const ASIDE: f64 = 0.15;
+/// How badly a goal is seen from a pose: the least where it is straight ahead and fills the picture, nothing stands before it, and it
+/// is not seen aslant.
+fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
+    /// From here a goal fills the picture: where the paper's limits stop the robot, m.
+    const BEST: f64 = 1.3;
+    /// What counts alike: m off that distance, rad aside and rad aslant.
+    const OFF: f64 = 0.5;
+    const ASIDE: f64 = 0.1;
+    const ASLANT: f64 = 0.4;
     /// A goal that something hides is seen worse than any that is not.
     const HIDDEN: f64 = 1e6;
     /// The goal itself stands a little before its wall, m.
     const PROUD: f64 = 0.05;
-    let way = goal - pose.position;
+    let way = goal.position - pose.position;
     let (distance, towards) = (way.norm(), Heading::of(way));
+    let off = (distance - BEST) / OFF;
     let aside = pose.heading.turn_to(towards) / ASIDE;
+    let aslant = goal.heading.turn_to(towards.reversed()) / ASLANT;
     let caster = pitch.world.caster();
     let sight = caster.cast(pose.position, towards.unit(), distance);
     let hidden = if sight < distance - PROUD {
@@ -81,7 +88,7 @@ fn cost(pitch: &Pitch, pose: Pose, goal: tolman_geom::Point) -> f64 {
     } else {
         0.0
     };
-    aside * aside + distance * distance + hidden
+    aside * aside + aslant * aslant + off * off + hidden
 }
 
 /// Writes a wrong cell down for the paper's share of all records.

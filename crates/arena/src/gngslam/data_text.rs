@@ -282,17 +282,8 @@ impl Header {
     }
 }
 
-/// The pixels, all red ones first, each as the difference from the one before.
 fn packed(picture: &Picture) -> String {
-    let mut bytes = Vec::with_capacity(3 * picture.pixels.len());
-    for part in 0..3 {
-        let mut before = 0_u8;
-        for pixel in &picture.pixels {
-            bytes.push(pixel[part].wrapping_sub(before));
-            before = pixel[part];
-        }
-    }
-    STANDARD.encode(compressed(&bytes))
+    STANDARD.encode(compressed(picture.pixels.as_flattened()))
 }
 
 fn compressed(bytes: &[u8]) -> Vec<u8> {
@@ -326,13 +317,7 @@ impl PictureShape {
             return None;
         }
         let mut picture = Picture::black(self.width, self.height, self.camera);
-        for (part, plane) in bytes.chunks_exact(pixels).enumerate() {
-            let mut before = 0_u8;
-            for (pixel, difference) in picture.pixels.iter_mut().zip(plane) {
-                before = before.wrapping_add(*difference);
-                pixel[part] = before;
-            }
-        }
+        picture.pixels.as_flattened_mut().copy_from_slice(&bytes);
         Some(picture)
     }
 }

@@ -55,6 +55,20 @@ pub fn gather(
     seed: u64,
     count: usize,
 ) -> Result<DataSet, GatherError> {
+    gather_with(pitch, robot, WandererConfig::paper(), seed, count)
+}
+
+/// The same with a robot that wanders otherwise.
+///
+/// # Errors
+/// As [`gather`].
+pub fn gather_with(
+    pitch: &Pitch,
+    robot: Pioneer2dxConfig,
+    wanderer: WandererConfig,
+    seed: u64,
+    count: usize,
+) -> Result<DataSet, GatherError> {
     if count == 0 {
         return Err(GatherError::NoRecords);
     }
@@ -65,7 +79,7 @@ pub fn gather(
         pitch.start(seed)?,
         seed,
     )?);
-    let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
+    let mut wanderer = Wanderer::new(wanderer, seed);
     let mut records = Vec::with_capacity(count);
     for _ in 0..count {
         records.push(next(pitch, &mut robot, &mut wanderer)?);

@@ -22,7 +22,7 @@ pub struct Pitch {
     /// Its walls, goals, windows and furniture.
     pub world: Arc<World>,
     /// Where its goals stand.
-    pub goals: GoalPoints,
+    pub goals: Goals,
     /// How it is lit.
     pub light: Light,
     /// Its floor and ceiling.
@@ -30,13 +30,14 @@ pub struct Pitch {
     pub(super) room: Room,
 }
 
-/// The middle of each goal's foot, m. In random arenas the goals have other colours, and the first is called blue.
+/// The middle of each goal's foot, looking onto the floor. In random arenas the goals have other colours, and the first is called
+/// blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GoalPoints {
+pub struct Goals {
     /// Of the blue goal.
-    pub blue: Point,
+    pub blue: Pose,
     /// Of the yellow goal.
-    pub yellow: Point,
+    pub yellow: Pose,
 }
 
 /// Why there is no such arena, or no place in it.

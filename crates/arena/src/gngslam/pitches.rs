@@ -6,7 +6,7 @@ use tolman_geom::{Heading, Point};
 use tolman_sim::sensors::{Backdrop, Light};
 use tolman_sim::{Bounds, Material};
 
-use super::pitch::{GoalPoints, Pitch, PitchError};
+use super::pitch::{Goals, Pitch, PitchError};
 use super::room::{Room, Span};
 
 pub(super) const WHITE: [u8; 3] = [235, 235, 228];
@@ -24,9 +24,15 @@ pub(super) const BOARDING: f64 = 0.4;
 /// How high a goal is, m. The paper does not say.
 pub(super) const GOAL: f64 = 0.5;
 
-/// A window that begins at its sill and ends at its lintel.
-pub(super) fn window() -> Material {
-    Material::painted(SKY).standing(0.8, 2.2).glowing(1.0)
+/// The sill of a window behind boarding, m.
+pub(super) const SILL: f64 = 0.8;
+
+/// The sill of a window in a wall of the floor itself, m: lower, since the robot that looks up at it is nearer.
+pub(super) const LOW_SILL: f64 = 0.4;
+
+/// A window from its sill, m, to its lintel.
+pub(super) fn window(sill: f64) -> Material {
+    Material::painted(SKY).standing(sill, 2.2).glowing(1.0)
 }
 
 pub(super) fn goal(colour: [u8; 3]) -> Material {
@@ -66,7 +72,7 @@ impl Pitch {
         let mut room = Room::new(&corners, boarding);
         room.enclose(BEHIND, Material::painted(PLASTER));
         for place in [0.04, 0.29, 0.54, 0.79] {
-            room.hang_behind(span(2, place, place + 0.18), BEHIND, window());
+            room.hang_behind(span(2, place, place + 0.18), BEHIND, window(SILL));
         }
         let door = Material::painted(WOOD).standing(0.0, 2.0);
         room.hang_behind(span(0, 0.25, 0.38), BEHIND, door);
@@ -91,7 +97,7 @@ impl Pitch {
         let corners = [(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)];
         let mut room = Room::new(&corners, Material::painted([214, 208, 196]));
         for place in [0.08, 0.4, 0.72] {
-            room.hang(span(3, place, place + 0.2), window());
+            room.hang(span(3, place, place + 0.2), window(LOW_SILL));
         }
         let door = Material::painted([70, 95, 85]).standing(0.0, 2.0);
         room.hang(span(1, 0.1, 0.28), door);
@@ -129,7 +135,7 @@ impl Pitch {
         ];
         let mut room = Room::new(&corners, Material::painted([196, 206, 214]));
         for place in [0.1, 0.4, 0.7] {
-            room.hang(span(0, place, place + 0.2), window());
+            room.hang(span(0, place, place + 0.2), window(LOW_SILL));
         }
         let door = Material::painted(WOOD).standing(0.0, 2.0);
         room.hang(span(5, 0.5, 0.68), door);
@@ -151,14 +157,14 @@ impl Pitch {
         (yellow, yellow_colour): (Span, [u8; 3]),
         look: Look,
     ) -> Result<Self, PitchError> {
-        room.hang(blue, goal(blue_colour));
-        room.hang(yellow, goal(yellow_colour));
+        room.put_goal(blue, goal(blue_colour));
+        room.put_goal(yellow, goal(yellow_colour));
         Ok(Self {
             name: name.to_owned(),
             world: Arc::new(room.world()?),
-            goals: GoalPoints {
-                blue: room.middle(blue),
-                yellow: room.middle(yellow),
+            goals: Goals {
+                blue: room.before(blue),
+                yellow: room.before(yellow),
             },
             light: look.light,
             backdrop: backdrop(look.floor),

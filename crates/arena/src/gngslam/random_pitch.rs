@@ -8,7 +8,7 @@ use tolman_sim::{Bounds, Material};
 use tolman_systems::stream;
 
 use super::pitch::{Pitch, PitchError};
-use super::pitches::{BOARDING, Look, WHITE, window};
+use super::pitches::{BOARDING, LOW_SILL, Look, SILL, WHITE, window};
 use super::room::{Room, Span};
 
 /// How long a side is, m.
@@ -62,7 +62,7 @@ fn open_floor(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> R
     let behind = rng.random_range(0.8..1.6);
     let mut room = Room::new(corners, boarding);
     room.enclose(behind, Material::painted(pale(rng)));
-    for (span, material) in decoration(windows, rng) {
+    for (span, material) in decoration(windows, SILL, rng) {
         room.hang_behind(span, behind, material);
     }
     room
@@ -71,14 +71,14 @@ fn open_floor(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> R
 /// High walls, with the same on them.
 fn closed_room(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> Room {
     let mut room = Room::new(corners, Material::painted(pale(rng)));
-    for (span, material) in decoration(windows, rng) {
+    for (span, material) in decoration(windows, LOW_SILL, rng) {
         room.hang(span, material);
     }
     room
 }
 
 /// Two to four windows on one side, and one thing on each other one.
-fn decoration(windows: usize, rng: &mut ChaCha8Rng) -> Vec<(Span, Material)> {
+fn decoration(windows: usize, sill: f64, rng: &mut ChaCha8Rng) -> Vec<(Span, Material)> {
     let count = rng.random_range(2_u32..=4);
     let share = f64::from(count).recip();
     let windows_on = (0..count).map(|index| {
@@ -88,7 +88,7 @@ fn decoration(windows: usize, rng: &mut ChaCha8Rng) -> Vec<(Span, Material)> {
             from,
             to: from + 0.7 * share,
         };
-        (span, window())
+        (span, window(sill))
     });
     let mut all: Vec<(Span, Material)> = windows_on.collect();
     let others = (0..4).filter(|side| *side != windows);
@@ -219,10 +219,10 @@ mod tests {
             let bounds = pitch.bounds();
             assert!((3.0..=6.5).contains(&bounds.width()), "{bounds:?}");
             assert!((3.0..=6.5).contains(&bounds.height()), "{bounds:?}");
-            let apart = (pitch.goals.blue - pitch.goals.yellow).norm();
+            let apart = (pitch.goals.blue.position - pitch.goals.yellow.position).norm();
             assert!(apart > 0.3, "seed {seed}: {apart} m");
             for goal in [pitch.goals.blue, pitch.goals.yellow] {
-                assert!(pitch.world.nearest_wall_distance(goal) < 1e-9);
+                assert!(pitch.world.nearest_wall_distance(goal.position) < 1e-9);
             }
             boxes[pitch.room.furniture().len()] += 1;
         }

@@ -1,4 +1,4 @@
-use tolman_geom::{Point, Vector};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_sim::{Bounds, Material, Wall, World, WorldError};
 
 /// What is built of walls: a floor with its outline, what hangs on it, furniture, and the room round it.
@@ -20,6 +20,9 @@ pub(super) struct Span {
 
 /// How far before its wall a thing hangs, m.
 const PROUD: f64 = 0.002;
+
+/// How far a goal stands before the wall: before all else that hangs there, m.
+const GOAL_PROUD: f64 = 2.0 * PROUD;
 
 impl Room {
     /// Returns a floor with these corners, counter-clockwise, and walls of one material round it.
@@ -57,13 +60,21 @@ impl Room {
         (end - start).norm()
     }
 
-    /// The middle of a part of a side.
-    pub(super) fn middle(&self, span: Span) -> Point {
+    /// The middle of a part of a side, looking onto the floor.
+    pub(super) fn before(&self, span: Span) -> Pose {
         let (start, end) = self.side(span.side);
-        start + (end - start) * (0.5 * (span.from + span.to))
+        let along = end - start;
+        let middle = start + along * (0.5 * (span.from + span.to));
+        Pose::new(middle, Heading::of(Vector::new(-along.y, along.x)))
     }
 
-    /// Hangs a goal, a window or a picture on part of a side.
+    /// Puts a goal before part of a side.
+    pub(super) fn put_goal(&mut self, span: Span, material: Material) {
+        let (start, end) = self.side(span.side);
+        self.stand((start, end), span, GOAL_PROUD, material);
+    }
+
+    /// Hangs a window, a door or a picture on part of a side.
     pub(super) fn hang(&mut self, span: Span, material: Material) {
         let (start, end) = self.side(span.side);
         self.stand((start, end), span, PROUD, material);

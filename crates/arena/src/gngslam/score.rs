@@ -41,7 +41,7 @@ impl PlaceScorer {
     #[must_use]
     pub fn paper(data: &DataSet, pitch: &Pitch) -> Self {
         let labels = data.records.iter().map(|record| record.label);
-        let to_yellow = pitch.goals.yellow - pitch.goals.blue;
+        let to_yellow = pitch.goals.yellow.position - pitch.goals.blue.position;
         Self::of(labels.collect(), data.goals, Heading::of(to_yellow))
     }
 

@@ -28,6 +28,11 @@ impl StopNear {
         self.give_way = share;
     }
 
+    /// Changes the limits from now on.
+    pub const fn limit(&mut self, limits: NearLimits) {
+        self.limits = limits;
+    }
+
     /// Takes in the readings of a time step without driving: while turning.
     pub fn take_in(&mut self, sensing: &impl Soundings) {
         self.mean.take_in(sensing);

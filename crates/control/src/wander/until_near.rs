@@ -98,6 +98,15 @@ impl UntilNear {
         self.near.give_way(share);
     }
 
+    /// Lets things come as near ahead as `share` of the limit, 0 … 1, from now on; those beside keep theirs.
+    pub fn limit_ahead(&mut self, share: f64) {
+        let limits = self.config.limits;
+        self.near.limit(NearLimits {
+            ahead: limits.ahead * share,
+            ..limits
+        });
+    }
+
     /// Drives straight on until something is near or touched, or the leg takes too long. O(sensors) a time step.
     ///
     /// # Errors

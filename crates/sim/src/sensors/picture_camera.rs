@@ -81,7 +81,7 @@ impl PictureCameraConfig {
                 ..perfect.backdrop
             },
             light: Light::daylight(Heading::WEST),
-            noise_sd: 2.5,
+            noise_sd: 2.0,
             levels: 32,
             ..perfect
         }
