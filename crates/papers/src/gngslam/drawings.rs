@@ -2,7 +2,7 @@
 
 use tolman_arena::gngslam::{CellGrid, FieldFromMap, GoalNodes};
 use tolman_draw::{
-    Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Image, Points, Series, Tiles,
+    Axis, Chart, Drawing, Figure, Graph, GraphEdge, GraphNode, Image, NodeMark, Series, Tiles,
 };
 use tolman_experiment::{BoxError, Run};
 use tolman_geom::Point;
@@ -13,7 +13,7 @@ use tolman_robot::Picture;
 use super::MapRun;
 use super::search_space::{COUNT, LAMBDA, Parameters, WINNER_RATE};
 use super::searches::Searches;
-use super::sets::{RIGHT_WHEELS, Setting, TABLE, VARIANTS, settings};
+use super::sets::{Setting, TABLE, settings};
 
 /// Where the appendix differs from the best parameters: the middle of "200 and 250", and 0.052.
 const MORE_NODES: f64 = 225.0;
@@ -21,6 +21,9 @@ const SLOW: f64 = 0.052;
 
 /// The rows of figure 4.3, from 0. The text calls the second set 5, the caption 6.
 const SHOWN: [usize; 2] = [0, 5];
+
+/// How many maps are tried for a figure until one can be turned.
+const TRIED: usize = 40;
 
 /// Width of a map and of a node's image, user units.
 const WIDTH: f64 = 460.0;
@@ -39,7 +42,12 @@ impl Searches {
     /// The maps of the best runs; a row without a map that has a score is left out.
     pub(super) fn drawings(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = vec![self.best_maps(runs)?];
-        if let Some(best) = Best::of(runs, settings()[SHOWN[1]])? {
+        let setting = settings()[SHOWN[1]];
+        let seeds: Vec<u64> = of_row(runs, &setting)
+            .map(|run| run.seed)
+            .take(TRIED)
+            .collect();
+        if let Some(best) = Best::of(runs, setting)? {
             for (name, title, which, value) in [
                 (
                     "figure-a-1",
@@ -55,22 +63,14 @@ impl Searches {
                 ),
             ] {
                 let parameters = best.parameters.with(which, value);
-                let drawing = self.drawing(&best.setting, &parameters, best.seed)?;
-                figures.push(Figure::new(name, title, drawing).caption(READ).table(TABLE));
-            }
-        }
-        for setting in settings() {
-            if setting.row == RIGHT_WHEELS
-                && let Some(best) = Best::of(runs, setting)?
-            {
-                let drawing = self.drawing(&setting, &best.parameters, best.seed)?;
-                let figure = Figure::new(
-                    "right-wheels",
-                    "The best map by wheels that are right",
-                    drawing,
-                );
-                let caption = format!("{READ} Here {}.", best.said);
-                figures.push(figure.caption(caption).table(VARIANTS));
+                let drawn = seeds
+                    .iter()
+                    .map(|seed| self.drawing(&setting, &parameters, *seed));
+                if let Some(drawing) = drawn.filter_map(Result::transpose).next().transpose()? {
+                    let caption = format!("{READ} Otherwise the parameters of the best map.");
+                    let figure = Figure::new(name, title, drawing);
+                    figures.push(figure.caption(caption).table(TABLE));
+                }
             }
         }
         Ok(figures)
@@ -86,10 +86,9 @@ impl Searches {
             };
             let name = format!("set {}: {}", place + 1, best.setting.row);
             caption += &format!(" {name}: {}.", best.said);
-            tiles.tile(
-                name,
-                self.drawing(&best.setting, &best.parameters, best.seed)?,
-            );
+            if let Some(drawing) = self.drawing(&best.setting, &best.parameters, best.seed)? {
+                tiles.tile(name, drawing);
+            }
         }
         let drawing =
             tiles.drawing("The best maps of sets 1 and 6, each node's image at its place.");
@@ -97,33 +96,35 @@ impl Searches {
         Ok(figure.caption(caption).table(TABLE))
     }
 
+    /// Learns a map and draws it; `None` of a useless one.
     fn drawing(
         &self,
         setting: &Setting,
         parameters: &Parameters,
         seed: u64,
-    ) -> Result<Drawing, BoxError> {
+    ) -> Result<Option<Drawing>, BoxError> {
         let map = self.learn(setting, parameters, seed)?;
         let places = self.places(setting);
         let table = places.table(setting.set.image())?;
         let scorer = places.scorer(setting.stretch)?;
         let Some(field_from_map) = scorer.field_from_map(&map, table)? else {
-            let empty = Chart::new(axis("x, cells"), axis("y, cells")).sized(WIDTH, WIDTH);
-            return Ok(
-                empty.drawing("Both goals are nearest to one node, so the map cannot be turned.")
-            );
+            return Ok(None);
         };
-        drawn(&map, &field_from_map, scorer.goals(&map, table)?)
+        let goals = scorer.goals(&map, table)?;
+        drawn(&map, &field_from_map, goals).map(Some)
     }
+}
+
+/// The runs of a row.
+fn of_row<'a>(runs: &'a [Run], setting: &Setting) -> impl Iterator<Item = &'a Run> {
+    let (table, row) = (setting.table, setting.row);
+    runs.iter().filter(move |run| run.is_of(table, row))
 }
 
 impl Best {
     fn of(runs: &[Run], setting: Setting) -> Result<Option<Self>, BoxError> {
         let mut best: Option<(f64, Self)> = None;
-        for run in runs
-            .iter()
-            .filter(|run| run.is_of(setting.table, setting.row))
-        {
+        for run in of_row(runs, &setting) {
             let map: MapRun = run.record()?;
             let parameters: Result<[f64; COUNT], _> = map.parameters.try_into();
             if let (Some(score), Ok(parameters)) = (map.score, parameters)
@@ -183,13 +184,17 @@ fn drawn(
             chart.image(*at, image(&picture)?, width, format!("node {node}"));
         }
     }
+    let mut marks = Graph::new().radius(5.0);
     for (label, series, goal) in [
         ("blue goal", 0, goals.blue),
         ("yellow goal", 1, goals.yellow),
     ] {
-        let at = place(goal).into_iter().collect();
-        chart.points(Points::new(label, Series(series), at));
+        if let Some(at) = place(goal) {
+            let node = GraphNode::at(at).series(Series(series)).label(label);
+            marks.node(node.mark(NodeMark::Square));
+        }
     }
+    chart.graph(marks);
     Ok(chart.drawing(format!("{} nodes with their images.", nodes.len())))
 }
 

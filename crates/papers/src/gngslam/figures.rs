@@ -84,7 +84,7 @@ impl Scores {
     /// Figure 4.2: a dot for each row's bootstrapped mean, with its interval.
     fn means(&self, seed: u64) -> Result<Figure, BoxError> {
         let sets = Axis::linear("set").between(-0.5, 6.5).whole_numbers();
-        let mut chart = Chart::new(sets, Axis::linear("mean score"));
+        let mut chart = Chart::new(sets, Axis::linear("mean score")).sized(720.0, 320.0);
         let mut said = Vec::new();
         for (place, (name, scores)) in self.rows.iter().enumerate() {
             let Some((middle, interval)) = bootstrapped(scores, run_seed(seed, name, 1))? else {

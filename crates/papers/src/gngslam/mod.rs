@@ -146,8 +146,8 @@ fn variants(runs: u32) -> Table {
     of_maps(VARIANTS, "Set 1 with one thing changed")
         .rows(rows.map(|setting| Row::new(setting.row).runs(runs.min(VARIANT_RUNS))))
         .note(
-            "The wheels of Table 4.1 are wrong by up to 1 % each, its features scaled by groups, its maps stretched over the cells \
-             where records were taken. Raw values are metres, and colours of 0 to 1.",
+            "In Table 4.1 wheels slip but count rightly, features are scaled by groups, and maps stretched over the cells where \
+             records were taken. Here each wheel counts wrongly by a constant share. Raw values are metres, and colours of 0 to 1.",
         )
 }
 
