@@ -108,7 +108,7 @@ mod tests {
         let centre = mean(|score| score.by_centre);
         assert!((centre - 0.175).abs() < 0.0005, "{centre}");
         let border = mean(|score| score.by_border);
-        assert!((border - 0.1836).abs() < 0.0005, "{border}");
+        assert!((border - 0.1835).abs() < 0.0005, "{border}");
         let square = mean(|score| score.by_centre * score.by_centre);
         let sd = libm::sqrt(square - centre * centre);
         assert!((sd - 0.16).abs() < 0.005, "{sd}");

@@ -25,11 +25,14 @@ const SHOWN: [usize; 2] = [0, 5];
 /// How many maps are tried for a figure until one can be turned.
 const TRIED: usize = 40;
 
+/// The most nodes of a map that is shown: of more, no image can be made out.
+const MOST_NODES: usize = 40;
+
 /// Width of a map and of a node's image, user units.
 const WIDTH: f64 = 460.0;
 const IMAGE: f64 = 76.0;
 
-/// A row's best map: all that it takes to learn it again.
+/// A row's best map of at most [`MOST_NODES`]: all that it takes to learn it again.
 struct Best {
     setting: Setting,
     parameters: Parameters,
@@ -67,7 +70,7 @@ impl Searches {
                     .iter()
                     .map(|seed| self.drawing(&setting, &parameters, *seed));
                 if let Some(drawing) = drawn.filter_map(Result::transpose).next().transpose()? {
-                    let caption = format!("{READ} Otherwise the parameters of the best map.");
+                    let caption = format!("{READ} Otherwise it has the parameters of that map.");
                     let figure = Figure::new(name, title, drawing);
                     figures.push(figure.caption(caption).table(TABLE));
                 }
@@ -127,7 +130,8 @@ impl Best {
         for run in of_row(runs, &setting) {
             let map: MapRun = run.record()?;
             let parameters: Result<[f64; COUNT], _> = map.parameters.try_into();
-            if let (Some(score), Ok(parameters)) = (map.score, parameters)
+            let is_small = map.nodes.is_some_and(|nodes| nodes <= MOST_NODES);
+            if let (true, Some(score), Ok(parameters)) = (is_small, map.score, parameters)
                 && best.as_ref().is_none_or(|(most, _)| score > *most)
             {
                 let mirrored = match map.mirrored {
@@ -150,7 +154,7 @@ impl Best {
 /// How the maps are to be read.
 const READ: &str = "Each node's image has its middle where the node lies, in cells, turned so that the yellow goal is straight \
                     above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
-                    green and blue.";
+                    green and blue. Of each set the best map of at most 40 nodes, whose images can be made out.";
 
 fn axis(title: &str) -> Axis {
     Axis::linear(title).between(-0.5, 8.5)
