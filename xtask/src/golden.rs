@@ -17,6 +17,7 @@ const PINNED: &[(&str, u32)] = &[
     ("micromouse", 1),
     ("diktiometry", 1),
     ("cpm", 1),
+    ("gngslam", 1),
 ];
 
 /// Plays the runs and compares them with those in `tests/golden`; `bless` puts them there instead.

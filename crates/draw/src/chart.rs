@@ -1,4 +1,4 @@
-//! A frame with two axes: lines with bands of spread, points, and graphs over them.
+//! A frame with two axes: lines with bands of spread, points, graphs and pictures over them.
 
 use maud::{Markup, html};
 use tolman_geom::Point;
@@ -6,7 +6,7 @@ use tolman_geom::Point;
 use super::number::{NOTHING, extent, line, tenths};
 use super::scale::{Scale, Spacing};
 use super::words;
-use super::{Drawing, GraphPicture, Series};
+use super::{Drawing, GraphPicture, Image, Series};
 use tolman_stats::ConfidenceInterval;
 
 /// Room for the labels of the value axis.
@@ -153,6 +153,7 @@ enum Layer {
     Line(Line),
     Points(Points),
     Graph(GraphPicture),
+    Pinned(Pinned),
 }
 
 /// A line through values, with a band of spread around it.
@@ -200,6 +201,15 @@ impl LinePoint {
         self.spread = Some(spread);
         self
     }
+}
+
+/// A picture with its middle at a place of a chart.
+#[derive(Clone, Debug, PartialEq)]
+struct Pinned {
+    at: Point,
+    image: Image,
+    width: f64,
+    note: String,
 }
 
 /// Points without order.
@@ -268,6 +278,17 @@ impl Chart {
         self.layers.push(Layer::Graph(graph));
     }
 
+    /// Adds an image with its middle at a place, `width` user units wide. The note shows when the pointer rests on it.
+    pub fn image(&mut self, at: Point, image: Image, width: f64, note: impl Into<String>) {
+        let note = note.into();
+        self.layers.push(Layer::Pinned(Pinned {
+            at,
+            image,
+            width,
+            note,
+        }));
+    }
+
     /// The finished picture; `description` says in words what it shows.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let (legend, legend_height) = self.legend();
@@ -327,6 +348,7 @@ impl Chart {
                         .map(|node| (node.position.x, node.position.y))
                         .collect()
                 }
+                Layer::Pinned(pinned) => vec![(pinned.at.x, pinned.at.y)],
             }
         })
     }
@@ -336,7 +358,7 @@ impl Chart {
         let entries = self.layers.iter().filter_map(|layer| match layer {
             Layer::Line(line) => Some((&line.label, line.series, true)),
             Layer::Points(points) => Some((&points.label, points.series, false)),
-            Layer::Graph(_) => None,
+            Layer::Graph(_) | Layer::Pinned(_) => None,
         });
         let mut placed = Vec::new();
         let (mut x, mut row) = (LEFT, 0.0);
@@ -423,6 +445,26 @@ impl Frame<'_> {
                         at.map_or(Point::new(f64::NAN, f64::NAN), |(x, y)| Point::new(x, y));
                 }
                 graph.markup(&|at| (at.x, at.y))
+            }
+            Layer::Pinned(pinned) => self.pinned(pinned),
+        }
+    }
+
+    fn pinned(&self, pinned: &Pinned) -> Markup {
+        let Drawing {
+            width,
+            height,
+            body,
+            ..
+        } = pinned.image.drawing("", pinned.width);
+        let place = self.at(pinned.at.x, pinned.at.y);
+        let corner = place.map(|(x, y)| (x - 0.5 * width, y - 0.5 * height));
+        html! {
+            @if let Some((x, y)) = corner {
+                svg x=(tenths(x)) y=(tenths(y)) width=(tenths(width)) height=(tenths(height)) {
+                    @if !pinned.note.is_empty() { title { (pinned.note) } }
+                    (body)
+                }
             }
         }
     }
@@ -534,6 +576,18 @@ mod tests {
         let svg = svg(&chart);
         assert!(svg.contains("d=\"M0 100L100 0\""));
         assert_eq!(svg.matches("class=\"node").count(), 2);
+    }
+
+    #[test]
+    fn images_have_their_middles_where_the_axes_say() {
+        let mut chart = square(unit("x"), unit("y"));
+        let image = Image::grey(2, 1, &[0, 255]).unwrap();
+        chart.image(Point::new(0.25, 0.5), image.clone(), 20.0, "two & two");
+        chart.image(Point::new(f64::NAN, 0.5), image, 20.0, "nowhere");
+        let svg = svg(&chart);
+        let place = "<svg x=\"15\" y=\"45\" width=\"20\" height=\"10\"><title>two &amp; two";
+        assert!(svg.contains(place), "{svg}");
+        assert!(!svg.contains("nowhere"));
     }
 
     #[test]

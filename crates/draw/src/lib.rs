@@ -13,6 +13,7 @@
 //! | runs of rows | [`BoxPlot`]; every experiment gets those by itself |
 //! | a quantity over another, with its spread | [`Chart::line`] |
 //! | points, a network over its data | [`Chart::points`], [`Chart::graph`] |
+//! | pictures where they were taken | [`Chart::image`] |
 //! | values over two parameters | [`HeatMap`] |
 //! | scans, as seen from the robot | [`PolarPlot`] |
 //! | pixels | [`Image`] |

@@ -35,6 +35,7 @@ pub(super) enum Centre {
     Mean,
     Median,
     Least,
+    Greatest,
 }
 
 impl<'a> Sample<'a> {
@@ -70,6 +71,7 @@ impl<'a> Sample<'a> {
             Statistic::Mean(field) => numbers(field, Centre::Mean),
             Statistic::Median(field) => numbers(field, Centre::Median),
             Statistic::Least(field) => numbers(field, Centre::Least),
+            Statistic::Greatest(field) => numbers(field, Centre::Greatest),
             Statistic::Ratio { over, under } => {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
                 Self::Pairs(pairs.collect())
@@ -105,7 +107,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// The value: part of a whole, mean, median, least, ratio of sums, or when the mean curve settles; and whether what
+    /// The value: part of a whole, mean, median, least, greatest, ratio of sums, or when the mean curve settles; and whether what
     /// the metric waits for came about, always where it waits for nothing.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
@@ -115,6 +117,7 @@ impl<'a> Sample<'a> {
                 // A sample is neither empty nor infinite: the runner refuses such runs.
                 Centre::Median => tolman_stats::quantile(numbers, 0.5).unwrap_or(f64::NAN),
                 Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
+                Centre::Greatest => numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
             Self::Curves {
@@ -141,11 +144,11 @@ impl<'a> Sample<'a> {
         tolman_stats::quantile(self.spread()?, 0.5).ok()
     }
 
-    /// The numbers whose spread says something of the value, which it does not of the least.
+    /// The numbers whose spread says something of the value, which it does not of the least and the greatest.
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
-                centre: Centre::Least,
+                centre: Centre::Least | Centre::Greatest,
                 ..
             } => None,
             Self::Numbers { numbers, .. } => Some(numbers),
@@ -166,7 +169,7 @@ impl<'a> Sample<'a> {
             Self::Numbers { numbers, centre } => match centre {
                 Centre::Mean => tolman_stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
                 Centre::Median => tolman_stats::median_interval(numbers, LEVEL),
-                Centre::Least => return None,
+                Centre::Least | Centre::Greatest => return None,
             },
             Self::Pairs(pairs) => {
                 tolman_stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng)

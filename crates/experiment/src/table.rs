@@ -349,6 +349,11 @@ impl Metric {
         Self::new(name, Statistic::Least(field.into()))
     }
 
+    /// The greatest of a numeric field.
+    pub fn greatest(name: impl Into<String>, field: impl Into<String>) -> Self {
+        Self::new(name, Statistic::Greatest(field.into()))
+    }
+
     /// The percentage of runs in which the flag named `field` is set.
     pub fn percent(name: impl Into<String>, field: impl Into<String>) -> Self {
         let metric = Self::new(name, Statistic::Percent(field.into()));
@@ -461,6 +466,8 @@ pub enum Statistic {
     Median(String),
     /// The least of a numeric field, of which no interval is told.
     Least(String),
+    /// The greatest of a numeric field, of which no interval is told.
+    Greatest(String),
     /// `whole` × the share of runs whose flag is set.
     Count {
         /// A field of [`Kind::Flag`](crate::Kind::Flag).
@@ -496,6 +503,7 @@ impl Statistic {
             Self::Mean(field)
             | Self::Median(field)
             | Self::Least(field)
+            | Self::Greatest(field)
             | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
             Self::Ratio { over, under } => vec![(over, NUMERIC), (under, NUMERIC)],
             Self::Settling(Settling {

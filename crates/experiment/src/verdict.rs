@@ -40,7 +40,13 @@ impl Verdict {
                 around(1.96 * paper.sd? / f64::from(paper_runs?).sqrt())
             }
             // A spread says nothing of a median's error, nor of a minimum's.
-            (None, Statistic::Median(_) | Statistic::Least(_) | Statistic::Settling(_)) => {
+            (
+                None,
+                Statistic::Median(_)
+                | Statistic::Least(_)
+                | Statistic::Greatest(_)
+                | Statistic::Settling(_),
+            ) => {
                 return None;
             }
         };

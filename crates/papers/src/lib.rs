@@ -11,6 +11,7 @@ mod baselines;
 pub mod cpm;
 pub mod data;
 pub mod diktiometry;
+mod gngslam;
 mod maze_file;
 mod micromouse;
 pub mod mslst;
@@ -36,6 +37,7 @@ pub const fn catalogue() -> &'static [Entry] {
         micromouse::ENTRY,
         diktiometry::ENTRY,
         cpm::ENTRY,
+        gngslam::ENTRY,
     ]
 }
 

@@ -28,7 +28,7 @@ mod golden;
 #[cfg(test)]
 mod properties;
 
-pub use bootstrap::bca_interval;
+pub use bootstrap::{bca_interval, bootstrap_means, percentile_interval};
 pub use confidence_interval::ConfidenceInterval;
 pub use effect::a12;
 pub use error::SampleError;

@@ -1,0 +1,191 @@
+use tolman_geom::{Heading, Point, Vector};
+use tolman_maze::Cell;
+
+use super::CellGrid;
+use super::point_score::middle;
+
+/// A rectangle of the field, in cells: what the map is stretched over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldExtent {
+    /// The corner of the least x and y.
+    pub min: Point,
+    /// The corner of the greatest x and y.
+    pub max: Point,
+}
+
+impl FieldExtent {
+    /// Returns the whole field.
+    #[must_use]
+    pub fn whole() -> Self {
+        let side = f64::from(CellGrid::SIDE);
+        Self {
+            min: Point::origin(),
+            max: Point::new(side, side),
+        }
+    }
+
+    /// Returns the least rectangle that holds the middles of cells; the whole field of no cells.
+    #[must_use]
+    pub fn of_middles(cells: &[Cell]) -> Self {
+        let middles = cells.iter().copied().map(middle);
+        let extents = middles.map(|at| Self { min: at, max: at });
+        extents.reduce(Self::with).unwrap_or_else(Self::whole)
+    }
+
+    fn of(points: impl Iterator<Item = Point>) -> Option<Self> {
+        points
+            .map(|at| Self { min: at, max: at })
+            .reduce(Self::with)
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            min: Point::new(self.min.x.min(other.min.x), self.min.y.min(other.min.y)),
+            max: Point::new(self.max.x.max(other.max.x), self.max.y.max(other.max.y)),
+        }
+    }
+}
+
+/// The field that maps are held against: what is known of it in the world's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldFrame {
+    /// The direction from the blue goal to the yellow one; the paper draws it straight up.
+    pub yellow_from_blue: Heading,
+    /// What the nodes of a map are stretched over, in cells.
+    pub extent: FieldExtent,
+}
+
+/// From positions in the frame of a map to cells of the field: steps 2 and 3 of the paper's score.
+///
+/// A rotation, then one factor for x and one for y, both positive. So nothing is ever mirrored: a map that is a mirror image
+/// of the field stays one, and scores as badly as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldFromMap {
+    /// The first row of the rotation, (cos, −sin).
+    turn: Vector,
+    turned: FieldExtent,
+    field: FieldExtent,
+}
+
+impl FieldFromMap {
+    /// Turns the map so that the yellow goal is where it has to be seen from the blue one, and stretches it so that the least and
+    /// the greatest x and y of the nodes fall on those of the field. `None` if both goals lie at one place or there are no
+    /// nodes.
+    #[must_use]
+    pub fn of(
+        nodes: impl Iterator<Item = Point>,
+        blue: Point,
+        yellow: Point,
+        field: &FieldFrame,
+    ) -> Option<Self> {
+        let from = (yellow - blue).try_normalize(1e-9)?;
+        let to = field.yellow_from_blue.unit();
+        let turn = Vector::new(from.dot(&to), -from.perp(&to));
+        let turned = FieldExtent::of(nodes.map(|node| turned(turn, node)))?;
+        Some(Self {
+            turn,
+            turned,
+            field: field.extent,
+        })
+    }
+
+    /// Returns where a position of the map lies on the field, in cells.
+    #[must_use]
+    pub fn transform(&self, in_map: Point) -> Point {
+        let at = turned(self.turn, in_map);
+        let (from, to) = (self.turned, self.field);
+        Point::new(
+            stretched(at.x, (from.min.x, from.max.x), (to.min.x, to.max.x)),
+            stretched(at.y, (from.min.y, from.max.y), (to.min.y, to.max.y)),
+        )
+    }
+}
+
+/// Turns a point about the origin.
+fn turned(turn: Vector, point: Point) -> Point {
+    let second_row = Vector::new(-turn.y, turn.x);
+    Point::new(turn.dot(&point.coords), second_row.dot(&point.coords))
+}
+
+/// Maps one interval to another; what has no length, to the middle.
+fn stretched(value: f64, from: (f64, f64), to: (f64, f64)) -> f64 {
+    let length = from.1 - from.0;
+    let share = if length > 1e-9 {
+        (value - from.0) / length
+    } else {
+        0.5
+    };
+    to.0 + share * (to.1 - to.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::Pose;
+
+    use super::*;
+
+    const FIELD: FieldFrame = FieldFrame {
+        yellow_from_blue: Heading::NORTH,
+        extent: FieldExtent {
+            min: Point::new(0.0, 0.0),
+            max: Point::new(8.0, 8.0),
+        },
+    };
+
+    /// Corners of a pitch of 4 × 4.6 m and its goals, seen from a robot that was put down somewhere.
+    fn pitch(frame: Pose) -> ([Point; 4], [Point; 2]) {
+        let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.6), (0.0, 4.6)];
+        let goals = [(2.0, 0.0), (2.0, 4.6)];
+        let seen = |(x, y)| frame.inverse().transform(Point::new(x, y));
+        (corners.map(seen), goals.map(seen))
+    }
+
+    #[test]
+    fn the_field_is_found_from_wherever_the_robot_was_put_down() {
+        for (x, y, degrees) in [(0.0, 0.0, 0.0), (1.0, 3.0, 37.0), (2.0, 2.0, -160.0)] {
+            let frame = Pose::new(Point::new(x, y), Heading::from_degrees(degrees));
+            let (corners, [blue, yellow]) = pitch(frame);
+            let nodes = corners.into_iter();
+            let found = FieldFromMap::of(nodes, blue, yellow, &FIELD).unwrap();
+            for (corner, expect) in
+                corners
+                    .iter()
+                    .zip([(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)])
+            {
+                let at = found.transform(*corner);
+                assert!((at - Point::new(expect.0, expect.1)).norm() < 1e-9, "{at}");
+            }
+        }
+    }
+
+    /// The paper's maps had the windows on the left, and nobody found why. A map that is a mirror image stays one here.
+    #[test]
+    fn a_mirror_image_stays_one() {
+        let (corners, [blue, yellow]) = pitch(Pose::IDENTITY);
+        let mirror = |at: Point| Point::new(-at.x, at.y);
+        let mirrored = corners.map(mirror);
+        let found = FieldFromMap::of(mirrored.into_iter(), mirror(blue), mirror(yellow), &FIELD);
+        let east = found.unwrap().transform(mirrored[1]);
+        assert!(
+            (east - Point::new(0.0, 0.0)).norm() < 1e-9,
+            "the east is on the left: {east}"
+        );
+    }
+
+    #[test]
+    fn what_has_no_extent_lies_in_the_middle() {
+        let extent = FieldExtent::of_middles(&[Cell::new(1, 2), Cell::new(5, 6)]);
+        let field = FieldFrame { extent, ..FIELD };
+        assert_eq!(
+            (extent.min, extent.max),
+            (Point::new(1.5, 2.5), Point::new(5.5, 6.5))
+        );
+        let line = [Point::new(3.0, 0.0), Point::new(3.0, 1.0)];
+        let found = FieldFromMap::of(line.into_iter(), line[0], line[1], &field).unwrap();
+        assert_eq!(found.transform(line[1]), Point::new(3.5, 6.5));
+        assert_eq!(
+            FieldFromMap::of(line.into_iter(), line[0], line[0], &field),
+            None
+        );
+    }
+}

@@ -1,0 +1,287 @@
+use rand::{Rng, RngExt};
+use tolman_geom::{Heading, Point, Vector};
+use tolman_maps::place_map::{FeatureTable, PlaceMap, PlaceMapError};
+use tolman_maze::Cell;
+use tolman_quantizers::UnitId;
+
+use super::point_score::middle;
+use super::{DataSet, FieldExtent, FieldFrame, FieldFromMap, GoalRecords, Pitch, PointScore};
+
+/// The nodes of a map that are nearest to the goals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GoalNodes {
+    /// The node nearest to the blue goal.
+    pub blue: UnitId,
+    /// The node nearest to the yellow goal.
+    pub yellow: UnitId,
+}
+
+/// Scores place maps by what is known of where their records were taken (section 3.4, "Score").
+#[derive(Clone, Debug)]
+pub struct PlaceScorer {
+    cells: Vec<Cell>,
+    goals: GoalRecords,
+    field: FieldFrame,
+}
+
+/// How good a place map is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceScore {
+    /// The mean over the records that were asked about.
+    pub mean: PointScore,
+    /// Whether it is a mirror image of the field, as the paper's maps were: where records were taken counter-clockwise around
+    /// their middle, it has them clockwise.
+    pub mirrored: bool,
+}
+
+impl PlaceScorer {
+    /// Returns the paper's scorer of maps of a data set, by the cells that were written down. Maps are stretched over the field as
+    /// far as its cells were visited, since "the learned positions are scaled to the manual position". Record i of the data
+    /// set has to be record i of the table.
+    #[must_use]
+    pub fn paper(data: &DataSet, pitch: &Pitch) -> Self {
+        let labels = data.records.iter().map(|record| record.label);
+        let to_yellow = pitch.goals.yellow.position - pitch.goals.blue.position;
+        Self::of(labels.collect(), data.goals, Heading::of(to_yellow))
+    }
+
+    /// Returns the same of the cell of each record, from record 0 on, and the true direction from the blue goal to the yellow one.
+    #[must_use]
+    pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
+        let extent = FieldExtent::of_middles(&cells);
+        Self {
+            cells,
+            goals,
+            field: FieldFrame {
+                yellow_from_blue,
+                extent,
+            },
+        }
+    }
+
+    /// Sets what maps are stretched over.
+    #[must_use]
+    pub const fn over(mut self, extent: FieldExtent) -> Self {
+        self.field.extent = extent;
+        self
+    }
+
+    /// Scores a map by a random 20 % of the records, the paper's way. `None` if both goals are nearest to one node: the paper's
+    /// score of 0.
+    ///
+    /// # Errors
+    /// If the table has fewer records than are asked about, or the map is empty or of another table.
+    pub fn score(
+        &self,
+        map: &PlaceMap,
+        table: &FeatureTable,
+        rng: &mut impl Rng,
+    ) -> Result<Option<PlaceScore>, PlaceMapError> {
+        self.score_by(map, table, &a_fifth(self.cells.len(), rng))
+    }
+
+    /// Scores a map by some of the records, such as those it did not learn from.
+    ///
+    /// # Errors
+    /// As [`score`](Self::score).
+    pub fn score_by(
+        &self,
+        map: &PlaceMap,
+        table: &FeatureTable,
+        records: &[usize],
+    ) -> Result<Option<PlaceScore>, PlaceMapError> {
+        let Some(field_from_map) = self.field_from_map(map, table)? else {
+            return Ok(None);
+        };
+        let mut pairs = Vec::with_capacity(records.len());
+        for record in records {
+            let position = map.position(nearest(map, table, *record)?);
+            if let (Some(position), Some(cell)) = (position, self.cells.get(*record)) {
+                pairs.push((*cell, field_from_map.transform(position)));
+            }
+        }
+        Ok(mean(&pairs).map(|mean| PlaceScore {
+            mean,
+            mirrored: is_mirrored(&pairs),
+        }))
+    }
+
+    /// Returns the nodes of the goals: step 1 of the score.
+    ///
+    /// # Errors
+    /// As [`score`](Self::score).
+    pub fn goals(&self, map: &PlaceMap, table: &FeatureTable) -> Result<GoalNodes, PlaceMapError> {
+        Ok(GoalNodes {
+            blue: nearest(map, table, self.goals.blue)?,
+            yellow: nearest(map, table, self.goals.yellow)?,
+        })
+    }
+
+    /// Returns how the map lies on the field: steps 1 to 3 of the score. `None` if both goals are nearest to one node.
+    ///
+    /// # Errors
+    /// As [`score`](Self::score).
+    pub fn field_from_map(
+        &self,
+        map: &PlaceMap,
+        table: &FeatureTable,
+    ) -> Result<Option<FieldFromMap>, PlaceMapError> {
+        let GoalNodes { blue, yellow } = self.goals(map, table)?;
+        let (Some(from), Some(to)) = (map.position(blue), map.position(yellow)) else {
+            return Ok(None);
+        };
+        let nodes = map.positions().map(|(_, position)| position);
+        Ok(FieldFromMap::of(nodes, from, to, &self.field).filter(|_| blue != yellow))
+    }
+}
+
+fn nearest(map: &PlaceMap, table: &FeatureTable, record: usize) -> Result<UnitId, PlaceMapError> {
+    let count = table.len();
+    let missing = PlaceMapError::NoSuchRecord { record, count };
+    map.nearest_row(table.row(record).ok_or(missing)?)
+}
+
+/// A fifth of the numbers below `count`, rounded, each at most once.
+fn a_fifth(count: usize, rng: &mut impl Rng) -> Vec<usize> {
+    let count = count as u32;
+    let mut numbers: Vec<u32> = (0..count).collect();
+    let wanted = (count + 2) / 5;
+    for place in 0..wanted {
+        numbers.swap(place as usize, rng.random_range(place..count) as usize);
+    }
+    let drawn = numbers.into_iter().take(wanted as usize);
+    drawn.map(|number| number as usize).collect()
+}
+
+/// The mean score of positions; `None` of none.
+fn mean(pairs: &[(Cell, Point)]) -> Option<PointScore> {
+    let scores = pairs.iter().map(|(cell, at)| PointScore::of(*cell, *at));
+    let sum = scores.reduce(|a, b| PointScore {
+        by_centre: a.by_centre + b.by_centre,
+        by_border: a.by_border + b.by_border,
+    })?;
+    let count = pairs.len() as f64;
+    Some(PointScore {
+        by_centre: sum.by_centre / count,
+        by_border: sum.by_border / count,
+    })
+}
+
+/// Whether positions are turned about their middle against the cells: the determinant of their covariance is negative.
+fn is_mirrored(pairs: &[(Cell, Point)]) -> bool {
+    let count = pairs.len().max(1) as f64;
+    let cells = pairs.iter().map(|(cell, _)| middle(*cell).coords);
+    let cell_mean = cells.sum::<Vector>() / count;
+    let mean = pairs.iter().map(|(_, at)| at.coords).sum::<Vector>() / count;
+    let products = pairs
+        .iter()
+        .map(|(cell, at)| (middle(*cell).coords - cell_mean) * (at.coords - mean).transpose());
+    let covariance = products.reduce(|a, b| a + b);
+    covariance.is_some_and(|covariance| covariance.determinant() < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use tolman_geom::Pose;
+    use tolman_maps::place_map::{
+        FeatureChoice, FeatureGroup, FeatureScaling, ImageForm, PlaceMapConfig, PlaceRecord,
+    };
+    use tolman_quantizers::GngConfig;
+    use tolman_robot::Snapshot;
+
+    use super::*;
+
+    /// Records anywhere on the pitch, told by a perfect odometry, and the two goals.
+    fn records(seed: u64, frame: Pose) -> (Vec<PlaceRecord>, Vec<Cell>) {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let record = |x: f64, y: f64| PlaceRecord {
+            odometry: Pose::new(frame.inverse().transform(Point::new(x, y)), Heading::EAST),
+            snapshot: Snapshot::default(),
+        };
+        let (mut records, mut cells) = (Vec::new(), Vec::new());
+        for _ in 0..1000 {
+            let (x, y) = (rng.random_range(0.0..8.0), rng.random_range(0.0..8.0));
+            records.push(record(0.5 * x, 0.575 * y));
+            cells.push(Cell::new(x as u16, y as u16));
+        }
+        records.extend([record(2.0, 0.3), record(2.0, 4.3)]);
+        (records, cells)
+    }
+
+    const GOALS: GoalRecords = GoalRecords {
+        blue: 1000,
+        yellow: 1001,
+    };
+
+    fn score(records: &[PlaceRecord], cells: Vec<Cell>, units: usize) -> Option<PlaceScore> {
+        let choice = FeatureChoice {
+            groups: vec![FeatureGroup::Odometry],
+            scaling: FeatureScaling::Group,
+        };
+        let table = FeatureTable::of(records, &choice, ImageForm::Pixels).unwrap();
+        let config = PlaceMapConfig::paper().with_passes(30).with_gng(GngConfig {
+            max_units: units,
+            ..GngConfig::fritzke()
+        });
+        let mut rng = ChaCha8Rng::seed_from_u64(2);
+        let map = PlaceMap::learn(&table, 0..1000, config, &mut rng).unwrap();
+        let scorer = PlaceScorer::of(cells, GOALS, Heading::NORTH);
+        scorer.score(&map, &table, &mut rng).unwrap()
+    }
+
+    #[test]
+    fn a_map_by_perfect_odometry_is_good_from_wherever_the_robot_began() {
+        for degrees in [0.0, 123.0] {
+            let frame = Pose::new(Point::new(1.0, 2.0), Heading::from_degrees(degrees));
+            let (records, cells) = records(1, frame);
+            let score = score(&records, cells, 200).unwrap();
+            assert!(score.mean.by_centre > 0.6, "{score:?}");
+            assert!(score.mean.by_border > score.mean.by_centre);
+            assert!(!score.mirrored);
+        }
+    }
+
+    #[test]
+    fn a_mirror_image_is_found_out() {
+        let (mut records, cells) = records(1, Pose::IDENTITY);
+        let good = score(&records, cells.clone(), 200).unwrap();
+        for record in &mut records {
+            record.odometry.position.x *= -1.0;
+        }
+        let score = score(&records, cells, 200).unwrap();
+        assert!(score.mirrored);
+        assert!(
+            score.mean.by_centre < 0.5 * good.mean.by_centre,
+            "{score:?}"
+        );
+    }
+
+    #[test]
+    fn cells_that_have_nothing_to_do_with_the_map_score_as_guesses() {
+        let (records, _) = records(1, Pose::IDENTITY);
+        let (_, cells) = super::tests::records(2, Pose::IDENTITY);
+        let score = score(&records, cells, 200).unwrap();
+        assert!((score.mean.by_centre - 0.175).abs() < 0.04, "{score:?}");
+        assert!((score.mean.by_border - 0.183).abs() < 0.04, "{score:?}");
+    }
+
+    #[test]
+    fn both_goals_at_one_node_give_no_score() {
+        let (mut records, cells) = records(1, Pose::IDENTITY);
+        records[1001] = records[1000].clone();
+        assert_eq!(score(&records, cells, 200), None);
+    }
+
+    #[test]
+    fn a_fifth_of_the_records_is_asked_about_each_once() {
+        let mut rng = ChaCha8Rng::seed_from_u64(2);
+        let mut drawn = a_fifth(1006, &mut rng);
+        assert_eq!(drawn.len(), 201);
+        drawn.sort_unstable();
+        drawn.dedup();
+        assert_eq!(drawn.len(), 201);
+        assert!(drawn.iter().all(|number| *number < 1006));
+    }
+}

@@ -1,0 +1,79 @@
+use tolman_quantizers::GngConfig;
+
+use super::FeatureWeights;
+
+/// How a place map learns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct PlaceMapConfig {
+    /// The parameters of the growing neural gas.
+    pub gng: GngConfig,
+    /// What each group of features counts for.
+    pub weights: FeatureWeights,
+    /// How often all records are learned, one after the other in their order (default 3: "which was done three times each
+    /// run").
+    pub passes: u32,
+}
+
+impl PlaceMapConfig {
+    /// Returns the middle of the optimal ranges of Table 3.1, in the order of Fritzke's steps, and three passes.
+    ///
+    /// ```
+    /// use tolman_maps::place_map::PlaceMapConfig;
+    ///
+    /// let config = PlaceMapConfig::paper();
+    /// assert_eq!((config.gng.growth_period, config.passes), (575, 3));
+    /// ```
+    #[must_use]
+    pub fn paper() -> Self {
+        let gng = GngConfig {
+            max_age: 103,
+            growth_period: 575,
+            split_factor: 0.5,
+            decay: 0.6,
+            max_units: 2125,
+            winner_rate: 0.66,
+            neighbour_rate: 0.046,
+            ..GngConfig::fritzke()
+        };
+        Self::new(gng, FeatureWeights::paper())
+    }
+
+    /// Returns a configuration with three passes.
+    #[must_use]
+    pub const fn new(gng: GngConfig, weights: FeatureWeights) -> Self {
+        Self {
+            gng,
+            weights,
+            passes: 3,
+        }
+    }
+
+    /// Sets the parameters of the growing neural gas.
+    #[must_use]
+    pub const fn with_gng(mut self, gng: GngConfig) -> Self {
+        self.gng = gng;
+        self
+    }
+
+    /// Sets what each group of features counts for.
+    #[must_use]
+    pub const fn with_weights(mut self, weights: FeatureWeights) -> Self {
+        self.weights = weights;
+        self
+    }
+
+    /// Sets how often all records are learned.
+    #[must_use]
+    pub const fn with_passes(mut self, passes: u32) -> Self {
+        self.passes = passes;
+        self
+    }
+}
+
+impl Default for PlaceMapConfig {
+    fn default() -> Self {
+        Self::paper()
+    }
+}

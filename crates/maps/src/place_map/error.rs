@@ -1,0 +1,124 @@
+use thiserror::Error;
+use tolman_quantizers::{InputError, QuantizerConfigError, SnapshotError};
+
+/// Why records have no features of the kind that was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum FeatureError {
+    /// Features are scaled by how they vary over records.
+    #[error("there are no records to scale the features by: give the records of the places first")]
+    NoRecords,
+    /// No group is chosen, or a group has no values.
+    #[error(
+        "the features have no values: choose a group, images of one pixel at least, records with soundings"
+    )]
+    NoFeatures,
+    /// A group stands twice in the choice.
+    #[error("the {group} is chosen twice: name each group once, and give it more weight instead")]
+    ChosenTwice {
+        /// The group.
+        group: &'static str,
+    },
+    /// A record without a picture.
+    #[error(
+        "record {record} has no picture: leave the record out, or the image out of the features"
+    )]
+    NoPicture {
+        /// Its number, from 0.
+        record: usize,
+    },
+    /// A record whose picture has no pixels, or not as many as it says.
+    #[error(
+        "the picture of record {record} has {found} pixels where {width} × {height} were expected: leave the record out"
+    )]
+    BadPicture {
+        /// Its number, from 0.
+        record: usize,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Pixels that are there.
+        found: usize,
+    },
+    /// A record with another number of soundings than the first.
+    #[error(
+        "record {record} has {found} soundings where the first has {expected}: leave it out, or the sonar out of the features"
+    )]
+    OtherSoundings {
+        /// Its number, from 0.
+        record: usize,
+        /// How many the first record has.
+        expected: usize,
+        /// How many it has.
+        found: usize,
+    },
+    /// A range or a position that is NaN or infinite.
+    #[error("the {group} of record {record} is not finite: leave the record out or repair it")]
+    NotFinite {
+        /// Its number, from 0.
+        record: usize,
+        /// The group.
+        group: &'static str,
+    },
+}
+
+/// Why a place map cannot be learned, asked or read.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlaceMapError {
+    /// A record has no such features.
+    #[error(transparent)]
+    Features(#[from] FeatureError),
+    /// A parameter of the growing neural gas, or a weight, is outside its range.
+    #[error(transparent)]
+    Config(#[from] QuantizerConfigError),
+    /// The features of a record are too large, or the map has no nodes yet.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// What was saved is no network.
+    #[error(transparent)]
+    Network(#[from] SnapshotError),
+    /// Two records are needed to begin with.
+    #[error("{found} records are too few for a map: give at least two")]
+    TooFewRecords {
+        /// How many there are.
+        found: usize,
+    },
+    /// A number of a record that is not there.
+    #[error("there is no record {record}: the table has {count}")]
+    NoSuchRecord {
+        /// The number.
+        record: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// What was saved is something else, or of a later version.
+    #[error(
+        "this is {format:?} of version {version} where \"tolman-place-map\" of version 1 was expected"
+    )]
+    WrongFormat {
+        /// What it says it is.
+        format: alloc::string::String,
+        /// The version it says.
+        version: u32,
+    },
+    /// A saved map whose network has another number of features than its groups have values.
+    #[error(
+        "the saved network has {found} features where its groups have {expected}: it was changed or cut off"
+    )]
+    WrongDimension {
+        /// Values of all groups.
+        expected: usize,
+        /// Features of the network.
+        found: usize,
+    },
+    /// A saved scale that is not above zero.
+    #[error("the saved scale of the {group} is {scale}: it has to be finite and above 0")]
+    BadScale {
+        /// The group.
+        group: &'static str,
+        /// The scale.
+        scale: f32,
+    },
+}

@@ -1,0 +1,233 @@
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+use rand::{Rng, RngExt};
+use tolman_geom::Point;
+use tolman_quantizers::{Gng, Network, Quantizer, UnitId};
+use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Picture, Position};
+
+use super::{FeatureSpace, FeatureTable, PlaceMapConfig, PlaceMapError, PlaceRecord};
+
+/// A map of places: nodes of a growing neural gas, each the prototype of what was seen, heard and rolled at some place, and links
+/// between neighbours (section 3.4, "Learning").
+///
+/// It learns a whole table of records ([`learn`](Self::learn)), or one record at a time as a [`Mapper`].
+///
+/// ```
+/// use rand::SeedableRng;
+/// use rand_chacha::ChaCha8Rng;
+/// use tolman_geom::{Heading, Point, Pose};
+/// use tolman_maps::place_map::{
+///     FeatureChoice, FeatureGroup, FeatureScaling, FeatureTable, ImageForm, PlaceMap, PlaceMapConfig, PlaceRecord,
+/// };
+/// use tolman_quantizers::GngConfig;
+/// use tolman_robot::Snapshot;
+///
+/// // By the odometry alone, along a line of 3 m.
+/// let record = |i: u32| PlaceRecord {
+///     odometry: Pose::new(Point::new(0.1 * f64::from(i % 30), 0.0), Heading::EAST),
+///     snapshot: Snapshot::default(),
+/// };
+/// let records: Vec<PlaceRecord> = (0..300).map(|i| record(7 * i)).collect();
+/// let choice = FeatureChoice { groups: vec![FeatureGroup::Odometry], scaling: FeatureScaling::Group };
+/// let table = FeatureTable::of(&records, &choice, ImageForm::Pixels)?;
+/// let config = PlaceMapConfig::paper().with_gng(GngConfig { max_units: 10, ..GngConfig::fritzke() });
+/// let map = PlaceMap::learn(&table, 0..300, config, &mut ChaCha8Rng::seed_from_u64(1))?;
+/// let node = map.nearest(&record(15))?;
+/// let position = map.position(node).ok_or("no odometry")?;
+/// assert!((position.x - 1.5).abs() < 0.4);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "super::SavedPlaceMap", into = "super::SavedPlaceMap")
+)]
+pub struct PlaceMap {
+    pub(super) space: Arc<FeatureSpace>,
+    pub(super) config: PlaceMapConfig,
+    pub(super) gng: Gng<f32>,
+    /// The node nearest to the last record that was observed.
+    here: Option<UnitId>,
+}
+
+impl PlaceMap {
+    /// Makes an empty map, which [`observe`](Mapper::observe) fills. Its space is that of a table of records like those to
+    /// come, since features are scaled by how they vary.
+    ///
+    /// # Errors
+    /// If a parameter or a weight is outside its range.
+    pub fn new(space: Arc<FeatureSpace>, config: PlaceMapConfig) -> Result<Self, PlaceMapError> {
+        let gng = Gng::weighted(&space.weights(&config.weights), config.gng)?;
+        Ok(Self::of(space, config, gng))
+    }
+
+    pub(super) const fn of(
+        space: Arc<FeatureSpace>,
+        config: PlaceMapConfig,
+        gng: Gng<f32>,
+    ) -> Self {
+        Self {
+            space,
+            config,
+            gng,
+            here: None,
+        }
+    }
+
+    /// Learns from records of a table, by their numbers, in that order and as often as the configuration says. It begins with two
+    /// different ones of them drawn at random (step 0 of section 3.3).
+    ///
+    /// O(passes × records × nodes × values).
+    ///
+    /// # Errors
+    /// If there are fewer than two records or one is not in the table, or a parameter or a weight is outside its range.
+    pub fn learn(
+        table: &FeatureTable,
+        records: impl IntoIterator<Item = usize>,
+        config: PlaceMapConfig,
+        rng: &mut impl Rng,
+    ) -> Result<Self, PlaceMapError> {
+        let rows = records.into_iter().map(|record| {
+            let count = table.len();
+            let missing = PlaceMapError::NoSuchRecord { record, count };
+            table.row(record).ok_or(missing)
+        });
+        let rows: Vec<&[f32]> = rows.collect::<Result<_, _>>()?;
+        let mut map = Self::new(Arc::clone(table.space()), config)?;
+        map.gng.begin_with(&two_of(&rows, rng)?)?;
+        for _ in 0..config.passes {
+            for row in &rows {
+                map.gng.observe(row)?;
+            }
+        }
+        Ok(map)
+    }
+
+    /// Returns how it learns.
+    #[must_use]
+    pub const fn config(&self) -> &PlaceMapConfig {
+        &self.config
+    }
+
+    /// Returns the space that its nodes lie in.
+    #[must_use]
+    pub fn space(&self) -> &FeatureSpace {
+        &self.space
+    }
+
+    /// Returns the nodes with their features and links.
+    #[must_use]
+    pub fn network(&self) -> &Network<f32> {
+        self.gng.network()
+    }
+
+    /// Returns the node nearest to a record: where the map takes it to have been recorded. O(nodes × values).
+    ///
+    /// # Errors
+    /// If the record lacks what places are told by, or the map is empty.
+    pub fn nearest(&self, record: &PlaceRecord) -> Result<UnitId, PlaceMapError> {
+        self.nearest_row(&self.space.features(record)?)
+    }
+
+    /// Returns the node nearest to features, such as a row of the table it was learned from. O(nodes × values).
+    ///
+    /// # Errors
+    /// If these are no features of its space, or the map is empty.
+    pub fn nearest_row(&self, features: &[f32]) -> Result<UnitId, PlaceMapError> {
+        Ok(self.gng.nearest(features)?.id)
+    }
+
+    /// Returns where a node lies, m, in the frame of the odometry: its learned odometry (section 3.4, "Learning"). `None` of a
+    /// node that is not there, or where places are not told by odometry.
+    #[must_use]
+    pub fn position(&self, node: UnitId) -> Option<Point> {
+        self.space.position(&self.features(node)?)
+    }
+
+    /// Returns what a node looks like, in red, green and blue: the image that was learned there. `None` of a node that is not
+    /// there, or where places are not told by images.
+    #[must_use]
+    pub fn picture(&self, node: UnitId) -> Option<Picture> {
+        self.space.picture(&self.features(node)?)
+    }
+
+    /// Returns the ranges that were learned at a node, m. `None` of a node that is not there, or where places are not told by
+    /// ranges.
+    #[must_use]
+    pub fn ranges(&self, node: UnitId) -> Option<Vec<f64>> {
+        self.space.ranges(&self.features(node)?)
+    }
+
+    fn features(&self, node: UnitId) -> Option<Vec<f32>> {
+        Some(self.network().prototype(node).ok()?.collect())
+    }
+
+    /// Returns where the nodes lie, m, in the order of their ids; of a map without odometry none.
+    pub fn positions(&self) -> impl Iterator<Item = (UnitId, Point)> + '_ {
+        let nodes = self.network().ids();
+        nodes.filter_map(|node| Some((node, self.position(node)?)))
+    }
+}
+
+/// Two rows that differ, drawn at random; the last two that were drawn if all that are tried are equal.
+fn two_of<'a>(rows: &[&'a [f32]], rng: &mut impl Rng) -> Result<[&'a [f32]; 2], PlaceMapError> {
+    let found = rows.len();
+    let count = u32::try_from(found).unwrap_or(u32::MAX);
+    if count < 2 {
+        return Err(PlaceMapError::TooFewRecords { found });
+    }
+    let mut draw = || {
+        let first = rng.random_range(0..count);
+        let second = (first + rng.random_range(1..count)) % count;
+        [rows[first as usize], rows[second as usize]]
+    };
+    let mut drawn = draw();
+    for _ in 0..found {
+        if drawn[0] != drawn[1] {
+            break;
+        }
+        drawn = draw();
+    }
+    Ok(drawn)
+}
+
+impl Mapper for PlaceMap {
+    type Observation = PlaceRecord;
+    type Error = PlaceMapError;
+
+    fn observe(&mut self, seen: &PlaceRecord) -> Result<(), PlaceMapError> {
+        let features = self.space.features(seen)?;
+        self.here = Some(self.gng.observe(&features)?.first.id);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        let network = self.network();
+        let place = |node: UnitId| MapPlace {
+            id: node.0,
+            position: self.position(node),
+            landmark: None,
+        };
+        let both = |(a, b): (UnitId, UnitId)| {
+            [(a, b), (b, a)].map(|(from, to)| MapLink {
+                from: from.0,
+                to: to.0,
+            })
+        };
+        MapView {
+            places: network.ids().map(place).collect(),
+            links: network.edges().flat_map(|edge| both(edge.ends)).collect(),
+        }
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let here = self.here.filter(|node| self.network().contains(*node));
+        let guess = |node: UnitId| Guess {
+            at: Position::Place(node.0),
+            weight: 1.0,
+        };
+        here.map(guess).into_iter().collect()
+    }
+}

@@ -1,0 +1,47 @@
+//! Table 3.1: where the searches end.
+
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
+
+use super::search_space::TABLE_3_1;
+use super::searches::{MAPS, Searches};
+use super::sets::SETS;
+
+/// The name of the table.
+pub(super) const NAME: &str = "3.1";
+
+record! {
+    /// Where a search ended.
+    struct OptimumRun {
+        /// Value of the parameter at the search's last map; none of a weight that does not count.
+        value: Option<f64> => neither("value").at_least(0).decimals(3),
+    }
+}
+
+/// The table of as many whole searches as `runs` of each set make.
+pub(super) fn table(runs: u32) -> Table {
+    let searches = SETS.len() as u32 * (runs / MAPS);
+    let rows = TABLE_3_1.iter().map(|parameter| {
+        let (low, high) = parameter.optimal;
+        let row = Row::new(parameter.name).paper(OptimumRun::value, 0.5 * (low + high));
+        row.runs(searches)
+    });
+    Table::of::<OptimumRun>(NAME, "Parameters at the end of the searches")
+        .metrics_from(OptimumRun::value)
+        .rows(rows)
+        .note(format!(
+            "A run is a search of {MAPS} maps, by all sets in turn. The paper's value is the middle of its optimal range."
+        ))
+}
+
+/// Tells the parameter of a row at the end of a search.
+pub(super) fn run(searches: &Searches, job: &Job<'_>) -> Result<Fields, BoxError> {
+    let row = TABLE_3_1
+        .iter()
+        .position(|parameter| parameter.name == job.row);
+    let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+    let (set, search) = (job.run as usize % SETS.len(), job.run / SETS.len() as u32);
+    let last = searches.map(set, search * MAPS + MAPS - 1)?;
+    let counts = SETS[set].with_sonar || job.row != "w_sonar";
+    let value = last.parameters.get(row).copied().filter(|_| counts);
+    Ok(OptimumRun { value }.fields()?)
+}

@@ -1,0 +1,144 @@
+//! All searches for parameters, kept while the experiment runs: a map follows from those before it.
+
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+use std::sync::{Mutex, PoisonError};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_experiment::{BoxError, run_seed};
+use tolman_maps::place_map::PlaceMap;
+
+use super::MapRun;
+use super::annealing::{Annealing, Tried};
+use super::places::Places;
+use super::search_space::Parameters;
+use super::sets::{SETTINGS, SOURCES, Setting, settings};
+
+/// Maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100 to 199 its second, and so on.
+pub(super) const MAPS: u32 = 100;
+
+/// The searches of all rows.
+#[derive(Debug)]
+pub(super) struct Searches {
+    /// The master seed.
+    seed: u64,
+    /// By source.
+    places: [Places; SOURCES.len()],
+    /// By row and number. Whoever needs a search waits for who is at it.
+    started: Mutex<BTreeMap<(usize, u32), Shared>>,
+}
+
+type Shared = Arc<Mutex<Annealing<Learned>>>;
+
+/// What came of a map.
+#[derive(Clone, Copy, Debug)]
+struct Learned {
+    nodes: usize,
+    /// `None` of a useless map.
+    scores: Option<Scores>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Scores {
+    centre: f64,
+    border: f64,
+    mirrored: bool,
+}
+
+impl Searches {
+    pub(super) fn new(seed: u64) -> Self {
+        let records = run_seed(seed, "records", 0);
+        Self {
+            seed,
+            places: SOURCES.map(|source| Places::new(records, source)),
+            started: Mutex::default(),
+        }
+    }
+
+    /// Returns where the records of a row come from.
+    pub(super) fn places(&self, setting: &Setting) -> &Places {
+        &self.places[setting.source]
+    }
+
+    /// Returns what the records of all rows depend on.
+    pub(super) fn configs(&self) -> Result<Vec<super::places::Config>, BoxError> {
+        self.places.iter().map(Places::config).collect()
+    }
+
+    /// Plays a run of a row, after those before it in its search.
+    pub(super) fn map(&self, row: usize, run: u32) -> Result<MapRun, BoxError> {
+        let setting = settings()[row.min(SETTINGS - 1)];
+        let first = run - run % MAPS;
+        let seed = |step: u32| run_seed(self.seed, setting.table, first + step);
+        let shared = self.shared(row, run / MAPS);
+        let mut search = shared.lock().unwrap_or_else(PoisonError::into_inner);
+        let tried = search.map(
+            run % MAPS,
+            |step| stream(seed(step), 0),
+            |step, parameters| self.scored(&setting, parameters, seed(step)),
+        )?;
+        Ok(record(&tried))
+    }
+
+    fn shared(&self, row: usize, number: u32) -> Shared {
+        let mut started = self.started.lock().unwrap_or_else(PoisonError::into_inner);
+        let search = started.entry((row, number));
+        Arc::clone(search.or_insert_with(|| Arc::new(Mutex::new(Annealing::new(MAPS)))))
+    }
+
+    /// Learns a map and scores it.
+    fn scored(
+        &self,
+        setting: &Setting,
+        parameters: &Parameters,
+        seed: u64,
+    ) -> Result<(Learned, f64), BoxError> {
+        let map = self.learn(setting, parameters, seed)?;
+        let places = self.places(setting);
+        let scorer = places.scorer(setting.stretch)?;
+        let table = places.table(setting.set.image())?;
+        let score = scorer.score(&map, table, &mut stream(seed, 2))?;
+        let scores = score.map(|score| Scores {
+            centre: score.mean.by_centre,
+            border: score.mean.by_border,
+            mirrored: score.mirrored,
+        });
+        let nodes = map.network().len();
+        let centre = scores.map_or(0.0, |scores| scores.centre);
+        Ok((Learned { nodes, scores }, centre))
+    }
+
+    /// Learns the map of a run.
+    pub(super) fn learn(
+        &self,
+        setting: &Setting,
+        parameters: &Parameters,
+        seed: u64,
+    ) -> Result<PlaceMap, BoxError> {
+        let places = self.places(setting);
+        let table = places.table(setting.set.image())?;
+        let config = parameters.config(setting.set.with_sonar);
+        let rng = &mut stream(seed, 1);
+        Ok(PlaceMap::learn(table, 0..places.count()?, config, rng)?)
+    }
+}
+
+fn record(tried: &Tried<Learned>) -> MapRun {
+    let Learned { nodes, scores } = tried.map;
+    MapRun {
+        score: scores.map(|scores| scores.centre),
+        border_score: scores.map(|scores| scores.border),
+        useless: scores.is_none(),
+        mirrored: scores.map(|scores| scores.mirrored),
+        nodes: Some(nodes),
+        parameters: tried.parameters.0.into(),
+    }
+}
+
+/// One of the streams of random numbers of a run: 0 for parameters, 1 for learning, 2 for the records that are asked about.
+fn stream(seed: u64, number: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(number);
+    rng
+}

@@ -1,0 +1,158 @@
+//! The rows of Table 4.1, and variants of its first.
+
+use tolman_maps::place_map::{ColourSpace, FeatureScaling, ImageFeature};
+
+/// The names of the tables.
+pub(super) const TABLE: &str = "4.1";
+pub(super) const VARIANTS: &str = "variants";
+
+/// The row of guesses.
+pub(super) const RANDOM: &str = "random";
+
+/// The paper's mean score of guesses.
+pub(super) const RANDOM_SCORE: f64 = 0.175;
+
+/// One set of features.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Set {
+    /// The name of its row.
+    pub(super) row: &'static str,
+    image: ImageFeature,
+    pub(super) with_sonar: bool,
+    /// The paper's mean score.
+    pub(super) score: f64,
+    /// The paper's number of maps with a score.
+    pub(super) samples: u32,
+}
+
+const SMALL_HSV: ImageFeature = ImageFeature::small(ColourSpace::Hsv);
+const SMALL_RGB: ImageFeature = ImageFeature::small(ColourSpace::Rgb);
+const LARGE_HSV: ImageFeature = ImageFeature::large(ColourSpace::Hsv);
+
+/// The images of the sets, and so the tables of features: a set without sonar is one with a weight of 0.
+pub(super) const IMAGES: [ImageFeature; 3] = [SMALL_HSV, SMALL_RGB, LARGE_HSV];
+
+/// Sets 1 to 6.
+pub(super) const SETS: [Set; 6] = [
+    set("40x30 hsv+odometry", SMALL_HSV, false, 0.230, 7991),
+    set("40x30 hsv+odometry+sonar", SMALL_HSV, true, 0.227, 7991),
+    set("40x30 rgb+odometry", SMALL_RGB, false, 0.195, 7126),
+    set("40x30 rgb+odometry+sonar", SMALL_RGB, true, 0.171, 7911),
+    set("80x60 hsv+odometry", LARGE_HSV, false, 0.227, 7991),
+    set("80x60 hsv+odometry+sonar", LARGE_HSV, true, 0.224, 7991),
+];
+
+const fn set(
+    row: &'static str,
+    image: ImageFeature,
+    with_sonar: bool,
+    score: f64,
+    samples: u32,
+) -> Set {
+    Set {
+        row,
+        image,
+        with_sonar,
+        score,
+        samples,
+    }
+}
+
+impl Set {
+    /// Returns the place of its image among [`IMAGES`].
+    pub(super) fn image(&self) -> usize {
+        let place = IMAGES.iter().position(|image| *image == self.image);
+        place.unwrap_or(0)
+    }
+}
+
+/// Where records come from and how they become features.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source {
+    /// How far each wheel may be out of calibration, as a share.
+    pub(super) calibration: f64,
+    pub(super) scaling: FeatureScaling,
+}
+
+/// Wheels that slip by 2 % a step, and count rightly but for that. The paper says that its odometry "suffers from an
+/// accumulated noise", not how much.
+const PAPER: Source = Source {
+    calibration: 0.0,
+    scaling: FeatureScaling::Group,
+};
+
+/// All sources.
+pub(super) const SOURCES: [Source; 4] = [
+    PAPER,
+    Source {
+        calibration: 0.003,
+        ..PAPER
+    },
+    Source {
+        calibration: 0.01,
+        ..PAPER
+    },
+    Source {
+        scaling: FeatureScaling::Raw,
+        ..PAPER
+    },
+];
+
+/// What a map is stretched over before it is scored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stretch {
+    /// The cells where records were taken.
+    Visited,
+    /// All cells.
+    Field,
+}
+
+/// A row whose maps are learned.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting {
+    pub(super) table: &'static str,
+    pub(super) row: &'static str,
+    pub(super) set: Set,
+    /// Its place among [`SOURCES`].
+    pub(super) source: usize,
+    pub(super) stretch: Stretch,
+}
+
+/// How many rows have maps.
+pub(super) const SETTINGS: usize = 10;
+
+/// All rows whose maps are learned, those of Table 4.1 first.
+pub(super) const fn settings() -> [Setting; SETTINGS] {
+    [
+        of_paper(SETS[0]),
+        of_paper(SETS[1]),
+        of_paper(SETS[2]),
+        of_paper(SETS[3]),
+        of_paper(SETS[4]),
+        of_paper(SETS[5]),
+        variant("wheels wrong by up to 0.3 %", 1, Stretch::Visited),
+        variant("wheels wrong by up to 1 %", 2, Stretch::Visited),
+        variant("raw values", 3, Stretch::Visited),
+        variant("stretched over all cells", 0, Stretch::Field),
+    ]
+}
+
+const fn of_paper(set: Set) -> Setting {
+    Setting {
+        table: TABLE,
+        row: set.row,
+        set,
+        source: 0,
+        stretch: Stretch::Visited,
+    }
+}
+
+const fn variant(row: &'static str, source: usize, stretch: Stretch) -> Setting {
+    Setting {
+        table: VARIANTS,
+        row,
+        set: SETS[0],
+        source,
+        stretch,
+    }
+}
