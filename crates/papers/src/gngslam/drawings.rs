@@ -157,8 +157,9 @@ const READ: &str = "Each node's image has its middle where the node lies, in cel
                     above the blue one; lines are links. On the pitch the windows are on the right. Images were converted to red, \
                     green and blue. Of each set the best map of at most 40 nodes, whose images can be made out.";
 
+/// An axis over the field, with room for the images and the names of the goals.
 fn axis(title: &str) -> Axis {
-    Axis::linear(title).between(-0.5, 8.5)
+    Axis::linear(title).between(-0.5, 9.5)
 }
 
 /// Turns the pitch, whose yellow goal lies in the west, as the paper draws it: the yellow goal up, the windows on the right.
