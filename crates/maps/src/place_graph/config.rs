@@ -35,7 +35,7 @@ impl PlaceGraphConfig {
             scale_deviation: 0.03,
             curvature_deviation: 0.15,
             least_share: 0.5,
-            most_doubt: 1.5,
+            most_doubt: 2.0,
             most_hypotheses: 200,
             optimize_every: 5,
             optimizer: OptimizerConfig {

@@ -67,7 +67,7 @@ enum Whereabouts {
 struct Here {
     pose: Pose,
     covariance: Matrix3<f64>,
-    /// The place that was made or met last, with the way since by the wheels alone.
+    /// The place that the robot was nearest to when it was last recognized, with the way from there, by its wheels alone since then.
     last: u32,
     since: Pose,
     since_covariance: Matrix3<f64>,
@@ -209,6 +209,10 @@ impl PlaceGraph {
                     .learn(&predicted, &off, &covariance, &fit.covariance);
                 here.pose = fit.pose;
                 here.covariance = fit.covariance;
+                // The place to hold on to is the nearest, not the one that was new last, long ago.
+                here.last = self.nearest(fit.pose.position);
+                here.since = self.graph.poses()[here.last as usize].between(fit.pose);
+                here.since_covariance = fit.covariance + Matrix3::from_diagonal(&recognized());
                 self.grow(&mut here, outline, Some(&fit))?;
             }
             None => {
@@ -219,7 +223,9 @@ impl PlaceGraph {
         }
         // While it grows, what contradicts the map is new.
         if !self.grows && here.doubt > self.config.most_doubt {
-            return Ok(Whereabouts::Lost(Vec::new()));
+            let mut anywhere = hypotheses::everywhere(self.graph.poses());
+            anywhere.push(Hypothesis::held(here.pose, here.covariance));
+            return Ok(Whereabouts::Lost(anywhere));
         }
         Ok(Whereabouts::Known(here))
     }
@@ -379,8 +385,13 @@ impl PlaceGraph {
     }
 }
 
+/// Variances of where a robot is beside a place by which it was recognized, m and rad: fits of neighbouring places err together.
+const fn recognized() -> Vector3<f64> {
+    Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
+}
+
 /// So much of each look contradicts a map that is right, since light changes and edges are vague.
-const USUAL_CONTRADICTION: f64 = 0.05;
+const USUAL_CONTRADICTION: f64 = 0.08;
 
 /// A fit that is farther from where the wheels had the robot, in squared standard deviations, is none.
 const MOST_SURPRISE: f64 = 16.0;

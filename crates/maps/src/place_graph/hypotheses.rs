@@ -47,6 +47,9 @@ const BELIEVES: f64 = 0.3;
 /// A look that the map contradicts altogether counts so many natural logarithms against a hypothesis.
 const REFUTES: f64 = 6.0;
 
+/// How much likelier the pose that was held is than any other, as a logarithm.
+const HELD: f64 = 5.0;
+
 /// Returns hypotheses all round at each of `places`.
 pub(super) fn everywhere(places: &[Pose]) -> Vec<Hypothesis> {
     let mut points: Vec<Point> = vec![];
@@ -110,6 +113,16 @@ pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
 }
 
 impl Hypothesis {
+    /// Where a robot was held to be until it was doubted: likelier than anywhere else to begin with.
+    pub(super) const fn held(pose: Pose, covariance: Matrix3<f64>) -> Self {
+        Self {
+            pose,
+            covariance,
+            score: HELD,
+            looks: 0,
+        }
+    }
+
     fn looked(self, rolled: &Rolled, outline: &Outline, surfaces: &[&Surface]) -> Option<Self> {
         let predicted = self.pose.compose(rolled.pose);
         let turned = turned_into(rolled.pose, &self.covariance);

@@ -1,9 +1,11 @@
-//! GNG-SLAM: Tables 3.1 and 4.1 with their figures. Place maps are learned from six sets of features, their parameters annealed.
+//! GNG-SLAM: Tables 3.1 and 4.1 with their figures. Place maps are learned from six sets of features, their parameters annealed;
+//! and the system that corrects its pose while it learns.
 
 mod annealing;
 mod drawings;
 mod figures;
 mod guesses;
+mod online;
 mod optimum;
 mod places;
 mod search_space;
@@ -46,6 +48,7 @@ struct GngSlam {
     /// The master seed.
     seed: u64,
     searches: Searches,
+    long: online::LongRuns,
 }
 
 /// What the runs depend on.
@@ -73,19 +76,19 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         sources: searches.configs()?,
     })?;
     let runs = options.runs_of(&ENTRY);
-    let tables = vec![
+    let mut tables = vec![
         paper(),
         optimum::table(runs),
         variants(runs),
         guesses::table(),
     ];
-    let seed = options.seed;
-    Ok(Experiment::new(
-        ENTRY,
-        tables,
-        config,
-        GngSlam { seed, searches },
-    ))
+    tables.extend(online::tables(options));
+    let slam = GngSlam {
+        seed: options.seed,
+        searches,
+        long: online::LongRuns::default(),
+    };
+    Ok(Experiment::new(ENTRY, tables, config, slam))
 }
 
 record! {
@@ -170,6 +173,7 @@ impl Procedure for GngSlam {
         let is_row = |setting: &sets::Setting| (setting.table, setting.row) == (job.table, job.row);
         let run = match (job.table, job.row, settings().iter().position(is_row)) {
             (guesses::NAME, ..) => return guesses::run(job),
+            (table, ..) if online::has(table) => return online::run(&self.long, job),
             (optimum::NAME, ..) => return optimum::run(&self.searches, job),
             (TABLE, RANDOM, _) => random_map(job.seed),
             (_, _, Some(row)) => self.searches.map(row, job.run)?,
@@ -181,6 +185,7 @@ impl Procedure for GngSlam {
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = figures::of(runs, self.seed)?;
         figures.extend(self.searches.drawings(runs)?);
+        figures.extend(online::figures(runs)?);
         Ok(figures)
     }
 }

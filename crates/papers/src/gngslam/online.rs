@@ -1,0 +1,245 @@
+//! The system that corrects its pose while it learns: what the paper's sections 5 and 6 ask for.
+
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+use std::sync::{Mutex, PoisonError};
+
+use tolman_arena::gngslam::{
+    LookedFrom, OnlineRun, Pitch, PointScore, learn_online, localize_online,
+};
+use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
+use tolman_experiment::{
+    BoxError, Fields, Job, Metric, Options, Record, Row, Run, Table, record, run_seed,
+};
+use tolman_geom::Point;
+use tolman_systems::gngslam::OnlineSlamConfig;
+
+use super::{ASKED, ENTRY, RANDOM, guesses};
+
+/// The names of the tables.
+const ONLINE: &str = "online";
+const OTHERS: &str = "other arenas";
+const BY_SEED: &str = "random arenas";
+
+const BETTER: &str = "better";
+const RAW: &str = "raw odometry";
+const CORRECTED: &str = "corrected";
+
+/// The arenas beside the paper's pitch.
+const OTHER_ARENAS: [&str; 2] = ["hall", "l-room"];
+
+/// Runs of a row at most, and in a quick look.
+const MOST_RUNS: u32 = 20;
+const QUICK_RUNS: u32 = 2;
+
+/// Looks of a run that learns: the paper's number of records.
+const LEARNED: u32 = 1006;
+
+/// How many times longer the long runs are.
+const LONGER: u32 = 10;
+
+/// Looks of a run that finds itself on a map that another run has learned.
+const TRIED: u32 = 500;
+
+/// Wheels are out of calibration by up to this share, each its own.
+const CALIBRATION: f64 = 0.03;
+
+record! {
+    /// A run in an arena.
+    struct OnlineFields {
+        /// Mean over the looks of a run that the map was not learned from, of 0.5 / (0.5 + distance to the true cell), in cells of 8 × 8.
+        score: Option<f64> => higher("score to the border").share().decimals(3),
+        /// Root-mean-square distance of that run's positions from the true ones.
+        tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),
+        /// Looks of that run after which it knew where it was; none if it never did.
+        looks_to_localize: Option<u32> => lower("looks until localized"),
+        /// Root-mean-square distance from the true position over the last tenth of a run.
+        position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
+        /// The same over the second tenth.
+        second_tenth_error_m: Option<f64> => lower("error, second tenth").unit("m").decimals(3),
+        /// The same over each tenth, m.
+        errors_m: Vec<f64> => neither("errors").unit("m"),
+        /// Way rolled at the end of each tenth, m.
+        rolled_m: Vec<f64> => neither("way").unit("m"),
+        /// Places of the map.
+        places: Option<usize> => neither("places"),
+        /// Time steps in which the robot touched something.
+        bumps: Option<u32> => lower("bumps"),
+    }
+}
+
+/// The long runs, which two rows look at.
+#[derive(Debug, Default)]
+pub(super) struct LongRuns(Mutex<BTreeMap<u32, Arc<Mutex<Option<Arc<OnlineRun>>>>>>);
+
+/// The tables; the runs of a row are at most `MOST_RUNS`.
+pub(super) fn tables(options: &Options) -> Vec<Table> {
+    let runs = match (options.runs, options.quick) {
+        (None, true) => QUICK_RUNS,
+        _ => options.runs_of(&ENTRY).min(MOST_RUNS),
+    };
+    let row = |name: &str| Row::new(name).runs(runs);
+    let long = format!(
+        "Learned from {LEARNED} looks on the paper's pitch, tried by another robot for {TRIED} looks, which is put down anywhere; wheels wrong by \
+         up to {CALIBRATION} each. The last two rows are runs of {LONGER} times as many looks; the map lies over the world as fits the first tenth best, \
+         the odometry begins at the true pose."
+    );
+    vec![
+        learned(ONLINE, "A pose corrected while the map is learned")
+            .rows([row(BETTER), row(RANDOM)])
+            .rows([row(RAW), row(CORRECTED)])
+            .note(long),
+        learned(OTHERS, "The same in other arenas").rows(OTHER_ARENAS.map(row)),
+        learned(BY_SEED, "The same in arenas drawn at random")
+            .metric(Metric::median("score_median", OnlineFields::score).decimals(3))
+            .metric(Metric::least("score_least", OnlineFields::score).decimals(3))
+            .rows([row(BETTER), row(RANDOM)])
+            .note("Each run is in an arena of its own: 3 to 6.5 m a side, goals of any colours anywhere, windows, furniture, light."),
+    ]
+}
+
+/// A table without rows.
+fn learned(name: &str, title: &str) -> Table {
+    Table::of::<OnlineFields>(name, title)
+        .metric(Metric::mean(OnlineFields::score))
+        .metric(Metric::mean(OnlineFields::tried_error_m))
+        .metric(Metric::mean(OnlineFields::looks_to_localize))
+        .metric(Metric::mean(OnlineFields::second_tenth_error_m))
+        .metric(Metric::mean(OnlineFields::position_error_m))
+        .metric(Metric::mean(OnlineFields::places))
+        .metric(Metric::mean(OnlineFields::bumps))
+}
+
+/// Whether a table is one of these.
+pub(super) fn has(table: &str) -> bool {
+    [ONLINE, OTHERS, BY_SEED].contains(&table)
+}
+
+pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
+    let fields = match (job.table, job.row) {
+        (_, RANDOM) => guessed(job.seed),
+        (ONLINE, RAW) => trajectory(&*long.run(job)?, |look| look.reckoned.position),
+        (ONLINE, CORRECTED) => trajectory(&*long.run(job)?, |look| look.corrected.position),
+        (ONLINE, _) => tried(&Pitch::paper()?, job.seed)?,
+        (BY_SEED, _) => tried(&Pitch::random(job.seed)?, job.seed)?,
+        (_, arena) => tried(&Pitch::named(arena)?, job.seed)?,
+    };
+    Ok(fields.fields()?)
+}
+
+/// As many guesses as a map of the paper is asked for.
+fn guessed(seed: u64) -> OnlineFields {
+    let scores = guesses::guesses(seed, ASKED).map(|score| score.by_border);
+    OnlineFields {
+        score: Some(scores.sum::<f64>() / ASKED as f64),
+        ..OnlineFields::default()
+    }
+}
+
+/// Learns an arena, and tries the map with another robot.
+fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
+    let config = OnlineSlamConfig::pioneer_2dx();
+    let mut learned = learn_online(pitch, config, CALIBRATION, seed, LEARNED)?;
+    learned.align(0..LEARNED as usize);
+    let other = run_seed(seed, "tried", 0);
+    let tried = localize_online(pitch, &learned, config, CALIBRATION, other, TRIED)?;
+    let scores = tried.looks.iter().map(|look| score(pitch, look));
+    let localized = (0..).zip(&tried.looks).find(|(_, look)| look.is_localized);
+    Ok(OnlineFields {
+        score: Some(scores.sum::<f64>() / f64::from(TRIED)),
+        tried_error_m: Some(error(&tried.looks, |look| look.corrected.position)),
+        looks_to_localize: localized.map(|(look, _)| look + 1),
+        ..trajectory(&learned, |look| look.corrected.position)
+    })
+}
+
+/// The score of a look by the border of the true cell.
+fn score(pitch: &Pitch, look: &LookedFrom) -> f64 {
+    let (cells, size) = (pitch.cells(), pitch.cells().size());
+    let off = look.corrected.position - cells.bounds().min;
+    let in_cells = Point::new(off.x / size.x, off.y / size.y);
+    PointScore::of(pitch.cell_of(look.truth.position), in_cells).by_border
+}
+
+/// The errors of a run, by tenths.
+fn trajectory(run: &OnlineRun, position: impl Fn(&LookedFrom) -> Point) -> OnlineFields {
+    let tenth = |number: usize| {
+        let looks = run.looks.len();
+        &run.looks[looks * number / 10..looks * (number + 1) / 10]
+    };
+    let errors_m: Vec<f64> = (0..10)
+        .map(|number| error(tenth(number), &position))
+        .collect();
+    let last = |number: usize| tenth(number).last().map_or(0.0, |look| look.rolled);
+    OnlineFields {
+        position_error_m: errors_m.last().copied(),
+        second_tenth_error_m: errors_m.get(1).copied(),
+        errors_m,
+        rolled_m: (0..10).map(last).collect(),
+        places: Some(run.map.places().len()),
+        bumps: Some(run.bumps),
+        ..OnlineFields::default()
+    }
+}
+
+/// Root-mean-square distance from the truth, m.
+fn error(looks: &[LookedFrom], position: impl Fn(&LookedFrom) -> Point) -> f64 {
+    let off = |look: &LookedFrom| (position(look) - look.truth.position).norm_squared();
+    let sum: f64 = looks.iter().map(off).sum();
+    libm::sqrt(sum / looks.len().max(1) as f64)
+}
+
+impl LongRuns {
+    /// Returns the long run of a job's number, which is made once.
+    fn run(&self, job: &Job<'_>) -> Result<Arc<OnlineRun>, BoxError> {
+        let shared = {
+            let mut started = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(started.entry(job.run).or_default())
+        };
+        let mut made = shared.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(run) = &*made {
+            return Ok(Arc::clone(run));
+        }
+        let pitch = Pitch::paper()?;
+        let config = OnlineSlamConfig::pioneer_2dx();
+        let mut run = learn_online(&pitch, config, CALIBRATION, job.seed, LONGER * LEARNED)?;
+        run.align(0..LEARNED as usize);
+        let run = Arc::new(run);
+        *made = Some(Arc::clone(&run));
+        Ok(run)
+    }
+}
+
+/// How the error grows with the way.
+pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let error = Axis::log("error, m");
+    let mut chart = Chart::new(Axis::linear("way, m").from_zero(), error);
+    for (series, row) in [RAW, CORRECTED].into_iter().enumerate() {
+        let of_row = OnlineFields::of_row(runs, ONLINE, row)?;
+        if of_row.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mean = |tenth: usize, of: &dyn Fn(&OnlineFields) -> &Vec<f64>| {
+            let values = of_row.iter().filter_map(|run| of(run).get(tenth));
+            values.sum::<f64>() / of_row.len() as f64
+        };
+        let points = (0..10).map(|tenth| {
+            let way = mean(tenth, &|run| &run.rolled_m);
+            LinePoint::new(way, mean(tenth, &|run| &run.errors_m))
+        });
+        chart.line(Line::new(row, Series(series as u32), points.collect()));
+    }
+    let drawing = chart.drawing("Error of raw odometry and of the corrected pose against the way.");
+    Ok(vec![
+        Figure::new(
+            "drift",
+            "Odometry drifts, the corrected pose does not",
+            drawing,
+        )
+        .caption(format!(
+            "Root-mean-square error of the position over each tenth of {} looks, mean of all runs.",
+            LONGER * LEARNED
+        ))
+        .table(ONLINE),
+    ])
+}
