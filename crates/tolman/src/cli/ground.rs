@@ -36,6 +36,12 @@ pub(super) struct Ground {
     corridor: Option<f64>,
 }
 
+/// That one of the two has to be given.
+pub(super) fn required() -> ArgGroup {
+    let either = ArgGroup::new("either").args(["maze", "world"]);
+    either.required(true)
+}
+
 /// What `--goal` can say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Goal {

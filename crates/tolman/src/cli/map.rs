@@ -9,7 +9,7 @@ use clap::Subcommand;
 use tolman_draw::Figure;
 use tolman_systems::origin_of;
 
-use super::ground::Ground;
+use super::ground::{Ground, required};
 use super::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
@@ -59,10 +59,13 @@ pub(super) struct Plan {
 
 /// Holds a learned map against the maze; exits 1 if it is wrong or unfinished
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    group(required()),
+    after_help = "\
 Example:
   tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
-  tolman map check map.json --maze mazes/cpm-1.maze")]
+  tolman map check map.json --maze mazes/cpm-1.maze"
+)]
 pub(super) struct Check {
     /// The map, made by `tolman learn`
     file: PathBuf,

@@ -2,12 +2,13 @@ use anyhow::anyhow;
 use tolman_arena::course::Terrain;
 
 use super::Failure;
-use super::ground::Ground;
+use super::ground::{Ground, required};
 use crate::start::Start;
 use crate::system::{Settings, Setup};
 
 /// Where and how a system is sent out.
 #[derive(clap::Args)]
+#[command(group(required()))]
 pub(super) struct SentOut {
     #[command(flatten)]
     ground: Ground,

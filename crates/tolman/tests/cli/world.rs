@@ -123,7 +123,7 @@ fn a_world_that_does_not_serve_is_refused() {
     let refused = |more: &[&str], parts: &[&str]| {
         tolman_in(&folder, &[&["run", "avoid"], more].concat()).refused(2, parts);
     };
-    refused(&[], &["--maze FILE or --world FILE"]);
+    refused(&[], &["--maze <FILE>|--world <FILE>"]);
     refused(
         &["--maze", "corridor.maze", "--world", "passage.json"],
         &["cannot be used with"],
@@ -179,5 +179,5 @@ fn a_world_may_come_from_standard_input() {
     ];
     let told = tolman_fed(PASSAGE, &run).done();
     assert!(told.contains("\"maze\": \"standard input\""), "{told}");
-    tolman(&["map", "check", "x.json"]).refused(2, &["x.json"]);
+    tolman(&["map", "check", "x.json"]).refused(2, &["--maze <FILE>|--world <FILE>"]);
 }

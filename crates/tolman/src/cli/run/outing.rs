@@ -14,7 +14,7 @@ use tolman_replay::Fact;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::trace;
-use crate::cli::ground::Ground;
+use crate::cli::ground::{Ground, required};
 use crate::cli::live::{self, Live, Scene};
 use crate::cli::looks::Looks;
 use crate::cli::picture;
@@ -24,6 +24,7 @@ use crate::start::Start;
 
 /// Where and how a robot runs, and what is kept of it.
 #[derive(clap::Args)]
+#[command(group(required()))]
 pub(in crate::cli) struct Outing {
     #[command(flatten)]
     ground: Ground,
