@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn the_picture_s_last_row_is_the_southernmost() {
         let yaml = "image: a.pgm\nresolution: 0.1\norigin: [-1, 2, 0]\nnegate: 0\n\
-                    occupied_thresh: 0.65\nfree_thresh: 0.2\n";
+                    occupied_thresh: 0.65\nfree_thresh: 0.196\n";
         let header = RosMapHeader::parse(yaml).unwrap();
         let picture = GreyMap::parse(b"P2\n2 2\n255\n254 0\n205 254\n").unwrap();
         let map = RosMap::of(&header, &picture);
