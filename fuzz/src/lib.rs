@@ -7,6 +7,7 @@
 //!
 //! `cargo xtask ci` holds the parsers to the same on the stable compiler, with proptest's texts.
 
+use tolman_formats::{GreyMap, RosMap, RosMapHeader};
 use tolman_maze::{Format, parse_as, read, read_as, write};
 
 /// A parser may refuse a text, but not panic; and what it takes, its format can hold and give back.
@@ -28,4 +29,21 @@ pub fn detects_or_refuses(text: &str) {
         parses_or_refuses(text, format);
     }
     let _ = read(text);
+}
+
+/// A picture has as many values as it says, none of them above its white.
+pub fn is_a_picture_or_refused(bytes: &[u8]) {
+    if let Ok(picture) = GreyMap::parse(bytes) {
+        assert_eq!(picture.values.len(), picture.width * picture.height);
+        assert!(picture.values.iter().all(|value| *value <= picture.most));
+    }
+}
+
+/// A map has a cell for each value of its picture, and a size that is one.
+pub fn is_a_header_or_refused(text: &str) {
+    if let Ok(header) = RosMapHeader::parse(text) {
+        let picture = GreyMap::parse(b"P2 2 1 2 0 1").expect("a picture");
+        let map = RosMap::of(&header, &picture);
+        assert!(map.cells.len() == 2 && map.resolution > 0.0 && map.resolution.is_finite());
+    }
 }

@@ -1,4 +1,9 @@
-//! A maze made ready for runs: its world, its corridors, and where runs may begin.
+//! A maze or a free world made ready for runs: its walls, its corridors, and where runs may begin.
+
+mod paving;
+mod terrain;
+#[cfg(test)]
+mod tests;
 
 use alloc::sync::Arc;
 use core::f64::consts::PI;
@@ -9,13 +14,16 @@ use tolman_control::heading_of;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_robot::Body;
-use tolman_sim::{CorridorSize, Model, PlaceError, World, WorldError, Zone};
+use tolman_sim::{CorridorSize, Model, PlaceError, World, WorldError, WorldFileError, Zone};
 use tolman_systems::stream;
 
+use self::paving::Paving;
 use crate::Simulated;
 use crate::pioneer::CORRIDOR_WIDTH;
 
-/// Why no robot can run in a maze.
+pub use terrain::{FreeWorld, Terrain};
+
+/// Why no robot can run in a maze or a world.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CourseError {
@@ -28,9 +36,43 @@ pub enum CourseError {
     /// There is no cell to start from: every cell that can reach the destination is part of it.
     #[error("no cell outside the destination can reach it: open a way to it")]
     CutOff,
+    /// The world has no destination.
+    #[error("the world has no zone `destination`: add one to its file, or put it with --goal X,Y")]
+    NoDestinationZone,
+    /// The world has no start.
+    #[error("the world has no zone `start`: add one to its file")]
+    NoStartZone,
+    /// There is no place to start from in a world.
+    #[error(
+        "nowhere outside the destination can a robot {diameter} m across stand and reach it: open a way that is at least half its radius wider, or put the destination elsewhere with --goal X,Y"
+    )]
+    CutOffWorld {
+        /// The robot's diameter, m.
+        diameter: f64,
+    },
+    /// The world is too large for the robot.
+    #[error(
+        "a world of {width} × {height} m is too large for a robot {diameter} m across: cut a part out of it"
+    )]
+    TooVast {
+        /// From west to east, m.
+        width: f64,
+        /// From south to north, m.
+        height: f64,
+        /// The robot's diameter, m.
+        diameter: f64,
+    },
+    /// What is asked for works in mazes alone.
+    #[error(
+        "{what} needs a maze of cells, and this is a world whose walls stand anywhere: give a maze, with --maze"
+    )]
+    NoMaze {
+        /// What needs a maze.
+        what: &'static str,
+    },
     /// The corridors are too narrow for the robot.
     #[error(
-        "a robot {diameter} m across does not fit corridors {width} m wide: widen them with `corridor_width` in the maze file's header"
+        "a robot {diameter} m across does not fit corridors {width} m wide: widen them with `corridor_width` in the maze file's header, or --corridor of a world"
     )]
     TooNarrow {
         /// The robot's diameter, m.
@@ -56,14 +98,21 @@ pub enum CourseError {
     /// The world cannot be built.
     #[error("the maze makes no world")]
     World(#[from] WorldError),
+    /// The world has no form as a file.
+    #[error("the world cannot be written down")]
+    Unwritten(#[from] WorldFileError),
 }
 
-/// A maze as a world with corridors of one width, a destination if the maze has one, and places to start from.
+/// A world with corridors of one width, a destination if there is one, and places to start from.
+///
+/// Most are mazes. In a [free world](Self::in_free_world) walls stand anywhere; there the cells are squares of half the robot's
+/// radius, which the same questions are answered by.
 #[derive(Clone, Debug)]
 pub struct Course {
     /// The maze, or the file's, name.
     pub name: String,
-    /// The maze it was built from.
+    /// The maze it was built from. Of a free world: its squares, with walls where the robot cannot pass from the middle of one to
+    /// that of the next. Whoever needs corridors and junctions as cells asks [`is_free`](Self::is_free) first.
     pub maze: Maze,
     /// Its walls and zones.
     pub world: Arc<World>,
@@ -71,6 +120,17 @@ pub struct Course {
     pub corridor_width: f64,
     /// By cell index: the number of cells to the destination; `None` where no way leads there.
     steps_to_goal: Vec<Option<u32>>,
+    /// `None` of a maze.
+    free: Option<FreeFloor>,
+}
+
+/// What a course in a free world has of its own.
+#[derive(Clone, Debug)]
+struct FreeFloor {
+    paving: Paving,
+    start: Option<Pose>,
+    /// The world's file.
+    text: Arc<str>,
 }
 
 /// MSLST gives a robot 500 time steps in its Large maze, which has 63 cells to start from here, each
@@ -99,6 +159,72 @@ impl Course {
             maze,
             world: Arc::new(world),
             corridor_width,
+            free: None,
+        }
+    }
+
+    /// Returns a world whose walls stand anywhere as a course to its zone `destination` for a robot of this `body`, whose layers
+    /// take corridors to be `corridor_width` metres wide. Doors count as open.
+    ///
+    /// A passage that is wider than the body by less than half its radius may be taken for closed. O(area), and
+    /// O(length) for each wall.
+    ///
+    /// # Errors
+    /// [`CourseError`] if the world has no destination or none that can be reached, or the robot does not fit.
+    pub fn in_free_world(
+        name: &str,
+        world: World,
+        corridor_width: f64,
+        body: &Body,
+    ) -> Result<Self, CourseError> {
+        let diameter = 2.0 * body.radius();
+        if corridor_width <= diameter {
+            let width = corridor_width;
+            return Err(CourseError::TooNarrow { diameter, width });
+        }
+        world
+            .zone("destination")
+            .ok_or(CourseError::NoDestinationZone)?;
+        let paving = Paving::of(&world, body)?;
+        let maze = paving.maze(&world);
+        let free = FreeFloor {
+            start: paving.start(&maze, &world),
+            text: world.to_json()?.into(),
+            paving,
+        };
+        let course = Self {
+            free: Some(free),
+            ..Self::in_world(name, maze, corridor_width, world)
+        };
+        let mut starts = course.starts();
+        starts.next().ok_or(CourseError::CutOffWorld { diameter })?;
+        drop(starts);
+        Ok(course)
+    }
+
+    /// Whether it is a world whose walls stand anywhere, and no maze.
+    #[must_use]
+    pub const fn is_free(&self) -> bool {
+        self.free.is_some()
+    }
+
+    /// Refuses what works in mazes alone; `what` is that, as in "the oracle".
+    ///
+    /// # Errors
+    /// [`CourseError::NoMaze`] in a free world.
+    pub const fn needs_maze(&self, what: &'static str) -> Result<(), CourseError> {
+        match self.is_free() {
+            true => Err(CourseError::NoMaze { what }),
+            false => Ok(()),
+        }
+    }
+
+    /// The middle of a cell.
+    #[must_use]
+    pub fn cell_centre(&self, cell: Cell) -> Point {
+        match &self.free {
+            Some(free) => free.paving.centre(cell),
+            None => self.world.cell_centre(cell),
         }
     }
 
@@ -120,10 +246,14 @@ impl Course {
         Ok(course)
     }
 
-    /// Returns what tells this drawing from others of its name: a hash of walls, marks and the corridors' width.
+    /// Returns what tells this drawing from others of its name: a hash of walls, marks and the corridors' width; of a free world,
+    /// of walls, zones and doors.
     #[must_use]
     pub fn drawing(&self) -> String {
-        let text = format!("{}{}", self.maze, self.corridor_width);
+        let text = match &self.free {
+            Some(free) => free.text.to_string(),
+            None => format!("{}{}", self.maze, self.corridor_width),
+        };
         // FNV-1a, 64 bits.
         let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
@@ -135,14 +265,22 @@ impl Course {
     /// of the corridors, as many for each metre as MSLST gives in its Large maze.
     #[must_use]
     pub fn step_limit(&self) -> u32 {
-        let metres = self.starts().count() as f64 * self.corridor_width;
+        let of_a_cell = match &self.free {
+            Some(free) => free.paving.metres_per_cell(self.corridor_width),
+            None => self.corridor_width,
+        };
+        let metres = self.starts().count() as f64 * of_a_cell;
         (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
     }
 
     /// Whether a way leads from a position to the destination: whether it lies in a cell that is not
-    /// walled off from it.
+    /// walled off from it. In a free world a square beside it is as good.
     #[must_use]
     pub fn leads_on(&self, position: Point) -> bool {
+        if let Some(free) = &self.free {
+            let mut around = free.paving.around(position);
+            return around.any(|cell| self.steps_from(cell).is_some());
+        }
         let cell = self.world.cell_at(position);
         cell.is_some_and(|cell| self.steps_from(cell).is_some())
     }
@@ -170,17 +308,25 @@ impl Course {
         self.steps_to_goal[self.maze.grid().index(cell)]
     }
 
-    /// The length of the shortest way from the marked start to the destination, m; `None` if there is none.
+    /// The length of the shortest way from the marked start to the destination, m; `None` if there is none. In a free world it is
+    /// that along squares, which may be longer by a factor of up to √2.
     #[must_use]
     pub fn shortest_metres(&self) -> Option<f64> {
+        if let Some(free) = &self.free {
+            let cell = free.paving.cell_at(free.start?.position)?;
+            return Some(f64::from(self.steps_from(cell)?) * free.paving.pitch);
+        }
         let (start, _) = self.maze.start()?;
         Some(f64::from(self.steps_from(start)?) * self.corridor_width)
     }
 
     /// The first of four cells without a wall between them, if there are any: in rooms a robot that follows corridors may go round
-    /// for ever and take one way out for another.
+    /// for ever and take one way out for another. Of a free world nothing is said.
     #[must_use]
     pub fn room(&self) -> Option<Cell> {
+        if self.is_free() {
+            return None;
+        }
         let mut cells = self.maze.grid().cells();
         cells.find(|cell| self.maze.is_room(*cell))
     }
@@ -201,36 +347,45 @@ impl Course {
     /// The middle of a cell, looking in a direction.
     #[must_use]
     pub fn in_cell(&self, cell: Cell, direction: Direction) -> Pose {
-        Pose::new(self.world.cell_centre(cell), heading_of(direction))
+        Pose::new(self.cell_centre(cell), heading_of(direction))
     }
 
-    /// The middle of the cell that the maze marks as its start, looking as it says.
+    /// The middle of the cell that the maze marks as its start, looking as it says; the middle of a free world's zone `start`,
+    /// looking along the longest clear way.
     ///
     /// # Errors
-    /// [`CourseError::NoStart`].
+    /// [`CourseError::NoStart`], [`CourseError::NoStartZone`].
     pub fn start(&self) -> Result<Pose, CourseError> {
+        if let Some(free) = &self.free {
+            return free.start.ok_or(CourseError::NoStartZone);
+        }
         let (cell, direction) = self.maze.start().ok_or(CourseError::NoStart)?;
         Ok(self.in_cell(cell, direction))
     }
 
     /// A random start: any of [those cells](Self::starts), or of all where there is no destination, with equal chance; any
-    /// place in its middle from which the body would stand clear of walls on all four sides, any heading.
+    /// place in its middle from which the body would stand clear of walls on all four sides, any heading. In a free world it is
+    /// the middle of a square.
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let mut cells: Vec<Cell> = self.starts().collect();
         if cells.is_empty() {
             cells.extend(self.maze.grid().cells());
         }
         let cell = pick(&cells, rng).unwrap_or(Cell::new(0, 0));
-        let play = (0.5 * self.corridor_width - body.radius()).max(0.0) * 0.99;
+        let play = match self.free {
+            Some(_) => 0.0,
+            None => (0.5 * self.corridor_width - body.radius()).max(0.0) * 0.99,
+        };
         let offset = Vector::new(
             rng.random_range(-play..=play),
             rng.random_range(-play..=play),
         );
         let heading = Heading::from_radians(rng.random_range(-PI..PI));
-        Pose::new(self.world.cell_centre(cell) + offset, heading)
+        Pose::new(self.cell_centre(cell) + offset, heading)
     }
 
     /// The middle of any cell from which the destination can be reached, looking along a way out of it; `None` if there are none.
+    /// In a free world it is moved to the middle between what bounds the robot on both sides.
     #[must_use]
     pub fn anywhere(&self, seed: u64) -> Option<Pose> {
         let out_of = |cell| {
@@ -239,7 +394,10 @@ impl Course {
         };
         let ways: Vec<(Cell, Direction)> = self.maze.reachable().flat_map(out_of).collect();
         let (cell, direction) = pick(&ways, &mut stream(seed, 0))?;
-        Some(self.in_cell(cell, direction))
+        let pose = self.in_cell(cell, direction);
+        let amid = |free: &FreeFloor| free.paving.amid(&self.maze, cell, direction);
+        let position = self.free.as_ref().map_or(pose.position, amid);
+        Some(Pose { position, ..pose })
     }
 }
 

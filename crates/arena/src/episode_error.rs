@@ -7,6 +7,7 @@ use tolman_sim::robots::RobotConfigError;
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::ActorError;
 
+use crate::course::CourseError;
 use crate::run::{InRun, Limited, LimitedError};
 
 /// Why a run could not be made.
@@ -22,6 +23,9 @@ pub enum EpisodeError {
     /// The layers do not fit the robot's ring.
     #[error("the layers do not fit the robot's ring")]
     Layers(#[from] RingError),
+    /// The mind cannot live on such a course.
+    #[error(transparent)]
+    Course(#[from] CourseError),
     /// The course is too large for the oracle.
     #[error(
         "the oracle would have to plan on {nodes} nodes, and {most} are the most: choose a smaller maze"

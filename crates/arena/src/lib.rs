@@ -1,6 +1,6 @@
 //! Worlds made ready for robots, and the loops that run systems in them.
 //!
-//! In the order data flows: a [`course`] is a maze made ready for runs, the [`pioneer`] the robot that
+//! In the order data flows: a [`course`] is a maze, or a world of free walls, made ready for runs, the [`pioneer`] the robot that
 //! runs in it, and an [`episode`] one run of a [`Mind`] of the [`cast`]: a brain of `tolman-systems`, or an [`oracle`]
 //! that knows the truth. [`run`] is the loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
 //!

@@ -1,7 +1,9 @@
+use core::f64::consts::TAU;
+
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
 use tolman_draw::{Drawing, FloorPlan, LinePoint, PolarPlot, Series, ZoneStyle};
-use tolman_geom::Point;
+use tolman_geom::{Heading, Point};
 use tolman_sim::{Area, Bounds};
 use tolman_stats::{ConfidenceInterval, mean, quantile};
 use tolman_systems::mslst::ROBOT_UNIT;
@@ -28,7 +30,9 @@ pub(crate) fn mean_with_quartiles(x: f64, values: &[f64]) -> Option<LinePoint> {
 pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     let world = &course.world;
     let mut plan = FloorPlan::of_world(world, width);
-    for cell in course.maze.grid().cells() {
+    let cells = course.maze.grid().cells();
+    // Beside the walls of a free world no robot can be, and yet there is floor.
+    for cell in cells.filter(|_| !course.is_free()) {
         let centre = world.cell_centre(cell);
         if !course.leads_on(centre) {
             plan.square(centre, course.corridor_width, ZoneStyle::Solid);
@@ -36,10 +40,24 @@ pub fn plan_of_course(course: &Course, width: f64) -> FloorPlan {
     }
     let destination = world.zone("destination");
     for area in destination.into_iter().flat_map(tolman_sim::Zone::areas) {
-        if let Area::Rectangle(Bounds { min, max }) = *area {
-            let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-            plan.zone(&corners, ZoneStyle::Destination);
-        }
+        plan.zone(&corners(area), ZoneStyle::Destination);
     }
     plan
+}
+
+/// A disc is drawn with so many corners.
+const DISC_CORNERS: u32 = 48;
+
+/// The corners of a part of the floor.
+fn corners(area: &Area) -> Vec<Point> {
+    match *area {
+        Area::Rectangle(Bounds { min, max }) => {
+            vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
+        }
+        Area::Disc { centre, radius } => {
+            let turn = |corner| TAU * f64::from(corner) / f64::from(DISC_CORNERS);
+            let corner = |corner| centre + radius * Heading::from_radians(turn(corner)).unit();
+            (0..DISC_CORNERS).map(corner).collect()
+        }
+    }
 }

@@ -7,13 +7,12 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tolman_arena::Outing;
-use tolman_arena::course::Course;
+use tolman_arena::course::{Course, Terrain};
 use tolman_arena::episode::layers;
 use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_control::Stack;
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
-use tolman_maze::MazeFile;
 use tolman_sim::robots::LaserPioneer;
 use tolman_systems::{Origin, stream};
 
@@ -87,11 +86,11 @@ pub trait LearnedMap {
     /// Returns the same as JSON.
     fn json(&self) -> Value;
 
-    /// Draws it over the maze it was learned in, for a robot as that which learned it.
+    /// Draws it over the maze or the world it was learned in, for a robot as that which learned it.
     ///
     /// # Errors
-    /// If the maze does not serve, or there is no picture of such a map.
-    fn drawing(&self, _maze: &MazeFile) -> Result<Drawing, Error> {
+    /// If that does not serve, or there is no picture of such a map.
+    fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, Error> {
         Err(anyhow!(
             "there is no picture of such a map: leave --svg out"
         ))
@@ -106,11 +105,11 @@ pub trait LearnedMap {
         Err(anyhow!("nobody plans on such a map"))
     }
 
-    /// Returns why it is wrong or unfinished as a map of this maze; `None` if it is right.
+    /// Returns why it is wrong or unfinished as a map of this maze or world; `None` if it is right.
     ///
     /// # Errors
-    /// If the maze does not serve.
-    fn complaint(&self, _maze: &MazeFile) -> Result<Option<String>, Error> {
+    /// If that does not serve, or nobody can tell.
+    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
         Err(anyhow!("nobody can tell whether such a map is right"))
     }
 }
@@ -134,10 +133,10 @@ impl LearnedMap for MapText {
 /// What a robot is sent out with.
 #[derive(Clone, Debug)]
 pub struct Setup<'a> {
-    /// The name of the maze.
+    /// The name of the maze or world.
     pub world: &'a str,
-    /// The maze.
-    pub maze: &'a MazeFile,
+    /// The maze or world.
+    pub terrain: &'a Terrain,
     /// What all chance follows from.
     pub seed: u64,
     /// Where the robot starts; `None` for what the system has for it.
@@ -296,7 +295,7 @@ fn choose<T>(
 /// If maze, robot or start do not serve.
 pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack), Error> {
     setup.robot(&[LASER_PIONEER])?;
-    let course = Course::for_body(setup.world, setup.maze, &body())?;
+    let course = setup.terrain.course(setup.world, &body())?;
     let start = setup.start(&course, Start::Random, || {
         let mut rng = stream(setup.seed, START_STREAM);
         Some(course.random_start(&body(), &mut rng))

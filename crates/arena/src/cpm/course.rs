@@ -1,7 +1,9 @@
 use tolman_maze::MazeFile;
+use tolman_robot::Body;
+use tolman_robot::epuck::BODY_RADIUS;
 
 use super::robots::epuck;
-use crate::course::{Course, CourseError};
+use crate::course::{Course, CourseError, Terrain};
 
 /// From wall to wall where nothing else is said, m.
 pub const CORRIDOR_WIDTH: f64 = 0.25;
@@ -15,17 +17,41 @@ const WIDTHS: (f64, f64) = (0.20, 0.30);
 /// # Errors
 /// [`CourseError::NoStart`], [`CourseError::Unseen`].
 pub fn epuck_course(name: &str, file: MazeFile) -> Result<Course, CourseError> {
-    let width = file.corridor_width.unwrap_or(CORRIDOR_WIDTH);
+    let width = seen(file.corridor_width)?;
+    let course = Course::new(file.name.as_deref().unwrap_or(name), file.maze, width)?;
+    course.start()?;
+    Ok(course)
+}
+
+/// Returns a maze or a free world as a course from its start for the e-puck; `name` is for one that has none.
+///
+/// # Errors
+/// As [`epuck_course`], and as [`Course::in_free_world`].
+pub fn epuck_course_on(name: &str, terrain: &Terrain) -> Result<Course, CourseError> {
+    match terrain {
+        Terrain::Maze(file) => epuck_course(name, file.clone()),
+        Terrain::Free(free) => {
+            let radius = BODY_RADIUS;
+            let width = seen(free.corridor_width)?;
+            let world = free.world.clone();
+            let course = Course::in_free_world(name, world, width, &Body::Circle { radius })?;
+            course.start()?;
+            Ok(course)
+        }
+    }
+}
+
+/// The width of the corridors, if the e-puck sees what such corridors are.
+fn seen(width: Option<f64>) -> Result<f64, CourseError> {
+    let width = width.unwrap_or(CORRIDOR_WIDTH);
     let (least, most) = WIDTHS;
-    if !(least..=most).contains(&width) {
-        return Err(CourseError::Unseen {
+    match (least..=most).contains(&width) {
+        true => Ok(width),
+        false => Err(CourseError::Unseen {
             width,
             least,
             most,
             reach: epuck().response.reach(),
-        });
+        }),
     }
-    let course = Course::new(file.name.as_deref().unwrap_or(name), file.maze, width)?;
-    course.start()?;
-    Ok(course)
 }

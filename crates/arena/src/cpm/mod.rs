@@ -33,7 +33,7 @@ mod wire;
 pub mod world;
 
 pub use bends::BendLikeness;
-pub use course::{CORRIDOR_WIDTH, epuck_course};
+pub use course::{CORRIDOR_WIDTH, epuck_course, epuck_course_on};
 pub use distinctness::{Distinctness, WalkPair, distinctness};
 pub use exploration::Exploration;
 pub use fragments::{TrueFragments, WayOut};

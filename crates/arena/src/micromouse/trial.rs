@@ -1,7 +1,7 @@
 //! Both runs of one mouse in one maze.
 
-use tolman_maze::{Cell, Maze};
-use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search};
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search, Sight};
 
 use super::{Referee, RefereeError, Ruling, ScoreSheet};
 
@@ -19,12 +19,50 @@ pub struct MouseTrial {
 /// One step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefereedStep {
+    /// What the mouse saw before it.
+    pub sight: Sight,
     /// What the mouse wanted.
     pub order: Order,
     /// What came of it.
     pub event: Ruling,
     /// Where the mouse stood afterwards.
     pub cell: Cell,
+    /// Where it looked afterwards.
+    pub heading: Direction,
+}
+
+/// The side of a cell that a mouse has looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SideSeen {
+    /// The cell.
+    pub cell: Cell,
+    /// Its side.
+    pub side: Direction,
+    /// Whether a wall stands there.
+    pub stands: bool,
+}
+
+/// Returns what a mouse sees of the maze from `cell`, looking to `heading`: the cells' sides along its three lines of sight, up
+/// to the first wall.
+#[must_use]
+pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen> {
+    let lines = [
+        (heading.left(), sight.left),
+        (heading, sight.front),
+        (heading.right(), sight.right),
+    ];
+    let line = |(side, open): (Direction, u16)| {
+        let (east, north) = side.step();
+        (0..=open).map(move |steps| SideSeen {
+            cell: Cell::new(
+                cell.x.wrapping_add_signed(i16::from(east) * steps as i16),
+                cell.y.wrapping_add_signed(i16::from(north) * steps as i16),
+            ),
+            side,
+            stands: steps == open,
+        })
+    };
+    lines.into_iter().flat_map(line).collect()
 }
 
 /// Why there was no trial.
@@ -52,11 +90,18 @@ impl MouseTrial {
         let mut steps = Vec::new();
         let mut gave_up = None;
         while !referee.is_over() {
-            match mouse.next(referee.sight()) {
+            let sight = referee.sight();
+            match mouse.next(sight) {
                 Ok(order) => {
                     let event = referee.take(order)?;
-                    let (cell, _) = referee.pose();
-                    steps.push(RefereedStep { order, event, cell });
+                    let (cell, heading) = referee.pose();
+                    steps.push(RefereedStep {
+                        sight,
+                        order,
+                        event,
+                        cell,
+                        heading,
+                    });
                 }
                 Err(error) => {
                     gave_up = Some(error);
@@ -69,5 +114,33 @@ impl MouseTrial {
             verdict: referee.verdict(),
             gave_up,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_sight_end_at_the_first_wall() {
+        let sight = Sight {
+            left: 0,
+            front: 2,
+            right: 1,
+        };
+        let seen = sides_seen(sight, Cell::new(3, 4), Direction::South);
+        let told = seen
+            .iter()
+            .map(|seen| (seen.cell.x, seen.cell.y, seen.side, seen.stands));
+        use Direction::{East, South, West};
+        let expect = [
+            (3, 4, East, true),
+            (3, 4, South, false),
+            (3, 3, South, false),
+            (3, 2, South, true),
+            (3, 4, West, false),
+            (2, 4, West, true),
+        ];
+        assert_eq!(told.collect::<Vec<_>>(), expect);
     }
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use thiserror::Error;
 use tolman_maze::Maze;
 
-use super::{Score, Simulator};
+use super::{Exchange, Score, Simulator};
 
 /// When a mouse is stopped.
 #[derive(Clone, Copy, Debug)]
@@ -100,11 +100,17 @@ const LONGEST_LINE: u64 = 4096;
 const LINES_AHEAD: usize = 256;
 
 /// Runs the program `words[0]` with the other words as arguments as a mouse in a maze, until it
-/// ends or a limit is reached; then it is killed.
+/// ends or a limit is reached; then it is killed. `watch` is shown every line with its answer.
 ///
 /// # Errors
 /// [`HostError`] if it does not start. That it fails, or does not solve the maze, is a result.
-pub fn host(words: &[String], maze: &Maze, limits: &Limits, log: Log) -> Result<Hosted, HostError> {
+pub fn host(
+    words: &[String],
+    maze: &Maze,
+    limits: &Limits,
+    log: Log,
+    watch: impl FnMut(&Exchange),
+) -> Result<Hosted, HostError> {
     let (program, arguments) = words.split_first().ok_or(HostError::NoProgram)?;
     let mut child = Command::new(program)
         .args(arguments)
@@ -124,7 +130,7 @@ pub fn host(words: &[String], maze: &Maze, limits: &Limits, log: Log) -> Result<
         simulator.reset_after(movements);
     }
     let stopped = match (child.stdin.take(), child.stdout.take()) {
-        (Some(input), Some(output)) => converse(&mut simulator, input, output, limits),
+        (Some(input), Some(output)) => converse(&mut simulator, input, output, limits, watch),
         _ => None,
     };
     let ended = match stopped {
@@ -159,6 +165,7 @@ fn converse(
     input: ChildStdin,
     output: ChildStdout,
     limits: &Limits,
+    mut watch: impl FnMut(&Exchange),
 ) -> Option<MouseExit> {
     let deadline = Instant::now() + limits.time;
     let (to_us, lines) = mpsc::sync_channel(LINES_AHEAD);
@@ -174,11 +181,12 @@ fn converse(
             Err(RecvTimeoutError::Timeout) => return Some(MouseExit::OutOfTime),
             Err(RecvTimeoutError::Disconnected) => return None,
         };
-        let reply = simulator.answer(&line);
+        let exchange = Exchange::of(simulator, &line);
+        watch(&exchange);
         if simulator.movements() + simulator.crashes() >= limits.movements {
             return Some(MouseExit::OutOfMovements);
         }
-        if let Some(reply) = reply
+        if let Some(reply) = exchange.reply
             && !send(&replies, reply, deadline)
         {
             return Some(MouseExit::OutOfTime);

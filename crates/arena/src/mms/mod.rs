@@ -19,12 +19,14 @@
 //! # Ok::<(), tolman_maze::MazeError>(())
 //! ```
 
+mod exchange;
 mod host;
 #[cfg(test)]
 mod mouse_tests;
 mod score;
 mod simulator;
 
+pub use exchange::Exchange;
 pub use host::{HostError, Hosted, Limits, Log, MouseExit, host};
 pub use score::{Figures, Score, Unit};
 pub use simulator::Simulator;

@@ -58,6 +58,12 @@ const DRAWING: [&str; 8] = [
     "clearAllText",
 ];
 
+/// Where a question for a wall looks, in eighths of a circle, clockwise from ahead; `None` of other commands.
+pub(super) fn eighths_of(command: &str) -> Option<i8> {
+    let wall = WALLS.iter().find(|(name, _)| *name == command);
+    wall.map(|(_, eighths)| *eighths)
+}
+
 impl<'a> Simulator<'a> {
     /// A mouse at the start of a maze.
     #[must_use]
@@ -102,8 +108,8 @@ impl<'a> Simulator<'a> {
     fn reply(&mut self, command: &str, argument: Option<&str>) -> Option<String> {
         // What is no number counts as 0, what is missing as 1.
         let number = || argument.map_or(1, |text| text.parse().unwrap_or(0));
-        if let Some((_, side)) = WALLS.iter().find(|(name, _)| *name == command) {
-            let heading = self.heading.turned(*side);
+        if let Some(eighths) = eighths_of(command) {
+            let heading = self.heading.turned(eighths);
             return Some(self.is_wall_within(number(), heading).to_string());
         }
         match (command, argument) {
@@ -246,6 +252,12 @@ impl<'a> Simulator<'a> {
     #[must_use]
     pub const fn place(&self) -> LatticePoint {
         self.place
+    }
+
+    /// Where the mouse looks.
+    #[must_use]
+    pub const fn heading(&self) -> LatticeHeading {
+        self.heading
     }
 }
 

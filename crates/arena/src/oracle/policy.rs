@@ -45,8 +45,9 @@ impl Policy {
     /// simulated four times: about 10 µs per node and action, and a node per axis and position.
     ///
     /// # Errors
-    /// When the robot cannot be built for the course, or the course needs more than two million nodes.
+    /// When the course is a free world, the robot cannot be built for it, or the course needs more than two million nodes.
     pub fn new(course: &Course, robot: &LaserPioneerConfig) -> Result<Self, EpisodeError> {
+        course.needs_maze("the oracle")?;
         let lattice = Lattice::new(course, (course.corridor_width / POSITIONS).min(COARSEST));
         if lattice.node_count() > MOST_NODES {
             return Err(EpisodeError::Policy {

@@ -15,7 +15,7 @@ use super::sent_out::SentOut;
 use super::{App, Failure, OrBadInput};
 use crate::system::MapText;
 
-/// Puts a robot down in a maze and sends it to the goal by a learned map; exits 1 if it does not arrive
+/// Puts a robot down in a maze or a world and sends it to the goal by a learned map; exits 1 if it does not arrive
 ///
 /// It finds out where it is, goes, and plans anew where something is not as the map has it. Of the maps of several mazes it
 /// finds out which is that of this one.
@@ -25,7 +25,9 @@ Examples:
   tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
   tolman drive --map map.json --maze mazes/cpm-3.maze --seed 7 --replay drive.html
   tolman learn --system cpm --maze mazes/cpm-2.maze --out other.json
-  tolman drive --map map.json --map other.json --maze mazes/cpm-3.maze")]
+  tolman drive --map map.json --map other.json --maze mazes/cpm-3.maze
+  tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json
+  tolman drive --map corridors-map.json --world mazes/worlds/corridors.json --seed 2")]
 pub(super) struct Arguments {
     /// The map, made by `tolman learn`; may be given several times, if the system can tell maps apart
     #[arg(long, value_name = "FILE", required = true)]
@@ -61,8 +63,8 @@ pub(super) fn carry_out(
         }
     }
     arguments.sent_out.refuse_preset()?;
-    let maze = arguments.sent_out.maze()?;
-    let mut setup = arguments.sent_out.setup(&maze);
+    let terrain = arguments.sent_out.terrain()?;
+    let mut setup = arguments.sent_out.setup(&terrain);
     // The robot that learned the map, if nothing else is said.
     setup.robot = setup.robot.or(Some(&maps[0].origin.robot));
     let context = || format!("{} cannot drive in {}", system.name(), setup.world);

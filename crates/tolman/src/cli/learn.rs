@@ -15,7 +15,7 @@ use super::sent_out::SentOut;
 use super::words::words;
 use super::{App, Failure, OrBadInput, file};
 
-/// Lets a system learn a map of a maze, and writes the map down
+/// Lets a system learn a map of a maze or a world, and writes the map down
 #[derive(clap::Args)]
 #[command(after_help = "\
 Exit code 1 says that no map was learned, or that the one that was written is known to be wrong or unfinished. `tolman systems`
@@ -25,7 +25,8 @@ Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
   tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json --replay learned.html
   tolman learn --system diktiometry --maze mazes/j.maze --set moves=300 --out j-survey.json
-  tolman learn --system diktiometry --maze mazes/j.maze --from j-survey.json --out j-survey.json")]
+  tolman learn --system diktiometry --maze mazes/j.maze --from j-survey.json --out j-survey.json
+  tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
 pub(super) struct Arguments {
     /// Who learns
     #[arg(long, value_name = "NAME")]
@@ -65,8 +66,8 @@ pub(super) fn carry_out(
 ) -> Result<(), Failure> {
     let system = app.system(&arguments.system)?;
     let from = arguments.from.as_deref().map(map_text).transpose()?;
-    let maze = arguments.sent_out.maze()?;
-    let mut setup = arguments.sent_out.setup(&maze);
+    let terrain = arguments.sent_out.terrain()?;
+    let mut setup = arguments.sent_out.setup(&terrain);
     setup.from = from.as_ref();
     let context = || format!("{} cannot learn {}", system.name(), setup.world);
     let outing = system.learner(&setup);

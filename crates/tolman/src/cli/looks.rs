@@ -1,4 +1,6 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
 
 use super::Failure;
 use super::replay_file::{self, Overwrite};
@@ -9,11 +11,11 @@ pub(super) struct Looks {
     /// Show it on the terminal as it goes; space pauses, → steps, + and - change the speed, q stops looking
     #[arg(long)]
     pub(super) live: bool,
-    /// Draw its way over the maze
+    /// Draw its way over the maze or the world
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
-    /// Write the run down step by step, as JSON lines: world, robot, and every command, true pose, bump and
-    /// scan
+    /// Write the run down step by step, as JSON lines: first what ran where, then for every step what was commanded, what came of it
+    /// and what was sensed
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
     /// Write a replay: one HTML file that plays the run in any browser
@@ -28,6 +30,31 @@ pub(super) struct Looks {
 }
 
 impl Looks {
+    /// Refuses to look at more than one run.
+    ///
+    /// # Errors
+    /// Bad input if `path` holds several `mazes` and one of them was to be looked at.
+    pub(super) fn of_one(&self, path: &Path, mazes: usize) -> Result<(), Failure> {
+        let flags = [
+            ("--live", self.live),
+            ("--svg", self.svg.is_some()),
+            ("--trace", self.trace.is_some()),
+            ("--replay", self.replay.is_some()),
+        ];
+        match flags.iter().find(|(_, given)| *given) {
+            Some((flag, _)) if mazes != 1 => Err(Failure::BadInput(anyhow!(
+                "{flag} is of one maze, and {} holds {mazes}: name a file",
+                path.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a run is to be looked at.
+    pub(super) const fn any(&self) -> bool {
+        self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
+    }
+
     /// Returns what the replay may overwrite, before the work is done.
     ///
     /// # Errors

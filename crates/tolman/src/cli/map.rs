@@ -9,7 +9,8 @@ use clap::Subcommand;
 use tolman_draw::Figure;
 use tolman_systems::origin_of;
 
-use super::{App, Failure, OrBadInput, file, maze};
+use super::ground::{Ground, required};
+use super::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
 /// Looks at learned maps
@@ -29,11 +30,10 @@ Examples:
 pub(super) struct Show {
     /// The map, made by `tolman learn`
     file: PathBuf,
-    /// The maze it was learned in
-    #[arg(long, value_name = "FILE", requires = "svg")]
-    maze: Option<PathBuf>,
-    /// Draw the map over the maze
-    #[arg(long, value_name = "FILE", requires = "maze")]
+    #[command(flatten)]
+    ground: Ground,
+    /// Draw the map over the maze or the world that it was learned in, which has to be given
+    #[arg(long, value_name = "FILE", requires = "ground")]
     svg: Option<PathBuf>,
     /// Write the figures as JSON
     #[arg(long)]
@@ -59,16 +59,18 @@ pub(super) struct Plan {
 
 /// Holds a learned map against the maze; exits 1 if it is wrong or unfinished
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    group(required()),
+    after_help = "\
 Example:
   tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
-  tolman map check map.json --maze mazes/cpm-1.maze")]
+  tolman map check map.json --maze mazes/cpm-1.maze"
+)]
 pub(super) struct Check {
     /// The map, made by `tolman learn`
     file: PathBuf,
-    /// The maze it was learned in
-    #[arg(long, value_name = "FILE")]
-    maze: PathBuf,
+    #[command(flatten)]
+    ground: Ground,
 }
 
 impl Verb {
@@ -83,9 +85,9 @@ impl Verb {
 
 fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
     let (text, map) = read(app, &arguments.file)?;
-    if let (Some(maze), Some(path)) = (&arguments.maze, &arguments.svg) {
-        let read = maze::read(maze)?;
-        let drawing = map.drawing(&read).or_bad_input()?;
+    if let Some(path) = &arguments.svg {
+        let (_, terrain) = arguments.ground.read()?;
+        let drawing = map.drawing(&terrain).or_bad_input()?;
         let figure = Figure::new("map", &text.origin.world, drawing);
         file::write(path, figure.standalone())?;
     }
@@ -118,8 +120,8 @@ fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Fail
 
 fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Failure> {
     let (text, map) = read(app, &arguments.file)?;
-    let maze = maze::read(&arguments.maze)?;
-    match map.complaint(&maze).or_bad_input()? {
+    let (_, terrain) = arguments.ground.read()?;
+    match map.complaint(&terrain).or_bad_input()? {
         None => Ok(writeln!(out, "{} is right", text.name)?),
         Some(complaint) => Err(Failure::Failed(anyhow!(
             "the map in {} is wrong or unfinished: {complaint}",

@@ -1,14 +1,21 @@
 //! `tolman mms-host`: hosts a mouse that speaks the protocol of mms, and scores it.
 
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use core::time::Duration;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use serde_json::json;
-use tolman_arena::mms::{Hosted, Limits, Log, MouseExit, host};
+use tolman_arena::micromouse::SideSeen;
+use tolman_arena::mms::{Exchange, Hosted, Limits, Log, MouseExit, host};
+use tolman_geom::{Heading, Pose};
+use tolman_maze::{Cell, Direction, Maze};
 
+use super::looks::Looks;
 use super::maze::Collection;
+use super::mouse::{Came, Way, WayStep, half_cells};
+use super::send::tell_replay;
 use super::{Failure, OrBadInput, maze};
 
 /// Hosts a mouse that speaks the protocol of the simulator mms, without a window, and scores it
@@ -18,9 +25,14 @@ The mouse starts in the south-west cell and looks north; the goal is the middle 
 is the best run's turns and effective distance and a tenth of all turns and effective distance: less is
 better, 2000 is a maze unsolved. The code of mms measures in half-steps, its README in cells; both are told.
 
+--live, --svg, --trace and --replay are of one maze, whose cells are drawn 0.18 m wide, and of what the mouse did when it was hosted. A line of
+--trace has a move or turn, what it was answered, where it led, and which walls the mouse had asked for before it. --json writes one
+object a maze and line.
+
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
-  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid --jobs 1 --json")]
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid --jobs 1 --json
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
 pub(super) struct Arguments {
     /// The mouse's command, split into words as a shell does, and run without one
     #[arg(long, value_name = "CMD")]
@@ -43,9 +55,8 @@ pub(super) struct Arguments {
     /// Show what the mouse writes to stderr
     #[arg(long)]
     log: bool,
-    /// Write one JSON object a maze and line
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    looks: Looks,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
@@ -64,14 +75,32 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     } else {
         Log::Dropped
     };
+    let looks = &arguments.looks;
+    looks.of_one(&arguments.maze, mazes.len() + unsound.len())?;
+    looks.overwrite()?;
     let hosted = maze::each(&mazes, arguments.jobs, |_, maze| {
-        host(&words, maze, &limits, log).or_bad_input()
+        let mut heard = Vec::new();
+        let hosted = host(&words, maze, &limits, log, |exchange| {
+            if looks.any() {
+                heard.push(exchange.clone());
+            }
+        });
+        Ok((hosted.or_bad_input()?, heard))
     })?;
+    let (hosted, heard): (Vec<Hosted>, Vec<Vec<Exchange>>) = hosted.into_iter().unzip();
     for ((file, _), hosted) in mazes.iter().zip(&hosted) {
         arguments.tell(file, hosted, out)?;
     }
-    if hosted.len() > 1 && !arguments.json {
+    if let (true, [(file, maze)], [hosted], [heard]) =
+        (looks.any(), &mazes[..], &hosted[..], &heard[..])
+    {
+        arguments.show(file, maze, hosted, heard)?;
+    }
+    if hosted.len() > 1 && !looks.json {
         writeln!(out, "{}", summary(&hosted))?;
+    }
+    if !looks.json {
+        tell_replay(looks, out)?;
     }
     // What was hosted stands before what could not be, wherever the two streams end up.
     out.flush()?;
@@ -101,30 +130,100 @@ impl Arguments {
 
     fn tell(&self, file: &Path, hosted: &Hosted, out: &mut dyn Write) -> Result<(), Failure> {
         let name = maze::name(file);
-        if self.json {
+        if self.looks.json {
             let mut line = serde_json::to_value(hosted)?;
             line["maze"] = json!(name);
             return Ok(writeln!(out, "{line}")?);
         }
-        let came = if hosted.solved {
-            "solved"
-        } else {
-            "not solved"
-        };
-        let Hosted {
-            score,
-            score_in_cells,
-            movements,
-            crashes,
-            ..
-        } = hosted;
-        Ok(writeln!(
-            out,
-            "{name}: {came}, score {score:.1} ({score_in_cells:.1} in cells), {movements} movements, \
-             {crashes} crashes, {}",
-            how(hosted.ended)
-        )?)
+        Ok(writeln!(out, "{name}: {}", outcome(hosted))?)
     }
+
+    /// Shows what the mouse did as it is asked for.
+    fn show(
+        &self,
+        file: &Path,
+        maze: &Maze,
+        hosted: &Hosted,
+        heard: &[Exchange],
+    ) -> Result<(), Failure> {
+        let header = json!({ "rules": "mms", "mouse": self.mouse });
+        let mut way = Way::new(maze::name(file), &of_mms(maze), header)?;
+        let mut sensed = Vec::new();
+        for exchange in heard {
+            let is_open = |cell, side| way.knows_open(cell, side);
+            let mut seen = exchange.sides_seen(maze.grid(), is_open);
+            way.see(&seen);
+            seen.retain(|side| !sensed.contains(side));
+            sensed.extend(seen);
+            if exchange.is_movement {
+                way.go(way_step(exchange, &sensed));
+                sensed.clear();
+            }
+        }
+        way.show(&self.looks, &outcome(hosted))
+    }
+}
+
+/// A maze as mms has it, whatever else it says: the mouse starts in the south-west, and the goal is the middle.
+fn of_mms(maze: &Maze) -> Maze {
+    let mut maze = maze.clone();
+    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    maze.set_goals(maze.grid().middle().collect());
+    maze
+}
+
+/// A movement as it is shown.
+fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
+    let Exchange {
+        line,
+        reply,
+        place,
+        heading,
+        ..
+    } = exchange;
+    let clockwise = f64::from(heading.index()) * FRAC_PI_4;
+    let heading = Heading::from_radians(FRAC_PI_2 - clockwise);
+    let cell = place.cell();
+    let seen = sensed.iter().map(|seen| {
+        let SideSeen { cell, side, stands } = seen;
+        json!({ "cell": { "x": cell.x, "y": cell.y }, "side": side.to_string(), "wall": stands })
+    });
+    WayStep {
+        pose: Pose::new(half_cells(place.x.into(), place.y.into()), heading),
+        words: line.clone(),
+        line: json!({
+            "move": line,
+            "reply": reply,
+            "cell": { "x": cell.x, "y": cell.y },
+            "heading_deg": heading.degrees(),
+            "sensed": seen.collect::<Vec<_>>(),
+        }),
+        came: match reply.as_deref() {
+            Some("crash") => Came::Crashed,
+            _ if line == "ackReset" => Came::PutBack,
+            _ => Came::Moved,
+        },
+    }
+}
+
+/// What became of a mouse, in words.
+fn outcome(hosted: &Hosted) -> String {
+    let came = if hosted.solved {
+        "solved"
+    } else {
+        "not solved"
+    };
+    let Hosted {
+        score,
+        score_in_cells,
+        movements,
+        crashes,
+        ..
+    } = hosted;
+    format!(
+        "{came}, score {score:.1} ({score_in_cells:.1} in cells), {movements} movements, {crashes} crashes, {}",
+        how(hosted.ended)
+    )
 }
 
 /// No mouse is given more than a day.

@@ -13,6 +13,7 @@ mod failure;
 mod file;
 mod film;
 mod former;
+mod ground;
 mod interrupt;
 mod learn;
 mod live;

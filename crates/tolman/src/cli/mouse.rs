@@ -2,20 +2,26 @@
 
 mod drawing;
 mod mms;
+mod walls_known;
+mod way;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use serde_json::json;
-use tolman_arena::micromouse::{self, Judgement, MouseTrial};
+use tolman_arena::micromouse::{self, Judgement, MouseTrial, RefereedStep, Ruling, sides_seen};
+use tolman_geom::Pose;
 use tolman_maze::Maze;
-use tolman_systems::micromouse::Searcher;
 use tolman_systems::micromouse::mms::Until;
+use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher};
 
+use super::looks::Looks;
 use super::maze::Collection;
+use super::send::tell_replay;
 use super::words::words;
-use super::{Failure, OrBadInput, file, maze};
+use super::{Failure, OrBadInput, maze};
+pub(super) use way::{Came, Way, WayStep, half_cells};
 
 /// Sends a micromouse through mazes: it explores, proves its run, and makes it
 #[derive(clap::Args)]
@@ -25,17 +31,21 @@ and then up to three cells; the score is a thirtieth of the steps of the first r
 floor is the score of a mouse that knows the maze. With --mms the rules are those of the simulator mms, which hosts the
 mouse: it speaks with it on stdin and stdout, and logs to stderr.
 
+--live, --svg, --trace and --replay are of one maze, whose cells are drawn 0.18 m wide. A line of --trace has a step's \"rotation\"
+(-90, 0, 90 or \"Reset\") and \"movement\" (-3 to 3 cells or \"Reset\"), where it led, and how many cells the mouse had seen open to its left,
+ahead and to its right before it. --json writes one object a maze and line.
+
 Examples:
   tolman mouse mazes/grid/braided-2.txt
   tolman mouse mazes/grid --worst 3
-  tolman mouse mazes/grid/perfect-1.txt --steps steps.jsonl
+  tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid")]
 pub(super) struct Arguments {
     /// A maze file of any format, or a folder of them
     #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]
     maze: Option<PathBuf>,
     /// Speak the protocol of the simulator mms on stdin and stdout
-    #[arg(long, conflicts_with_all = ["maze", "search", "seed", "steps", "worst", "jobs", "json"])]
+    #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
     /// When the mouse of --mms has explored enough
     #[arg(long, default_value = "proof", value_parser = words(UNTIL), requires = "mms")]
@@ -46,18 +56,14 @@ pub(super) struct Arguments {
     /// What the chance of the searches that have any follows from
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Write every step as JSON lines: {"rotation": -90|0|90|"Reset", "movement": -3…3|"Reset"}; one maze only
-    #[arg(long, value_name = "FILE")]
-    steps: Option<PathBuf>,
     /// Draw so many of the mazes with the worst score above the floor
     #[arg(long, value_name = "N", default_value_t = 1)]
     worst: usize,
     /// Mazes at a time, instead of one a core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
-    /// Write one JSON object a maze and line
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    looks: Looks,
 }
 
 /// When a mouse has explored enough.
@@ -85,12 +91,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let Collection { mazes, unsound } = Collection::read(path)?;
     let files = mazes.len() + unsound.len();
-    if arguments.steps.is_some() && files > 1 {
-        return Err(Failure::BadInput(anyhow!(
-            "--steps is of one maze, and {} holds {files}: name a file",
-            path.display()
-        )));
-    }
+    arguments.looks.of_one(path, files)?;
+    arguments.looks.overwrite()?;
     let tried = maze::each(&mazes, arguments.jobs, |file, maze| {
         let tried = micromouse::try_on(maze, arguments.search, arguments.seed);
         let (trial, judgement) = tried.with_context(|| maze::name(file)).or_bad_input()?;
@@ -104,15 +106,18 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     for tried in &tried {
         arguments.tell(tried, out)?;
     }
-    if !arguments.json {
+    if let (true, Some(tried)) = (arguments.looks.any(), tried.first()) {
+        arguments.show(tried)?;
+    }
+    if !arguments.looks.json {
         let drawn = if tried.len() > 1 { arguments.worst } else { 1 };
         draw_worst(&tried, drawn, out)?;
         if tried.len() > 1 {
             writeln!(out, "{}", summary(&tried))?;
         }
     }
-    if let (Some(path), Some(tried)) = (&arguments.steps, tried.first()) {
-        file::write(path, steps(&tried.trial)?)?;
+    if !arguments.looks.json {
+        tell_replay(&arguments.looks, out)?;
     }
     out.flush()?;
     unsound.complain(tried.len())?;
@@ -124,7 +129,7 @@ impl Arguments {
     fn tell(&self, tried: &Tried<'_>, out: &mut dyn Write) -> Result<(), Failure> {
         let name = maze::name(tried.file);
         let judgement = &tried.judgement;
-        if self.json {
+        if self.looks.json {
             let mut line = serde_json::to_value(judgement)?;
             line["maze"] = json!(name);
             line["search"] = json!(self.search.name());
@@ -132,23 +137,77 @@ impl Arguments {
             line["gave_up"] = json!(tried.trial.gave_up.map(|error| error.to_string()));
             return Ok(writeln!(out, "{line}")?);
         }
+        Ok(writeln!(out, "{name}: {}", tried.outcome())?)
+    }
+
+    /// Shows the mouse's way as it is asked for.
+    fn show(&self, tried: &Tried<'_>) -> Result<(), Failure> {
+        let header = json!({
+            "rules": "Plot and Navigate a Virtual Maze",
+            "search": self.search.name(),
+            "seed": self.seed,
+        });
+        let mut way = Way::new(maze::name(tried.file), tried.maze, header)?;
+        let mut at = tried.maze.start();
+        for step in &tried.trial.steps {
+            if let Some((cell, heading)) = at {
+                way.see(&sides_seen(step.sight, cell, heading));
+            }
+            at = Some((step.cell, step.heading));
+            way.go(way_step(step, way.in_cell(step.cell, step.heading))?);
+        }
+        way.show(&self.looks, &tried.outcome())
+    }
+}
+
+impl Tried<'_> {
+    /// The outcome in words.
+    fn outcome(&self) -> String {
+        let judgement = &self.judgement;
         match (judgement.run_1, judgement.run_2, judgement.score) {
-            (Some(run_1), Some(run_2), Some(score)) => writeln!(
-                out,
-                "{name}: {score:.3} = {run_1} / 30 + {run_2}, {:.3} above the floor{}",
+            (Some(run_1), Some(run_2), Some(score)) => format!(
+                "{score:.3} = {run_1} / 30 + {run_2}, {:.3} above the floor{}",
                 score - judgement.floor,
                 if judgement.certified { ", proven" } else { "" }
-            )?,
-            _ => match tried.trial.gave_up {
-                Some(error) => writeln!(out, "{name}: {error}")?,
-                None => writeln!(
-                    out,
-                    "{name}: not done after {} steps",
-                    tried.trial.steps.len()
-                )?,
+            ),
+            _ => match self.trial.gave_up {
+                Some(error) => error.to_string(),
+                None => format!("not done after {} steps", self.trial.steps.len()),
             },
         }
-        Ok(())
+    }
+}
+
+/// A step as it is shown.
+fn way_step(step: &RefereedStep, pose: Pose) -> Result<WayStep, Failure> {
+    let RefereedStep { sight, order, .. } = *step;
+    let mut line = serde_json::to_value(order)?;
+    line["cell"] = json!({ "x": step.cell.x, "y": step.cell.y });
+    line["heading"] = json!(step.heading.to_string());
+    line["sensed"] = json!({ "left": sight.left, "front": sight.front, "right": sight.right });
+    Ok(WayStep {
+        pose,
+        words: in_words(order),
+        line,
+        came: match step.event {
+            Ruling::RunTwo => Came::PutBack,
+            _ => Came::Moved,
+        },
+    })
+}
+
+/// An order in words: "left, 3 cells".
+fn in_words(order: Order) -> String {
+    let turn = match order.rotation {
+        Rotation::Degrees(-90) => "left",
+        Rotation::Degrees(90) => "right",
+        Rotation::Degrees(_) => "straight",
+        Rotation::Reset(_) => return "back to the start, for the second run".to_owned(),
+    };
+    match order.movement {
+        Movement::Cells(1) => format!("{turn}, 1 cell"),
+        Movement::Cells(cells) => format!("{turn}, {cells} cells"),
+        Movement::Reset(_) => turn.to_owned(),
     }
 }
 
@@ -190,14 +249,4 @@ fn summary(tried: &[Tried<'_>]) -> String {
         mean(|judgement| judgement.score),
         mean(Judgement::above_floor),
     )
-}
-
-/// The orders, a line each.
-fn steps(trial: &MouseTrial) -> Result<String, Failure> {
-    let mut text = String::new();
-    for step in &trial.steps {
-        text += &serde_json::to_string(&step.order)?;
-        text.push('\n');
-    }
-    Ok(text)
 }

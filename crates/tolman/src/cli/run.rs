@@ -1,4 +1,4 @@
-//! `tolman run`: one robot, one maze, one seed.
+//! `tolman run`: one robot, one maze or world, one seed.
 
 mod outing;
 mod trace;
@@ -11,7 +11,7 @@ use super::Failure;
 use super::words::words;
 pub(super) use outing::{Name, Outing, carry_out as send};
 
-/// Sends one robot through a maze and tells what became of it
+/// Sends one robot through a maze or a world and tells what became of it
 #[derive(clap::Args)]
 #[command(after_help = "\
 The same brain, maze, start and seed make the same run, on any machine. With the seed of a line of
@@ -22,7 +22,9 @@ Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman run wall-follow --maze mazes/large.maze --live
   tolman run wall-follow --maze mazes/large.maze --replay run.html
-  tolman run avoid --maze mazes/grid/braided-2.txt --start marked --steps 20000")]
+  tolman run avoid --maze mazes/grid/braided-2.txt --start marked --steps 20000
+  tolman run wall-follow --world mazes/worlds/rooms.json --seed 3
+  tolman run wall-follow --world mazes/worlds/hall.yaml --goal 2,0 --seed 2")]
 pub(super) struct Arguments {
     /// Who chooses the actions
     #[arg(value_parser = words(BRAINS.map(|(word, agent)| (word, agent.description(), (word, agent)))))]

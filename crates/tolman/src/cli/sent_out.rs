@@ -1,18 +1,17 @@
-use std::path::PathBuf;
-
 use anyhow::anyhow;
-use tolman_maze::MazeFile;
+use tolman_arena::course::Terrain;
 
-use super::{Failure, maze};
+use super::Failure;
+use super::ground::{Ground, required};
 use crate::start::Start;
 use crate::system::{Settings, Setup};
 
 /// Where and how a system is sent out.
 #[derive(clap::Args)]
+#[command(group(required()))]
 pub(super) struct SentOut {
-    /// The maze file, of any format; - reads standard input
-    #[arg(long, value_name = "FILE")]
-    maze: PathBuf,
+    #[command(flatten)]
+    ground: Ground,
     /// What all chance follows from
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -26,7 +25,8 @@ pub(super) struct SentOut {
     #[arg(long, value_name = "SETTING=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
     /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees from the south-west corner, counter-clockwise from east
+    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise from
+    /// east
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
     start: Option<Start>,
     /// Give up after so many time steps
@@ -35,13 +35,12 @@ pub(super) struct SentOut {
 }
 
 impl SentOut {
-    /// Reads the maze, with its name.
+    /// Reads the maze or the world, with its name.
     ///
     /// # Errors
     /// Bad input if there is none.
-    pub(super) fn maze(&self) -> Result<(String, MazeFile), Failure> {
-        let read = maze::read(&self.maze)?;
-        Ok((maze::world_name(&self.maze, &read), read))
+    pub(super) fn terrain(&self) -> Result<(String, Terrain), Failure> {
+        self.ground.read()
     }
 
     /// Refuses a preset where a map says how the system was set.
@@ -58,10 +57,10 @@ impl SentOut {
     }
 
     /// Returns what a robot is sent out with.
-    pub(super) fn setup<'a>(&'a self, (world, maze): &'a (String, MazeFile)) -> Setup<'a> {
+    pub(super) fn setup<'a>(&'a self, (world, terrain): &'a (String, Terrain)) -> Setup<'a> {
         Setup {
             world,
-            maze,
+            terrain,
             seed: self.seed,
             start: self.start,
             steps: self.steps,

@@ -2,17 +2,17 @@ use anyhow::{Context, Error, anyhow};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_arena::course::Course;
+use tolman_arena::course::{Course, Terrain};
 use tolman_arena::cpm::{
-    Layout, SimulatedEpuck, TrueFragments, epuck, epuck_course, is_whole_map_right, learn,
-    patience, ring_measures, walker_config,
+    Layout, SimulatedEpuck, TrueFragments, epuck, epuck_course, epuck_course_on,
+    is_whole_map_right, learn, patience, ring_measures, walker_config,
 };
 use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_arena::{BoxError, HasSimulated, Outing, Sent};
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, JunctionId, PlanLeg, Turn};
-use tolman_maze::{Cell, Maze, MazeFile};
+use tolman_maze::{Cell, Maze};
 use tolman_papers::cpm::drawing;
 use tolman_robot::{Landmark, Task};
 use tolman_sim::robots::{Epuck, LaserPioneer};
@@ -79,10 +79,11 @@ impl SystemEntry for CpmEntry {
         setup.anew(self.name())?;
         let names = PRESETS.map(|(name, _)| name);
         let mode = setup.settings.preset(names.into_iter().zip(modes()))?;
-        let config = CpmConfig {
-            most_traversals: patience(&setup.maze.maze),
-            ..mode.config()
-        };
+        let mut config = mode.config();
+        // Nobody has counted the corridors of a free world.
+        if let Terrain::Maze(file) = setup.terrain {
+            config.most_traversals = patience(&file.maze);
+        }
         let config = setup.settings.over(&config)?;
         let mode = mode.with(config);
         let ground = Ground::of(setup, mode, Start::Marked)?;
@@ -148,8 +149,8 @@ impl Ground {
     fn of(setup: &Setup<'_>, mode: Mode, usual: Start) -> Result<Self, Error> {
         let robot = setup.robot(CpmEntry.robots())?;
         let course = match robot {
-            EPUCK => epuck_course(setup.world, setup.maze.clone())?,
-            _ => Course::for_body(setup.world, setup.maze, &body())?,
+            EPUCK => epuck_course_on(setup.world, setup.terrain)?,
+            _ => setup.terrain.course(setup.world, &body())?,
         };
         let walker = WalkerConfig {
             heading: mode.heading(),
@@ -201,10 +202,20 @@ impl Ground {
     {
         let origin = setup.origin(&self.course, self.robot);
         let course = self.course;
-        let (world, maze) = (course.world.clone(), course.maze.clone());
         let at_start = course.start().is_ok_and(|start| start == self.start);
+        let steps = setup.steps.unwrap_or_else(|| patient(&course));
+        if course.is_free() {
+            let sent = Sent::new(course, robot, steps, cpm)
+                .choosing(cpm::Cpm::on)
+                .keeping(move |cpm, _| keep(cpm, mode, &origin))
+                .judged(|cpm, task| {
+                    let map = cpm.explorer()?.mapper.map();
+                    (task == Task::Explore).then(|| unfinished(map))?
+                });
+            return Box::new(sent);
+        }
+        let (world, maze) = (course.world.clone(), course.maze.clone());
         let ours = maze.clone();
-        let steps = setup.steps.unwrap_or(u32::MAX);
         let sent = Sent::new(course, robot, steps, cpm)
             .choosing(cpm::Cpm::on)
             .keeping(move |cpm, _| keep(cpm, mode, &origin))
@@ -224,6 +235,17 @@ impl Ground {
         Box::new(sent)
     }
 }
+
+/// Time steps after which a robot has failed where nothing else is said: in a maze its own patience ends it.
+fn patient(course: &Course) -> u32 {
+    match course.is_free() {
+        true => course.step_limit().saturating_mul(FREE_STEPS),
+        false => u32::MAX,
+    }
+}
+
+/// In a free world it may make so many times the steps of a run to the goal.
+const FREE_STEPS: u32 = 500;
 
 fn walker(robot: &str, width: f64) -> Result<WalkerConfig, Error> {
     Ok(match robot {
@@ -263,6 +285,16 @@ fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, B
         map: explorer.mapper.map().clone(),
     };
     Ok(Some(file.to_json()?))
+}
+
+/// Why a map of a free world is unfinished, as far as it knows itself: nobody has counted what is there.
+fn unfinished(map: &CpMap) -> Option<String> {
+    let open = map.open_ports().count();
+    (open > 0).then(|| {
+        format!(
+            "nobody has been through {open} of its ports: give it more --steps, or another --seed"
+        )
+    })
 }
 
 /// Why a map is not that of the whole maze, where the robot began as the maze says or elsewhere.
@@ -338,8 +370,9 @@ impl LearnedMap for MapFile {
         })
     }
 
-    fn drawing(&self, maze: &MazeFile) -> Result<Drawing, Error> {
-        Ok(drawing::over_maze(&self.map, &course_of(self, maze)?))
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+        terrain.maze("the picture of a common-pattern map")?;
+        Ok(drawing::over_maze(&self.map, &course_of(self, terrain)?))
     }
 
     fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
@@ -379,17 +412,18 @@ impl LearnedMap for MapFile {
         Ok(plan.map(|plan| plan.legs.iter().map(step).collect()))
     }
 
-    fn complaint(&self, maze: &MazeFile) -> Result<Option<String>, Error> {
-        let course = course_of(self, maze)?;
+    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
+        terrain.maze("the count of the fragments that there truly are")?;
+        let course = course_of(self, terrain)?;
         Ok(complaint(&self.map, &course.maze, true))
     }
 }
 
 /// The maze that a map was learned in, made ready for the robot that learned it.
-fn course_of(file: &MapFile, maze: &MazeFile) -> Result<Course, Error> {
+fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
     Ok(match &*file.origin.robot {
-        EPUCK => epuck_course(&file.origin.world, maze.clone())?,
-        _ => Course::for_body(&file.origin.world, maze, &body())?,
+        EPUCK => epuck_course_on(&file.origin.world, terrain)?,
+        _ => terrain.course(&file.origin.world, &body())?,
     })
 }
 

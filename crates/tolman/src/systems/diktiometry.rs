@@ -4,7 +4,7 @@ use alloc::sync::Arc;
 use anyhow::{Context, Error, anyhow};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use tolman_arena::course::Course;
+use tolman_arena::course::{Course, Terrain};
 use tolman_arena::diktiometry::{
     MapScore, Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig, office_robot,
 };
@@ -14,7 +14,7 @@ use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
 use tolman_geom::{Point, Pose};
 use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId, Use};
-use tolman_maze::{Direction, MazeFile};
+use tolman_maze::Direction;
 use tolman_papers::diktiometry::drawing::map_over_world;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
 use tolman_sim::Bounds;
@@ -31,6 +31,9 @@ const PRESETS: [(&str, &str); 1] = [(
     "paper",
     "As the paper's robot, which heeds advice in 30 % of the cases",
 )];
+
+/// What of it works in mazes alone.
+const OFFICE: &str = "the diktiometry's office";
 
 /// What can be set when it learns: of the robot's walk, and of the world, which is made of the maze.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -100,7 +103,8 @@ impl SystemEntry for DiktiometryEntry {
                 heed: before.config.heed,
             })?;
             // The maze that is given, furnished as that which was learned.
-            let office = Office::new(&setup.maze.maze, before.office.config())?;
+            let maze = setup.terrain.maze(OFFICE)?;
+            let office = Office::new(&maze.maze, before.office.config())?;
             before.office = Arc::new(office.named(setup.world));
             before.config.heed = going_on.heed;
             let survey = before.survey(setup.seed)?;
@@ -124,7 +128,8 @@ impl SystemEntry for DiktiometryEntry {
             seed: setup.seed,
             ..OfficeConfig::bare()
         };
-        let office = Office::new(&setup.maze.maze, &furniture)?;
+        let maze = setup.terrain.maze(OFFICE)?;
+        let office = Office::new(&maze.maze, &furniture)?;
         let office = Arc::new(office.named(setup.world));
         let mut config = SurveyConfig::of(&office, robot, learning.moves);
         config.heed = learning.heed;
@@ -162,7 +167,8 @@ impl SystemEntry for DiktiometryEntry {
             ..
         } = &file;
         // The maze that is given, furnished as that which was learned.
-        let office = Office::new(&setup.maze.maze, file.office.config())?;
+        let maze = setup.terrain.maze(OFFICE)?;
+        let office = Office::new(&maze.maze, file.office.config())?;
         let office = office.named(setup.world);
         let robot = &config.robot;
         let routines = robot
@@ -370,7 +376,7 @@ impl LearnedMap for Surveyed {
         })
     }
 
-    fn drawing(&self, _maze: &MazeFile) -> Result<Drawing, Error> {
+    fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, Error> {
         Ok(map_over_world(&self.file.office, &self.survey))
     }
 
@@ -415,7 +421,7 @@ impl LearnedMap for Surveyed {
         Ok(Some(steps.collect()))
     }
 
-    fn complaint(&self, _maze: &MazeFile) -> Result<Option<String>, Error> {
+    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
         Ok(complaint(&self.survey))
     }
 }

@@ -2,11 +2,10 @@ use alloc::sync::Arc;
 
 use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
-use tolman_arena::course::Course;
+use tolman_arena::course::Terrain;
 use tolman_arena::pioneer::{LASER_PIONEER, body};
 use tolman_arena::{Outing, Sent};
 use tolman_draw::Drawing;
-use tolman_maze::MazeFile;
 use tolman_papers::mslst::drawing::graph_over_maze;
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use tolman_systems::{Actor, Origin};
@@ -173,8 +172,8 @@ impl LearnedMap for MapFile {
         })
     }
 
-    fn drawing(&self, maze: &MazeFile) -> Result<Drawing, Error> {
-        let course = Course::for_body(&self.origin.world, maze, &body())?;
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+        let course = terrain.course(&self.origin.world, &body())?;
         Ok(graph_over_maze(&course, &self.learned))
     }
 
@@ -196,7 +195,7 @@ impl LearnedMap for MapFile {
         Ok(path.map(|path| path.iter().map(ToString::to_string).collect()))
     }
 
-    fn complaint(&self, _maze: &MazeFile) -> Result<Option<String>, Error> {
+    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
         Ok(complaint(&self.learned.map))
     }
 }

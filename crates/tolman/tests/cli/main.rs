@@ -16,6 +16,7 @@ mod mouse;
 mod replay;
 mod run;
 mod survey;
+mod world;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -147,3 +147,40 @@ fn our_own_mouse_solves_a_folder() {
     tolman_in(&folder, &["mouse", "--mms", "a.maze"]).refused(2, &["--mms"]);
     tolman_in(&folder, &["mouse"]).refused(2, &["FILE|DIR"]);
 }
+
+#[test]
+fn a_hosted_mouse_is_written_down_and_played() {
+    let script = SOLVER.replace("ask moveForward\n", "ask wallFront\nask moveForward\n");
+    let looks = ["--trace", "m.jsonl", "--replay", "m.html", "--svg", "m.svg"];
+    let told = host_in("hosted-looks", &script, &[("middle.maze", MIDDLE)], &looks);
+    let told = told.done();
+    assert!(
+        told.contains("solved") && told.contains("replay: file://"),
+        "{told}"
+    );
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosted-looks");
+    let trace = std::fs::read_to_string(folder.join("m.jsonl")).unwrap();
+    let lines: Vec<serde_json::Value> = trace
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(lines[0]["format"], "tolman-mouse-trace");
+    assert_eq!(lines[0]["rules"], "mms");
+    assert_eq!(lines.len(), 4, "three movements");
+    assert_eq!(lines[1]["sensed"][0]["wall"], false);
+    assert_eq!(
+        (&lines[1]["move"], &lines[1]["cell"]["y"]),
+        (&"moveForward".into(), &1.into())
+    );
+    assert_eq!(lines[3]["cell"]["x"], 1);
+    for file in ["m.html", "m.svg"] {
+        assert!(folder.join(file).is_file());
+    }
+    let told = host_in(
+        "hosted-many",
+        SOLVER,
+        &[("a.maze", MIDDLE), ("b.maze", SQUARE)],
+        &looks,
+    );
+    told.refused(2, &["--svg is of one maze", "holds 2"]);
+}

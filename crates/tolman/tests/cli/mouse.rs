@@ -17,14 +17,15 @@ o   o   o---o---o   o
 o---o---o---o---o---o
 ";
 
-/// The rules once more, as short as they go: the steps of both runs.
+/// The rules once more, as short as they go: the steps of both runs. Each step says where it led.
 fn replay(maze: &Maze, text: &str) -> Option<(u32, u32)> {
     let start = maze.start()?;
     let (mut at, mut heading) = start;
     let (mut steps, mut hit, mut run_1) = (0, false, None);
-    for line in text.lines() {
+    for line in text.lines().skip(1) {
         let order: Value = serde_json::from_str(line).unwrap();
         steps += 1;
+        assert_eq!(order["step"], steps);
         if order["rotation"] == "Reset" && order["movement"] == "Reset" {
             assert!(hit && run_1.is_none(), "a reset the rules do not allow");
             run_1 = Some(steps);
@@ -51,6 +52,11 @@ fn replay(maze: &Maze, text: &str) -> Option<(u32, u32)> {
             at = maze.grid().neighbour(at, ahead)?;
         }
         hit |= maze.goals().contains(&at);
+        assert_eq!(
+            (&order["cell"]["x"], &order["cell"]["y"]),
+            (&at.x.into(), &at.y.into())
+        );
+        assert_eq!(order["heading"], heading.to_string());
         if let Some(run_1) = run_1
             && maze.goals().contains(&at)
         {
@@ -73,11 +79,20 @@ fn the_steps_it_writes_make_the_score_it_tells() {
     for search in ["certify", "certify-plain", "target", "counter-50", "random"] {
         let folder = with_maze(&format!("mouse-steps-{search}"));
         let arguments = [
-            "mouse", "a.maze", "--search", search, "--steps", "s.jsonl", "--json",
+            "mouse", "a.maze", "--search", search, "--trace", "s.jsonl", "--json",
         ];
         let told = tolman_in(&folder, &arguments).done();
         let told: Value = serde_json::from_str(&told).unwrap();
         let steps = std::fs::read_to_string(folder.join("s.jsonl")).unwrap();
+        let header: Value = serde_json::from_str(steps.lines().next().unwrap()).unwrap();
+        assert_eq!(
+            (&header["format"], &header["version"]),
+            (&"tolman-mouse-trace".into(), &1.into())
+        );
+        assert_eq!(
+            (&header["maze"], &header["search"]),
+            (&"a.maze".into(), &search.into())
+        );
         let (run_1, run_2) = replay(&maze, &steps).unwrap();
         assert_eq!(
             (told["run_1"].as_u64(), told["run_2"].as_u64()),
@@ -116,7 +131,10 @@ fn a_folder_ends_in_a_drawing_and_a_summary() {
         last.starts_with("2 mazes: 2 finished, 2 proven; mean score "),
         "{last}"
     );
-    tolman_in(&folder, &["mouse", "mazes", "--steps", "s.jsonl"]).refused(2, &["--steps", "2"]);
+    for look in ["--trace", "--replay", "--svg"] {
+        tolman_in(&folder, &["mouse", "mazes", look, "x"]).refused(2, &[look, "mazes holds 2"]);
+    }
+    tolman_in(&folder, &["mouse", "mazes", "--live"]).refused(2, &["--live", "name a file"]);
 }
 
 #[test]
@@ -145,4 +163,27 @@ fn what_no_mouse_can_run_in_is_refused() {
     tolman_in(&folder, &["mouse", "large.maze"]).refused(2, &["large.maze", "40 × 3", "32 × 32"]);
     tolman_in(&folder, &["mouse", "none.maze"]).refused(2, &["none.maze"]);
     tolman_in(&folder, &["mouse", "a.maze", "--search", "luck"]).refused(2, &["luck", "certify"]);
+}
+
+#[test]
+fn a_run_is_drawn_and_played() {
+    let folder = with_maze("mouse-looks");
+    let looks = [
+        "mouse", "a.maze", "--svg", "m.svg", "--replay", "m.html", "--live",
+    ];
+    let told = tolman_in(&folder, &looks).done();
+    assert!(
+        told.contains("proven") && told.contains("replay: file://"),
+        "{told}"
+    );
+    let picture = std::fs::read_to_string(folder.join("m.svg")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains("trajectory"));
+    let replay = std::fs::read_to_string(folder.join("m.html")).unwrap();
+    assert!(
+        replay.contains("walls it knows"),
+        "the walls that the mouse knew"
+    );
+    std::fs::write(folder.join("other.html"), "mine").unwrap();
+    let other = ["mouse", "a.maze", "--replay", "other.html"];
+    tolman_in(&folder, &other).refused(2, &["other.html", "--force"]);
 }

@@ -6,8 +6,8 @@ use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::Line as Text;
 use ratatui::widgets::canvas::{Canvas, Circle, Context, Line, Points};
-use tolman_geom::{Point, Pose};
-use tolman_sim::{Area, Zone};
+use tolman_geom::{Point, Pose, Vector};
+use tolman_sim::{Area, Bounds, Zone};
 
 use super::palette;
 use super::view::{Beams, View};
@@ -105,9 +105,7 @@ fn floor(context: &mut Context<'_>, zone: &Zone, window: Window, color: Color) {
     let spacing = FLOOR_SPACING * window.metres_per_dot;
     let mut dots = Vec::new();
     for area in zone.areas() {
-        let Area::Rectangle(bounds) = *area else {
-            continue;
-        };
+        let bounds = bounds(area);
         let count = |extent: f64| (extent / spacing) as u32;
         for column in 0..=count(bounds.width()) {
             for row in 0..=count(bounds.height()) {
@@ -120,6 +118,20 @@ fn floor(context: &mut Context<'_>, zone: &Zone, window: Window, color: Color) {
     }
     dots.retain(|(x, y)| zone.contains(Point::new(*x, *y)));
     context.draw(&Points::new(&dots, color));
+}
+
+/// The smallest rectangle that holds a part of the floor.
+fn bounds(area: &Area) -> Bounds {
+    match *area {
+        Area::Rectangle(bounds) => bounds,
+        Area::Disc { centre, radius } => {
+            let corner = Vector::new(radius, radius);
+            Bounds {
+                min: centre - corner,
+                max: centre + corner,
+            }
+        }
+    }
 }
 
 /// The arrow nearest to a heading.

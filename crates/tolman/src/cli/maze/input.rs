@@ -71,7 +71,11 @@ pub(in crate::cli) fn world_name(path: &Path, file: &MazeFile) -> String {
     file.name.clone().unwrap_or_else(|| name(path))
 }
 
-fn text(path: &Path) -> Result<String, Failure> {
+/// Reads the text of a file, or of stdin if the path is `-`.
+///
+/// # Errors
+/// Bad input with the file's name.
+pub(in crate::cli) fn text(path: &Path) -> Result<String, Failure> {
     let bytes = if is_stdin(path) {
         let mut bytes = Vec::new();
         io::stdin().read_to_end(&mut bytes).map(|_| bytes)
@@ -79,13 +83,13 @@ fn text(path: &Path) -> Result<String, Failure> {
         fs::read(path)
     };
     let bytes = bytes
-        .with_context(|| format!("cannot read {}; give the path of a maze file", name(path)))
+        .with_context(|| format!("cannot read {}; give the path of a file", name(path)))
         .or_bad_input()?;
     String::from_utf8(bytes)
         .map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             anyhow!(
-                "{}: byte {at} is not UTF-8 text: expected a maze in text form",
+                "{}: byte {at} is not UTF-8 text: expected a maze or a world in text form",
                 name(path)
             )
         })

@@ -16,7 +16,7 @@ use clap::Subcommand;
 
 use super::{App, Failure, OrBadInput, file};
 pub(super) use collection::{Collection, all_solved, each};
-pub(super) use input::{name, read, world_name};
+pub(super) use input::{name, read, text, world_name};
 
 /// Looks at mazes, checks, converts and makes them
 #[derive(Subcommand)]

@@ -1,7 +1,6 @@
 //! What `tolman run` and `tolman solve` have in common: one robot, one maze, one seed.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
@@ -15,24 +14,26 @@ use tolman_replay::Fact;
 use tolman_sim::robots::LaserPioneerConfig;
 
 use super::trace;
+use crate::cli::ground::{Ground, required};
 use crate::cli::live::{self, Live, Scene};
 use crate::cli::looks::Looks;
 use crate::cli::picture;
 use crate::cli::replay_file;
-use crate::cli::{Failure, OrBadInput, file, maze};
+use crate::cli::{Failure, OrBadInput, file};
 use crate::start::Start;
 
 /// Where and how a robot runs, and what is kept of it.
 #[derive(clap::Args)]
+#[command(group(required()))]
 pub(in crate::cli) struct Outing {
-    /// The maze file, of any format; - reads standard input
-    #[arg(long, value_name = "FILE")]
-    maze: PathBuf,
+    #[command(flatten)]
+    ground: Ground,
     /// What all chance of the run follows from
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Where the robot starts: random, marked (where the maze says), or X,Y or X,Y,DEG in metres
-    /// and degrees from the south-west corner, counter-clockwise from east
+    /// and degrees, from the south-west corner of a maze or as a world has it, counter-clockwise from
+    /// east
     #[arg(
         long,
         value_name = "WHERE",
@@ -59,15 +60,14 @@ pub(in crate::cli) struct Name<'a> {
     pub(in crate::cli) nodes: &'a [Point],
 }
 
-/// Reads a maze file as a course for the calibrated robot.
+/// Makes a maze or a world ready for the calibrated robot.
 ///
 /// # Errors
-/// Bad input if there is no maze, or the robot does not fit.
-pub(in crate::cli) fn course(path: &Path) -> Result<Course, Failure> {
-    let read = maze::read(path)?;
-    Course::for_body(&maze::world_name(path, &read), &read, &body())
-        .with_context(|| maze::name(path))
-        .or_bad_input()
+/// Bad input if there is none, or the robot does not fit.
+fn course(ground: &Ground) -> Result<Course, Failure> {
+    let (name, terrain) = ground.read()?;
+    let course = terrain.course(&name, &body()).with_context(|| name);
+    course.or_bad_input()
 }
 
 /// Sends the mind that `mind` makes out, and tells what became of it.
@@ -83,7 +83,7 @@ pub(in crate::cli) fn carry_out(
     let looks = &arguments.looks;
     let overwrite = looks.overwrite()?;
     let robot = calibrated();
-    let course = course(&arguments.maze)?;
+    let course = course(&arguments.ground)?;
     let random = || Some(episode::random_start(&course, &body(), arguments.seed));
     let start = arguments.start.on(&course, random).or_bad_input()?;
     let trial = Trial {
@@ -181,9 +181,10 @@ fn told(word: &str, episode: &Episode) -> String {
 /// A start or a maze that does not serve is the caller's to mend.
 pub(super) fn classify(error: EpisodeError) -> Failure {
     match error {
-        EpisodeError::Start(_) | EpisodeError::Layers(_) | EpisodeError::Policy { .. } => {
-            Failure::BadInput(error.into())
-        }
+        EpisodeError::Start(_)
+        | EpisodeError::Course(_)
+        | EpisodeError::Layers(_)
+        | EpisodeError::Policy { .. } => Failure::BadInput(error.into()),
         _ => Failure::Failed(error.into()),
     }
 }

@@ -1,0 +1,58 @@
+use tolman_maze::MazeFile;
+use tolman_robot::Body;
+use tolman_sim::World;
+
+use super::{Course, CourseError};
+use crate::pioneer::CORRIDOR_WIDTH;
+
+/// What robots can be sent into: a maze, or a world whose walls stand anywhere.
+#[derive(Clone, Debug)]
+pub enum Terrain {
+    /// A maze of cells.
+    Maze(MazeFile),
+    /// Free walls, or an occupancy grid.
+    Free(FreeWorld),
+}
+
+/// A world whose walls stand anywhere.
+#[derive(Clone, Debug)]
+pub struct FreeWorld {
+    /// Its walls and doors, with the zones `destination` and, maybe, `start`.
+    pub world: World,
+    /// How wide control layers and detectors take its corridors to be, m; `None` for what the robot's mazes have.
+    pub corridor_width: Option<f64>,
+}
+
+impl Terrain {
+    /// Returns the maze, for what works in mazes alone; `what` is that, as in "the oracle".
+    ///
+    /// # Errors
+    /// [`CourseError::NoMaze`] of a free world.
+    pub fn maze(&self, what: &'static str) -> Result<&MazeFile, CourseError> {
+        match self {
+            Self::Maze(file) => Ok(file),
+            Self::Free(_) => Err(CourseError::NoMaze { what }),
+        }
+    }
+
+    /// Returns it as a course to its destination for a robot of this `body`, in corridors as wide as it says, or else
+    /// MSLST's 1.9 robot units. See [`Course::for_body`] and [`Course::in_free_world`].
+    ///
+    /// # Errors
+    /// As those.
+    pub fn course(&self, name: &str, body: &Body) -> Result<Course, CourseError> {
+        match self {
+            Self::Maze(file) => Course::for_body(name, file, body),
+            Self::Free(free) => {
+                let width = free.corridor_width.unwrap_or(CORRIDOR_WIDTH);
+                Course::in_free_world(name, free.world.clone(), width, body)
+            }
+        }
+    }
+}
+
+impl From<MazeFile> for Terrain {
+    fn from(file: MazeFile) -> Self {
+        Self::Maze(file)
+    }
+}

@@ -1,0 +1,138 @@
+use tolman_maze::{Cell, Direction, Grid};
+use tolman_systems::micromouse::mms::{Gate, LatticeHeading, LatticePoint};
+
+use super::Simulator;
+use super::simulator::eighths_of;
+use crate::micromouse::SideSeen;
+
+/// A line of a mouse, and what came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exchange {
+    /// What the mouse said.
+    pub line: String,
+    /// What it was answered; `None` if it needs no answer.
+    pub reply: Option<String>,
+    /// Where it is afterwards.
+    pub place: LatticePoint,
+    /// Where it looks afterwards.
+    pub heading: LatticeHeading,
+    /// Whether it moved, turned, ran against a wall or was put back.
+    pub is_movement: bool,
+}
+
+impl Exchange {
+    /// Lets `simulator` answer a line.
+    pub fn of(simulator: &mut Simulator<'_>, line: &str) -> Self {
+        let count = |simulator: &Simulator<'_>| simulator.movements() + simulator.crashes();
+        let before = count(simulator);
+        let reply = simulator.answer(line);
+        let is_movement = count(simulator) > before || line.trim() == "ackReset";
+        Self {
+            line: line.trim().to_owned(),
+            reply,
+            place: simulator.place(),
+            heading: simulator.heading(),
+            is_movement,
+        }
+    }
+
+    /// Returns the sides of cells that the mouse was told of in a maze of this size: none but for questions for walls. Where a wall
+    /// stands somewhere within several half-steps, it is the one side of which the mouse does not know that it `is_open`.
+    #[must_use]
+    pub fn sides_seen(
+        &self,
+        grid: Grid,
+        is_open: impl Fn(Cell, Direction) -> bool,
+    ) -> Vec<SideSeen> {
+        let mut words = self.line.split_ascii_whitespace();
+        let eighths = words.next().and_then(eighths_of);
+        let (Some(eighths), Some(reply)) = (eighths, self.reply.as_deref()) else {
+            return Vec::new();
+        };
+        let half_steps = words.next().map_or(1, |text| text.parse().unwrap_or(0));
+        let stands = reply == "true";
+        let seen = |(cell, side)| SideSeen { cell, side, stands };
+        let sides = self.sides_within(half_steps.max(1), eighths, grid);
+        if !stands {
+            return sides.map(seen).collect();
+        }
+        let mut shut = sides.filter(|(cell, side)| !is_open(*cell, *side));
+        match (shut.next(), shut.next()) {
+            (Some(only), None) => vec![seen(only)],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The sides of cells that lie within so many half-steps, up to the border or a post.
+    fn sides_within(
+        &self,
+        half_steps: usize,
+        eighths: i8,
+        grid: Grid,
+    ) -> impl Iterator<Item = (Cell, Direction)> {
+        let heading = self.heading.turned(eighths);
+        let places = core::iter::successors(Some(self.place), move |place| {
+            let ends = place.gate(heading, grid) == Gate::Solid;
+            (!ends).then(|| place.ahead(heading))
+        });
+        places
+            .take(half_steps)
+            .filter_map(move |place| ahead(place, heading, grid))
+    }
+}
+
+/// The side of a cell that lies half a step ahead of a place, if one does.
+fn ahead(place: LatticePoint, heading: LatticeHeading, grid: Grid) -> Option<(Cell, Direction)> {
+    let is_middle = place.x % 2 == 1 && place.y % 2 == 1;
+    match (place.gate(heading, grid), heading.side()) {
+        (Gate::None, _) => None,
+        // The border is a side, too.
+        (_, Some(side)) if is_middle => Some((place.cell(), side)),
+        (Gate::Edge(cell, side), _) => Some((cell, side)),
+        (Gate::Solid, _) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_question_for_a_wall_tells_of_it() {
+        let maze = "+---+---+\n|     G |\n+   +   +\n| S |   |\n+---+---+\n";
+        let maze = tolman_maze::read(maze).unwrap().maze;
+        let mut simulator = Simulator::new(&maze);
+        let mut seen = |line: &str| {
+            let exchange = Exchange::of(&mut simulator, line);
+            let is_open = |cell: Cell, side| cell.y == 0 && side == Direction::North;
+            (
+                exchange.is_movement,
+                exchange.sides_seen(maze.grid(), is_open),
+            )
+        };
+        let side = |y, side, stands| SideSeen {
+            cell: Cell::new(0, y),
+            side,
+            stands,
+        };
+        assert_eq!(
+            seen("wallRight"),
+            (false, vec![side(0, Direction::East, true)])
+        );
+        assert_eq!(
+            seen("wallFront 2"),
+            (false, vec![side(0, Direction::North, false)])
+        );
+        assert_eq!(
+            seen("wallFront 9"),
+            (false, vec![side(1, Direction::North, true)]),
+            "what is left"
+        );
+        assert_eq!(seen("moveForward"), (true, vec![]));
+        assert_eq!(
+            seen("wallRight"),
+            (false, vec![side(1, Direction::East, false)])
+        );
+        assert_eq!(seen("mazeWidth"), (false, vec![]));
+    }
+}

@@ -1,0 +1,26 @@
+//! Other people's files, read into plain structs.
+//!
+//! [`RosMap`] is an occupancy grid as `map_server` of ROS writes it: a YAML file with the grid's scale and place, and a PGM
+//! picture beside it. [`RosMapHeader`] and [`GreyMap`] are the two files by themselves.
+//!
+//! ```
+//! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};
+//! let yaml = "image: hall.pgm\nresolution: 0.5\norigin: [-1.0, 0.0, 0.0]\nnegate: 0\n\
+//!             occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+//! let header = RosMapHeader::parse(yaml)?;
+//! assert_eq!(header.image, "hall.pgm");
+//! let picture = GreyMap::parse(b"P2 2 1 255\n254 0\n")?;
+//! let map = RosMap::of(&header, &picture);
+//! assert_eq!((map.width, map.height), (2, 1));
+//! assert_eq!(map.cells, [MapCell::Free, MapCell::Occupied]);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+// What the signatures need, whole: see docs/architecture.md, API boundaries.
+pub use tolman_geom as geom;
+
+mod ros_map;
+
+pub use ros_map::{
+    GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
+};

@@ -1,0 +1,147 @@
+//! Occupancy grids of ROS `map_server`, as its page says:
+//! <https://wiki.ros.org/map_server> ("Map format", "Value interpretation").
+
+mod grey_map;
+mod header;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+use tolman_geom::Point;
+
+pub use grey_map::{GreyMap, GreyMapError};
+pub use header::{RosMapHeader, RosMapHeaderError};
+
+/// An occupancy grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RosMap {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Size of a cell, m.
+    pub resolution: f64,
+    /// The south-west corner of the grid, m.
+    pub origin: Point,
+    /// What each cell holds, row by row from the south-west.
+    pub cells: Vec<MapCell>,
+}
+
+/// What is known of a cell of an occupancy grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapCell {
+    /// Floor.
+    Free,
+    /// A wall, or a thing.
+    Occupied,
+    /// Nobody has looked.
+    Unknown,
+}
+
+/// Why an occupancy grid cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RosMapError {
+    /// One of its two files cannot be read.
+    #[error("cannot read {}; give a .yaml of map_server with its picture beside it", path.display())]
+    File {
+        /// Which file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The YAML file is not UTF-8 text.
+    #[error("{}: byte {byte} is not UTF-8 text; give the .yaml, not its picture", path.display())]
+    Text {
+        /// Which file.
+        path: PathBuf,
+        /// The first byte at fault, from 0.
+        byte: usize,
+    },
+    /// The YAML file is not that of a map.
+    #[error("{}", path.display())]
+    Header {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        source: RosMapHeaderError,
+    },
+    /// The picture is not one.
+    #[error("{}", path.display())]
+    Picture {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it, and where.
+        source: GreyMapError,
+    },
+}
+
+impl RosMap {
+    /// Reads the map whose YAML file lies at `path`. The picture is looked for beside it, if its name does not begin at the
+    /// root.
+    ///
+    /// # Errors
+    /// [`RosMapError`] with the file, and the line or byte at fault.
+    pub fn read(path: &Path) -> Result<Self, RosMapError> {
+        let bytes = load(path)?;
+        let text = core::str::from_utf8(&bytes).map_err(|error| RosMapError::Text {
+            path: path.to_owned(),
+            byte: error.valid_up_to(),
+        })?;
+        let header = RosMapHeader::parse(text).map_err(|source| RosMapError::Header {
+            path: path.to_owned(),
+            source,
+        })?;
+        let path = path.with_file_name(&header.image);
+        let picture = GreyMap::parse(&load(&path)?);
+        let picture = picture.map_err(|source| RosMapError::Picture { path, source })?;
+        Ok(Self::of(&header, &picture))
+    }
+
+    /// Returns what `header` makes of `picture`, whose first row is the northernmost. O(pixels).
+    #[must_use]
+    pub fn of(header: &RosMapHeader, picture: &GreyMap) -> Self {
+        let most = f64::from(picture.most);
+        let rows = picture.values.chunks(picture.width.max(1)).rev();
+        let values = rows.flatten().map(|value| f64::from(*value) / most);
+        Self {
+            width: picture.width,
+            height: picture.height,
+            resolution: header.resolution,
+            origin: header.origin,
+            cells: values.map(|light| header.cell(light)).collect(),
+        }
+    }
+}
+
+fn load(path: &Path) -> Result<Vec<u8>, RosMapError> {
+    fs::read(path).map_err(|source| RosMapError::File {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_picture_s_last_row_is_the_southernmost() {
+        let yaml = "image: a.pgm\nresolution: 0.1\norigin: [-1, 2, 0]\nnegate: 0\n\
+                    occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+        let header = RosMapHeader::parse(yaml).unwrap();
+        let picture = GreyMap::parse(b"P2\n2 2\n255\n254 0\n205 254\n").unwrap();
+        let map = RosMap::of(&header, &picture);
+        use MapCell::{Free, Occupied, Unknown};
+        assert_eq!(map.cells, [Unknown, Free, Free, Occupied]);
+        assert_eq!(map.origin, Point::new(-1.0, 2.0));
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_named() {
+        let error = RosMap::read(Path::new("nowhere/hall.yaml")).unwrap_err();
+        assert!(error.to_string().contains("nowhere/hall.yaml"), "{error}");
+    }
+}

@@ -1,0 +1,283 @@
+use thiserror::Error;
+
+/// A grey picture in the portable grey map format (PGM), binary (`P5`) or plain (`P2`).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GreyMap {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// The value of white, 1 … 65535.
+    pub most: u16,
+    /// The values, row by row from the top, 0 … `most`.
+    pub values: Vec<u16>,
+}
+
+/// Why a picture cannot be read. Bytes are counted from 0.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum GreyMapError {
+    /// It does not begin as a grey picture.
+    #[error("byte 0: expected P5 or P2; save the picture as a grey PGM")]
+    Magic,
+    /// A number is expected.
+    #[error("byte {byte}: expected {what}; save the picture anew as a PGM")]
+    Number {
+        /// Where.
+        byte: usize,
+        /// What the number says.
+        what: &'static str,
+    },
+    /// A number is out of its range.
+    #[error("byte {byte}: {what} is {value}, and may be 1 to {most}; save the picture anew")]
+    Range {
+        /// Where.
+        byte: usize,
+        /// What the number says.
+        what: &'static str,
+        /// What it is.
+        value: u64,
+        /// What it may be.
+        most: u64,
+    },
+    /// A value is brighter than white.
+    #[error("byte {byte}: value {value} is above the picture's white, {most}; correct one of them")]
+    TooBright {
+        /// Where.
+        byte: usize,
+        /// The value.
+        value: u64,
+        /// That of white.
+        most: u16,
+    },
+    /// The picture ends too early.
+    #[error("byte {byte}: the picture ends, with {found} of {wanted} values; copy it anew")]
+    TooShort {
+        /// Where it ends.
+        byte: usize,
+        /// Values that are there.
+        found: usize,
+        /// Values there should be.
+        wanted: usize,
+    },
+}
+
+/// The longest side that is read: more is a torn header, not a map.
+const MOST_SIDE: u64 = 100_000;
+
+impl GreyMap {
+    /// Reads a picture. What follows the last value is passed over, as others do. O(bytes).
+    ///
+    /// # Errors
+    /// [`GreyMapError`] with the byte at fault.
+    pub fn parse(bytes: &[u8]) -> Result<Self, GreyMapError> {
+        let plain = match bytes.get(..2) {
+            Some(b"P2") => true,
+            Some(b"P5") => false,
+            _ => return Err(GreyMapError::Magic),
+        };
+        let mut reader = Reader { bytes, at: 2 };
+        let width = reader.size("its width", MOST_SIDE)? as usize;
+        let height = reader.size("its height", MOST_SIDE)? as usize;
+        let most = reader.size("the value of white", u64::from(u16::MAX))? as u16;
+        let wanted = width * height;
+        let values = match plain {
+            true => reader.plain(wanted, most)?,
+            false => reader.binary(wanted, most)?,
+        };
+        Ok(Self {
+            width,
+            height,
+            most,
+            values,
+        })
+    }
+}
+
+/// A place in a picture.
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Reader<'_> {
+    /// Passes over blanks and comments, which run from # to the end of their line.
+    fn skip_blanks(&mut self) {
+        while let Some(byte) = self.bytes.get(self.at) {
+            match byte {
+                b'#' => self.skip_line(),
+                byte if byte.is_ascii_whitespace() => self.at += 1,
+                _ => return,
+            }
+        }
+    }
+
+    fn skip_line(&mut self) {
+        let rest = self.bytes[self.at..].iter();
+        self.at += rest.take_while(|byte| !b"\r\n".contains(byte)).count();
+    }
+
+    /// The next number, if there is one; one too large to hold is the largest.
+    fn number(&mut self) -> Option<u64> {
+        self.skip_blanks();
+        let rest = self.bytes[self.at..].iter();
+        let digits = rest.take_while(|byte| byte.is_ascii_digit());
+        let digits: Vec<u64> = digits.map(|digit| u64::from(digit - b'0')).collect();
+        self.at += digits.len();
+        let value = digits.iter().fold(0_u64, |value, digit| {
+            value.saturating_mul(10).saturating_add(*digit)
+        });
+        (!digits.is_empty()).then_some(value)
+    }
+
+    fn size(&mut self, what: &'static str, most: u64) -> Result<u64, GreyMapError> {
+        self.skip_blanks();
+        let byte = self.at;
+        let number = self.number().ok_or(GreyMapError::Number { byte, what })?;
+        match (1..=most).contains(&number) {
+            true => Ok(number),
+            false => Err(GreyMapError::Range {
+                byte,
+                what,
+                value: number,
+                most,
+            }),
+        }
+    }
+
+    /// The values as words. A value takes two bytes or more, so that no header asks for more memory than its file.
+    fn plain(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
+        let mut values = Vec::new();
+        while values.len() < wanted {
+            self.skip_blanks();
+            let byte = self.at;
+            match self.number() {
+                Some(value) if value <= u64::from(most) => values.push(value as u16),
+                Some(value) => return Err(GreyMapError::TooBright { byte, value, most }),
+                None => return Err(self.ended(byte, values.len(), wanted)),
+            }
+        }
+        Ok(values)
+    }
+
+    /// What is wrong where a value should be.
+    fn ended(&self, byte: usize, found: usize, wanted: usize) -> GreyMapError {
+        if byte == self.bytes.len() {
+            return GreyMapError::TooShort {
+                byte,
+                found,
+                wanted,
+            };
+        }
+        let what = "a value";
+        GreyMapError::Number { byte, what }
+    }
+
+    /// The values as bytes, or as pairs of them with the higher one first where white is above 255.
+    fn binary(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
+        // One blank, and one only: the next byte may be a value that looks like another.
+        let first = self.at + 1;
+        let rest = self.bytes.get(first..).unwrap_or_default();
+        let wide = if most > 255 { 2 } else { 1 };
+        if rest.len() / wide < wanted {
+            return Err(GreyMapError::TooShort {
+                byte: self.bytes.len(),
+                found: rest.len() / wide,
+                wanted,
+            });
+        }
+        let values = rest.chunks_exact(wide).take(wanted).enumerate();
+        let value = |(index, bytes): (usize, &[u8])| {
+            let value = bytes
+                .iter()
+                .fold(0, |value, byte| 256 * value + u64::from(*byte));
+            let byte = first + wide * index;
+            match value <= u64::from(most) {
+                true => Ok(value as u16),
+                false => Err(GreyMapError::TooBright { byte, value, most }),
+            }
+        };
+        values.map(value).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn both_forms_are_read_with_comments() {
+        let plain = GreyMap::parse(b"P2 # made by hand\n3 1\n# white\n15\n0 7\n15").unwrap();
+        assert_eq!((plain.width, plain.height, plain.most), (3, 1, 15));
+        assert_eq!(plain.values, [0, 7, 15]);
+        let binary =
+            GreyMap::parse(b"P5\n# CREATOR: map_saver\n2 2\n255\n\x00\x0a\x23\xfe").unwrap();
+        assert_eq!(binary.values, [0, 10, 35, 254], "blanks and # are values");
+        let wide = GreyMap::parse(b"P5 1 2 1000\n\x03\xe8\x00\x01").unwrap();
+        assert_eq!(wide.values, [1000, 1]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_byte() {
+        for (bytes, expect) in [
+            (&b"P6 1 1 255\n\0"[..], "byte 0: expected P5 or P2"),
+            (b"", "byte 0: expected P5 or P2"),
+            (b"P5 2", "byte 4: expected its height"),
+            (b"P5 0 1 255\n", "byte 3: its width is 0"),
+            (b"P5 1 1 70000\n", "byte 7: the value of white is 70000"),
+            (
+                b"P5 2 2 255\nab",
+                "byte 13: the picture ends, with 2 of 4 values",
+            ),
+            (b"P5 99999 99999 255\na", "with 1 of 9999800001 values"),
+            (
+                b"P5 2 1 9\n\x03\x0a",
+                "byte 10: value 10 is above the picture's white, 9",
+            ),
+            (b"P2 2 1 9\n3 10", "byte 11: value 10 is above"),
+            (b"P2 2 1 9\n3 x", "byte 11: expected a value"),
+            (
+                b"P2 2 1 9\n3 ",
+                "byte 11: the picture ends, with 1 of 2 values",
+            ),
+            (
+                b"P2 99999999999999999999 1 9\n",
+                "byte 3: its width is 18446744073709551615",
+            ),
+        ] {
+            let error = GreyMap::parse(bytes).unwrap_err().to_string();
+            assert!(error.contains(expect), "{error}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_bytes_are_too_strange(bytes in proptest::collection::vec(any::<u8>(), 0..64), form in 0..2) {
+            let magic = [b"P2 ", b"P5 "][form as usize];
+            for bytes in [bytes.clone(), [&magic[..], &bytes[..]].concat()] {
+                if let Ok(picture) = GreyMap::parse(&bytes) {
+                    prop_assert_eq!(picture.values.len(), picture.width * picture.height);
+                    prop_assert!(picture.values.iter().all(|value| *value <= picture.most));
+                }
+            }
+        }
+
+        #[test]
+        fn what_is_written_is_read(width in 1_usize..6, values in proptest::collection::vec(0_u16..=300, 1..30)) {
+            let height = values.len() / width;
+            prop_assume!(height > 0);
+            let values = &values[..width * height];
+            let words: Vec<String> = values.iter().map(u16::to_string).collect();
+            let plain = format!("P2\n{width} {height}\n300\n{}\n", words.join(" "));
+            let mut binary = format!("P5\n{width} {height}\n300\n").into_bytes();
+            binary.extend(values.iter().flat_map(|value| value.to_be_bytes()));
+            for bytes in [plain.into_bytes(), binary] {
+                let read = GreyMap::parse(&bytes).unwrap();
+                prop_assert_eq!((read.width, read.height), (width, height));
+                prop_assert_eq!(&read.values[..], values);
+            }
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Where robots are sent: `--maze FILE`, or `--world FILE` with `--goal` and `--corridor`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Error, anyhow};
+use clap::ArgGroup;
+use tolman_arena::course::{FreeWorld, Terrain};
+use tolman_formats::{MapCell, RosMap};
+use tolman_geom::Point;
+use tolman_sim::{Area, Occupancy, World, Zone};
+
+use super::{Failure, OrBadInput, maze};
+
+/// Where robots are sent.
+#[derive(clap::Args)]
+#[command(group(ArgGroup::new("ground").args(["maze", "world"])))]
+pub(super) struct Ground {
+    /// The maze file, of any format; - reads standard input
+    #[arg(long, value_name = "FILE")]
+    maze: Option<PathBuf>,
+    /// Instead of a maze, a world whose walls stand anywhere: a tolman-world file (JSON), or the .yaml of a ROS map with its picture
+    /// beside it, of which unknown cells count as occupied; - reads a tolman-world from standard input
+    #[arg(long, value_name = "FILE")]
+    world: Option<PathBuf>,
+    /// Put the destination of --world here, m: a disc, of radius 0.5 m if no other is given
+    #[arg(
+        long,
+        value_name = "X,Y[,RADIUS]",
+        requires = "world",
+        allow_hyphen_values = true
+    )]
+    goal: Option<Goal>,
+    /// How wide the robot is to take the corridors of --world to be, m; if not given, as wide as its mazes' corridors are: 0.95 for
+    /// the Pioneer, 0.25 for the e-puck
+    #[arg(long, value_name = "WIDTH", requires = "world", value_parser = width)]
+    corridor: Option<f64>,
+}
+
+/// That one of the two has to be given.
+pub(super) fn required() -> ArgGroup {
+    let either = ArgGroup::new("either").args(["maze", "world"]);
+    either.required(true)
+}
+
+/// What `--goal` can say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Goal {
+    centre: Point,
+    /// In metres.
+    radius: f64,
+}
+
+/// Of a goal of which nothing else is said, m.
+const RADIUS: f64 = 0.5;
+
+impl Ground {
+    /// Reads the maze or the world, with its name.
+    ///
+    /// # Errors
+    /// Bad input if there is none.
+    pub(super) fn read(&self) -> Result<(String, Terrain), Failure> {
+        if let Some(path) = &self.maze {
+            self.refuse_in_maze()?;
+            let file = maze::read(path)?;
+            return Ok((maze::world_name(path, &file), file.into()));
+        }
+        let Some(path) = &self.world else {
+            return Err(Failure::BadInput(anyhow!(
+                "give --maze FILE or --world FILE"
+            )));
+        };
+        let world = world(path)?;
+        let world = self.with_goal(world).with_context(|| maze::name(path));
+        let free = FreeWorld {
+            world: world.or_bad_input()?,
+            corridor_width: self.corridor,
+        };
+        Ok((maze::name(path), Terrain::Free(free)))
+    }
+
+    /// Refuses what a maze file says by itself.
+    fn refuse_in_maze(&self) -> Result<(), Failure> {
+        let error = match self {
+            Self { goal: Some(_), .. } => "--goal is of a --world: mark the goal of a maze with G",
+            Self {
+                corridor: Some(_), ..
+            } => "--corridor is of a --world: a maze file says `corridor_width` in its header",
+            _ => return Ok(()),
+        };
+        Err(Failure::BadInput(anyhow!(error)))
+    }
+
+    fn with_goal(&self, world: World) -> Result<World, Error> {
+        let Some(goal) = self.goal else {
+            return Ok(world);
+        };
+        if world.zone(DESTINATION).is_some() {
+            return Err(anyhow!(
+                "it has a zone `{DESTINATION}` of its own: leave --goal out"
+            ));
+        }
+        Ok(world.with_zone(goal.zone())?)
+    }
+}
+
+/// Reads a world of either kind.
+fn world(path: &Path) -> Result<World, Failure> {
+    let world = match is_yaml(path) {
+        true => RosMap::read(path)
+            .map_err(Error::from)
+            .and_then(|map| Ok(World::from_occupancy(&occupancy(map))?)),
+        false => World::from_json(&maze::text(path)?).map_err(Error::from),
+    };
+    world.with_context(|| maze::name(path)).or_bad_input()
+}
+
+const DESTINATION: &str = "destination";
+
+fn is_yaml(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    matches!(extension, Some("yaml" | "yml"))
+}
+
+/// A map of ROS as a grid for the simulator. What nobody has seen is not to be driven on.
+fn occupancy(map: RosMap) -> Occupancy {
+    Occupancy {
+        width: map.width,
+        height: map.height,
+        resolution: map.resolution,
+        origin: map.origin,
+        occupied: map
+            .cells
+            .into_iter()
+            .map(|cell| cell != MapCell::Free)
+            .collect(),
+    }
+}
+
+impl Goal {
+    fn zone(self) -> Zone {
+        let Self { centre, radius } = self;
+        Zone::new(DESTINATION, vec![Area::Disc { centre, radius }])
+    }
+}
+
+impl core::str::FromStr for Goal {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Vec<f64> = text.split(',').map(number).collect::<Result<_, _>>()?;
+        let (centre, radius) = match numbers[..] {
+            [x, y] => (Point::new(x, y), RADIUS),
+            [x, y, radius] => (Point::new(x, y), radius),
+            _ => return Err("expected X,Y or X,Y,RADIUS".to_owned()),
+        };
+        match radius > 0.0 {
+            true => Ok(Self { centre, radius }),
+            false => Err(format!(
+                "a radius of {radius} m holds nothing; give a positive one"
+            )),
+        }
+    }
+}
+
+/// The width of a corridor.
+fn width(text: &str) -> Result<f64, String> {
+    let width = number(text)?;
+    match width > 0.0 {
+        true => Ok(width),
+        false => Err("give a positive number of metres".to_owned()),
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok();
+    let number = number.filter(|number| number.is_finite());
+    number.ok_or_else(|| format!("`{text}` is no finite number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_goal_is_a_disc() {
+        let goal = |x, y, radius| Goal {
+            centre: Point::new(x, y),
+            radius,
+        };
+        assert_eq!("-1, 2.5".parse(), Ok(goal(-1.0, 2.5, 0.5)));
+        assert_eq!("1,2,0.3".parse(), Ok(goal(1.0, 2.0, 0.3)));
+        for (text, expect) in [
+            ("1", "expected X,Y"),
+            ("1,2,3,4", "expected X,Y"),
+            ("1,NaN", "`NaN`"),
+            ("1,2,0", "a radius of 0 m"),
+        ] {
+            let error = text.parse::<Goal>().unwrap_err();
+            assert!(error.contains(expect), "{text}: {error}");
+        }
+    }
+}

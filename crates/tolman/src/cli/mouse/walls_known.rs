@@ -1,0 +1,139 @@
+use alloc::collections::BTreeMap;
+
+use tolman_arena::micromouse::SideSeen;
+use tolman_geom::Point;
+use tolman_maze::{Cell, Direction, Grid};
+use tolman_replay::{EdgeKind, MapEdge, MapGrowth, MapNode, TimeSeries};
+
+/// What a mouse knows of the walls, and since which step.
+#[derive(Debug)]
+pub(super) struct WallsKnown {
+    grid: Grid,
+    /// From post to post, m.
+    pitch: f64,
+    /// The walls that it knows to stand, by their posts.
+    standing: BTreeMap<(u32, u32), u32>,
+    /// The sides of cells that it knows, by the number of the wall that stands there or could.
+    sides: BTreeMap<u32, SideKnown>,
+}
+
+/// What a mouse knows of one side.
+#[derive(Clone, Copy, Debug)]
+struct SideKnown {
+    /// Since which step.
+    since: u32,
+    stands: bool,
+}
+
+impl WallsKnown {
+    /// Returns that nothing is known.
+    pub(super) const fn new(grid: Grid, pitch: f64) -> Self {
+        Self {
+            grid,
+            pitch,
+            standing: BTreeMap::new(),
+            sides: BTreeMap::new(),
+        }
+    }
+
+    /// Notes a side that was seen after `step`.
+    pub(super) fn see(&mut self, step: u32, seen: SideSeen) {
+        let SideSeen { cell, side, stands } = seen;
+        let known = SideKnown {
+            since: step,
+            stands,
+        };
+        let number = self.grid.wall(cell, side).0;
+        self.sides.entry(number).or_insert(known);
+        if stands {
+            let (x, y) = (u32::from(cell.x), u32::from(cell.y));
+            let ends = match side {
+                Direction::North => [(x, y + 1), (x + 1, y + 1)],
+                Direction::East => [(x + 1, y), (x + 1, y + 1)],
+                Direction::South => [(x, y), (x + 1, y)],
+                Direction::West => [(x, y), (x, y + 1)],
+            };
+            let [from, to] = ends.map(|(x, y)| self.post(x, y));
+            self.standing.entry((from, to)).or_insert(step);
+        }
+    }
+
+    /// Whether it knows that no wall stands on a side of a cell.
+    pub(super) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
+        let known = self.sides.get(&self.grid.wall(cell, side).0);
+        known.is_some_and(|known| !known.stands)
+    }
+
+    /// The number of a post.
+    fn post(&self, x: u32, y: u32) -> u32 {
+        y * (u32::from(self.grid.width()) + 1) + x
+    }
+
+    /// Returns the walls that it knows as a map that grows.
+    pub(super) fn growth(&self) -> MapGrowth {
+        let mut posts: BTreeMap<u32, u32> = BTreeMap::new();
+        for (&(from, to), &step) in &self.standing {
+            for post in [from, to] {
+                let born = posts.entry(post).or_insert(step);
+                *born = step.min(*born);
+            }
+        }
+        let columns = u32::from(self.grid.width()) + 1;
+        let at = |post: u32| {
+            Point::new(f64::from(post % columns), f64::from(post / columns)) * self.pitch
+        };
+        let nodes = posts
+            .iter()
+            .map(|(post, born)| MapNode::new(*post, at(*post), *born));
+        let edges = self.standing.iter().map(|(&(from, to), &born)| MapEdge {
+            kind: EdgeKind::Wall,
+            ..MapEdge::new(from, to, born)
+        });
+        MapGrowth {
+            name: "walls it knows".to_owned(),
+            nodes: nodes.collect(),
+            edges: edges.collect(),
+        }
+    }
+
+    /// Returns how many sides of cells it knew at each step.
+    pub(super) fn count(&self) -> TimeSeries {
+        let mut steps: Vec<u32> = self.sides.values().map(|known| known.since).collect();
+        steps.sort_unstable();
+        let mut series = TimeSeries::new("sides of cells it knows", "");
+        for (known, step) in (1_u32..).zip(steps) {
+            series.sample(step, f64::from(known));
+        }
+        series
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wall_is_known_from_the_first_step_it_was_seen_in() {
+        let mut known = WallsKnown::new(Grid::new(2, 2), 1.0);
+        let side = |x, side, stands| SideSeen {
+            cell: Cell::new(x, 0),
+            side,
+            stands,
+        };
+        known.see(0, side(0, Direction::East, true));
+        known.see(3, side(1, Direction::West, true));
+        known.see(3, side(1, Direction::North, false));
+        let growth = known.growth();
+        assert_eq!(growth.edges.len(), 1, "from both sides it is one wall");
+        assert_eq!(
+            (growth.edges[0].a, growth.edges[0].b, growth.edges[0].born),
+            (1, 4, 0)
+        );
+        assert_eq!(growth.nodes[1].position, Point::new(1.0, 1.0));
+        let samples = known.count().samples;
+        let samples = samples
+            .iter()
+            .map(|sample| (sample.step, sample.value as u32));
+        assert_eq!(samples.collect::<Vec<_>>(), [(0, 1), (3, 2)]);
+    }
+}
