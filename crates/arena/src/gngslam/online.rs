@@ -206,3 +206,46 @@ impl SensesLandmarks for Reckoning {
         self.robot.landmark()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::{Goal, Standing};
+
+    use super::*;
+
+    const CALIBRATION: f64 = 0.03;
+
+    #[test]
+    fn the_pose_is_corrected_and_the_same_seed_makes_the_same_run() {
+        let pitch = Pitch::paper().unwrap();
+        let config = OnlineSlamConfig::pioneer_2dx();
+        let mut run = learn_online(&pitch, config, CALIBRATION, 2, 120).unwrap();
+        let again = learn_online(&pitch, config, CALIBRATION, 2, 120).unwrap();
+        assert_eq!(run.looks, again.looks);
+        run.align(0..120);
+        let last = run.looks.last().unwrap();
+        let off = |pose: Pose| (pose.position - last.truth.position).norm();
+        assert!(off(last.corrected) < 0.25, "{}", off(last.corrected));
+        assert!(off(last.reckoned) > 2.0 * off(last.corrected));
+        assert!(run.looks.iter().all(|look| look.is_localized));
+    }
+
+    #[test]
+    fn it_drives_back_to_where_it_began() {
+        let pitch = Pitch::named("l-room").unwrap();
+        let start = pitch.start(3).unwrap();
+        let model = Pioneer2dx::new(pitch.robot(3, CALIBRATION).unwrap()).unwrap();
+        let robot = Simulated::new(Arc::clone(&pitch.world), model, start, 3).unwrap();
+        let mut robot = Stopping::new(robot);
+        let mut system = OnlineSlam::new(OnlineSlamConfig::pioneer_2dx(), 3);
+        for _ in 0..100 {
+            system.act(&mut robot, Task::Explore).unwrap();
+        }
+        let task = Task::Reach(Goal::Place(0));
+        let mut standings = (0..200).map(|_| system.act(&mut robot, task).unwrap());
+        let end = standings.find(|standing| *standing != Standing::UnderWay);
+        assert_eq!(end, Some(Standing::Done));
+        let off = (robot.truth().pose.position - start.position).norm();
+        assert!(off < 0.5, "{off}");
+    }
+}

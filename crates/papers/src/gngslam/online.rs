@@ -70,7 +70,10 @@ record! {
 
 /// The long runs, which two rows look at.
 #[derive(Debug, Default)]
-pub(super) struct LongRuns(Mutex<BTreeMap<u32, Arc<Mutex<Option<Arc<OnlineRun>>>>>>);
+pub(super) struct LongRuns(Mutex<BTreeMap<u32, Shared>>);
+
+/// A run that whoever comes first makes, while the others wait.
+type Shared = Arc<Mutex<Option<Arc<OnlineRun>>>>;
 
 /// The tables; the runs of a row are at most `MOST_RUNS`.
 pub(super) fn tables(options: &Options) -> Vec<Table> {
