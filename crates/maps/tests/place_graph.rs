@@ -4,7 +4,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::geom::{Heading, Point, Pose};
-use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, SeenThere};
+use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{Mapper, Odometry, Snapshot, Sounding};
 use tolman_sim::{WallSegment, World};
 
@@ -181,4 +181,35 @@ fn a_robot_that_was_put_down_finds_itself() {
         found += u32::from(map.is_localized() && off < 0.15);
     }
     assert_eq!(found, 2);
+}
+
+#[test]
+fn what_is_no_number_is_no_reading_and_leaves_the_map_as_it_was() {
+    let mut robot = Wanderer::new(3);
+    let mut map = PlaceGraph::new(PlaceGraphConfig::indoors());
+    for _ in 0..30 {
+        map.observe(&robot.see()).unwrap();
+        robot.move_on();
+    }
+    let mut seen = robot.see();
+    for (sounding, range) in
+        seen.snapshot
+            .soundings
+            .iter_mut()
+            .zip([f64::NAN, 0.0, f64::INFINITY, -1.0])
+    {
+        sounding.range = range;
+    }
+    map.observe(&seen).unwrap();
+    assert!(map.here().unwrap().is_finite());
+    let before = (map.here(), map.places().len());
+    seen.rolled = vec![Odometry {
+        distance: f64::NAN,
+        turn: 0.0,
+    }];
+    assert_eq!(
+        map.observe(&seen),
+        Err(PlaceGraphError::Odometry { step: 0 })
+    );
+    assert_eq!((map.here(), map.places().len()), before);
 }

@@ -1,7 +1,9 @@
-//! The command `tolman` with a system, a family of worlds and an experiment of one's own.
+//! The command `tolman` with a system, a robot, a family of worlds and an experiment of one's own.
 
 mod experiment;
+mod robot;
 mod system;
+mod tank_entry;
 mod world;
 
 use std::process::ExitCode;
@@ -12,6 +14,7 @@ fn main() -> ExitCode {
     let catalogue = Catalogue::tolman()
         .program("outside")
         .system(&system::PacesEntry)
+        .system(&tank_entry::TankEntry)
         .family(world::COMB)
         .experiment(experiment::ENTRY);
     let commit = option_env!("OUTSIDE_COMMIT").unwrap_or("unknown");

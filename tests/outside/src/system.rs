@@ -8,7 +8,7 @@ use tolman_systems::{Actor, Brain, Doing, MapFiles, TimeStep};
 use tolman_systems::{control::Outcome, maze::Direction, rand::Rng};
 
 #[derive(Debug, Default, serde::Serialize)]
-struct Paces {
+pub struct Paces {
     path: Vec<(i8, i8)>,
     #[serde(skip)]
     wander: AvoidBrain,
@@ -41,7 +41,7 @@ impl Brain for Paces {
 
 pub struct PacesEntry;
 
-const FILES: MapFiles = MapFiles { system: "paces" };
+pub const FILES: MapFiles = MapFiles { system: "paces" };
 
 impl SystemEntry for PacesEntry {
     fn name(&self) -> &'static str {

@@ -18,7 +18,14 @@ const COMMIT: &str = "0123abcd";
 pub(crate) fn check() -> Result<()> {
     let folder = workspace::root().join("tests/outside");
     let target = workspace::target_folder()?;
-    for file in ["main", "system", "world", "experiment"] {
+    for file in [
+        "main",
+        "system",
+        "robot",
+        "tank_entry",
+        "world",
+        "experiment",
+    ] {
         let source = folder.join("src").join(file).with_extension("rs");
         let lines = fs::read_to_string(&source)?.lines().count();
         ensure!(
@@ -42,6 +49,7 @@ pub(crate) fn check() -> Result<()> {
         "maze generate family comb --size 5x4 --seed 2 --out comb.maze",
         "learn --system paces --maze comb.maze --out paces.json",
         "map show paces.json",
+        "learn --system paces-of-a-tank --maze comb.maze --out tank.json --trace tank.jsonl --replay tank.html",
         "experiment combs --quick --out combs",
     ] {
         let mut command = Command::new(target.join("debug/outside"));

@@ -209,9 +209,11 @@ impl SensesLandmarks for Reckoning {
 
 #[cfg(test)]
 mod tests {
-    use tolman_robot::{Goal, Standing};
+    use tolman_robot::{Goal, Ring, Standing};
+    use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
     use super::*;
+    use crate::pioneer::calibrated;
 
     const CALIBRATION: f64 = 0.03;
 
@@ -247,5 +249,28 @@ mod tests {
         assert_eq!(end, Some(Standing::Done));
         let off = (robot.truth().pose.position - start.position).norm();
         assert!(off < 0.5, "{off}");
+    }
+
+    #[test]
+    fn a_robot_with_a_laser_and_no_camera_learns_too() {
+        let pitch = Pitch::named("l-room").unwrap();
+        let start = pitch.start(5).unwrap();
+        let laser = LaserPioneerConfig {
+            ring: Ring::full(90, 4.0),
+            ..calibrated()
+        };
+        let per_step = laser.translate_per_step;
+        let model = LaserPioneer::new(laser).unwrap();
+        let robot = Simulated::new(Arc::clone(&pitch.world), model, start, 5).unwrap();
+        let mut robot = Stopping::new(robot);
+        let mut config = OnlineSlamConfig::pioneer_2dx();
+        config.drive = config.drive.with_rates(0.04 / per_step, 0.1);
+        let mut system = OnlineSlam::new(config, 5);
+        for _ in 0..80 {
+            system.act(&mut robot, Task::Explore).unwrap();
+        }
+        let here = start.compose(system.graph().here().unwrap());
+        let off = (here.position - robot.truth().pose.position).norm();
+        assert!(system.graph().is_localized() && off < 0.25, "{off}");
     }
 }

@@ -30,6 +30,9 @@ const UNLIKE: f64 = 0.22;
 /// A foot has to be seen under at least this angle below the horizon, as a tangent: farther things have too vague a distance.
 const LEAST_DOWN: f64 = 0.09;
 
+/// Nothing stands nearer, m: it would be under the camera.
+const NEAREST: f64 = 0.01;
+
 fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
     let bottom = picture.height.checked_sub(FLOOR_ROWS)?;
     let mut floor = mean(picture, column, bottom..picture.height)?;
@@ -60,6 +63,9 @@ fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
         return None;
     }
     let ahead = picture.camera.height / down;
+    if !(ahead > NEAREST && ahead.is_finite()) {
+        return None;
+    }
     let position = Point::new(ahead, ahead * picture.leftward(column));
     let total = thing.iter().sum::<f64>().max(1.0);
     Some(OutlinePoint {

@@ -212,7 +212,7 @@ impl PlaceGraph {
                 // The place to hold on to is the nearest, not the one that was new last, long ago.
                 here.last = self.nearest(fit.pose.position);
                 here.since = self.graph.poses()[here.last as usize].between(fit.pose);
-                here.since_covariance = fit.covariance + Matrix3::from_diagonal(&recognized());
+                here.since_covariance = fit.covariance + Matrix3::from_diagonal(&beside_a_place());
                 self.grow(&mut here, outline, Some(&fit))?;
             }
             None => {
@@ -386,7 +386,7 @@ impl PlaceGraph {
 }
 
 /// Variances of where a robot is beside a place by which it was recognized, m and rad: fits of neighbouring places err together.
-const fn recognized() -> Vector3<f64> {
+const fn beside_a_place() -> Vector3<f64> {
     Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
 }
 
@@ -434,12 +434,12 @@ impl Mapper for PlaceGraph {
             return Err(PlaceGraphError::Odometry { step });
         }
         let outline = Outline::of(&seen.snapshot);
-        let before = core::mem::replace(&mut self.whereabouts, Whereabouts::Nowhere);
-        self.whereabouts = match before {
+        self.whereabouts = match self.whereabouts.clone() {
             Whereabouts::Nowhere => self.begin(outline),
-            Whereabouts::Known(_) if seen.put_down => self.search(Vec::new(), &[], &outline),
+            Whereabouts::Known(_) | Whereabouts::Lost(_) if seen.put_down => {
+                self.search(Vec::new(), &[], &outline)
+            }
             Whereabouts::Known(here) => self.follow(here, &seen.rolled, outline)?,
-            Whereabouts::Lost(_) if seen.put_down => self.search(Vec::new(), &[], &outline),
             Whereabouts::Lost(hypotheses) => self.search(hypotheses, &seen.rolled, &outline),
         };
         Ok(())

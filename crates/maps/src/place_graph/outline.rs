@@ -34,6 +34,9 @@ pub struct OutlinePoint {
 /// More points of a laser than this are thinned out.
 const MOST_BEAMS: usize = 90;
 
+/// Nearer readings are left out, m.
+const LEAST_RANGE: f64 = 0.01;
+
 /// Standard deviation of a beam, m.
 const BEAM_DEVIATION: f64 = 0.02;
 
@@ -41,7 +44,12 @@ impl Outline {
     /// Returns the outline that a snapshot shows. O(pixels + soundings).
     #[must_use]
     pub fn of(snapshot: &Snapshot) -> Self {
-        let met = |sounding: &&Sounding| sounding.range < 0.999 * sounding.max_range;
+        // What touches the sensor has no direction, and what is no number is no reading.
+        let met = |sounding: &&Sounding| {
+            sounding.mount.is_finite()
+                && sounding.range > LEAST_RANGE
+                && sounding.range < 0.999 * sounding.max_range
+        };
         let (beams, arcs): (Vec<Sounding>, Vec<Sounding>) = (snapshot.soundings.iter())
             .filter(met)
             .partition(|sounding| sounding.half_width <= 0.0);
