@@ -1,11 +1,11 @@
 use core::convert::Infallible;
 
-use tolman_systems::Brain;
+use tolman_systems::{Brain, TimeStep};
 
 use crate::oracle::Oracle;
 
 /// A brain of whichever kind that takes in all it observes.
-pub type AnyBrain = dyn Brain<Error = Infallible>;
+pub type AnyBrain = dyn Brain<Observation = TimeStep, Error = Infallible>;
 
 /// Whoever chooses the actions in an [episode](crate::episode).
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use tolman_robot::{
     Task, TurnTranslate,
 };
 
-use crate::{Brain, Doing, TimeStep, stream};
+use crate::{Brain, Doing, OfStep, stream};
 
 /// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses ranges, its
 /// heading and landmarks.
@@ -108,6 +108,7 @@ impl<B: Brain> Actor<B> {
     where
         R: Robot<Command = TurnTranslate> + SensesLandmarks,
         R::Sensing: Ranges + Compass,
+        B::Observation: OfStep<R>,
     {
         if self.before == Before::PutDown {
             let layers = self.drive.ring();
@@ -117,7 +118,7 @@ impl<B: Brain> Actor<B> {
                 let robot = scan.ring;
                 return Err(ActorError::Ring { robot, layers });
             }
-            let observed = self.brain.observe(&TimeStep::of(robot, Doing::PutDown));
+            let observed = self.brain.observe(&OfStep::of_step(&*robot, Doing::PutDown));
             observed.map_err(ActorError::Brain)?;
             self.before = Before::Action;
         }
@@ -135,7 +136,7 @@ impl<B: Brain> Actor<B> {
         let mut observed = Ok(());
         let outcome = drive.carry_out(robot, action, |step| {
             see(brain, step);
-            observed = brain.observe(&TimeStep::of(step.robot, Doing::of(step)));
+            observed = brain.observe(&OfStep::of_step(step.robot, Doing::of(step)));
             if observed.is_err() || has_arrived(step.robot, task) {
                 return ControlFlow::Break(());
             }
@@ -160,10 +161,10 @@ fn has_arrived<R: SensesLandmarks>(robot: &R, task: Task) -> bool {
 }
 
 impl<B: Brain> Mapper for Actor<B> {
-    type Observation = TimeStep;
+    type Observation = B::Observation;
     type Error = B::Error;
 
-    fn observe(&mut self, seen: &TimeStep) -> Result<(), B::Error> {
+    fn observe(&mut self, seen: &B::Observation) -> Result<(), B::Error> {
         self.brain.observe(seen)
     }
 
@@ -181,6 +182,7 @@ where
     B: Brain,
     R: Robot<Command = TurnTranslate> + SensesLandmarks,
     R::Sensing: Ranges + Compass,
+    B::Observation: OfStep<R>,
 {
     type Failure = ActorError<R::Error, B::Error>;
 

@@ -4,11 +4,9 @@ use rand::Rng;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Mapper, Standing, Task};
 
-use crate::TimeStep;
-
-/// Chooses high-level actions from what it observed. It knows no robot: an [`Actor`](crate::Actor) lets it drive
-/// one.
-pub trait Brain: Mapper<Observation = TimeStep> + Debug {
+/// Chooses high-level actions from what it observed, such as [time steps](crate::TimeStep). It knows no robot: an
+/// [`Actor`](crate::Actor) lets it drive one that senses what it [observes](crate::OfStep).
+pub trait Brain: Mapper + Debug {
     /// Returns the next action. It is asked whenever an action has ended or the robot was put down, once it
     /// has observed that.
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction;

@@ -53,4 +53,4 @@ pub use actor::{Actor, ActorError};
 pub use brain::Brain;
 pub use map_header::{FileError, MapFiles, Origin, origin_of};
 pub use stream::stream;
-pub use time_step::{Doing, TimeStep};
+pub use time_step::{Doing, OfStep, RolledStep, TimeStep};

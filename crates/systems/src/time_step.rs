@@ -1,7 +1,7 @@
 use tolman_control::{Driven, Outcome};
 use tolman_geom::Heading;
 use tolman_maze::Direction;
-use tolman_robot::{Compass, Landmark, Ranges, Scan, SensesLandmarks};
+use tolman_robot::{Bumps, Compass, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks};
 
 /// One time step as a [`Brain`](crate::Brain) observes it: what the robot sensed at its end, and the high-level
 /// action it belongs to.
@@ -17,6 +17,47 @@ pub struct TimeStep {
     pub landmark: Option<Landmark>,
     /// What the robot was doing.
     pub doing: Doing,
+}
+
+/// A [`TimeStep`] of a robot with wheel encoders and a bumper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RolledStep {
+    /// What it sensed, and what it was doing.
+    pub step: TimeStep,
+    /// What its wheels rolled in the step; `None` for a drop-out.
+    pub odometry: Option<Odometry>,
+    /// Whether the body touched something in the step; `None` if nothing tells.
+    pub bump: Option<bool>,
+}
+
+/// What a brain can observe of a robot at the end of a time step.
+pub trait OfStep<R>: Sized {
+    /// Returns what `robot` senses while it is `doing` that.
+    fn of_step(robot: &R, doing: Doing) -> Self;
+}
+
+impl<R> OfStep<R> for TimeStep
+where
+    R: SensesLandmarks,
+    R::Sensing: Ranges + Compass,
+{
+    fn of_step(robot: &R, doing: Doing) -> Self {
+        Self::of(robot, doing)
+    }
+}
+
+impl<R> OfStep<R> for RolledStep
+where
+    R: Robot + SensesLandmarks,
+    R::Sensing: Ranges + Compass + Rolls + Bumps,
+{
+    fn of_step(robot: &R, doing: Doing) -> Self {
+        Self {
+            step: TimeStep::of(robot, doing),
+            odometry: robot.sensing().odometry(),
+            bump: robot.sensing().bump(),
+        }
+    }
 }
 
 /// What a robot was doing in a time step.

@@ -66,7 +66,7 @@ impl Mslst {
     }
 
     /// The phase under way.
-    fn brain(&self) -> &dyn Brain<Error = Infallible> {
+    fn brain(&self) -> &dyn Brain<Observation = TimeStep, Error = Infallible> {
         match &self.phase {
             Phase::Scans(scans) => scans,
             Phase::Topology(topology) => &**topology,
@@ -74,7 +74,7 @@ impl Mslst {
         }
     }
 
-    fn brain_mut(&mut self) -> &mut dyn Brain<Error = Infallible> {
+    fn brain_mut(&mut self) -> &mut dyn Brain<Observation = TimeStep, Error = Infallible> {
         match &mut self.phase {
             Phase::Scans(scans) => scans,
             Phase::Topology(topology) => &mut **topology,

@@ -35,6 +35,7 @@
 //! }
 //! ```
 
+pub mod better;
 mod brain;
 mod config;
 mod map;

@@ -1,0 +1,79 @@
+use std::time::Instant;
+use rand::SeedableRng;
+use tolman_arena::course::Course;
+use tolman_arena::episode::layers;
+use tolman_arena::pioneer::calibrated;
+use tolman_arena::run::{self, Limited};
+use tolman_arena::episode::random_start;
+use tolman_control::Drive;
+use tolman_robot::{Body, Task};
+use tolman_sim::noise::{Fault, Gaussian};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_systems::mslst::better::*;
+use tolman_systems::{Actor, stream};
+use tolman_geom::Point;
+
+pub fn noisy(seed: u64, enc: f64) -> LaserPioneerConfig {
+    let mut config = calibrated();
+    config.odometry_distance_noise = Gaussian::relative(enc);
+    config.scan_noise = Gaussian::relative(0.02);
+    let _ = seed;
+    let _ : Option<Fault> = None;
+    config
+}
+
+fn courses(kind: &str, seed: u64) -> Course {
+    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+    let text = |name: &str| std::fs::read_to_string(format!("mazes/{name}.maze")).unwrap();
+    let maze = match kind {
+        "p10" => tolman_maze::Perfect { width: 10, height: 10 }.generate(&mut rng).unwrap(),
+        "p20" => tolman_maze::Perfect { width: 20, height: 20 }.generate(&mut rng).unwrap(),
+        "b10" => tolman_maze::Braided { width: 10, height: 10, share: 0.5 }.generate(&mut rng).unwrap(),
+        "b20" => tolman_maze::Braided { width: 20, height: 20, share: 0.5 }.generate(&mut rng).unwrap(),
+        name => tolman_maze::read(&text(name)).unwrap().maze,
+    };
+    Course::new(kind, maze, 0.95).unwrap()
+}
+
+fn main() {
+    let args: Vec<String> = std::env::args().collect();
+    let kind = &args[1];
+    let n: u64 = args[2].parse().unwrap();
+    let enc: f64 = args.get(3).map_or(0.03, |a| a.parse().unwrap());
+    let first: u64 = args.get(4).map_or(1, |a| a.parse().unwrap());
+    for seed in first..first + n {
+        let course = courses(kind, seed);
+        let config = noisy(seed, enc);
+        let body = Body::Circle { radius: config.radius };
+        let start = random_start(&course, &body, seed);
+        let robot = course.robot_at(start, LaserPioneer::new(config.clone()).unwrap(), seed).unwrap();
+        let mut robot = Limited::new(robot, 60000);
+        let drive = Drive::new(layers(&course, &config).unwrap(), stream(seed, 1));
+        let mut actor = Actor::new(BetterExplorer::new(BetterConfig::pioneer()), drive, stream(seed, 2));
+        let t = Instant::now();
+        let mut truth: Vec<Point> = vec![start.position];
+        let mut worst: f64 = 0.0;
+        let mut true_places: Vec<Point> = vec![];
+        let world = course.world.clone();
+        let _ = &world;
+        let ended = run::until_done(&mut robot, |robot| {
+            let s = actor.act(robot, Task::Explore);
+            let p = robot.robot().truth().pose.position;
+            truth.push(p);
+            let q = actor.brain().learned().position();
+            let err = ((q - Point::origin()) - (p - start.position)).norm();
+            worst = worst.max(err);
+            if !true_places.iter().any(|t| (t - p).norm() < 0.5) { true_places.push(p); }
+            if std::env::var("TRACE").is_ok() { println!("{:?} {:?} err {err:.3} {}", p, q, tolman_systems::Brain::words(actor.brain())); }
+            s
+        }).map_err(|_| "failed").unwrap();
+        let end = format!("{:?}", ended.end);
+        let p = robot.robot().truth().pose.position;
+        let q = actor.brain().learned().position();
+        let err = ((q - Point::origin()) - (p - start.position)).norm();
+        println!("seed {seed} {end} actions {} steps {} places {} true {} ratio {:.2} err last {err:.3} worst {worst:.3} goal {} bumps {} time {:?}",
+            ended.actions, ended.steps, actor.brain().learned().places().len(), true_places.len(),
+            actor.brain().learned().places().len() as f64 / true_places.len() as f64, actor.brain().learned().goal().len(), robot.robot().bumps(), t.elapsed());
+    }
+}
+use tolman_robot::System;

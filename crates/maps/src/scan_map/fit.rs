@@ -1,0 +1,156 @@
+use alloc::vec::Vec;
+
+use tolman_geom::{Heading, Point, Vector};
+use tolman_robot::Scan;
+
+use super::WallGrid;
+
+/// Where a scan fits the walls, near where it was expected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ScanFit {
+    /// The position.
+    pub(super) at: Point,
+    /// Its variance along each axis, m²: as before along an axis on which the walls tell nothing.
+    pub(super) variance: Vector,
+    /// How well the beams that could be compared meet walls, 0 … 1; 1 where none could.
+    pub(super) agreement: f64,
+}
+
+/// A beam's end so far from every wall does not fit at all, m.
+const ELSEWHERE: f64 = 0.15;
+/// Beams see the same walls, so that each says no more than so much of one.
+const SHARE_OF_A_BEAM: f64 = 0.3;
+/// A beam's end is compared where it is expected so near to a known wall, m. What is unknown neither pulls nor pushes.
+const COMPARED_WITHIN: f64 = 0.08;
+/// Spacing of the positions tried, m.
+const STEP: f64 = 0.0125;
+/// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
+const TELLS: f64 = 0.05;
+/// Fewest beams that can be compared.
+const FEWEST: usize = 10;
+
+/// Fits a scan to the walls of `grid`, expected at a position known to `variance` (along each axis, m²). O(positions tried ·
+/// beams).
+pub(super) fn fit(
+    grid: &WallGrid,
+    expected: Point,
+    variance: Vector,
+    heading: Heading,
+    scan: &Scan,
+) -> ScanFit {
+    let ends = comparable(grid, expected, heading, scan);
+    let as_expected = ScanFit {
+        at: expected,
+        variance,
+        agreement: 1.0,
+    };
+    if ends.len() < FEWEST {
+        return as_expected;
+    }
+    let half = variance.map(|variance| {
+        let window = (3.0 * libm::sqrt(variance)).clamp(2.0 * STEP, 0.35);
+        libm::ceil(window / STEP) as i32
+    });
+    let shifts = |half: i32| (-half..=half).map(|shift| f64::from(shift) * STEP);
+    let mut best = (f64::NEG_INFINITY, Vector::zeros(), 0.0);
+    for dy in shifts(half.y) {
+        for dx in shifts(half.x) {
+            let shift = Vector::new(dx, dy);
+            let score = ends_score(grid, &ends, shift);
+            let prior = 0.5 * (dx * dx / variance.x + dy * dy / variance.y);
+            let total = SHARE_OF_A_BEAM * score - prior;
+            if total > best.0 {
+                best = (total, shift, score);
+            }
+        }
+    }
+    let (_, shift, score) = best;
+    let [x, y] = [0, 1].map(|axis| {
+        let steps = half[axis].max(8);
+        along(grid, &ends, shift, axis, steps, variance[axis])
+    });
+    ScanFit {
+        at: expected + Vector::new(x.0, y.0),
+        variance: Vector::new(x.1, y.1),
+        agreement: score / ends.len() as f64,
+    }
+}
+
+/// The shift along one axis and its variance, the other shift given: the mean of the posterior, or the prior where the walls tell nothing.
+fn along(
+    grid: &WallGrid,
+    ends: &[Point],
+    best: Vector,
+    axis: usize,
+    steps: i32,
+    variance: f64,
+) -> (f64, f64) {
+    let score = |value: f64| {
+        let mut shift = best;
+        shift[axis] = value;
+        SHARE_OF_A_BEAM * ends_score(grid, ends, shift)
+    };
+    let top = score(best[axis]);
+    let mut seen = Moments::default();
+    let mut posterior = Moments::default();
+    for step in -steps..=steps {
+        let value = f64::from(step) * STEP;
+        let log = score(value) - top;
+        seen.add(value, libm::exp(log));
+        let prior = 0.5 * value * value / variance;
+        posterior.add(value, libm::exp(log - prior));
+    }
+    if seen.variance() > TELLS * TELLS || posterior.weight <= 0.0 {
+        return (0.0, variance);
+    }
+    (posterior.mean(), posterior.variance().max(1e-4))
+}
+
+#[derive(Default)]
+struct Moments {
+    weight: f64,
+    first: f64,
+    second: f64,
+}
+
+impl Moments {
+    fn add(&mut self, value: f64, weight: f64) {
+        self.weight += weight;
+        self.first += weight * value;
+        self.second += weight * value * value;
+    }
+
+    fn mean(&self) -> f64 {
+        self.first / self.weight
+    }
+
+    fn variance(&self) -> f64 {
+        self.second / self.weight - self.mean() * self.mean()
+    }
+}
+
+/// The ends of the beams that can be compared with the walls.
+fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -> Vec<Point> {
+    let ends = (0..).zip(&scan.ranges).filter_map(|(index, range)| {
+        let bearing = heading.turned(scan.ring.bearing(index));
+        let end = expected + bearing.unit() * *range;
+        let compared = *range < scan.ring.max_range
+            && (grid.is_known(end)
+                || grid
+                    .wall_distance(end)
+                    .is_some_and(|wall| wall < COMPARED_WITHIN));
+        compared.then_some(end)
+    });
+    ends.collect()
+}
+
+fn ends_score(grid: &WallGrid, ends: &[Point], shift: Vector) -> f64 {
+    let score = |end: &Point| {
+        grid.wall_distance(*end + shift).map_or(0.0, |distance| {
+            // Tukey's biweight.
+            let off = (distance / ELSEWHERE).min(1.0);
+            (1.0 - off * off) * (1.0 - off * off)
+        })
+    };
+    ends.iter().map(score).sum()
+}

@@ -1,0 +1,199 @@
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use tolman_geom::{Heading, Point, Vector};
+use tolman_robot::{Landmark, MapLink, MapPlace, MapView, Scan};
+
+use super::fit::fit;
+use super::{Clearings, ScanMapConfig, WallGrid};
+
+/// Places that are merged while the map grows, the links gone between them, and the walls that scans met.
+///
+/// Positions are in the map's own frame, whose axes are the compass's, and which begins where the robot was put down.
+#[derive(Clone, Debug)]
+pub struct ScanMap {
+    config: ScanMapConfig,
+    grid: WallGrid,
+    places: Vec<ScanPlace>,
+    links: BTreeSet<[u32; 2]>,
+    /// Where scans were taken that the walls are drawn from.
+    stands: Vec<Point>,
+    /// Where the landmark of the goal was sensed.
+    goal: Vec<Point>,
+    position: Point,
+    /// Of the position, along each axis, m².
+    variance: Vector,
+    at: Option<u32>,
+    agreement: f64,
+}
+
+/// A place of a [`ScanMap`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScanPlace {
+    /// Where the robot stood when it came there first.
+    pub position: Point,
+    /// The landmark it sensed there.
+    pub landmark: Option<Landmark>,
+}
+
+/// What a robot did and then sensed, as a [`ScanMap`] takes it in.
+#[derive(Clone, Copy, Debug)]
+pub struct Advance<'a> {
+    /// How far it came since the observation before, along the compass's axes, m.
+    pub moved: Vector,
+    /// How sure that is: standard deviation along each axis, m.
+    pub sd: Vector,
+    /// Which way it faces.
+    pub heading: Heading,
+    /// What its beams meet.
+    pub scan: &'a Scan,
+    /// The landmark it stands at.
+    pub landmark: Option<Landmark>,
+}
+
+impl ScanMap {
+    /// Returns a map of nothing.
+    #[must_use]
+    pub fn new(config: ScanMapConfig) -> Self {
+        Self {
+            config,
+            grid: WallGrid::default(),
+            places: Vec::new(),
+            links: BTreeSet::new(),
+            stands: Vec::new(),
+            goal: Vec::new(),
+            position: Point::origin(),
+            variance: Vector::zeros(),
+            at: None,
+            agreement: 1.0,
+        }
+    }
+
+    /// Takes in where the robot came to: corrects its position by the walls, and adds the place, the link and the walls that are
+    /// new. O(cells in range + positions tried · beams + places).
+    pub fn observe(&mut self, seen: &Advance<'_>) {
+        let expected = self.position + seen.moved;
+        let variance = self.variance + seen.sd.component_mul(&seen.sd);
+        let fitted = fit(&self.grid, expected, variance, seen.heading, seen.scan);
+        self.position = fitted.at;
+        self.agreement = fitted.agreement;
+        // Once a scan is drawn, errors before it are the map's, not the robot's.
+        self.variance = fitted.variance;
+        self.draw(seen);
+        self.enter(seen.landmark);
+        if seen.landmark == Some(Landmark::Goal) {
+            self.goal.push(self.position);
+        }
+    }
+
+    /// Notes that the robot stands at a landmark on its way, `moved` from where it was observed last.
+    pub fn pass(&mut self, moved: Vector, landmark: Landmark) {
+        if landmark == Landmark::Goal {
+            self.goal.push(self.position + moved);
+        }
+    }
+
+    /// Returns where the robot is.
+    #[must_use]
+    pub const fn position(&self) -> Point {
+        self.position
+    }
+
+    /// Returns the place where the robot is; `None` before the first observation.
+    #[must_use]
+    pub const fn at(&self) -> Option<u32> {
+        self.at
+    }
+
+    /// Returns how well the last scan met the walls that were known, 0 … 1; 1 where it met none of them.
+    #[must_use]
+    pub const fn agreement(&self) -> f64 {
+        self.agreement
+    }
+
+    /// Returns the places, by id.
+    #[must_use]
+    pub fn places(&self) -> &[ScanPlace] {
+        &self.places
+    }
+
+    /// Returns the walls.
+    #[must_use]
+    pub const fn grid(&self) -> &WallGrid {
+        &self.grid
+    }
+
+    /// Returns where the landmark of the goal was sensed.
+    #[must_use]
+    pub fn goal(&self) -> &[Point] {
+        &self.goal
+    }
+
+    /// Returns where the robot has been, as far as it could stand there now.
+    #[must_use]
+    pub fn clearings(&self) -> Clearings<'_> {
+        Clearings::new(&self.grid, self.config.radius)
+    }
+
+    /// Returns places and links as any scorer and any drawing can read them. O(places + links).
+    #[must_use]
+    pub fn view(&self) -> MapView {
+        let place = |(id, place): (u32, &ScanPlace)| MapPlace {
+            id,
+            position: Some(place.position),
+            landmark: place.landmark,
+        };
+        let both_ways = |[a, b]: &[u32; 2]| {
+            [MapLink { from: *a, to: *b }, MapLink { from: *b, to: *a }]
+        };
+        MapView {
+            places: (0..).zip(&self.places).map(place).collect(),
+            links: self.links.iter().flat_map(both_ways).collect(),
+        }
+    }
+
+    /// Draws the walls of a scan that was taken where none was before.
+    fn draw(&mut self, seen: &Advance<'_>) {
+        let near = |stand: &Point| {
+            let way = (stand - self.position).norm();
+            way < self.config.spacing_of_scans && self.grid.sees(*stand, self.position)
+        };
+        if !self.stands.iter().any(near) {
+            self.grid.add(self.position, seen.heading, seen.scan);
+            self.stands.push(self.position);
+        }
+        self.grid.visit(self.position, self.config.reach_of_visit);
+    }
+
+    /// Finds the place the robot has come to, or makes it, and links it with the one before.
+    fn enter(&mut self, landmark: Option<Landmark>) {
+        let before = self.at;
+        let here = self.nearest().unwrap_or_else(|| {
+            self.places.push(ScanPlace {
+                position: self.position,
+                landmark: None,
+            });
+            self.places.len() as u32 - 1
+        });
+        let place = &mut self.places[here as usize];
+        place.landmark = place.landmark.or(landmark);
+        if let Some(before) = before
+            && before != here
+        {
+            self.links.insert([before.min(here), before.max(here)]);
+        }
+        self.at = Some(here);
+    }
+
+    /// The nearest place within a place's reach and in sight.
+    fn nearest(&self) -> Option<u32> {
+        let places = (0..).zip(&self.places).filter_map(|(id, place)| {
+            let way = (place.position - self.position).norm();
+            (way < self.config.spacing_of_places && self.grid.sees(place.position, self.position))
+                .then_some((way, id))
+        });
+        places
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, id)| id)
+    }
+}

@@ -1,0 +1,317 @@
+use alloc::vec;
+use alloc::vec::Vec;
+use core::f64::consts::TAU;
+
+use tolman_geom::{Heading, Point, Vector};
+use tolman_robot::Scan;
+
+/// Where walls were met and where beams passed, on a square grid that grows.
+///
+/// A cell is a wall while beams ended in it often enough beside those that passed. Each cell knows how far the nearest
+/// wall is, up to [`REACH`](Self::REACH), so that a robot's clearance and the fit of a scan are look-ups.
+#[derive(Clone, Debug, Default)]
+pub struct WallGrid {
+    /// Column and row of the first cell.
+    first: [i32; 2],
+    columns: i32,
+    rows: i32,
+    cells: Vec<GridCell>,
+}
+
+/// Column and row of a cell of a [`WallGrid`].
+pub(super) type GridIndex = [i32; 2];
+
+#[derive(Clone, Copy, Debug)]
+struct GridCell {
+    hits: u8,
+    passes: u8,
+    /// To the middle of the nearest wall cell, in [`DISTANCE_UNIT`]s; [`FAR`] beyond the reach.
+    wall: u8,
+    /// Whether the robot has been there, or near and in sight.
+    been: bool,
+}
+
+/// Steps in which distances to walls are kept, m.
+const DISTANCE_UNIT: f64 = 0.005;
+/// Farther from any wall than distances are kept.
+const FAR: u8 = u8::MAX;
+/// Cells added at once on a side that the grid outgrows.
+const MARGIN: i32 = 48;
+/// A wall stands while at least one beam in so many that reached its cell ended there.
+const PASSES_A_HIT: u32 = 3;
+
+impl WallGrid {
+    /// Side of a cell, m.
+    pub const CELL: f64 = 0.05;
+    /// How far from a wall its distance is known, m.
+    pub const REACH: f64 = 0.35;
+
+    /// Adds what a scan shows from a position, its beams turned by `heading`. A beam that met nothing passed all the way.
+    /// O(cells within the ring's range).
+    pub fn add(&mut self, from: Point, heading: Heading, scan: &Scan) {
+        let range = scan.ring.max_range;
+        self.cover(from, range + Self::REACH);
+        self.pass(from, heading, scan);
+        for (index, length) in (0..).zip(&scan.ranges) {
+            if *length < range {
+                let bearing = heading.turned(scan.ring.bearing(index));
+                self.hit(index_of(from + bearing.unit() * *length));
+            }
+        }
+    }
+
+    /// Returns how far `at` is from the nearest wall, m, between cells in proportion; `None` where none stands within
+    /// reach.
+    #[must_use]
+    pub fn wall_distance(&self, at: Point) -> Option<f64> {
+        let scaled = at.coords / Self::CELL - Vector::new(0.5, 0.5);
+        let corner = [libm::floor(scaled.x) as i32, libm::floor(scaled.y) as i32];
+        let [right, up] = [
+            scaled.x - f64::from(corner[0]),
+            scaled.y - f64::from(corner[1]),
+        ];
+        let near = |column: i32, row: i32| {
+            let wall = self
+                .cell([corner[0] + column, corner[1] + row])
+                .map_or(FAR, |cell| cell.wall);
+            f64::from(wall)
+        };
+        let below = near(0, 0) * (1.0 - right) + near(1, 0) * right;
+        let above = near(0, 1) * (1.0 - right) + near(1, 1) * right;
+        let distance = (below * (1.0 - up) + above * up) * DISTANCE_UNIT;
+        (distance <= Self::REACH).then_some(distance)
+    }
+
+    /// Returns whether a beam has ever reached or passed there.
+    #[must_use]
+    pub fn is_known(&self, at: Point) -> bool {
+        self.cell(index_of(at))
+            .is_some_and(|cell| cell.hits > 0 || cell.passes > 0)
+    }
+
+    /// Returns how far a beam from `from` goes before it meets a wall, m; `None` where it meets none within `range`, or leaves what is known
+    /// before it does.
+    #[must_use]
+    pub fn range(&self, from: Point, bearing: Heading, range: f64) -> GridRange {
+        let step = bearing.unit() * (0.5 * Self::CELL);
+        let steps = (range / (0.5 * Self::CELL)) as u32;
+        let mut at = from;
+        for count in 1..=steps {
+            at += step;
+            match self.cell(index_of(at)) {
+                Some(cell) if cell.wall == 0 => {
+                    return GridRange::Wall(f64::from(count) * 0.5 * Self::CELL);
+                }
+                Some(cell) if cell.passes > 0 || cell.hits > 0 => {}
+                _ => return GridRange::Unknown,
+            }
+        }
+        GridRange::Clear
+    }
+
+    /// Returns whether no wall stands on the straight line between two points. O(distance).
+    #[must_use]
+    pub fn sees(&self, from: Point, to: Point) -> bool {
+        let way = to - from;
+        let steps = libm::ceil(way.norm() / (0.5 * Self::CELL)).max(1.0);
+        (0..=steps as u32).all(|step| {
+            let at = from + way * (f64::from(step) / steps);
+            self.cell(index_of(at)).is_none_or(|cell| cell.wall > 0)
+        })
+    }
+
+    /// Notes that the robot has been at a point: ground within `reach` m and in sight needs no further visit.
+    pub(super) fn visit(&mut self, at: Point, reach: f64) {
+        let [low, high] = [-reach, reach].map(|offset| index_of(at + Vector::new(offset, offset)));
+        for row in low[1]..=high[1] {
+            for column in low[0]..=high[0] {
+                let ground = middle([column, row]);
+                if (ground - at).norm() <= reach
+                    && let Some(slot) = self.slot([column, row])
+                    && !self.cells[slot].been
+                    && self.sees(at, ground)
+                {
+                    self.cells[slot].been = true;
+                }
+            }
+        }
+    }
+
+    /// Whether the robot has been at a cell: see [`Self::visit`].
+    pub(super) fn was_visited(&self, slot: usize) -> bool {
+        self.cells[slot].been
+    }
+
+    /// Whether a body of this radius can stand with its middle in a cell that a beam has passed, as far as walls are known.
+    pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
+        self.cell(index).is_some_and(|cell| {
+            cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius
+        })
+    }
+
+    /// The first cell, and the one past the last.
+    pub(super) fn bounds(&self) -> [GridIndex; 2] {
+        let [column, row] = self.first;
+        [self.first, [column + self.columns, row + self.rows]]
+    }
+
+    /// The place of a cell among all, in rows; `None` outside.
+    pub(super) fn slot(&self, [column, row]: GridIndex) -> Option<usize> {
+        let [column, row] = [column - self.first[0], row - self.first[1]];
+        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
+        inside.then(|| (row * self.columns + column) as usize)
+    }
+
+    /// How many cells there are.
+    pub(super) fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    fn cell(&self, index: GridIndex) -> Option<&GridCell> {
+        self.cells.get(self.slot(index)?)
+    }
+
+    /// Counts a pass for every cell between two beams that lies nearer than both of them reached.
+    fn pass(&mut self, from: Point, heading: Heading, scan: &Scan) {
+        let ring = scan.ring;
+        let beams = scan.ranges.len();
+        let [low, high] = [-ring.max_range, ring.max_range]
+            .map(|offset| index_of(from + Vector::new(offset, offset)));
+        for row in low[1]..=high[1] {
+            for column in low[0]..=high[0] {
+                let way = middle([column, row]) - from;
+                let distance = way.norm();
+                if distance > ring.max_range || beams == 0 {
+                    continue;
+                }
+                let bearing = libm::atan2(way.y, way.x) - heading.radians() - ring.first_bearing;
+                let turns = libm::floor(bearing / TAU);
+                let beam = ((bearing - turns * TAU) / ring.spacing) as usize;
+                let shorter = scan.ranges[beam % beams].min(scan.ranges[(beam + 1) % beams]);
+                if distance < shorter - Self::CELL
+                    && let Some(slot) = self.slot([column, row])
+                {
+                    let was_wall = self.cells[slot].is_wall();
+                    self.cells[slot].passes = self.cells[slot].passes.saturating_add(1);
+                    if was_wall && !self.cells[slot].is_wall() {
+                        self.measure_again([column, row]);
+                    }
+                }
+            }
+        }
+    }
+
+    fn hit(&mut self, index: GridIndex) {
+        let Some(slot) = self.slot(index) else { return };
+        let was_wall = self.cells[slot].is_wall();
+        self.cells[slot].hits = self.cells[slot].hits.saturating_add(1);
+        if !was_wall && self.cells[slot].is_wall() {
+            self.stamp(index);
+        }
+    }
+
+    /// Tells the cells round a wall how near it is.
+    fn stamp(&mut self, wall: GridIndex) {
+        let reach = (Self::REACH / Self::CELL) as i32;
+        for row in -reach..=reach {
+            for column in -reach..=reach {
+                let distance = libm::hypot(f64::from(column), f64::from(row)) * Self::CELL;
+                if distance <= Self::REACH
+                    && let Some(slot) = self.slot([wall[0] + column, wall[1] + row])
+                {
+                    let cell = &mut self.cells[slot];
+                    cell.wall = cell.wall.min((distance / DISTANCE_UNIT) as u8);
+                }
+            }
+        }
+    }
+
+    /// Measures the distances round a cell anew that is no wall any longer.
+    fn measure_again(&mut self, gone: GridIndex) {
+        let reach = (Self::REACH / Self::CELL) as i32;
+        let around = |index: GridIndex, reach: i32| {
+            let rows = index[1] - reach..=index[1] + reach;
+            rows.flat_map(move |row| {
+                (index[0] - reach..=index[0] + reach).map(move |column| [column, row])
+            })
+        };
+        for index in around(gone, reach) {
+            if let Some(slot) = self.slot(index) {
+                self.cells[slot].wall = FAR;
+            }
+        }
+        for index in around(gone, 2 * reach) {
+            if self.cell(index).is_some_and(GridCell::is_wall) {
+                self.stamp(index);
+            }
+        }
+    }
+
+    /// Grows so that all within `radius` of a point lies on the grid.
+    fn cover(&mut self, at: Point, radius: f64) {
+        let [low, high] =
+            [-radius, radius].map(|offset| index_of(at + Vector::new(offset, offset)));
+        if self.slot(low).is_some() && self.slot(high).is_some() {
+            return;
+        }
+        let [first, end] = if self.cells.is_empty() {
+            [low, high]
+        } else {
+            self.bounds()
+        };
+        let first = [0, 1].map(|axis| first[axis].min(low[axis] - MARGIN));
+        let end = [0, 1].map(|axis| end[axis].max(high[axis] + MARGIN));
+        let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
+        let mut grown = Self {
+            first,
+            columns,
+            rows,
+            cells: vec![GridCell::UNSEEN; (columns * rows) as usize],
+        };
+        for row in 0..self.rows {
+            let from = (row * self.columns) as usize;
+            let index = [self.first[0], self.first[1] + row];
+            let (Some(to), width) = (grown.slot(index), self.columns as usize) else {
+                continue;
+            };
+            grown.cells[to..to + width].copy_from_slice(&self.cells[from..from + width]);
+        }
+        *self = grown;
+    }
+}
+
+/// What a beam would meet on a [`WallGrid`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GridRange {
+    /// A wall, so many metres away.
+    Wall(f64),
+    /// Nothing within range.
+    Clear,
+    /// It leaves what is known first.
+    Unknown,
+}
+
+impl GridCell {
+    const UNSEEN: Self = Self {
+        hits: 0,
+        passes: 0,
+        wall: FAR,
+        been: false,
+    };
+
+    const fn is_wall(&self) -> bool {
+        self.hits > 0 && self.hits as u32 * PASSES_A_HIT >= self.passes as u32
+    }
+}
+
+/// The cell in which a point lies.
+pub(super) fn index_of(at: Point) -> GridIndex {
+    let index = |value: f64| libm::floor(value / WallGrid::CELL) as i32;
+    [index(at.x), index(at.y)]
+}
+
+/// The middle of a cell.
+pub(super) fn middle([column, row]: GridIndex) -> Point {
+    let at = |index: i32| (f64::from(index) + 0.5) * WallGrid::CELL;
+    Point::new(at(column), at(row))
+}

@@ -1,0 +1,204 @@
+use core::convert::Infallible;
+
+use rand::{Rng, RngExt};
+use tolman_control::heading_of;
+use tolman_maps::scan_map::{Advance, Clearings, ScanMap, ScanMapConfig, WayToGap};
+use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
+
+use super::reckoning::{Reckoning, unit};
+use super::BetterConfig;
+use crate::{Brain, Doing, RolledStep};
+
+/// Learns a [`ScanMap`], and goes where it has gaps until it has none.
+#[derive(Clone, Debug)]
+pub struct BetterExplorer {
+    config: BetterConfig,
+    map: ScanMap,
+    reckoning: Reckoning,
+    /// What failed since the robot last moved.
+    failed: Vec<Direction>,
+    /// What it went for last.
+    last: Option<Direction>,
+    plan: Plan,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Plan {
+    /// To a gap.
+    Go(Direction),
+    /// A gap is left, but no action seems to lead nearer.
+    Stuck,
+    /// No gap is left.
+    Finished,
+}
+
+/// What turning round a quarter costs, as metres of way.
+const TURN: f64 = 0.35;
+
+impl BetterExplorer {
+    /// Returns one that knows nothing yet.
+    #[must_use]
+    pub fn new(config: BetterConfig) -> Self {
+        Self {
+            map: ScanMap::new(ScanMapConfig::for_robot(config.diameter)),
+            config,
+            reckoning: Reckoning::default(),
+            failed: Vec::new(),
+            last: None,
+            plan: Plan::Stuck,
+        }
+    }
+
+    /// Returns what it has learned so far.
+    #[must_use]
+    pub const fn learned(&self) -> &ScanMap {
+        &self.map
+    }
+
+    fn arrived(&mut self, seen: &RolledStep) {
+        let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) else {
+            return;
+        };
+        let (moved, sd) = self.reckoning.take();
+        self.map.observe(&Advance {
+            moved,
+            sd,
+            heading,
+            scan,
+            landmark: seen.step.landmark,
+        });
+        self.plan = self.consult(scan, heading.radians());
+    }
+
+    fn consult(&self, scan: &Scan, heading: f64) -> Plan {
+        let clearings = self.map.clearings();
+        let Some(way) = clearings.way_to_gap(self.map.position()) else {
+            return Plan::Finished;
+        };
+        let here = way.metres(self.map.position());
+        let worth = |action: Direction| {
+            if self.failed.contains(&action) || self.is_blocked(action, scan, heading) {
+                return None;
+            }
+            let turn = match self.last {
+                Some(last) if last == action || last == action.opposite() => 0.0,
+                _ => TURN,
+            };
+            Some((self.left_after(action, &clearings, &way)? + turn, action))
+        };
+        let best = Direction::ALL.into_iter().filter_map(worth);
+        match best.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((left, action)) if here.is_none_or(|here| left < here + TURN + 0.2) => {
+                Plan::Go(action)
+            }
+            _ => Plan::Stuck,
+        }
+    }
+
+    /// How far it is to the gap once an action has led as far as it does, m, on average.
+    fn left_after(
+        &self,
+        action: Direction,
+        clearings: &Clearings<'_>,
+        way: &WayToGap<'_>,
+    ) -> Option<f64> {
+        let reach = self.config.action_way;
+        let free = clearings.straight(self.map.position(), unit(action), 1.3 * reach);
+        if free < 0.1 {
+            return None;
+        }
+        let ends = [0.7, 1.0, 1.3].map(|share| {
+            let end = self.map.position() + unit(action) * (share * reach).min(free);
+            way.metres(end)
+        });
+        let [a, b, c] = ends;
+        Some((a? + 2.0 * b? + c?) / 4.0)
+    }
+
+    /// Whether the layers will refuse.
+    fn is_blocked(&self, action: Direction, scan: &Scan, heading: f64) -> bool {
+        let ahead = heading_of(action).radians() - heading - scan.ring.first_bearing;
+        let beams = scan.ranges.len() as f64;
+        let beam = libm::round(ahead / scan.ring.spacing);
+        [-1.0, 0.0, 1.0].into_iter().any(|offset| {
+            let index = (beam + offset).rem_euclid(beams) as usize;
+            scan.ranges
+                .get(index)
+                .is_some_and(|range| *range < self.config.buffer)
+        })
+    }
+}
+
+impl Mapper for BetterExplorer {
+    type Observation = RolledStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &RolledStep) -> Result<(), Infallible> {
+        if seen.step.doing == Doing::PutDown {
+            *self = Self::new(self.config);
+        }
+        self.reckoning.add(seen, &self.config);
+        match seen.step.doing {
+            Doing::PutDown => self.arrived(seen),
+            Doing::UnderWay(_) => {
+                if let Some(landmark) = seen.step.landmark {
+                    self.map.pass(self.reckoning.since(), landmark);
+                }
+            }
+            Doing::Ended(action, outcome) => {
+                if outcome.moved() {
+                    self.failed.clear();
+                    self.last = Some(action);
+                } else {
+                    self.failed.push(action);
+                }
+                self.arrived(seen);
+            }
+        }
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        self.map.view()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let guess = |id| Guess {
+            at: Position::Place(id),
+            weight: 1.0,
+        };
+        self.map.at().map(guess).into_iter().collect()
+    }
+}
+
+impl Brain for BetterExplorer {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        match self.plan {
+            Plan::Go(action) => action,
+            Plan::Stuck | Plan::Finished => Direction::ALL[rng.random_range(0..4)],
+        }
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match task {
+            Task::Explore if self.plan != Plan::Finished => Standing::UnderWay,
+            Task::Explore if self.map.goal().is_empty() => {
+                Standing::gave_up("it has been everywhere and the goal was nowhere")
+            }
+            Task::Explore => Standing::Done,
+            Task::Reach(_) | Task::Localize => {
+                Standing::gave_up("its map is not finished yet: let it explore first")
+            }
+        }
+    }
+
+    fn words(&self) -> String {
+        let places = self.map.places().len();
+        match self.plan {
+            Plan::Go(_) => format!("{places} places, on the way to a gap"),
+            Plan::Stuck => format!("{places} places, a gap is left but nothing leads there"),
+            Plan::Finished => format!("{places} places, no gap is left"),
+        }
+    }
+}
