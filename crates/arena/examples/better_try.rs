@@ -50,6 +50,8 @@ fn main() {
         let mut robot = Limited::new(robot, 60000);
         let drive = Drive::new(layers(&course, &config).unwrap(), stream(seed, 1));
         let mut actor = Actor::new(BetterExplorer::new(BetterConfig::pioneer()), drive, stream(seed, 2));
+        let start_of = start.position;
+        let cast = tolman_arena::cast::Cast::default();
         let t = Instant::now();
         let mut truth: Vec<Point> = vec![start.position];
         let mut worst: f64 = 0.0;
@@ -74,6 +76,40 @@ fn main() {
         println!("seed {seed} {end} actions {} steps {} places {} true {} ratio {:.2} err last {err:.3} worst {worst:.3} goal {} bumps {} time {:?}",
             ended.actions, ended.steps, actor.brain().learned().places().len(), true_places.len(),
             actor.brain().learned().places().len() as f64 / true_places.len() as f64, actor.brain().learned().goal().len(), robot.robot().bumps(), t.elapsed());
+        let Ok(starts) = std::env::var("STARTS") else { continue };
+        let starts: u64 = starts.parse().unwrap();
+        let t = Instant::now();
+        let map = std::sync::Arc::new(BetterMap::of(actor.brain().learned().clone(), config.ring, &BetterConfig::pioneer()));
+        println!("  map ready in {:?}", t.elapsed());
+        let limit = (course.maze.grid().cell_count() as u32 * 20).max(500);
+        let mut sums = [0u32; 2];
+        let mut reached = [0u32; 2];
+        for k in 0..starts {
+            let seed = seed * 1000 + k;
+            let start = random_start(&course, &body, seed);
+            let robot = course.robot_at(start, LaserPioneer::new(config.clone()).unwrap(), seed).unwrap();
+            let mut robot = Limited::new(robot, limit);
+            let drive = Drive::new(layers(&course, &config).unwrap(), stream(seed, 1)).longest_action(u32::MAX);
+            let mut nav = Actor::new(BetterNavigator::new(map.clone(), BetterConfig::pioneer()), drive, stream(seed, 2));
+            let t = Instant::now();
+            let ended = run::until_done(&mut robot, |robot| {
+                let s = nav.act(robot, Task::Reach(tolman_robot::Goal::Landmark(tolman_robot::Landmark::Goal)));
+                if std::env::var("WATCH").ok() == Some(k.to_string()) {
+                    let p = robot.robot().truth().pose.position - start_of.coords;
+                    let b = tolman_robot::Mapper::belief(nav.brain());
+                    println!("    {:.2},{:.2} believes {:?}", p.x, p.y, b.iter().take(3).map(|g| (g.at, g.weight)).collect::<Vec<_>>());
+                }
+                s
+            }).map_err(|_| "failed").unwrap();
+            let time = t.elapsed();
+            let trial = tolman_arena::episode::Trial { course: &course, robot: config.clone(), start, step_limit: limit, seed };
+            let mut mind = cast.mind(tolman_arena::cast::Agent::UnlocalizedOracle, &course, &config).unwrap();
+            let episode = tolman_arena::episode::run(&trial, &mut mind, |_| {}).unwrap();
+            sums[0] += ended.steps; sums[1] += episode.steps;
+            reached[0] += u32::from(ended.end == run::TaskEnd::Done); reached[1] += u32::from(episode.reached);
+            if std::env::var("EACH").is_ok() { println!("   start {k} {:?} {} oracle {} {} {time:?}", ended.end, ended.steps, episode.reached, episode.steps); }
+        }
+        println!("  better {} of {starts}, oracle {}, steps {} {} ratio {:.3}", reached[0], reached[1], sums[0], sums[1], f64::from(sums[0]) / f64::from(sums[1]));
     }
 }
 use tolman_robot::System;

@@ -3,7 +3,7 @@
 //! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know nothing of
 //! maps, mazes or robots: [`steps_from`] counts arcs (breadth-first), [`costs_from`] sums their costs
 //! (Dijkstra), [`path_to`] lists the nodes of a shortest path, [`a_star`] those of a cheapest one
-//! with a guess of what is left, [`best_first`] of any by that guess alone. [`compressed`] takes detours out of the actions
+//! with a guess of what is left, [`expected_costs`] plans where actions may fail, [`best_first`] of any by that guess alone. [`compressed`] takes detours out of the actions
 //! along one. To ask how far every node is *from a goal's point of view*, search the graph turned round:
 //! [`Arcs::reversed`].
 //!
@@ -40,6 +40,8 @@ mod breadth_first;
 mod compression;
 #[cfg(feature = "alloc")]
 mod dijkstra;
+#[cfg(feature = "alloc")]
+mod expected_costs;
 mod graph;
 pub mod moves;
 mod passages;
@@ -62,5 +64,6 @@ pub use {
     breadth_first::steps_from,
     compression::compressed,
     dijkstra::costs_from,
+    expected_costs::{Decisions, expected_costs},
     path::path_to,
 };

@@ -2,7 +2,11 @@
 
 mod config;
 mod explorer;
+mod map;
+mod navigator;
 mod reckoning;
 
 pub use config::BetterConfig;
 pub use explorer::BetterExplorer;
+pub use map::BetterMap;
+pub use navigator::BetterNavigator;

@@ -1,0 +1,153 @@
+use alloc::collections::BTreeSet;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::{Arcs, costs_from};
+
+/// Decisions whose ends are a matter of chance: from each state some actions, each with what it costs and where it may lead.
+#[derive(Clone, Debug, Default)]
+pub struct Decisions {
+    actions: usize,
+    /// Of each state and action, in this order.
+    choices: Vec<Choice>,
+    ends: Vec<(u32, f32)>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Choice {
+    cost: f32,
+    /// Past the last of its ends; they begin where those of the choice before end.
+    ends: u32,
+}
+
+impl Decisions {
+    /// Returns decisions between so many actions in each state, and no state yet.
+    #[must_use]
+    pub const fn between(actions: usize) -> Self {
+        Self {
+            actions,
+            choices: Vec::new(),
+            ends: Vec::new(),
+        }
+    }
+
+    /// Adds the next action of the state under way, or the first one of the next state: what it costs, and the states that it may
+    /// lead to, each with its probability. What they lack to 1 counts as staying.
+    pub fn add(&mut self, cost: f64, ends: impl IntoIterator<Item = (u32, f64)>) {
+        let ends = ends.into_iter();
+        self.ends
+            .extend(ends.map(|(state, probability)| (state, probability as f32)));
+        self.choices.push(Choice {
+            cost: cost as f32,
+            ends: self.ends.len() as u32,
+        });
+    }
+
+    /// Returns how many states there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.choices.len().checked_div(self.actions).unwrap_or(0)
+    }
+
+    /// Returns whether there is no state.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.choices.is_empty()
+    }
+
+    /// Returns what it costs on average to reach a goal, by an action of a state and then by the cheapest ones; infinite where
+    /// none leads there. `costs` are those of the states.
+    #[must_use]
+    pub fn cost(&self, costs: &[f32], state: usize, action: usize) -> f32 {
+        let index = state * self.actions + action;
+        let Some(choice) = self.choices.get(index) else {
+            return f32::INFINITY;
+        };
+        let first = index.checked_sub(1).map_or(0, |before| self.choices[before].ends);
+        let ends = &self.ends[first as usize..choice.ends as usize];
+        let (mut sum, mut sure) = (choice.cost, 0.0);
+        for (end, probability) in ends {
+            if *end as usize != state {
+                sum += probability * costs[*end as usize];
+                sure += probability;
+            }
+        }
+        // What stays tries again.
+        if sure > f32::EPSILON { sum / sure } else { f32::INFINITY }
+    }
+}
+
+/// Returns what it costs on average to reach one of the `goals` from each state, by the actions that are cheapest on average;
+/// infinite where no actions lead there.
+///
+/// Value iteration, in place, the states nearest to a goal first, until no cost changes by more than `tolerance` or `sweeps`
+/// are made. O(sweeps · ends). R. Bellman: *A Markovian decision process* (1957).
+///
+/// ```
+/// use tolman_planners::{Decisions, expected_costs};
+///
+/// // State 0 is a step from goal 2, but the step fails half of the time; or two safe steps by way of 1.
+/// let mut decisions = Decisions::between(2);
+/// decisions.add(1.0, [(2, 0.5), (0, 0.5)]);
+/// decisions.add(1.0, [(1, 1.0)]);
+/// decisions.add(0.5, [(2, 1.0)]);
+/// decisions.add(1.0, [(0, 1.0)]);
+/// decisions.add(1.0, [(2, 1.0)]);
+/// decisions.add(1.0, [(2, 1.0)]);
+/// let costs = expected_costs(&decisions, &[2], 1e-6, 100);
+/// assert_eq!(costs, [1.5, 0.5, 0.0]);
+/// ```
+#[must_use]
+pub fn expected_costs(
+    decisions: &Decisions,
+    goals: &[u32],
+    tolerance: f32,
+    sweeps: usize,
+) -> Vec<f32> {
+    let mut costs = vec![f32::INFINITY; decisions.len()];
+    let mut order = if_all_goes_well(decisions, goals);
+    for (state, cost) in &order {
+        costs[*state as usize] = *cost;
+    }
+    let goals: BTreeSet<u32> = goals.iter().copied().collect();
+    order.retain(|(state, _)| !goals.contains(state));
+    for _ in 0..sweeps {
+        let mut change: f32 = 0.0;
+        for (state, _) in &order {
+            let state = *state as usize;
+            let actions = (0..decisions.actions).map(|action| decisions.cost(&costs, state, action));
+            let cost = actions.fold(f32::INFINITY, f32::min);
+            if cost.is_finite() {
+                change = change.max((cost - costs[state]).abs());
+                costs[state] = cost;
+            }
+        }
+        if change <= tolerance {
+            break;
+        }
+    }
+    costs
+}
+
+/// Parts of a cost that the first guess counts in.
+const PARTS: f32 = 64.0;
+
+/// The states that can lead to a goal, the nearest first, if every action ended as well as it can; and what that costs.
+fn if_all_goes_well(decisions: &Decisions, goals: &[u32]) -> Vec<(u32, f32)> {
+    let mut arcs = Vec::new();
+    let mut first = 0;
+    for (index, choice) in decisions.choices.iter().enumerate() {
+        let state = (index / decisions.actions) as u32;
+        let cost = (choice.cost * PARTS) as u32;
+        let ends = &decisions.ends[first..choice.ends as usize];
+        arcs.extend(ends.iter().map(|(end, _)| (state, *end, cost)));
+        first = choice.ends as usize;
+    }
+    let reversed = Arcs::new(decisions.len(), &arcs).reversed();
+    let costs = costs_from(&reversed, goals.iter().copied());
+    let reached = (0..).zip(costs);
+    let reached = reached.filter_map(|(state, cost)| Some((state, cost? as f32 / PARTS)));
+    let mut reached: Vec<(u32, f32)> = reached.collect();
+    reached.sort_by(|a, b| a.1.total_cmp(&b.1));
+    reached
+}

@@ -1,0 +1,151 @@
+use alloc::sync::Arc;
+use core::convert::Infallible;
+
+use rand::{Rng, RngExt};
+use tolman_geom::Heading;
+use tolman_maps::scan_map::Whereabouts;
+use tolman_maze::Direction;
+use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
+
+
+use super::reckoning::Reckoning;
+use super::{BetterConfig, BetterMap};
+use crate::{Brain, Doing, RolledStep};
+
+/// Finds out where it is on its map, and does what leads to the goal soonest on average over all it believes.
+#[derive(Clone, Debug)]
+pub struct BetterNavigator {
+    config: BetterConfig,
+    map: Arc<BetterMap>,
+    whereabouts: Whereabouts,
+    reckoning: Reckoning,
+    heading: Heading,
+    /// What failed since the robot last moved.
+    failed: Vec<Direction>,
+    next: Option<Direction>,
+}
+
+/// What a place is worth from which no way leads to the goal, time steps.
+const NO_WAY: f64 = 2000.0;
+/// A standpoint less probable than that has no say.
+const NO_SAY: f64 = 1e-4;
+
+impl BetterNavigator {
+    /// Returns one that knows `map` and has no idea where it is.
+    #[must_use]
+    pub fn new(map: Arc<BetterMap>, config: BetterConfig) -> Self {
+        Self {
+            whereabouts: Whereabouts::anywhere(&map.standpoints),
+            map,
+            config,
+            reckoning: Reckoning::default(),
+            heading: Heading::NORTH,
+            failed: Vec::new(),
+            next: None,
+        }
+    }
+
+    /// Returns what it believes of where it is.
+    #[must_use]
+    pub const fn whereabouts(&self) -> &Whereabouts {
+        &self.whereabouts
+    }
+
+    fn look(&mut self, seen: &RolledStep) {
+        let (moved, sd) = self.reckoning.take();
+        let map = &*self.map;
+        if moved != tolman_geom::Vector::zeros() {
+            self.whereabouts
+                .moved(&map.standpoints, map.scans.grid(), moved, sd);
+        }
+        if let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) {
+            self.heading = heading;
+            self.whereabouts.saw(&map.standpoints, heading, scan);
+        }
+        if seen.step.landmark != Some(Landmark::Goal) {
+            self.whereabouts.missed_the_goal(&map.standpoints);
+        }
+        self.next = self.cheapest();
+    }
+
+    /// The action that costs least on average over all it believes.
+    fn cheapest(&self) -> Option<Direction> {
+        let along = libm::fabs(libm::sin(self.heading.radians()));
+        let axis = usize::from(along > core::f64::consts::FRAC_1_SQRT_2);
+        let mut costs = [0.0; 4];
+        for (number, mass) in (0..).zip(self.whereabouts.probabilities()) {
+            if *mass > NO_SAY / self.map.standpoints.len() as f64 {
+                for action in Direction::ALL {
+                    let cost = self.map.cost(number, axis, action).min(NO_WAY);
+                    costs[action.index()] += mass * cost;
+                }
+            }
+        }
+        let allowed = Direction::ALL.into_iter();
+        let allowed = allowed.filter(|action| !self.failed.contains(action));
+        allowed.min_by(|a, b| costs[a.index()].total_cmp(&costs[b.index()]))
+    }
+}
+
+impl Mapper for BetterNavigator {
+    type Observation = RolledStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &RolledStep) -> Result<(), Infallible> {
+        if seen.step.doing == Doing::PutDown {
+            *self = Self::new(Arc::clone(&self.map), self.config);
+        }
+        self.reckoning.add(seen, &self.config);
+        match seen.step.doing {
+            Doing::UnderWay(_) => return Ok(()),
+            Doing::PutDown => {}
+            Doing::Ended(_, outcome) if outcome.moved() => self.failed.clear(),
+            Doing::Ended(action, _) => self.failed.push(action),
+        }
+        self.look(seen);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        self.map.scans.view()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let positions = self.map.standpoints.positions().iter();
+        let guesses = positions.zip(self.whereabouts.probabilities());
+        let guesses = guesses.filter(|(_, mass)| **mass > NO_SAY);
+        let mut guesses: Vec<Guess> = guesses
+            .map(|(at, weight)| Guess {
+                at: Position::Point(*at),
+                weight: *weight,
+            })
+            .collect();
+        guesses.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+        guesses
+    }
+}
+
+impl Brain for BetterNavigator {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        self.next
+            .unwrap_or_else(|| Direction::ALL[rng.random_range(0..4)])
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match task {
+            Task::Explore => Standing::Done,
+            Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
+            Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
+            Task::Localize => {
+                let sure = self.whereabouts.certainty(&self.map.standpoints, self.config.diameter);
+                if sure > 0.95 { Standing::Done } else { Standing::UnderWay }
+            }
+        }
+    }
+
+    fn words(&self) -> String {
+        let sure = self.whereabouts.certainty(&self.map.standpoints, self.config.diameter);
+        format!("believes with {:.0} % to know where it is", 100.0 * sure)
+    }
+}
+
