@@ -18,6 +18,7 @@ pub struct Standpoints {
     numbers: Vec<u32>,
     positions: Vec<Point>,
     is_goal: Vec<bool>,
+    senses_goal: Vec<bool>,
     /// Ranges from each, beam 0 to the north, in [`RANGE_UNIT`]s; [`UNKNOWN`] where the map does not say.
     ranges: Vec<u8>,
 }
@@ -32,6 +33,8 @@ const UNKNOWN: u8 = u8::MAX;
 const NOWHERE: u32 = u32::MAX;
 /// By how much the goal reaches beyond where its landmark was sensed, m.
 const GOAL_MARGIN: f64 = 0.05;
+/// Nearer than that to where the goal was sensed it is sensed, too, m.
+const SENSES_GOAL: f64 = 0.12;
 
 impl Standpoints {
     /// From one to the next, m.
@@ -51,6 +54,7 @@ impl Standpoints {
             numbers: vec![NOWHERE; (columns * rows) as usize],
             positions: Vec::new(),
             is_goal: Vec::new(),
+            senses_goal: Vec::new(),
             ranges: Vec::new(),
         };
         let reached = reached(map, radius);
@@ -63,6 +67,8 @@ impl Standpoints {
                 {
                     lattice.numbers[slot] = lattice.positions.len() as u32;
                     lattice.add(grid, middle(index), goal);
+                    let sensed = |at: &Point| (at - middle(index)).norm() < SENSES_GOAL;
+                    lattice.senses_goal.push(map.goal().iter().any(sensed));
                 }
             }
         }
@@ -91,6 +97,12 @@ impl Standpoints {
     #[must_use]
     pub fn is_goal(&self, number: u32) -> bool {
         self.is_goal[number as usize]
+    }
+
+    /// Returns whether the landmark of the goal was sensed so near to one that it is sensed there, too.
+    #[must_use]
+    pub fn senses_goal(&self, number: u32) -> bool {
+        self.senses_goal[number as usize]
     }
 
     /// Returns the one whose cell of the lattice a point lies in.

@@ -20,7 +20,9 @@ const RANGE_SD: f64 = 0.075;
 /// Beyond so many standard deviations a beam met something else; how far off says no more.
 const OUTLIER: f64 = 3.0;
 /// Beams see the same walls, so that all of them together say no more than so many.
-const INDEPENDENT_BEAMS: f64 = 12.0;
+const INDEPENDENT_BEAMS: f64 = 8.0;
+/// A better fit than that tells no more: the map's own errors are as large, and are met at every look.
+const GOOD: f64 = 0.6;
 /// What the map does not show fits as a place does that is not the right one, but like it.
 const UNSHOWN: f64 = 2.0;
 /// Standpoints less probable than that are not followed.
@@ -30,7 +32,7 @@ const THROUGH_A_WALL: f64 = 0.01;
 /// A scan fits nowhere where it is off by so much, mean square.
 const SURPRISE: f64 = 3.0;
 /// How likely the landmark of the goal is not sensed where the map has it: near its border.
-const UNSENSED: f64 = 0.2;
+const UNSENSED: f64 = 0.05;
 /// It begins anew after so many such scans in a row.
 const MOST_SURPRISES: u32 = 3;
 
@@ -94,7 +96,7 @@ impl Whereabouts {
             let misfit = on.misfit(number, &north, RANGE_SD, OUTLIER);
             let misfit = misfit.unwrap_or(UNSHOWN);
             best = best.min(misfit);
-            *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit);
+            *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD));
         }
         self.surprises = if best > SURPRISE { self.surprises + 1 } else { 0 };
         self.normalize(on);
@@ -103,7 +105,7 @@ impl Whereabouts {
     /// Weighs what it believes by the landmark of the goal, which the robot does not sense. O(standpoints).
     pub fn missed_the_goal(&mut self, on: &Standpoints) {
         for (number, mass) in (0..).zip(&mut self.mass) {
-            if on.is_goal(number) {
+            if on.senses_goal(number) {
                 *mass *= UNSENSED;
             }
         }
