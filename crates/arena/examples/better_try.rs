@@ -66,6 +66,7 @@ fn main() {
             let err = ((q - Point::origin()) - (p - start.position)).norm();
             worst = worst.max(err);
             if !true_places.iter().any(|t| (t - p).norm() < 0.5) { true_places.push(p); }
+            if std::env::var("DRIFT").is_ok() { let e = (q - Point::origin()) - (p - start.position); println!("D {} {:.4} {:.4} {} {:.2}", truth.len(), e.x, e.y, robot.robot().bumps(), actor.brain().learned().agreement()); }
             if std::env::var("TRACE").is_ok() { println!("{:?} {:?} err {err:.3} {}", p, q, tolman_systems::Brain::words(actor.brain())); }
             s
         }).map_err(|_| "failed").unwrap();
@@ -76,6 +77,30 @@ fn main() {
         println!("seed {seed} {end} actions {} steps {} places {} true {} ratio {:.2} err last {err:.3} worst {worst:.3} goal {} bumps {} time {:?}",
             ended.actions, ended.steps, actor.brain().learned().places().len(), true_places.len(),
             actor.brain().learned().places().len() as f64 / true_places.len() as f64, actor.brain().learned().goal().len(), robot.robot().bumps(), t.elapsed());
+        if std::env::var("DUMP").is_ok() {
+            let cell = |p: Point| ((p.x / 0.95) as i32, (p.y / 0.95) as i32);
+            let seen: std::collections::BTreeSet<_> = truth.iter().map(|p| cell(*p)).collect();
+            println!("cells visited {} of {}", seen.len(), course.maze.grid().cell_count());
+            let grid = course.maze.grid();
+            for c in grid.cells() {
+                let here = (i32::from(c.x), i32::from(c.y));
+                if !seen.contains(&here) { continue; }
+                for (_, n) in course.maze.neighbours(c) {
+                    let there = (i32::from(n.x), i32::from(n.y));
+                    if seen.contains(&there) { continue; }
+                    println!("from {here:?} to {there:?} unvisited");
+                    let mid = Point::new((f64::from(c.x) + 0.5) * 0.95, (f64::from(c.y) + 0.5) * 0.95) - start.position.coords;
+                    let m = actor.brain().learned();
+                    for row in (-16..=16).rev() {
+                        let line: String = (-16..=16).map(|col| {
+                            let p = Point::new(mid.x + f64::from(col) * 0.05, mid.y + f64::from(row) * 0.05);
+                            if m.grid().wall_distance(p).is_some_and(|d| d < 0.03) { '#' } else if m.clearings().stands(p) { '+' } else if m.grid().is_known(p) { '.' } else { ' ' }
+                        }).collect();
+                        println!("{line}");
+                    }
+                }
+            }
+        }
         let Ok(starts) = std::env::var("STARTS") else { continue };
         let starts: u64 = starts.parse().unwrap();
         let t = Instant::now();

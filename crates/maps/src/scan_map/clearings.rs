@@ -24,6 +24,8 @@ pub struct WayToGap<'a> {
 
 const UNREACHED: u32 = u32::MAX;
 
+/// So many cells beside a point the robot may stand in fact, on either side.
+const BY: i32 = 5;
 /// How many cells farther than the robot the way is worked out: as far as an action may lead it astray.
 const ASTRAY: u32 = 16;
 
@@ -52,12 +54,11 @@ impl<'a> Clearings<'a> {
     /// there is none. O(cells on the way).
     #[must_use]
     pub fn way_to_gap(&self, from: Point) -> Option<WayToGap<'_>> {
-        let start = self.nearest_stand(from)?;
-        let (gap, _) = self.flood(start, |_, slot, _| !self.grid.was_visited(slot));
-        let gap = gap?;
+        let starts = self.stands_by(from);
+        let (gap, _) = self.flood(&starts, |_, slot, _| !self.grid.was_visited(slot));
         let mut limit = None;
-        let (_, cells) = self.flood(gap, |index, _, cells| {
-            if index == start {
+        let (_, cells) = self.flood(&[gap?], |index, _, cells| {
+            if limit.is_none() && starts.contains(&index) {
                 limit = Some(cells + ASTRAY);
             }
             limit.is_some_and(|limit| cells > limit)
@@ -68,18 +69,31 @@ impl<'a> Clearings<'a> {
         })
     }
 
-    /// Spreads from a cell over where the robot can stand until `ends` says so; returns the cell where it ended, and the cells gone to
+    /// Returns whether ground is left, from any of the places, where the robot could stand and has not been. O(cells).
+    #[must_use]
+    pub fn has_gap(&self, places: impl IntoIterator<Item = Point>) -> bool {
+        let starts: Vec<GridIndex> = places
+            .into_iter()
+            .flat_map(|place| self.stands_by(place))
+            .collect();
+        let (gap, _) = self.flood(&starts, |_, slot, _| !self.grid.was_visited(slot));
+        gap.is_some()
+    }
+
+    /// Spreads from cells over where the robot can stand until `ends` says so; returns the cell where it ended, and the cells gone to
     /// each.
     fn flood(
         &self,
-        from: GridIndex,
+        from: &[GridIndex],
         mut ends: impl FnMut(GridIndex, usize, u32) -> bool,
     ) -> (Option<GridIndex>, Vec<u32>) {
         let mut cells = vec![UNREACHED; self.grid.len()];
         let mut queue = VecDeque::new();
-        if let Some(slot) = self.grid.slot(from) {
-            cells[slot] = 0;
-            queue.push_back((from, slot));
+        for from in from {
+            if let Some(slot) = self.grid.slot(*from) {
+                cells[slot] = 0;
+                queue.push_back((*from, slot));
+            }
         }
         while let Some((index, slot)) = queue.pop_front() {
             let gone = cells[slot];
@@ -99,19 +113,20 @@ impl<'a> Clearings<'a> {
         (None, cells)
     }
 
-    /// The cell nearest to a point in which the robot can stand: where it is, it stands, whatever the map says.
-    fn nearest_stand(&self, at: Point) -> Option<GridIndex> {
+    /// The cells round a point in which the robot can stand, as far as no wall is between: where it is, it stands, whatever the
+    /// map says.
+    fn stands_by(&self, at: Point) -> Vec<GridIndex> {
         let centre = index_of(at);
-        (0..=6_i32).find_map(|ring| {
-            let cells = (-ring..=ring).flat_map(|row| {
-                (-ring..=ring).map(move |column| [centre[0] + column, centre[1] + row])
-            });
-            let stands = cells.filter(|index| self.grid.stands(*index, self.radius));
-            stands.min_by(|a, b| {
-                let way = |index: GridIndex| (middle(index) - at).norm();
-                way(*a).total_cmp(&way(*b))
-            })
-        })
+        let cells = (-BY..=BY).flat_map(|row| {
+            (-BY..=BY).map(move |column| [centre[0] + column, centre[1] + row])
+        });
+        let stands: Vec<GridIndex> = cells
+            .filter(|index| self.grid.stands(*index, self.radius))
+            .collect();
+        let in_sight = stands.iter().copied();
+        let in_sight = in_sight.filter(|index| self.grid.sees(at, middle(*index)));
+        let in_sight: Vec<GridIndex> = in_sight.collect();
+        if in_sight.is_empty() { stands } else { in_sight }
     }
 }
 
@@ -119,9 +134,14 @@ impl WayToGap<'_> {
     /// Returns how far it is from a point, m; `None` where that was not worked out.
     #[must_use]
     pub fn metres(&self, from: Point) -> Option<f64> {
-        let index = self.clearings.nearest_stand(from)?;
-        let cells = self.cells[self.clearings.grid.slot(index)?];
-        (cells != UNREACHED).then(|| f64::from(cells) * WallGrid::CELL)
+        let stands = self.clearings.stands_by(from).into_iter();
+        let left = stands.filter_map(|index| {
+            let cells = self.cells[self.clearings.grid.slot(index)?];
+            let aside = (middle(index) - from).norm();
+            (cells != UNREACHED).then_some((aside, cells))
+        });
+        let nearest = left.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map(|(_, cells)| f64::from(cells) * WallGrid::CELL)
     }
 }
 

@@ -26,6 +26,8 @@ const COMPARED_WITHIN: f64 = 0.08;
 const STEP: f64 = 0.0125;
 /// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
 const TELLS: f64 = 0.05;
+/// No position is surer than that, m.
+const SUREST: f64 = 0.005;
 /// Fewest beams that can be compared.
 const FEWEST: usize = 10;
 
@@ -38,7 +40,9 @@ pub(super) fn fit(
     heading: Heading,
     scan: &Scan,
 ) -> ScanFit {
+    let variance = variance.map(|variance| variance.max(SUREST * SUREST));
     let ends = comparable(grid, expected, heading, scan);
+    let rays = rays(expected, heading, scan);
     let as_expected = ScanFit {
         at: expected,
         variance,
@@ -56,7 +60,7 @@ pub(super) fn fit(
     for dy in shifts(half.y) {
         for dx in shifts(half.x) {
             let shift = Vector::new(dx, dy);
-            let score = ends_score(grid, &ends, shift);
+            let score = ends_score(grid, &ends, shift) - crossings(grid, &rays, shift);
             let prior = 0.5 * (dx * dx / variance.x + dy * dy / variance.y);
             let total = SHARE_OF_A_BEAM * score - prior;
             if total > best.0 {
@@ -67,7 +71,8 @@ pub(super) fn fit(
     let (_, shift, score) = best;
     let [x, y] = [0, 1].map(|axis| {
         let steps = half[axis].max(8);
-        along(grid, &ends, shift, axis, steps, variance[axis])
+        let score = |shift: Vector| ends_score(grid, &ends, shift) - crossings(grid, &rays, shift);
+        along(score, shift, axis, steps, variance[axis])
     });
     ScanFit {
         at: expected + Vector::new(x.0, y.0),
@@ -78,8 +83,7 @@ pub(super) fn fit(
 
 /// The shift along one axis and its variance, the other shift given: the mean of the posterior, or the prior where the walls tell nothing.
 fn along(
-    grid: &WallGrid,
-    ends: &[Point],
+    score: impl Fn(Vector) -> f64,
     best: Vector,
     axis: usize,
     steps: i32,
@@ -88,7 +92,7 @@ fn along(
     let score = |value: f64| {
         let mut shift = best;
         shift[axis] = value;
-        SHARE_OF_A_BEAM * ends_score(grid, ends, shift)
+        SHARE_OF_A_BEAM * score(shift)
     };
     let top = score(best[axis]);
     let mut seen = Moments::default();
@@ -142,6 +146,29 @@ fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -
         compared.then_some(end)
     });
     ends.collect()
+}
+
+/// A beam that passes a known wall so much before its end, m, cannot have come from there.
+const PASSED: f64 = 0.15;
+/// Spacing of the points at which beams are tried for walls, m: no wall is passed unseen but at a corner.
+const RAY_STEP: f64 = 0.06;
+
+/// Where every other beam passes, beam by beam.
+fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
+    let ray = |(index, range): (u32, &f64)| {
+        let unit = heading.turned(scan.ring.bearing(index)).unit();
+        let steps = ((range - PASSED) / RAY_STEP).max(0.0) as u32;
+        (3..=steps)
+            .map(|step| expected + unit * (f64::from(step) * RAY_STEP))
+            .collect()
+    };
+    (0..).zip(&scan.ranges).step_by(2).map(ray).collect()
+}
+
+/// How many beams pass through walls.
+fn crossings(grid: &WallGrid, rays: &[Vec<Point>], shift: Vector) -> f64 {
+    let crosses = |ray: &&Vec<Point>| ray.iter().any(|at| grid.is_wall(*at + shift));
+    2.0 * rays.iter().filter(crosses).count() as f64
 }
 
 fn ends_score(grid: &WallGrid, ends: &[Point], shift: Vector) -> f64 {

@@ -82,6 +82,12 @@ impl WallGrid {
         (distance <= Self::REACH).then_some(distance)
     }
 
+    /// Returns whether a point lies in a wall's cell.
+    #[must_use]
+    pub fn is_wall(&self, at: Point) -> bool {
+        self.cell(index_of(at)).is_some_and(|cell| cell.wall == 0)
+    }
+
     /// Returns whether a beam has ever reached or passed there.
     #[must_use]
     pub fn is_known(&self, at: Point) -> bool {

@@ -74,7 +74,8 @@ impl BetterExplorer {
     fn consult(&self, scan: &Scan, heading: f64) -> Plan {
         let clearings = self.map.clearings();
         let Some(way) = clearings.way_to_gap(self.map.position()) else {
-            return Plan::Finished;
+            let places = self.map.places().iter().map(|place| place.position);
+            return if clearings.has_gap(places) { Plan::Stuck } else { Plan::Finished };
         };
         let here = way.metres(self.map.position());
         let worth = |action: Direction| {
