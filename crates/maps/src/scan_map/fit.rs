@@ -24,6 +24,11 @@ const SHARE_OF_A_BEAM: f64 = 0.3;
 const COMPARED_WITHIN: f64 = 0.08;
 /// Spacing of the positions tried, m.
 const STEP: f64 = 0.0125;
+/// Spacing of those tried first, m: less than what a beam's end may be off.
+const COARSE: f64 = 0.05;
+/// How far from where it is expected a scan is tried at most, m; and along an axis at least.
+const FARTHEST: f64 = 0.35;
+const LEAST_WINDOW: f64 = 0.1;
 /// An axis on which the walls leave more than this open tells nothing, m (standard deviation).
 const TELLS: f64 = 0.05;
 /// No position is surer than that, m.
@@ -51,34 +56,45 @@ pub(super) fn fit(
     if ends.len() < FEWEST {
         return as_expected;
     }
-    let half = variance.map(|variance| {
-        let window = (3.0 * libm::sqrt(variance)).clamp(2.0 * STEP, 0.35);
-        libm::ceil(window / STEP) as i32
-    });
-    let shifts = |half: i32| (-half..=half).map(|shift| f64::from(shift) * STEP);
-    let mut best = (f64::NEG_INFINITY, Vector::zeros(), 0.0);
-    for dy in shifts(half.y) {
-        for dx in shifts(half.x) {
-            let shift = Vector::new(dx, dy);
-            let score = ends_score(grid, &ends, shift) - crossings(grid, &rays, shift);
-            let prior = 0.5 * (dx * dx / variance.x + dy * dy / variance.y);
-            let total = SHARE_OF_A_BEAM * score - prior;
-            if total > best.0 {
-                best = (total, shift, score);
-            }
-        }
-    }
-    let (_, shift, score) = best;
+    let score = |shift: Vector| ends_score(grid, &ends, shift) - crossings(grid, &rays, shift);
+    let window = variance.map(|variance| (3.0 * libm::sqrt(variance)).clamp(2.0 * STEP, FARTHEST));
+    let total = |shift: Vector| {
+        let prior = 0.5 * (shift.x * shift.x / variance.x + shift.y * shift.y / variance.y);
+        SHARE_OF_A_BEAM * score(shift) - prior
+    };
+    // First on a wide mesh, then on a narrow one round the best.
+    let coarse = best_of(Vector::zeros(), window, COARSE, total);
+    let shift = best_of(coarse, Vector::new(COARSE, COARSE), STEP, total);
     let [x, y] = [0, 1].map(|axis| {
-        let steps = half[axis].max(8);
-        let score = |shift: Vector| ends_score(grid, &ends, shift) - crossings(grid, &rays, shift);
+        let steps = (window[axis].max(LEAST_WINDOW) / STEP) as i32;
         along(score, shift, axis, steps, variance[axis])
     });
     ScanFit {
         at: expected + Vector::new(x.0, y.0),
         variance: Vector::new(x.1, y.1),
-        agreement: score / ends.len() as f64,
+        agreement: ends_score(grid, &ends, shift) / ends.len() as f64,
     }
+}
+
+/// The best of the shifts within `window` of `centre`, on a mesh of this width.
+fn best_of(
+    centre: Vector,
+    window: Vector,
+    mesh: f64,
+    total: impl Fn(Vector) -> f64,
+) -> Vector {
+    let [columns, rows] = [window.x, window.y].map(|window| libm::ceil(window / mesh) as i32);
+    let mut best = (f64::NEG_INFINITY, centre);
+    for row in -rows..=rows {
+        for column in -columns..=columns {
+            let shift = centre + Vector::new(f64::from(column), f64::from(row)) * mesh;
+            let total = total(shift);
+            if total > best.0 {
+                best = (total, shift);
+            }
+        }
+    }
+    best.1
 }
 
 /// The shift along one axis and its variance, the other shift given: the mean of the posterior, or the prior where the walls tell nothing.
