@@ -1,8 +1,10 @@
 //! Where MSLST and its baselines run, and what every run there measures.
 
+mod drawings;
 mod files;
 mod measured;
 mod paper;
+mod right_hand;
 
 use alloc::collections::BTreeMap;
 
@@ -19,6 +21,7 @@ use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Job, Row};
 use tolman_replay::Replay;
 
+pub(super) use drawings::{Condition, Drawing, Judged};
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
 pub(super) use paper::{LARGE_STEPS, PaperRow, StatesRow, TABLE_1, states_row};
@@ -75,8 +78,12 @@ pub(super) fn config<'a, W: Serialize>(
 
 /// The paper's own worlds.
 pub(super) fn papers() -> Result<[Venue; 2], BoxError> {
-    let j = Venue::new("2 (J)", "The J maze", j_maze()?, paper::J_STEPS);
-    Ok([j.known(paper::TABLE_2), large_like(large_maze()?)])
+    Ok([j_like(j_maze()?), large_like(large_maze()?)])
+}
+
+/// A course that stands for the paper's J maze, with its limit and its rows.
+fn j_like(course: Course) -> Venue {
+    Venue::new("2 (J)", "The J maze", course, paper::J_STEPS).known(paper::TABLE_2)
 }
 
 /// A course that stands for the paper's Large maze, with its limit and its rows.
