@@ -14,7 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "mslst-drawings",
     title: "The drawings of MSLST's mazes: which are kept",
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3",
-    runs: 100,
+    runs: 378,
     quick_runs: 2,
     open,
 };
@@ -43,6 +43,8 @@ record! {
         misses_wall_follow_success: bool => neither("× Wall-follow %"),
         /// Whether Wall-follow's steps lie outside the paper's interval.
         misses_wall_follow_steps: bool => neither("× Wall-follow steps"),
+        /// Whether the lists in the source say of it what was found; none beyond their end.
+        as_listed: Option<bool> => neither("as listed"),
         /// By how much the conditions are missed, summed, in shares of their bounds.
         excess: Option<f64> => lower("excess").at_least(0),
         /// Starts from which an exact right-hand tour never arrives.
@@ -108,7 +110,7 @@ fn table(drawing: Drawing, judged: u32) -> Table {
     counts
         .into_iter()
         .fold(table, |table, field| table.metric(count(field)))
-        .metrics_from(DrawingRun::excess)
+        .metrics_from(DrawingRun::as_listed)
         .row(Row::new("drawings"))
         .note(
             "Run n is drawing n of a sequence with a seed of its own. A drawing is rejected (×) for each condition that it misses; \
@@ -124,14 +126,16 @@ impl Procedure for Drawings {
         let judged = drawing.judged(job.run)?;
         let judged = judged.as_ref();
         let misses = |condition| judged.is_some_and(|judged| judged.misses(condition));
+        let kept = judged.is_some_and(|judged| judged.summed_excess() <= 0.0);
         let run = DrawingRun {
-            kept: judged.is_some_and(|judged| judged.summed_excess() <= 0.0),
+            kept,
             misses_traps: judged.is_none(),
             misses_oracle_steps: misses(Condition::OracleSteps),
             misses_avoid_success: misses(Condition::AvoidSuccess),
             misses_avoid_steps: misses(Condition::AvoidSteps),
             misses_wall_follow_success: misses(Condition::WallFollowSuccess),
             misses_wall_follow_steps: misses(Condition::WallFollowSteps),
+            as_listed: drawing.listed(job.run).map(|listed| listed == kept),
             excess: judged.map(Judged::summed_excess),
             trapped_percent: judged.map(|judged| judged.trapped_percent),
             avoid_success_percent: judged.map(|judged| judged.avoid.success_percent),

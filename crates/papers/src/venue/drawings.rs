@@ -41,6 +41,17 @@ pub(crate) enum Drawing {
     Large,
 }
 
+/// The number of the first J drawing that is kept: `mazes/j.maze`.
+const J_DRAWING: u32 = 4;
+
+/// The numbers of the first Large drawings that are kept, as `tolman experiment mslst-drawings` finds them. The first is
+/// `mazes/large.maze`.
+pub(crate) const LARGE_DRAWINGS: [u32; 50] = [
+    0, 17, 21, 31, 37, 43, 49, 52, 63, 69, 76, 93, 109, 110, 114, 130, 143, 156, 163, 170, 175,
+    202, 214, 218, 230, 231, 243, 247, 248, 252, 259, 267, 279, 288, 292, 297, 312, 325, 326, 327,
+    341, 346, 347, 352, 367, 370, 372, 374, 376, 377,
+];
+
 /// What was found of a drawing.
 #[derive(Clone, Debug)]
 pub(crate) struct Judged {
@@ -113,6 +124,17 @@ impl Drawing {
             Self::J => super::j_like(course),
             Self::Large => super::large_like(course),
         })
+    }
+
+    /// Whether the lists say that this drawing is kept, where they reach as far.
+    pub(crate) fn listed(self, number: u32) -> Option<bool> {
+        match self {
+            Self::J => (number <= J_DRAWING).then_some(number == J_DRAWING),
+            Self::Large => {
+                let last = LARGE_DRAWINGS.last().copied().unwrap_or_default();
+                (number <= last).then(|| LARGE_DRAWINGS.contains(&number))
+            }
+        }
     }
 
     pub(crate) const fn name(self) -> &'static str {
@@ -293,6 +315,36 @@ mod tests {
             let maze = drawing.maze(3).unwrap();
             assert_eq!(maze, drawing.maze(3).unwrap());
             assert_ne!(maze, drawing.maze(4).unwrap());
+        }
+    }
+
+    /// The mazes are the first drawings that are kept, to the cell.
+    #[test]
+    fn the_papers_mazes_are_the_first_that_are_kept() {
+        let mazes = [
+            (Drawing::J, J_DRAWING, "j", crate::venue::j_maze().unwrap()),
+            (
+                Drawing::Large,
+                LARGE_DRAWINGS[0],
+                "large",
+                crate::venue::large_maze().unwrap(),
+            ),
+        ];
+        for (drawing, number, file, course) in mazes {
+            let maze = drawing.maze(number).unwrap();
+            assert_eq!(course.maze, maze, "mazes/{file}.maze should be\n{maze}");
+        }
+    }
+
+    /// The first of each sequence are judged again; `tolman experiment mslst-drawings` judges all.
+    #[test]
+    fn the_lists_agree_with_the_rule() {
+        for (drawing, numbers) in [(Drawing::J, 3..5), (Drawing::Large, 0..4)] {
+            for number in numbers {
+                let judged = drawing.judged(number).unwrap();
+                let kept = judged.is_some_and(|judged| judged.summed_excess() <= 0.0);
+                assert_eq!(drawing.listed(number), Some(kept), "{drawing:?} {number}");
+            }
         }
     }
 }

@@ -21,10 +21,10 @@ use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Job, Row};
 use tolman_replay::Replay;
 
-pub(super) use drawings::{Condition, Drawing, Judged};
+pub(super) use drawings::{Condition, Drawing, Judged, LARGE_DRAWINGS};
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
-pub(super) use paper::{LARGE_STEPS, PaperRow, StatesRow, TABLE_1, states_row};
+pub(super) use paper::{PaperRow, StatesRow, TABLE_1, states_row};
 
 /// One world with its table.
 #[derive(Debug)]
@@ -91,6 +91,19 @@ pub(super) fn large_like(course: Course) -> Venue {
     Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
 }
 
+/// The first Large maze, drawn when steps per action still had a say in it: too long for the paper's figures, and a hard one
+/// for whoever navigates.
+pub(super) fn large_hard() -> Result<Venue, BoxError> {
+    let course = built_in("Large, hard", include_str!("../../mazes/large-hard.maze"))?;
+    let title = "The first Large maze, which is too long to be the paper's";
+    Ok(Venue::new(
+        "3 (large-hard)",
+        title,
+        course,
+        paper::LARGE_STEPS,
+    ))
+}
+
 /// The paper's J maze.
 pub(super) fn j_maze() -> Result<Course, BoxError> {
     built_in("J", include_str!("../../mazes/j.maze"))
@@ -111,7 +124,7 @@ fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
 
 impl Venue {
     /// A course of which the paper says nothing, for the calibrated robot.
-    fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
+    pub(super) fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
         Self {
             table: table.to_owned(),
             title: title.to_owned(),
@@ -126,6 +139,32 @@ impl Venue {
     /// With what the paper says.
     fn known(self, paper: &'static [PaperRow]) -> Self {
         Self { paper, ..self }
+    }
+
+    /// With a limit of the caller's; the paper says nothing of one that is not its own.
+    pub(super) fn limited(self, limit: Option<u32>) -> Self {
+        match limit {
+            Some(step_limit) if step_limit != self.step_limit => Self {
+                step_limit,
+                paper: &[],
+                ..self
+            },
+            _ => self,
+        }
+    }
+
+    /// Under another name, as a variant of a table.
+    pub(super) fn renamed(self, table: &str, title: &str) -> Self {
+        Self {
+            table: table.to_owned(),
+            title: title.to_owned(),
+            ..self
+        }
+    }
+
+    /// Whether the paper has a table of it.
+    pub(super) const fn is_papers(&self) -> bool {
+        !self.paper.is_empty()
     }
 
     /// The row of a brain, with what the paper says of it.
