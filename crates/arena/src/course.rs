@@ -133,7 +133,7 @@ struct FreeFloor {
     text: Arc<str>,
 }
 
-/// MSLST gives a robot 500 time steps in its Large maze, which has 63 cells to start from here, each
+/// MSLST gives a robot 500 time steps in its Large maze; the first one drawn here has 63 cells to start from, each
 /// [`CORRIDOR_WIDTH`] wide.
 const STEPS_PER_METRE: f64 = 500.0 / (63.0 * CORRIDOR_WIDTH);
 

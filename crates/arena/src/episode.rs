@@ -41,6 +41,8 @@ pub struct Episode {
     pub actions: u32,
     /// How many of those failed.
     pub failed_actions: u32,
+    /// How many of those failed in their first time step.
+    pub failed_at_once: u32,
     /// Time steps made; the limit where time ran out.
     pub steps: u32,
     /// Steps in which the body touched a wall.
@@ -88,9 +90,15 @@ pub fn run(
     // An action may last as long as the run.
     let layers = layers(trial.course, &trial.robot)?;
     let drive = Drive::new(layers, stream(trial.seed, LAYERS_STREAM)).longest_action(u32::MAX);
-    let mut failed_actions = 0;
+    let (mut failed_actions, mut failed_at_once) = (0, 0);
+    let mut steps_of_action = 0;
     let mut see = |step: &Step<'_>| {
-        failed_actions += u32::from(step.ends.is_some_and(|outcome| !outcome.moved()));
+        steps_of_action += 1;
+        if let Some(outcome) = step.ends {
+            failed_actions += u32::from(!outcome.moved());
+            failed_at_once += u32::from(!outcome.moved() && steps_of_action == 1);
+            steps_of_action = 0;
+        }
         watch(step);
     };
     let ended = match mind {
@@ -115,6 +123,7 @@ pub fn run(
         reached: ended.end == TaskEnd::Done,
         actions: ended.actions,
         failed_actions,
+        failed_at_once,
         steps: ended.steps,
         bumps: robot.robot().bumps(),
         path: robot.robot().path().to_vec(),

@@ -54,6 +54,9 @@ pub struct Options {
     pub jobs: Option<u32>,
     /// Maze files that take the place of the experiment's own worlds.
     pub mazes: Vec<PathBuf>,
+    /// Time steps after which a run has failed, in place of the experiment's own limits, where runs have such a limit. What a paper
+    /// says of another one is then left out.
+    pub limit: Option<u32>,
     /// The folder of results; `None` is `results/NAME` under the current folder.
     pub out: Option<PathBuf>,
     /// The names of the tables that are filled; all of them if none is named.
@@ -110,6 +113,9 @@ impl Options {
         );
         if self.quick {
             command += " --quick";
+        }
+        if let Some(limit) = self.limit {
+            command += &format!(" --limit {limit}");
         }
         for table in &self.tables {
             command += &format!(" --table {}", quoted(table));

@@ -21,6 +21,8 @@ pub(super) enum Sample<'a> {
     Numbers { numbers: Vec<f64>, centre: Centre },
     /// A numerator and a denominator for each run.
     Pairs(Vec<(f64, f64)>),
+    /// Two numbers for each run, whose spreads are compared.
+    Spreads(Vec<(f64, f64)>),
     /// A curve for each run, and the limit that their mean is to stay below.
     Curves {
         curves: Vec<&'a [f64]>,
@@ -30,10 +32,11 @@ pub(super) enum Sample<'a> {
 }
 
 /// How numbers become one value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Centre {
     Mean,
     Median,
+    Quantile(f64),
     Least,
     Greatest,
 }
@@ -72,9 +75,16 @@ impl<'a> Sample<'a> {
             Statistic::Median(field) => numbers(field, Centre::Median),
             Statistic::Least(field) => numbers(field, Centre::Least),
             Statistic::Greatest(field) => numbers(field, Centre::Greatest),
+            Statistic::Quantile { field, share } => numbers(field, Centre::Quantile(*share)),
             Statistic::Ratio { over, under } => {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
                 Self::Pairs(pairs.collect())
+            }
+            Statistic::RatioOfSpreads { over, under } => {
+                let pairs = runs.filter_map(|run| pair(run, over, run, under));
+                let pairs: Vec<(f64, f64)> = pairs.collect();
+                ratio_of_spreads(&pairs)
+                    .map_or_else(|| Self::Spreads(Vec::new()), |_| Self::Spreads(pairs))
             }
             Statistic::Multiple { field, .. } => {
                 let pairs = runs.filter_map(|run| {
@@ -102,12 +112,12 @@ impl<'a> Sample<'a> {
         match self {
             Self::Flags { flags, .. } => flags.len(),
             Self::Numbers { numbers, .. } => numbers.len(),
-            Self::Pairs(pairs) => pairs.len(),
+            Self::Pairs(pairs) | Self::Spreads(pairs) => pairs.len(),
             Self::Curves { curves, .. } => curves.len(),
         }
     }
 
-    /// The value: part of a whole, mean, median, least, greatest, ratio of sums, or when the mean curve settles; and whether what
+    /// The value: part of a whole, mean, median, quantile, least, greatest, ratio of sums or of spreads, or when the mean curve settles; and whether what
     /// the metric waits for came about, always where it waits for nothing.
     pub(super) fn value(&self) -> (f64, Reached) {
         let value = match self {
@@ -116,10 +126,15 @@ impl<'a> Sample<'a> {
                 Centre::Mean => mean(numbers),
                 // A sample is neither empty nor infinite: the runner refuses such runs.
                 Centre::Median => tolman_stats::quantile(numbers, 0.5).unwrap_or(f64::NAN),
+                Centre::Quantile(share) => {
+                    tolman_stats::quantile(numbers, *share).unwrap_or(f64::NAN)
+                }
                 Centre::Least => numbers.iter().copied().fold(f64::INFINITY, f64::min),
                 Centre::Greatest => numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
+            // Without a spread to divide by there is no sample.
+            Self::Spreads(pairs) => ratio_of_spreads(pairs).unwrap_or(f64::NAN),
             Self::Curves {
                 curves,
                 step,
@@ -148,11 +163,11 @@ impl<'a> Sample<'a> {
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
-                centre: Centre::Least | Centre::Greatest,
+                centre: Centre::Quantile(_) | Centre::Least | Centre::Greatest,
                 ..
             } => None,
             Self::Numbers { numbers, .. } => Some(numbers),
-            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
+            Self::Flags { .. } | Self::Pairs(_) | Self::Spreads(_) | Self::Curves { .. } => None,
         }
     }
 
@@ -169,8 +184,9 @@ impl<'a> Sample<'a> {
             Self::Numbers { numbers, centre } => match centre {
                 Centre::Mean => tolman_stats::bca_interval(numbers, mean, RESAMPLES, LEVEL, rng),
                 Centre::Median => tolman_stats::median_interval(numbers, LEVEL),
-                Centre::Least | Centre::Greatest => return None,
+                Centre::Quantile(_) | Centre::Least | Centre::Greatest => return None,
             },
+            Self::Spreads(_) => return None,
             Self::Pairs(pairs) => {
                 tolman_stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng)
             }
@@ -197,8 +213,8 @@ impl<'a> Sample<'a> {
                 .filter(|(_, under)| *under > 0.0)
                 .map(|(over, under)| over / under)
                 .collect(),
-            // A mean curve settles, one run's does not.
-            Self::Curves { .. } => Vec::new(),
+            // A mean curve settles and many runs have a spread; one run's does not and has none.
+            Self::Curves { .. } | Self::Spreads(_) => Vec::new(),
         }
     }
 }
@@ -237,6 +253,14 @@ fn zeros_and_ones(flags: &[bool]) -> Vec<f64> {
 
 fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
+}
+
+/// The ratio of the standard deviations; none where there is nothing to divide by.
+fn ratio_of_spreads(pairs: &[(f64, f64)]) -> Option<f64> {
+    let (over, under): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+    let over = tolman_stats::standard_deviation(&over).ok()?;
+    let under = tolman_stats::standard_deviation(&under).ok()?;
+    (under > 0.0).then(|| over / under)
 }
 
 fn ratio_of_sums(pairs: &[(f64, f64)]) -> f64 {

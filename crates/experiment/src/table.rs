@@ -344,6 +344,12 @@ impl Metric {
         Self::new(name, Statistic::Median(field.into()))
     }
 
+    /// The number of a numeric field below which a share of the runs lies, 0 … 1, by definition R-7.
+    pub fn quantile(name: impl Into<String>, field: impl Into<String>, share: f64) -> Self {
+        let field = field.into();
+        Self::new(name, Statistic::Quantile { field, share })
+    }
+
     /// The least of a numeric field.
     pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
         Self::new(name, Statistic::Least(field.into()))
@@ -385,6 +391,16 @@ impl Metric {
     ) -> Self {
         let (over, under) = (over.into(), under.into());
         Self::new(name, Statistic::Ratio { over, under })
+    }
+
+    /// The standard deviation of one numeric field over all runs divided by that of another.
+    pub fn ratio_of_spreads(
+        name: impl Into<String>,
+        over: impl Into<String>,
+        under: impl Into<String>,
+    ) -> Self {
+        let (over, under) = (over.into(), under.into());
+        Self::new(name, Statistic::RatioOfSpreads { over, under })
     }
 
     /// The sum of a numeric field over all runs divided by its sum over the runs of the row named `of` that
@@ -464,6 +480,13 @@ pub enum Statistic {
     Mean(String),
     /// The median of a numeric field.
     Median(String),
+    /// A quantile of a numeric field, of which no interval is told.
+    Quantile {
+        /// A numeric field.
+        field: String,
+        /// The share of the runs that lie below, 0 … 1.
+        share: f64,
+    },
     /// The least of a numeric field, of which no interval is told.
     Least(String),
     /// The greatest of a numeric field, of which no interval is told.
@@ -477,6 +500,13 @@ pub enum Statistic {
     },
     /// The ratio of two sums.
     Ratio {
+        /// The numeric field of the numerator.
+        over: String,
+        /// The numeric field of the denominator.
+        under: String,
+    },
+    /// The ratio of two standard deviations, of which no interval is told.
+    RatioOfSpreads {
         /// The numeric field of the numerator.
         over: String,
         /// The numeric field of the denominator.
@@ -504,8 +534,11 @@ impl Statistic {
             | Self::Median(field)
             | Self::Least(field)
             | Self::Greatest(field)
+            | Self::Quantile { field, .. }
             | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
-            Self::Ratio { over, under } => vec![(over, NUMERIC), (under, NUMERIC)],
+            Self::Ratio { over, under } | Self::RatioOfSpreads { over, under } => {
+                vec![(over, NUMERIC), (under, NUMERIC)]
+            }
             Self::Settling(Settling {
                 curve,
                 level,

@@ -43,6 +43,8 @@ impl Verdict {
             (
                 None,
                 Statistic::Median(_)
+                | Statistic::Quantile { .. }
+                | Statistic::RatioOfSpreads { .. }
                 | Statistic::Least(_)
                 | Statistic::Greatest(_)
                 | Statistic::Settling(_),

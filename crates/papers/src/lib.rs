@@ -15,6 +15,7 @@ mod gngslam;
 mod maze_file;
 mod micromouse;
 pub mod mslst;
+mod mslst_drawings;
 mod mslst_sweeps;
 mod plan;
 mod quantizers;
@@ -33,6 +34,7 @@ pub const fn catalogue() -> &'static [Entry] {
         baselines::ENTRY,
         quantizers::ENTRY,
         mslst::ENTRY,
+        mslst_drawings::ENTRY,
         mslst_sweeps::ENTRY,
         micromouse::ENTRY,
         diktiometry::ENTRY,

@@ -11,7 +11,7 @@ use crate::run::{Limited, TaskEnd, run};
 
 /// The J maze in corridors 0.95 m wide with walls that are lines, as MSLST has it.
 pub(super) fn j() -> Office {
-    let file = tolman_maze::read(include_str!("../../mazes/j.maze")).unwrap();
+    let file = tolman_maze::read(include_str!("../../mazes/j-long.maze")).unwrap();
     let furniture = OfficeConfig {
         corridor_width: file.corridor_width.unwrap(),
         wall_thickness: 0.0,

@@ -512,7 +512,7 @@ mod tests {
 
     #[test]
     fn places_may_be_far_apart_and_walls_painted() {
-        let file = tolman_maze::read(include_str!("../../mazes/j.maze")).unwrap();
+        let file = tolman_maze::read(include_str!("../../mazes/j-long.maze")).unwrap();
         let furniture = OfficeConfig {
             colours: 6,
             ..OfficeConfig::bare()

@@ -4,8 +4,10 @@
 //! like every brain, but has a [`PlaceViews`] of what it would see everywhere. Neither is a competitor: they say what
 //! the same body and the same layers allow.
 
+mod chances;
 mod policy;
 mod seer;
+mod trier;
 mod unlocalized;
 
 use alloc::sync::Arc;
@@ -29,7 +31,15 @@ fn perfect_robot(
     course: &Course,
     robot: &LaserPioneerConfig,
 ) -> Result<Solo<LaserPioneer>, EpisodeError> {
-    let model = LaserPioneer::new(without_noise(robot))?;
+    noisy_robot(course, &without_noise(robot))
+}
+
+/// Returns the robot of a course with its noise, to be set down anywhere.
+fn noisy_robot(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+) -> Result<Solo<LaserPioneer>, EpisodeError> {
+    let model = LaserPioneer::new(robot.clone())?;
     let somewhere = course.starts().next().unwrap_or(Cell::new(0, 0));
     let somewhere = course.in_cell(somewhere, Direction::North);
     Ok(Solo::new(course.world.clone(), model, somewhere, 0)?)
@@ -38,7 +48,7 @@ fn perfect_robot(
 /// The ceiling: knows the maze and its true pose and plans anew at every action, with the same body and
 /// the same layers as everyone else. Not in the paper.
 ///
-/// Its [`Policy`] says what each action would cost in time steps from about where the robot is. An action
+/// Its [`Policy`] says what each action is expected to cost in time steps from about where the robot is. An action
 /// that has just failed there is not tried again before the robot has moved.
 #[derive(Clone, Debug)]
 pub struct Oracle {
@@ -71,7 +81,7 @@ impl Oracle {
         Direction::ALL
             .into_iter()
             .filter(|action| !self.failed.contains(action))
-            .min_by_key(|action| costs[action.index()].unwrap_or(u32::MAX))
+            .min_by(|a, b| costs[a.index()].total_cmp(&costs[b.index()]))
             .unwrap_or(Direction::North)
     }
 }

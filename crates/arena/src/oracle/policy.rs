@@ -1,30 +1,28 @@
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use tolman_control::{Stack, View};
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Direction;
-use tolman_planners::{Arcs, costs_from};
-use tolman_robot::{Robot, TurnTranslate};
-use tolman_sim::Solo;
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::robots::LaserPioneerConfig;
 
-use super::perfect_robot;
+use super::chances::{Chances, Costs};
+use super::trier::Trier;
+use super::{noisy_robot, perfect_robot};
 use crate::course::Course;
-use crate::episode_error::{EpisodeError, step_failed};
+use crate::episode_error::EpisodeError;
 
 /// What every action costs, in time steps to the destination, from every place of a course.
 ///
-/// Places are a lattice of positions, each with the two axes a robot can face along. The arcs between them
-/// are found by letting the robot itself carry out each action there, with its own layers and without
-/// noise, and seeing where it ends and how long it took; Dijkstra's algorithm does the rest. Exact for a
-/// noise-free robot but for the rounding of where actions end to the lattice.
+/// Places are a lattice of positions, each with the two axes a robot can face along. The robot itself carries out
+/// every action there eight times, with its own layers and its own noise, from about the position and about the
+/// axis; where it ended, how long it took and whether it failed are the chances that the plan reckons with. Value iteration
+/// does the rest (Bellman 1957): the costs are expected ones, those of the best plan for a robot that may miss, with an action that
+/// has just failed not tried again at once. Exact but for the rounding of where actions end to the lattice and
+/// the number of samples.
 #[derive(Clone, Debug)]
 pub struct Policy {
     lattice: Lattice,
-    /// For each node and action, the steps from there to the destination that begin with the action.
-    costs: Vec<[Option<u32>; 4]>,
-    /// For each node and action, the node it leads to without noise and in how many steps; none where it fails.
-    ends: Vec<[Option<(u32, u32)>; 4]>,
+    /// For each node and action, the expected steps from there to the destination that begin with the action.
+    costs: Vec<Costs>,
+    /// For each node and action, the node it leads to without noise; none where it fails.
+    ends: Vec<[Option<u32>; 4]>,
 }
 
 /// Positions of the lattice per corridor width.
@@ -34,64 +32,44 @@ const POSITIONS: f64 = 8.0;
 /// another one.
 const COARSEST: f64 = 0.125;
 
-/// What fits a few hundred megabytes and a minute.
+/// What fits a few hundred megabytes and a few minutes.
 const MOST_NODES: usize = 2_000_000;
-
-/// An action that has not ended by then swings to and fro for long; the policy leaves it out.
-const LONGEST_ACTION: u32 = 40;
 
 impl Policy {
     /// Works out the policy of a course, on eight positions per corridor width or more. Every node is
-    /// simulated four times: about 10 µs per node and action, and a node per axis and position.
+    /// simulated 36 times: about 10 µs each, and a node per axis and position.
     ///
     /// # Errors
     /// When the course is a free world, the robot cannot be built for it, or the course needs more than two million nodes.
     pub fn new(course: &Course, robot: &LaserPioneerConfig) -> Result<Self, EpisodeError> {
         course.needs_maze("the oracle")?;
         let lattice = Lattice::new(course, (course.corridor_width / POSITIONS).min(COARSEST));
-        if lattice.node_count() > MOST_NODES {
+        let count = lattice.node_count();
+        if count > MOST_NODES {
             return Err(EpisodeError::Policy {
-                nodes: lattice.node_count(),
+                nodes: count,
                 most: MOST_NODES,
             });
         }
-        let mut stack = Stack::paper(robot.ring, 2.0 * robot.radius, course.corridor_width)?;
-        let mut solo = perfect_robot(course, robot)?;
-
-        let mut arcs = Vec::new();
-        let mut ends = vec![[None; 4]; lattice.node_count()];
-        let mut goals = Vec::new();
-        for node in 0..lattice.node_count() as u32 {
+        let mut perfect = Trier::new(course, perfect_robot(course, robot)?, robot)?;
+        let mut real = Trier::new(course, noisy_robot(course, robot)?, robot)?;
+        let mut ends = vec![[None; 4]; count];
+        let mut chances = Chances::default();
+        for node in 0..count as u32 {
             let pose = lattice.pose(node);
-            if course.is_destination(pose.position) {
-                goals.push(node);
-                continue;
-            }
-            if !course.leads_on(pose.position) {
+            if course.is_destination(pose.position) || !course.leads_on(pose.position) {
                 continue;
             }
             for action in Direction::ALL {
-                // Walls stand in the way of some lattice points; nobody ever stands there.
-                if solo.place(pose).is_err() {
-                    break;
-                }
-                if let Some((end, steps)) = carry_out(action, &mut solo, &mut stack, course)? {
-                    let head = lattice.nearest(end);
-                    ends[node as usize][action.index()] = Some((head, steps));
-                    arcs.push((node, head, steps));
+                if let Some(end) = perfect.carry_out(action, pose)?
+                    && end.moved
+                {
+                    ends[node as usize][action.index()] = Some(lattice.nearest(end.pose));
                 }
             }
+            chances.try_all(node, &lattice, &mut real)?;
         }
-        let to_destination = costs_from(&Arcs::new(lattice.node_count(), &arcs).reversed(), goals);
-        let costs = ends
-            .iter()
-            .map(|actions| {
-                actions.map(|end| {
-                    let (head, steps) = end?;
-                    Some(to_destination[head as usize]? + steps)
-                })
-            })
-            .collect();
+        let costs = chances.costs(&lattice);
         Ok(Self {
             lattice,
             costs,
@@ -99,16 +77,16 @@ impl Policy {
         })
     }
 
-    /// The steps to the destination from about `pose`, by the action they begin with; none where it would
+    /// Returns the expected steps to the destination from about `pose`, by the action they begin with; infinite where it would
     /// not lead there.
     #[must_use]
-    pub fn costs(&self, pose: Pose) -> [Option<u32>; 4] {
+    pub fn costs(&self, pose: Pose) -> [f64; 4] {
         self.costs[self.lattice.nearest(pose) as usize]
     }
 
     /// Where an action leads from about `pose` without noise; none where it fails.
     pub(super) fn end(&self, pose: Pose, action: Direction) -> Option<Point> {
-        let (head, _) = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
+        let head = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
         Some(self.lattice.pose(head).position)
     }
 
@@ -126,45 +104,11 @@ impl Policy {
     }
 }
 
-/// Carries out one action; where it ends and after how many steps, or none if it fails or never ends.
-fn carry_out(
-    action: Direction,
-    solo: &mut Solo<LaserPioneer>,
-    stack: &mut Stack,
-    course: &Course,
-) -> Result<Option<(Pose, u32)>, EpisodeError> {
-    // The layers draw only to get out of corners; a fixed seed makes the policy repeatable.
-    let mut rng = ChaCha8Rng::seed_from_u64(0);
-    stack.begin(action);
-    // It was lifted here: one step at rest and it sees where it is.
-    let rest = solo.step(&TurnTranslate::STOP);
-    rest.map_err(|source| step_failed(0, source))?;
-    for step in 1..=LONGEST_ACTION {
-        let sensing = solo.sensing();
-        let (Some(scan), Some(heading)) = (&sensing.scan, sensing.compass) else {
-            return Ok(None);
-        };
-        let proposal = stack.correct(View { scan, heading }, &mut rng);
-        solo.step(&proposal.command)
-            .map_err(|source| step_failed(step, source))?;
-        let pose = solo.truth().pose;
-        if course.is_destination(pose.position) {
-            return Ok(Some((pose, step)));
-        }
-        match proposal.ends {
-            Some(outcome) if outcome.moved() => return Ok(Some((pose, step))),
-            Some(_) => return Ok(None),
-            None => {}
-        }
-    }
-    Ok(None)
-}
-
 /// Positions on a square lattice over a course, each with two axes.
 #[derive(Clone, Debug)]
-struct Lattice {
+pub(super) struct Lattice {
     origin: Point,
-    spacing: f64,
+    pub(super) spacing: f64,
     columns: u32,
     rows: u32,
 }
@@ -184,13 +128,13 @@ impl Lattice {
         }
     }
 
-    const fn node_count(&self) -> usize {
+    pub(super) const fn node_count(&self) -> usize {
         (self.columns as usize)
             .saturating_mul(self.rows as usize)
             .saturating_mul(AXES.len())
     }
 
-    fn pose(&self, node: u32) -> Pose {
+    pub(super) fn pose(&self, node: u32) -> Pose {
         let axes = AXES.len() as u32;
         let (place, axis) = (node / axes, node % axes);
         let (column, row) = (place % self.columns, place / self.columns);
@@ -198,7 +142,7 @@ impl Lattice {
         Pose::new(self.origin + offset, AXES[axis as usize])
     }
 
-    fn nearest(&self, pose: Pose) -> u32 {
+    pub(super) fn nearest(&self, pose: Pose) -> u32 {
         let offset = (pose.position - self.origin) / self.spacing;
         let index = |value: f64, count: u32| (libm::round(value).max(0.0) as u32).min(count - 1);
         let column = index(offset.x, self.columns);

@@ -37,4 +37,12 @@ pub enum GenerateError {
         /// Rows of the maze.
         height: u16,
     },
+    /// No drawing had what was asked for.
+    #[error(
+        "none of {tries} drawings has all features that were asked for: ask for fewer dead ends or longer corridors, or a larger maze"
+    )]
+    Features {
+        /// Drawings tried.
+        tries: u32,
+    },
 }

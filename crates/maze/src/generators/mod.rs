@@ -1,13 +1,17 @@
-//! Seeded mazes. All share one way to mark start and goal.
+//! Seeded mazes. Those of whole grids share one way to mark start and goal.
 
 mod braided;
 mod chance;
 mod error;
+mod hook;
+mod one_loop;
 mod perfect;
 mod rooms;
 
 pub use braided::Braided;
 pub use error::GenerateError;
+pub use hook::Hook;
+pub use one_loop::OneLoop;
 pub use perfect::Perfect;
 pub use rooms::Rooms;
 
@@ -48,4 +52,18 @@ fn mark(maze: &mut Maze) {
             .collect();
     }
     maze.set_goals(goals);
+}
+
+/// Opens a corridor of this many cells beyond `from`, and returns where it ends; at the border at the latest.
+fn carved(maze: &mut Maze, from: Cell, direction: Direction, cells: u16) -> Cell {
+    let grid = maze.grid();
+    let mut here = from;
+    for _ in 0..cells {
+        let Some(next) = grid.neighbour(here, direction) else {
+            break;
+        };
+        maze.set_wall(here, direction, false);
+        here = next;
+    }
+    here
 }

@@ -49,8 +49,10 @@ fn the_keys_of_the_table_are_the_keys_that_are_read() {
 
 /// What is drawn inside the walled-off area is none of the maze.
 #[test]
-fn the_j_maze_is_one_corridor_and_the_rest_is_solid() {
-    let maze = read(include_str!("../../../../mazes/j.maze")).unwrap().maze;
+fn the_long_j_maze_is_one_corridor_and_the_rest_is_solid() {
+    let maze = read(include_str!("../../../../mazes/j-long.maze"))
+        .unwrap()
+        .maze;
     let count = |degrees: &[usize]| {
         let of_degree = |cell: &Cell| degrees.contains(&maze.degree(*cell));
         maze.reachable().filter(of_degree).count()

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_maze::{Braided, Cell, Direction, GenerateError, Maze, Perfect, Rooms};
+use tolman_maze::{Braided, Cell, Direction, GenerateError, Hook, Maze, OneLoop, Perfect, Rooms};
 
 fn rng(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
@@ -44,6 +44,34 @@ proptest! {
         if height > 1 {
             prop_assert_eq!(maze.start().expect("marked").1, Direction::North);
         }
+    }
+
+    #[test]
+    fn a_hook_is_one_corridor_with_its_goal_at_a_bend(width in 2_u16..20, height in 3_u16..20, seed: u64) {
+        let maze = Hook { width, height }.generate(&mut rng(seed)).expect("a fit size");
+        let inside: Vec<Cell> = maze.reachable().collect();
+        // A way from end to end: as long as the stem and the hook and at least a cell of tail.
+        prop_assert_eq!(maze.opening_count(), inside.len() - 1);
+        prop_assert!(inside.iter().all(|cell| maze.degree(*cell) <= 2));
+        prop_assert_eq!(maze.dead_ends().count(), 2);
+        prop_assert!(inside.len() > usize::from(width + height - 1));
+        let corner = Cell::new(width - 1, 0);
+        prop_assert_eq!(maze.goals(), [corner]);
+        prop_assert!(maze.is_open(corner, Direction::North) && maze.is_open(corner, Direction::West));
+    }
+
+    #[test]
+    fn one_loop_has_the_features_that_it_is_named_after(width in 9_u16..14, height in 5_u16..9, seed: u64) {
+        let drawing = OneLoop { width, height, dead_ends: 4, short: 4 };
+        let maze = drawing.generate(&mut rng(seed)).expect("a fit size");
+        let inside: Vec<Cell> = maze.reachable().collect();
+        // A tree has one opening less than cells: this is one loop.
+        prop_assert_eq!(maze.opening_count(), inside.len());
+        prop_assert_eq!(inside.iter().filter(|cell| maze.degree(**cell) == 4).count(), 1);
+        prop_assert!(maze.dead_ends().count() >= 4);
+        prop_assert_eq!(maze.goals(), [Cell::new(width - 1, 0)]);
+        // No room: corridors are a cell wide and at least two apart.
+        prop_assert!(maze.grid().cells().all(|cell| !maze.is_room(cell)));
     }
 
     #[test]
@@ -227,5 +255,32 @@ o   o   o   o   o   o   o   o   o   o
 | S |       |       |   |           |
 o---o---o---o---o---o---o---o---o---o
 ",
+    );
+}
+
+#[test]
+fn what_cannot_be_drawn_says_why() {
+    let small = Hook {
+        width: 1,
+        height: 3,
+    }
+    .generate(&mut rng(1));
+    assert_eq!(
+        small,
+        Err(GenerateError::Size {
+            width: 1,
+            height: 3
+        })
+    );
+    let drawing = OneLoop {
+        width: 5,
+        height: 5,
+        dead_ends: 40,
+        short: 4,
+    };
+    let refused = drawing.generate(&mut rng(1)).unwrap_err();
+    assert!(
+        matches!(refused, GenerateError::Features { .. }),
+        "{refused}"
     );
 }

@@ -49,6 +49,10 @@ struct Baselines {
 /// If a maze cannot be read, or the robot does not fit its corridors.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     let (venues, skipped) = worlds::venues(&options.mazes)?;
+    let venues: Vec<Venue> = venues
+        .into_iter()
+        .map(|venue| venue.limited(options.limit))
+        .collect();
     let mut tables: Vec<Table> = venues.iter().map(table).collect();
     tables.push(detector::table());
     let worlds = venues.iter();

@@ -147,8 +147,8 @@ pub(super) fn all() -> Result<Vec<Trial>, BoxError> {
             note: "The robot of MSLST tells places apart by its laser.",
             rows: Rows::OwnWorlds,
             settings: vec![
-                mslst("J", include_str!("../../mazes/j.maze"))?,
-                mslst("Large", include_str!("../../mazes/large.maze"))?,
+                mslst("J", include_str!("../../mazes/j-long.maze"))?,
+                mslst("Large", include_str!("../../mazes/large-hard.maze"))?,
             ],
         },
     ])

@@ -1,7 +1,6 @@
 //! Tables 2 and 3: the brains against each other in one world.
 
 use alloc::collections::BTreeMap;
-use alloc::sync::Arc;
 use std::sync::OnceLock;
 
 use serde::Serialize;
@@ -9,17 +8,17 @@ use tolman_control::Outcome;
 use tolman_maze::Direction;
 
 use super::MAPS;
+use super::entrant::{Entrant, Ready};
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Trial};
-use tolman_arena::mslst::{LearnError, learn};
 use tolman_experiment::{
     BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, Tolerance, record, require,
     run_seed,
 };
 use tolman_replay::Replay;
-use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
+use tolman_systems::mslst::{Learned, MslstConfig};
 
 record! {
     /// A run of a brain that competes.
@@ -28,7 +27,7 @@ record! {
         ..run: MazeRun,
         /// Actions that take back the one before, soon after another such.
         bounces: u32 => lower("bounces"),
-        /// Number of the map by which MSLST navigates.
+        /// Number of the map by which a learner navigates.
         map: Option<u32> => neither("map").at_most(MAPS - 1),
     }
 }
@@ -47,6 +46,7 @@ impl ContestRun {
 pub(super) struct ContestConfig<'a> {
     #[serde(flatten)]
     world: World,
+    maps: u32,
     #[serde(flatten)]
     mslst: BTreeMap<&'a str, MslstConfig>,
 }
@@ -55,26 +55,25 @@ pub(super) struct ContestConfig<'a> {
 #[derive(Debug)]
 pub(super) struct Contest {
     pub(super) venue: Venue,
-    pub(super) apprentices: Vec<Apprentice>,
+    pub(super) competitors: Vec<Competitor>,
+    /// How many maps each learner has.
+    pub(super) maps: u32,
+    /// Runs of each row, whatever the caller asks for.
+    runs: Option<u32>,
 }
 
-/// MSLST with one threshold, and the maps it has learned so far.
+/// An entrant, and what it has learned so far.
 #[derive(Debug)]
-pub(super) struct Apprentice {
+pub(super) struct Competitor {
     pub(super) row: String,
-    pub(super) config: MslstConfig,
-    /// The seed of each map, the same for every threshold.
+    entrant: Entrant,
+    /// The seed of each map, the same for every learner; a single one of who learns none.
     seeds: Vec<u64>,
-    maps: Vec<OnceLock<Learned>>,
+    ready: Vec<OnceLock<Ready>>,
 }
 
-/// The agents beside MSLST, the paper's first.
-const OTHERS: [Agent; 4] = [
-    Agent::Avoid,
-    Agent::WallFollow,
-    Agent::Oracle,
-    Agent::UnlocalizedOracle,
-];
+/// Runs of each of the paper's rows.
+const PAPER_RUNS: u32 = 25;
 
 /// The significant differences that the paper reports, by row of MSLST and other row.
 const PAPER_P: [(&str, &str, f64); 6] = [
@@ -87,107 +86,164 @@ const PAPER_P: [(&str, &str, f64); 6] = [
 ];
 
 impl Contest {
+    /// With [`MAPS`] maps of each learner.
     pub(super) fn new(venue: Venue, master_seed: u64) -> Self {
+        Self::with_maps(venue, master_seed, MAPS, None)
+    }
+
+    /// As the paper's own table must have been made: 25 runs by one map.
+    pub(super) fn with_one_map(venue: Venue, master_seed: u64) -> Self {
+        let table = format!("{}, one map", venue.table);
+        let title = format!("{}, 25 runs by one map", venue.title);
+        let venue = venue.renamed(&table, &title);
+        Self::with_maps(venue, master_seed, 1, Some(PAPER_RUNS))
+    }
+
+    fn with_maps(venue: Venue, master_seed: u64, maps: u32, runs: Option<u32>) -> Self {
         let configs = match venue.course.name.as_str() {
             "J" => vec![MslstConfig::j()],
-            "Large" => vec![MslstConfig::large(20.0), MslstConfig::large(50.0)],
+            "Large" | "Large, hard" => vec![MslstConfig::large(20.0), MslstConfig::large(50.0)],
             _ => vec![MslstConfig::large(50.0)],
         };
         let stream = format!("maps of {}", venue.table);
-        let seeds: Vec<u64> = (0..MAPS)
+        let seeds: Vec<u64> = (0..maps)
             .map(|map| run_seed(master_seed, &stream, map))
             .collect();
-        let apprentice = |config: MslstConfig| Apprentice {
-            row: format!("MSLST {}", config.threshold),
-            config,
-            seeds: seeds.clone(),
-            maps: seeds.iter().map(|_| OnceLock::new()).collect(),
+        let learners = configs.into_iter().map(Entrant::Mslst);
+        let competitor = |entrant: Entrant| {
+            let count = if entrant.learns() { maps } else { 1 };
+            Competitor {
+                row: entrant.row(),
+                entrant,
+                seeds: seeds.iter().take(count as usize).copied().collect(),
+                ready: (0..count).map(|_| OnceLock::new()).collect(),
+            }
         };
         Self {
+            competitors: Entrant::lineup(learners)
+                .into_iter()
+                .map(competitor)
+                .collect(),
             venue,
-            apprentices: configs.into_iter().map(apprentice).collect(),
+            maps,
+            runs,
         }
     }
 
     pub(super) fn table(&self) -> Table {
-        let oracle = Agent::Oracle.name();
-        let unlocalized = Agent::UnlocalizedOracle.name();
-        let table = self
-            .venue
-            .table::<ContestRun>()
-            .metric(Metric::percent("success_percent", MazeRun::reached))
-            .metric(Metric::mean(MazeRun::actions).tolerance(Tolerance::Spread))
-            .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Spread))
-            .metric(
-                Metric::multiple("steps_of_oracle", MazeRun::steps, oracle)
-                    .titled("steps / Oracle's"),
-            )
-            .metric(
-                Metric::multiple("steps_of_unlocalized", MazeRun::steps, unlocalized)
-                    .titled("steps / Unlocalized oracle's"),
-            )
-            .metric(Metric::mean(ContestRun::bounces));
-        let (baselines, yardsticks) = OTHERS.split_at(2);
-        let names = |agents: &[Agent]| -> Vec<String> {
-            agents.iter().map(|agent| agent.name().to_owned()).collect()
-        };
-        let apprentices = self.apprentices.iter().map(|one| one.row.clone());
-        let competitors: Vec<String> = names(baselines).into_iter().chain(apprentices).collect();
-        let rows = [competitors.clone(), names(yardsticks)].concat();
+        let table = self.measured();
+        let competitors = self.competitors.iter().filter(|one| one.entrant.competes());
         // Of rows that do not compete nobody asks.
-        let paper = PAPER_P.map(|(row, other, p)| (row.to_owned(), other.to_owned(), p));
+        let paper: &[_] = if self.venue.is_papers() {
+            &PAPER_P
+        } else {
+            &[]
+        };
+        let paper = paper
+            .iter()
+            .map(|&(row, other, p)| (row.to_owned(), other.to_owned(), p));
+        let maps = match self.maps {
+            1 => "All runs of a learner are by one map.".to_owned(),
+            maps => format!("Run n of a learner is by map n mod {maps}."),
+        };
         let note = format!(
-            "{} Run n of MSLST navigates by map n mod {MAPS}. A bounce is an action that takes back the one before, soon \
-             after another such.",
+            "{} {maps} A bounce is an action that takes back the one before, soon after another such.",
             table.note
         );
+        let row = |name: &str| {
+            let row = self.venue.row(name);
+            match self.runs {
+                Some(runs) => row.runs(runs),
+                None => row,
+            }
+        };
         table
-            .rows(rows.iter().map(|name| self.venue.row(name)))
+            .rows(self.competitors.iter().map(|one| row(&one.row)))
             .pairwise(Pairwise {
                 field: MazeRun::steps.to_owned(),
-                rows: competitors,
+                rows: competitors.map(|one| one.row.clone()).collect(),
                 correction: Correction::Bonferroni,
-                paper: paper.into(),
+                paper: paper.collect(),
             })
             .note(note)
     }
 
+    /// The table with what is measured in it, without its rows.
+    fn measured(&self) -> Table {
+        let over = |name, agent: Agent| {
+            let title = format!("steps / {}'s", agent.name());
+            Metric::multiple(name, MazeRun::steps, agent.name()).titled(title)
+        };
+        self.venue
+            .table::<ContestRun>()
+            .metric(Metric::percent("success_percent", MazeRun::reached))
+            .metric(Metric::mean(MazeRun::actions).tolerance(Tolerance::Spread))
+            .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Spread))
+            .metric(Metric::mean(MazeRun::steps_arrived))
+            .metric(over("steps_over_oracle", Agent::Oracle))
+            .metric(over(
+                "steps_over_unlocalized_oracle",
+                Agent::UnlocalizedOracle,
+            ))
+            .metric(
+                Metric::ratio_of_spreads("sd_ratio", MazeRun::actions, MazeRun::steps)
+                    .titled("sd of actions / of steps")
+                    .defined(
+                        "Of runs that get stuck it is near 1: they differ by actions of one step.",
+                    ),
+            )
+            .metric(
+                Metric::ratio("failed_at_once", MazeRun::failed_at_once, MazeRun::actions)
+                    .titled("failed at once / actions")
+                    .defined("The share of all actions that failed in their first time step."),
+            )
+            .metric(
+                Metric::ratio("steps_per_action", MazeRun::steps, MazeRun::actions)
+                    .titled("steps / action"),
+            )
+            .metric(Metric::mean(ContestRun::bounces))
+    }
+
     /// What the runs depend on.
     pub(super) fn config(&self) -> ContestConfig<'_> {
-        let mslst = self.apprentices.iter();
+        let learners = self.competitors.iter();
+        let learners = learners.filter_map(|one| Some((&*one.row, one.entrant.config()?)));
         ContestConfig {
             world: self.venue.world(),
-            mslst: mslst.map(|one| (&*one.row, one.config)).collect(),
+            maps: self.maps,
+            mslst: learners.collect(),
         }
     }
 
-    pub(super) fn apprentice(&self, row: &str) -> Option<&Apprentice> {
-        self.apprentices.iter().find(|one| one.row == row)
+    /// Who learns a map.
+    pub(super) fn learners(&self) -> impl Iterator<Item = &Competitor> {
+        let competitors = self.competitors.iter();
+        competitors.filter(|one| one.entrant.learns())
+    }
+
+    fn competitor(&self, row: &str) -> Result<&Competitor, BoxError> {
+        let mut competitors = self.competitors.iter();
+        let competitor = competitors.find(|one| one.row == row);
+        competitor.ok_or_else(|| format!("there is no brain {row:?}").into())
     }
 
     /// Plays one run.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let learns = self.competitor(job.row)?.entrant.learns();
         let (episode, bounces) = self.episode(job)?;
         let run = ContestRun {
             run: MazeRun::of(&episode),
             bounces,
-            map: self.apprentice(job.row).map(|_| job.run % MAPS),
+            map: learns.then_some(job.run % self.maps),
         };
         Ok(run.fields()?)
     }
 
-    /// Where a run takes place, who drives, and what MSLST has learned, if it does.
-    fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, Option<&Learned>), BoxError> {
-        let trial = self.venue.trial(job.seed);
-        let Some(apprentice) = self.apprentice(job.row) else {
-            let agent = Agent::named(job.row);
-            let agent = agent.ok_or_else(|| format!("there is no brain {:?}", job.row))?;
-            return Ok((trial, self.venue.mind(agent)?, None));
-        };
-        let learned = apprentice.learned(&self.venue, job.run % MAPS)?;
-        let map = Arc::new(learned.map.clone());
-        let navigator = Navigator::new(map, &apprentice.config);
-        Ok((trial, Mind::Brain(Box::new(navigator)), Some(learned)))
+    /// Where a run takes place, who drives, and what it has learned.
+    fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, &Ready), BoxError> {
+        let competitor = self.competitor(job.row)?;
+        let ready = competitor.ready(&self.venue, job.run)?;
+        Ok((self.venue.trial(job.seed), ready.mind(&self.venue)?, ready))
     }
 
     /// One run and how often the robot bounced in it.
@@ -204,23 +260,33 @@ impl Contest {
 
     /// One run as it can be watched.
     pub(super) fn replay(&self, job: &Job<'_>) -> Result<Replay, BoxError> {
-        let (trial, mut mind, learned) = self.cast(job)?;
+        let (trial, mut mind, ready) = self.cast(job)?;
+        let learned = ready.learned();
         let nodes = learned.map_or(&[][..], |learned| &learned.survey.positions);
         Ok(venue::replay(job, &trial, &mut mind, nodes)?)
     }
 }
 
-impl Apprentice {
-    /// The map of this number, learned by whoever asks first.
-    pub(super) fn learned(&self, venue: &Venue, number: u32) -> Result<&Learned, LearnError> {
-        let cell = &self.maps[number as usize];
-        if let Some(learned) = cell.get() {
-            return Ok(learned);
+impl Competitor {
+    /// What it has learned for this run, by whoever asks first.
+    pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
+        let number = run as usize % self.ready.len();
+        let cell = &self.ready[number];
+        if let Some(ready) = cell.get() {
+            return Ok(ready);
         }
-        let seed = self.seeds[number as usize];
-        let learned = learn(&venue.course, &venue.robot, &self.config, seed)?;
+        let seed = self.seeds[number];
+        let ready = self.entrant.ready(venue, seed)?;
         // Two threads may learn it at once; they learn the same.
-        Ok(cell.get_or_init(|| learned))
+        Ok(cell.get_or_init(|| ready))
+    }
+
+    /// Map 0 of MSLST; none of who learns none.
+    pub(super) fn first_map(&self, venue: &Venue) -> Result<Option<&Learned>, BoxError> {
+        if !self.entrant.learns() {
+            return Ok(None);
+        }
+        Ok(self.ready(venue, 0)?.learned())
     }
 }
 

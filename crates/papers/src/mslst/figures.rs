@@ -3,9 +3,9 @@
 use tolman_geom::Point;
 use tolman_maps::mslst_graph::Node;
 
+use super::Mslst;
 use super::contest::Contest;
 use super::drawing::{self, SHOWN_ACTIONS};
-use super::{MAPS, Mslst};
 use crate::venue::MazeRun;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Run};
@@ -21,12 +21,16 @@ const WIDTH: f64 = 420.0;
 pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (number, contest) in (1_u32..).zip(&experiment.contests) {
-        for (place, apprentice) in (1_u32..).zip(&contest.apprentices) {
-            let learned = apprentice.learned(&contest.venue, 0)?;
+        let mut place = 0;
+        for competitor in &contest.competitors {
+            let Some(learned) = competitor.first_map(&contest.venue)? else {
+                continue;
+            };
+            place += 1;
             let at = format!("{number}-{place}");
-            let of_row = |run: &&Run| run.is_of(&contest.venue.table, &apprentice.row);
+            let of_row = |run: &&Run| run.is_of(&contest.venue.table, &competitor.row);
             let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
-            let here = format!("{} in {}", apprentice.row, contest.venue.course.name);
+            let here = format!("{} in {}", competitor.row, contest.venue.course.name);
             let own = [
                 states(learned, &at, &here),
                 graph(contest, learned, &at, &here),
@@ -81,11 +85,11 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
         Axis::linear("runs that arrive, %").between(0.0, 100.0),
     );
     let mut drawn = 0;
-    for (index, apprentice) in (0_u32..).zip(&contest.apprentices) {
-        let mut maps = vec![(0_u64, 0_u64); MAPS as usize];
-        let of_row = |run: &&Run| run.is_of(&contest.venue.table, &apprentice.row);
+    for (index, competitor) in (0_u32..).zip(contest.learners()) {
+        let mut maps = vec![(0_u64, 0_u64); contest.maps as usize];
+        let of_row = |run: &&Run| run.is_of(&contest.venue.table, &competitor.row);
         for run in runs.iter().filter(of_row) {
-            let (arrived, all) = &mut maps[(run.run % MAPS) as usize];
+            let (arrived, all) = &mut maps[(run.run % contest.maps) as usize];
             *arrived += u64::from(run.record::<MazeRun>()?.reached);
             *all += 1;
         }
@@ -99,7 +103,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
         }
         if points.len() > 1 {
             drawn += 1;
-            chart.line(Line::new(&apprentice.row, Series(index), points));
+            chart.line(Line::new(&competitor.row, Series(index), points));
         }
     }
     let name = &contest.venue.course.name;
@@ -125,6 +129,9 @@ fn ways(contest: &Contest, runs: &[&Run], at: &str, here: &str) -> Result<Figure
     }
     let name = &contest.venue.course.name;
     let drawing = plan.drawing(format!("Plan of {name}: the ways of {} runs.", runs.len()));
-    let caption = format!("The ways of {} runs, each by another map.", runs.len());
+    let caption = match contest.maps {
+        1 => format!("The ways of {} runs by one map.", runs.len()),
+        _ => format!("The ways of {} runs, each by another map.", runs.len()),
+    };
     Ok(Figure::new(format!("ways-{at}"), here, drawing).caption(caption))
 }

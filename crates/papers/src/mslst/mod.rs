@@ -1,15 +1,18 @@
 //! MSLST itself: tables 1 to 3 of "Maze Solving by Learning State Topologies", and all tests of significance.
 //!
 //! In a paper's world every brain meets the same starts and the same noise. MSLST learns `MAPS` maps of each
-//! world and navigates by map number (run mod `MAPS`): the paper's 25 runs by 25 maps, a thousand runs by each map
-//! twenty times.
+//! world and navigates by map number (run mod `MAPS`): a thousand runs by each map twenty times. The tables *one map* are the
+//! paper's 25 runs. One drawing says little of what the paper's would have shown: [`families`] plays all entrants over
+//! many.
 
 mod contest;
 pub mod drawing;
+mod entrant;
+mod families;
 mod figures;
 mod states;
 
-use crate::venue;
+use crate::venue::{self, Venue};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run,
@@ -17,6 +20,7 @@ use tolman_experiment::{
 use tolman_replay::Replay;
 
 use contest::Contest;
+use families::Family;
 
 /// How many maps are learned of each world and threshold.
 const MAPS: u32 = 50;
@@ -35,6 +39,7 @@ pub(super) const ENTRY: Entry = Entry {
 #[derive(Debug)]
 struct Mslst {
     contests: Vec<Contest>,
+    families: Vec<Family>,
 }
 
 /// Reads the worlds and sets the tables up.
@@ -42,24 +47,47 @@ struct Mslst {
 /// # Errors
 /// If a maze cannot be read, or the robot does not fit its corridors.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
-    let venues = if options.mazes.is_empty() {
-        venue::papers()?.into()
+    let papers = options.mazes.is_empty();
+    let contest = |venue: Venue| Contest::new(venue.limited(options.limit), options.seed);
+    let contests: Vec<Contest> = if papers {
+        let [j, large] = venue::papers()?.map(contest);
+        let one_map =
+            |venue: Venue| Contest::with_one_map(venue.limited(options.limit), options.seed);
+        let [j_by_one, large_by_one] = venue::papers()?.map(one_map);
+        vec![
+            j,
+            j_by_one,
+            large,
+            large_by_one,
+            contest(venue::large_hard()?),
+        ]
     } else {
-        venue::from_files(&options.mazes, &[P_TABLE])?
+        let venues = venue::from_files(&options.mazes, &[P_TABLE])?;
+        venues.into_iter().map(contest).collect()
     };
-    let contests: Vec<Contest> = venues
-        .into_iter()
-        .map(|venue| Contest::new(venue, options.seed))
-        .collect();
     let mut tables = Vec::new();
-    if options.mazes.is_empty() {
+    let mut families = Vec::new();
+    if papers {
         tables.push(states::table());
+        let runs = options.runs_of(&ENTRY);
+        families = vec![
+            Family::drawings(runs, options.limit),
+            Family::random(runs, options.limit),
+        ];
     }
     tables.extend(contests.iter().map(Contest::table));
+    tables.extend(families.iter().map(Family::table));
     let worlds = contests.iter();
     let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
-    let config = venue::config(worlds)?;
-    Ok(Experiment::new(ENTRY, tables, config, Mslst { contests }))
+    let mut config = venue::config(worlds)?;
+    for family in &families {
+        config.insert(
+            family.name().to_owned(),
+            toml::Value::try_from(family.config())?,
+        );
+    }
+    let mslst = Mslst { contests, families };
+    Ok(Experiment::new(ENTRY, tables, config, mslst))
 }
 
 impl Mslst {
@@ -71,6 +99,10 @@ impl Mslst {
 
 impl Procedure for Mslst {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let mut families = self.families.iter();
+        if let Some(family) = families.find(|family| family.name() == job.table) {
+            return family.run(job);
+        }
         match self.contest(job.table) {
             Some(contest) => contest.run(job),
             None => states::run(job, &self.contests),

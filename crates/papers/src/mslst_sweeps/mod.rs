@@ -4,7 +4,6 @@
 //! A run learns a map of its own and plays [`STARTS`] starts by it, so that the spread over runs is that
 //! between maps. All rows of a table share the seeds of maps and starts.
 
-mod drawings;
 mod figures;
 mod settings;
 

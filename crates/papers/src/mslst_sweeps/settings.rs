@@ -7,7 +7,6 @@ use tolman_maze::{Braided, Cell, Grid, Maze, MazeFile, Perfect};
 use tolman_robot::Ring;
 use tolman_sim::robots::LaserPioneerConfig;
 
-use super::drawings::{self, Corridors};
 use crate::venue::{self, Venue};
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
@@ -42,8 +41,6 @@ pub(super) struct Setting {
 pub(super) enum World {
     /// The same for all runs, with a step limit of its own.
     Fixed { course: Box<Course>, steps: u32 },
-    /// Another drawing of the Large maze for each run.
-    Redrawn(&'static Corridors),
     /// A random maze for each run, without loops.
     Perfect { side: u16 },
     /// A random maze for each run with every other dead end opened.
@@ -56,7 +53,6 @@ impl World {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         let maze = match *self {
             Self::Fixed { ref course, .. } => return Ok((**course).clone()),
-            Self::Redrawn(corridors) => return drawings::of(corridors, seed),
             Self::Perfect { side } => Perfect {
                 width: side,
                 height: side,
@@ -79,7 +75,6 @@ impl World {
     pub(super) fn step_limit(&self, course: &Course) -> u32 {
         match self {
             Self::Fixed { steps, .. } => *steps,
-            Self::Redrawn(_) => venue::LARGE_STEPS,
             Self::Perfect { .. } | Self::Braided { .. } => course.step_limit(),
         }
     }
@@ -87,7 +82,6 @@ impl World {
     fn name(&self) -> String {
         match self {
             Self::Fixed { course, .. } => course.name.clone(),
-            Self::Redrawn(corridors) => format!("Large, redrawn: {}", corridors.name),
             Self::Perfect { side } => format!("perfect {side} × {side}"),
             Self::Braided { side } => format!("braided {side} × {side}"),
         }
@@ -95,10 +89,6 @@ impl World {
 }
 
 impl Setting {
-    fn named(self, row: String) -> Self {
-        Self { row, ..self }
-    }
-
     /// What its runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
@@ -193,30 +183,6 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
             "times the calibrated noise",
             noises.map(noise).into(),
         ),
-        Sweep {
-            name: "drawings",
-            title: "Other drawings of the Large maze",
-            axis: None,
-            settings: [20.0, 50.0]
-                .into_iter()
-                .flat_map(|threshold| {
-                    let ours = at(threshold, MslstConfig::large(threshold));
-                    let redrawn = |corridors| Setting {
-                        world: World::Redrawn(corridors),
-                        ..at(threshold, MslstConfig::large(threshold))
-                    };
-                    let name = |what: &str| format!("{what}, MSLST {threshold}");
-                    [
-                        ours.named(name("our drawing")),
-                        redrawn(drawings::LONG).named(name("long corridors")),
-                        redrawn(drawings::SHORT).named(name("short corridors")),
-                    ]
-                })
-                .collect(),
-            note: "Each run redraws the maze at random with the features that the paper names, until success and steps of \
-                   Avoid and Wall-follow are near the paper's, and with long corridors their steps an action too. MSLST \
-                   has no part in the choice. It remembers eight units; a short corridor has at most 7.6.",
-        },
         Sweep {
             name: "worlds",
             title: "Other worlds",

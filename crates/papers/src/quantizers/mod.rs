@@ -77,7 +77,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         return Err("table 1 is of the J and the Large maze: leave --maze out".into());
     }
     let log = Log::find()?;
-    let mut tables = vec![states::table()];
+    let mut tables = vec![states::table(), states::decay_table()];
     tables.extend(five::tables());
     tables.extend([shapes::table(), order::table()]);
     if log.is_some() {
@@ -109,6 +109,7 @@ impl Procedure for Quantizers {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         match (job.table, &self.log) {
             (states::NAME, _) => self.mazes.run(job),
+            (states::DECAY, _) => self.mazes.run_decay(job),
             (shapes::NAME, _) => shapes::run(job),
             (order::NAME, _) => order::run(&self.mazes, job),
             (sonar::NAME, Some(log)) => log.run(job),

@@ -16,8 +16,12 @@ record! {
         actions: u32 => lower("actions").at_least(1),
         /// Actions that did not move the robot.
         failed_actions: u32 => lower("failed actions"),
+        /// Actions that failed in their first time step.
+        failed_at_once: u32 => lower("failed at once"),
         /// Time steps until the destination; the limit where it was not reached.
         steps: u32 => lower("steps"),
+        /// Time steps of a run that reached the destination.
+        steps_arrived: Option<u32> => lower("steps, arrived"),
         /// Time steps in which the robot touched a wall.
         bumps: u32 => lower("bumps"),
     }
@@ -30,7 +34,9 @@ impl MazeRun {
             outcome: outcome(episode.reached).to_owned(),
             actions: episode.actions,
             failed_actions: episode.failed_actions,
+            failed_at_once: episode.failed_at_once,
             steps: episode.steps,
+            steps_arrived: episode.reached.then_some(episode.steps),
             bumps: episode.bumps,
         }
     }
@@ -41,6 +47,13 @@ impl MazeRun {
         require(self.actions <= self.steps, "more actions than steps")?;
         let failed = self.failed_actions <= self.actions;
         require(failed, "more failed actions than actions")?;
+        let at_once = self.failed_at_once <= self.failed_actions;
+        require(at_once, "more actions failed at once than failed")?;
+        let arrived = self.reached.then_some(self.steps);
+        require(
+            self.steps_arrived == arrived,
+            "steps_arrived is not the steps of a run that arrived",
+        )?;
         require(self.bumps <= self.steps, "more bumps than steps")
     }
 }

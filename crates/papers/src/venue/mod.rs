@@ -1,8 +1,10 @@
 //! Where MSLST and its baselines run, and what every run there measures.
 
+mod drawings;
 mod files;
 mod measured;
 mod paper;
+mod right_hand;
 
 use alloc::collections::BTreeMap;
 
@@ -19,9 +21,10 @@ use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Job, Row};
 use tolman_replay::Replay;
 
+pub(super) use drawings::{Condition, Drawing, Judged, LARGE_DRAWINGS};
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
-pub(super) use paper::{LARGE_STEPS, PaperRow, StatesRow, TABLE_1, states_row};
+pub(super) use paper::{PaperRow, StatesRow, TABLE_1, states_row};
 
 /// One world with its table.
 #[derive(Debug)]
@@ -75,13 +78,30 @@ pub(super) fn config<'a, W: Serialize>(
 
 /// The paper's own worlds.
 pub(super) fn papers() -> Result<[Venue; 2], BoxError> {
-    let j = Venue::new("2 (J)", "The J maze", j_maze()?, paper::J_STEPS);
-    Ok([j.known(paper::TABLE_2), large_like(large_maze()?)])
+    Ok([j_like(j_maze()?), large_like(large_maze()?)])
+}
+
+/// A course that stands for the paper's J maze, with its limit and its rows.
+fn j_like(course: Course) -> Venue {
+    Venue::new("2 (J)", "The J maze", course, paper::J_STEPS).known(paper::TABLE_2)
 }
 
 /// A course that stands for the paper's Large maze, with its limit and its rows.
 pub(super) fn large_like(course: Course) -> Venue {
     Venue::new("3 (Large)", "The Large maze", course, paper::LARGE_STEPS).known(paper::TABLE_3)
+}
+
+/// The first Large maze, drawn when steps per action still had a say in it: too long for the paper's figures, and a hard one
+/// for whoever navigates.
+pub(super) fn large_hard() -> Result<Venue, BoxError> {
+    let course = built_in("Large, hard", include_str!("../../mazes/large-hard.maze"))?;
+    let title = "The first Large maze, which is too long to be the paper's";
+    Ok(Venue::new(
+        "3 (large-hard)",
+        title,
+        course,
+        paper::LARGE_STEPS,
+    ))
 }
 
 /// The paper's J maze.
@@ -104,7 +124,7 @@ fn built_in(name: &str, text: &str) -> Result<Course, BoxError> {
 
 impl Venue {
     /// A course of which the paper says nothing, for the calibrated robot.
-    fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
+    pub(super) fn new(table: &str, title: &str, course: Course, step_limit: u32) -> Self {
         Self {
             table: table.to_owned(),
             title: title.to_owned(),
@@ -119,6 +139,32 @@ impl Venue {
     /// With what the paper says.
     fn known(self, paper: &'static [PaperRow]) -> Self {
         Self { paper, ..self }
+    }
+
+    /// With a limit of the caller's; the paper says nothing of one that is not its own.
+    pub(super) fn limited(self, limit: Option<u32>) -> Self {
+        match limit {
+            Some(step_limit) if step_limit != self.step_limit => Self {
+                step_limit,
+                paper: &[],
+                ..self
+            },
+            _ => self,
+        }
+    }
+
+    /// Under another name, as a variant of a table.
+    pub(super) fn renamed(self, table: &str, title: &str) -> Self {
+        Self {
+            table: table.to_owned(),
+            title: title.to_owned(),
+            ..self
+        }
+    }
+
+    /// Whether the paper has a table of it.
+    pub(super) const fn is_papers(&self) -> bool {
+        !self.paper.is_empty()
     }
 
     /// The row of a brain, with what the paper says of it.

@@ -32,7 +32,7 @@ pub(super) struct Arguments {
 }
 
 /// The maze comes with the program, so that it runs in any folder.
-const MAZE: &str = include_str!("../../../../mazes/large.maze");
+const MAZE: &str = include_str!("../../../../mazes/large-hard.maze");
 
 /// What the robot does.
 const AGENT: Agent = Agent::WallFollow;

@@ -47,6 +47,9 @@ pub(super) struct Arguments {
     /// A maze file of any format in place of the experiment's own; may be given several times
     #[arg(long = "maze", value_name = "FILE")]
     mazes: Vec<PathBuf>,
+    /// Time steps after which a run in a maze has failed, in place of the experiment's own (baselines, mslst)
+    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
+    limit: Option<u32>,
     /// The folder of results, instead of results/NAME; without NAME, the folder of those folders
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -145,6 +148,7 @@ impl Arguments {
             jobs: self.jobs,
             mazes: self.mazes.clone(),
             tables: self.tables.clone(),
+            limit: self.limit,
             out: self.out.clone(),
             quick: self.quick,
             program: Program::current(app.catalogue.program),

@@ -17,7 +17,7 @@ fn demo(name: &str) -> (PathBuf, PathBuf) {
 /// The replay of so many steps in a maze of this size, from which a robot without a plan does not come out in so many.
 fn long_run(folder: &Path, size: &str, steps: u32) -> PathBuf {
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
-    let (maze, page) = (path("large.maze"), path("run.html"));
+    let (maze, page) = (path("large-hard.maze"), path("run.html"));
     let generate = ["maze", "generate", "perfect", "--size", size];
     let text = tolman(&[&generate[..], &["--seed", "3"]].concat());
     std::fs::write(&maze, text).unwrap();
@@ -195,7 +195,7 @@ fn two_traces_play_side_by_side_and_part_where_they_are_said_to() {
             "run",
             brain,
             "--maze",
-            "mazes/large.maze",
+            "mazes/large-hard.maze",
             "--seed",
             "7",
             "--steps",

@@ -1,0 +1,101 @@
+//! Who competes. Whoever is to stand in every table of this experiment is one more entrant here.
+
+use alloc::sync::Arc;
+
+use crate::venue::Venue;
+use tolman_arena::Mind;
+use tolman_arena::cast::Agent;
+use tolman_arena::episode::EpisodeError;
+use tolman_arena::mslst::learn;
+use tolman_experiment::BoxError;
+use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
+
+/// Who competes.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Entrant {
+    /// Somebody who learns nothing before.
+    Agent(Agent),
+    /// MSLST, which learns a map first.
+    Mslst(MslstConfig),
+}
+
+/// An entrant that has learned what it learns, ready for any number of runs.
+#[derive(Debug)]
+pub(super) enum Ready {
+    Agent(Agent),
+    Mslst {
+        learned: Box<Learned>,
+        config: MslstConfig,
+    },
+}
+
+impl Entrant {
+    /// The paper's baselines before its system, what says how good they are after it.
+    pub(super) fn lineup(learners: impl IntoIterator<Item = Self>) -> Vec<Self> {
+        let baselines = [Agent::Avoid, Agent::WallFollow].map(Self::Agent);
+        let yardsticks = [Agent::Oracle, Agent::UnlocalizedOracle].map(Self::Agent);
+        baselines
+            .into_iter()
+            .chain(learners)
+            .chain(yardsticks)
+            .collect()
+    }
+
+    /// The name of its row.
+    pub(super) fn row(self) -> String {
+        match self {
+            Self::Agent(agent) => agent.name().to_owned(),
+            Self::Mslst(config) => format!("MSLST {}", config.threshold),
+        }
+    }
+
+    /// Whether it is there to be compared with the others, and is no yardstick.
+    pub(super) const fn competes(self) -> bool {
+        !matches!(self, Self::Agent(Agent::Oracle | Agent::UnlocalizedOracle))
+    }
+
+    /// Whether it learns a map before it runs.
+    pub(super) const fn learns(self) -> bool {
+        !matches!(self, Self::Agent(_))
+    }
+
+    /// What its runs depend on beside the world.
+    pub(super) const fn config(self) -> Option<MslstConfig> {
+        match self {
+            Self::Agent(_) => None,
+            Self::Mslst(config) => Some(config),
+        }
+    }
+
+    /// Lets it learn in a world, by chance of this seed.
+    pub(super) fn ready(self, venue: &Venue, seed: u64) -> Result<Ready, BoxError> {
+        Ok(match self {
+            Self::Agent(agent) => Ready::Agent(agent),
+            Self::Mslst(config) => Ready::Mslst {
+                learned: Box::new(learn(&venue.course, &venue.robot, &config, seed)?),
+                config,
+            },
+        })
+    }
+}
+
+impl Ready {
+    /// A mind for one run, which remembers no other.
+    pub(super) fn mind(&self, venue: &Venue) -> Result<Mind, EpisodeError> {
+        Ok(match self {
+            Self::Agent(agent) => venue.mind(*agent)?,
+            Self::Mslst { learned, config } => {
+                let map = Arc::new(learned.map.clone());
+                Mind::Brain(Box::new(Navigator::new(map, config)))
+            }
+        })
+    }
+
+    /// What MSLST has learned; none of others.
+    pub(super) fn learned(&self) -> Option<&Learned> {
+        match self {
+            Self::Agent(_) => None,
+            Self::Mslst { learned, .. } => Some(learned),
+        }
+    }
+}

@@ -1,0 +1,278 @@
+//! Every entrant over many mazes: drawings of Large by the rule, and random mazes of other kinds.
+//!
+//! A run of these tables is a maze with some starts, so that their spread is that between mazes.
+
+use alloc::collections::BTreeMap;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use serde::Serialize;
+use tolman_maze::{Braided, MazeFile, Perfect};
+
+use super::entrant::Entrant;
+use crate::venue::{Drawing, LARGE_DRAWINGS, Venue};
+use tolman_arena::cast::Agent;
+use tolman_arena::course::Course;
+use tolman_arena::{episode, pioneer};
+use tolman_experiment::{
+    BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Row, Table, record, run_seed,
+};
+use tolman_systems::mslst::MslstConfig;
+
+record! {
+    /// A maze and some starts in it.
+    pub(super) struct FamilyRun {
+        /// Starts from which the destination is reached within the time limit.
+        success_percent: f64 => higher("success").unit("%").percent(),
+        /// Mean actions.
+        actions: f64 => lower("actions").at_least(0),
+        /// Mean time steps; a run that does not arrive counts its limit.
+        steps: f64 => lower("steps").at_least(0),
+        /// Mean time steps of the starts that arrive, if any does.
+        steps_arrived: Option<f64> => lower("steps, arrived").at_least(0),
+    }
+}
+
+/// Mazes of one kind, with who runs in them.
+#[derive(Debug)]
+pub(super) struct Family {
+    kind: Kind,
+    /// Starts in each maze.
+    starts: u32,
+    /// How many mazes there are.
+    mazes: u32,
+    limit: Option<u32>,
+    entrants: Vec<Entrant>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// The first drawings of the sequence that are kept.
+    Drawings,
+    /// Perfect and braided mazes in turn.
+    Random,
+}
+
+/// What the runs in a family depend on.
+#[derive(Serialize)]
+pub(super) struct FamilyConfig {
+    starts: u32,
+    limit: Option<u32>,
+    #[serde(flatten)]
+    mslst: BTreeMap<String, MslstConfig>,
+}
+
+/// Sides of random mazes, cells.
+const LEAST_SIDE: u32 = 10;
+const MOST_SIDE: u32 = 20;
+
+/// Random mazes, where enough runs are asked for.
+const RANDOM_MAZES: u32 = 200;
+
+/// The share of dead ends that are opened in a braided maze.
+const BRAIDED: f64 = 0.5;
+
+impl Family {
+    /// The drawings of Large that are kept, with at least 20 starts each; `runs` starts in all.
+    pub(super) fn drawings(runs: u32, limit: Option<u32>) -> Self {
+        let learners = [20.0, 50.0].map(|threshold| Entrant::Mslst(MslstConfig::large(threshold)));
+        let most = LARGE_DRAWINGS.len() as u32;
+        Self::new(
+            Kind::Drawings,
+            runs,
+            (most, 20),
+            limit,
+            Entrant::lineup(learners),
+        )
+    }
+
+    /// Perfect and braided mazes, new ones for every master seed, with at least five starts each.
+    pub(super) fn random(runs: u32, limit: Option<u32>) -> Self {
+        let learner = Entrant::Mslst(MslstConfig::large(50.0));
+        Self::new(
+            Kind::Random,
+            runs,
+            (RANDOM_MAZES, 5),
+            limit,
+            Entrant::lineup([learner]),
+        )
+    }
+
+    fn new(
+        kind: Kind,
+        runs: u32,
+        (most, least_starts): (u32, u32),
+        limit: Option<u32>,
+        entrants: Vec<Entrant>,
+    ) -> Self {
+        let mazes = (runs / least_starts).clamp(1, most);
+        Self {
+            kind,
+            starts: (runs / mazes).max(least_starts),
+            mazes,
+            limit,
+            entrants,
+        }
+    }
+
+    /// The name of its table.
+    pub(super) const fn name(&self) -> &'static str {
+        match self.kind {
+            Kind::Drawings => "drawings",
+            Kind::Random => "random mazes",
+        }
+    }
+
+    pub(super) fn config(&self) -> FamilyConfig {
+        let entrants = self.entrants.iter();
+        let learners = entrants.filter_map(|entrant| Some((entrant.row(), entrant.config()?)));
+        FamilyConfig {
+            starts: self.starts,
+            limit: self.limit,
+            mslst: learners.collect(),
+        }
+    }
+
+    pub(super) fn table(&self) -> Table {
+        let title = match self.kind {
+            Kind::Drawings => "The Large maze as others might have drawn it",
+            Kind::Random => "Random mazes of 10 to 20 cells a side",
+        };
+        let kind = match self.kind {
+            Kind::Drawings => "the drawings are the first that the rule keeps",
+            Kind::Random => {
+                "every other maze is perfect, the others have half of their dead ends opened"
+            }
+        };
+        let competitors = self.entrants.iter().filter(|entrant| entrant.competes());
+        let success = spread("success", FamilyRun::success_percent, "_percent");
+        let steps = spread("steps", FamilyRun::steps, "");
+        let table = Table::of::<FamilyRun>(self.name(), title)
+            .metric(Metric::mean(FamilyRun::success_percent).decimals(1))
+            .metric(Metric::mean(FamilyRun::steps))
+            .metric(Metric::mean(FamilyRun::steps_arrived))
+            .metric(over("steps_over_oracle", Agent::Oracle))
+            .metric(over(
+                "steps_over_unlocalized_oracle",
+                Agent::UnlocalizedOracle,
+            ));
+        success
+            .into_iter()
+            .chain(steps)
+            .fold(table, Table::metric)
+            .rows(self.entrants.iter().map(|entrant| Row::new(entrant.row()).runs(self.mazes)))
+            .pairwise(Pairwise {
+                field: FamilyRun::steps.to_owned(),
+                rows: competitors.map(|entrant| entrant.row()).collect(),
+                correction: Correction::Bonferroni,
+                paper: Vec::new(),
+            })
+            .note(format!(
+                "A run is a maze with {} starts, in which each learner learns a map of its own; {kind}. Runs that time out count \
+                 with their limit.",
+                self.starts
+            ))
+    }
+
+    /// Plays a maze: all its starts.
+    pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let mut entrants = self.entrants.iter();
+        let entrant = entrants.find(|entrant| entrant.row() == job.row);
+        let entrant = entrant.ok_or_else(|| format!("there is no brain {:?}", job.row))?;
+        let venue = self.venue(job)?;
+        let ready = entrant.ready(&venue, job.seed)?;
+        let (mut reached, mut actions, mut steps, mut arrived) = (0_u32, 0_u64, 0_u64, 0_u64);
+        for start in 0..self.starts {
+            let trial = venue.trial(run_seed(job.seed, "starts", start));
+            let episode = episode::run(&trial, &mut ready.mind(&venue)?, |_| {})?;
+            reached += u32::from(episode.reached);
+            actions += u64::from(episode.actions);
+            steps += u64::from(episode.steps);
+            arrived += u64::from(if episode.reached { episode.steps } else { 0 });
+        }
+        let mean = |sum: u64, count: u32| sum as f64 / f64::from(count);
+        let run = FamilyRun {
+            success_percent: 100.0 * mean(reached.into(), self.starts),
+            actions: mean(actions, self.starts),
+            steps: mean(steps, self.starts),
+            steps_arrived: (reached > 0).then(|| mean(arrived, reached)),
+        };
+        Ok(run.fields()?)
+    }
+
+    /// The world of a run.
+    fn venue(&self, job: &Job<'_>) -> Result<Venue, BoxError> {
+        let venue = match self.kind {
+            Kind::Drawings => Drawing::Large.venue(LARGE_DRAWINGS[job.run as usize])?,
+            Kind::Random => random(job)?,
+        };
+        Ok(venue.limited(self.limit))
+    }
+}
+
+/// The random maze of a run.
+fn random(job: &Job<'_>) -> Result<Venue, BoxError> {
+    let rng = &mut ChaCha8Rng::seed_from_u64(job.seed);
+    let mut side = || rng.random_range(LEAST_SIDE..=MOST_SIDE) as u16;
+    let (width, height) = (side(), side());
+    let maze = match job.run % 2 {
+        0 => Perfect { width, height }.generate(rng)?,
+        _ => {
+            let share = BRAIDED;
+            Braided {
+                width,
+                height,
+                share,
+            }
+            .generate(rng)?
+        }
+    };
+    let name = format!("random maze {}", job.run);
+    let course = Course::for_body(&name, &MazeFile::from(maze), &pioneer::body())?;
+    let limit = course.step_limit();
+    Ok(Venue::new(job.table, &name, course, limit))
+}
+
+/// Median, quartiles and range of a field over all mazes.
+fn spread(name: &str, field: &str, unit: &str) -> [Metric; 5] {
+    let named = |which: &str| format!("{name}_{which}{unit}");
+    let titled =
+        |metric: Metric, which: &str| metric.titled(format!("{name}, {which}")).decimals(1);
+    [
+        titled(Metric::median(named("median"), field), "median"),
+        titled(
+            Metric::quantile(named("lower_quartile"), field, 0.25),
+            "lower quartile",
+        ),
+        titled(
+            Metric::quantile(named("upper_quartile"), field, 0.75),
+            "upper quartile",
+        ),
+        titled(Metric::least(named("least"), field), "least"),
+        titled(Metric::greatest(named("most"), field), "most"),
+    ]
+}
+
+/// How many times a yardstick's steps, as a ratio of sums.
+fn over(name: &str, yardstick: Agent) -> Metric {
+    let title = format!("steps / {}'s", yardstick.name());
+    Metric::multiple(name, FamilyRun::steps, yardstick.name()).titled(title)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_of_runs_is_that_of_all_starts() {
+        for (runs, mazes, starts) in [(1000, 50, 20), (25, 1, 25), (5, 1, 20), (2000, 50, 40)] {
+            let family = Family::drawings(runs, None);
+            assert_eq!((family.mazes, family.starts), (mazes, starts), "{runs}");
+        }
+        for (runs, mazes, starts) in [(1000, 200, 5), (25, 5, 5), (1, 1, 5)] {
+            let family = Family::random(runs, None);
+            assert_eq!((family.mazes, family.starts), (mazes, starts), "{runs}");
+        }
+    }
+}

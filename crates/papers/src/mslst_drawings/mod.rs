@@ -1,0 +1,149 @@
+//! The drawings of MSLST's mazes: which of a seeded sequence are kept, and for what the others are rejected.
+//!
+//! Run n is drawing n of the sequence, whatever the master seed. MSLST has no part in it.
+
+use tolman_experiment::{
+    BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Table,
+    record, require,
+};
+
+use crate::venue::{Condition, Drawing, Judged};
+
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "mslst-drawings",
+    title: "The drawings of MSLST's mazes: which are kept",
+    source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3",
+    runs: 378,
+    quick_runs: 2,
+    open,
+};
+
+/// The most drawings of a sequence that are judged before the rule counts as one that yields none.
+const MOST_DRAWINGS: u32 = 2000;
+
+const DRAWINGS: [Drawing; 2] = [Drawing::J, Drawing::Large];
+
+record! {
+    /// A drawing and why it is kept or not. What no run was made for is not there: where the loop alone rules a drawing
+    /// out.
+    #[check(DrawingRun::relations)]
+    struct DrawingRun {
+        /// Whether it meets all conditions.
+        kept: bool => neither("kept"),
+        /// Whether exact right-hand tours are trapped on the loop too seldom or too often.
+        misses_traps: bool => neither("× loop"),
+        /// Whether the Oracle needs too many steps.
+        misses_oracle_steps: bool => neither("× Oracle"),
+        /// Whether Avoid's success lies outside the paper's interval.
+        misses_avoid_success: bool => neither("× Avoid %"),
+        /// Whether Avoid's steps lie outside the paper's interval.
+        misses_avoid_steps: bool => neither("× Avoid steps"),
+        /// Whether Wall-follow's success lies outside the paper's interval.
+        misses_wall_follow_success: bool => neither("× Wall-follow %"),
+        /// Whether Wall-follow's steps lie outside the paper's interval.
+        misses_wall_follow_steps: bool => neither("× Wall-follow steps"),
+        /// Whether the lists in the source say of it what was found; none beyond their end.
+        as_listed: Option<bool> => neither("as listed"),
+        /// By how much the conditions are missed, summed, in shares of their bounds.
+        excess: Option<f64> => lower("excess").at_least(0),
+        /// Starts from which an exact right-hand tour never arrives.
+        trapped_percent: Option<f64> => neither("trapped").percent(),
+        /// Runs of Avoid that arrive.
+        avoid_success_percent: Option<f64> => neither("Avoid arrives").percent(),
+        /// Mean steps of Avoid.
+        avoid_steps: Option<f64> => neither("Avoid's steps").at_least(0),
+        /// Runs of Wall-follow that arrive.
+        wall_follow_success_percent: Option<f64> => neither("Wall-follow arrives").percent(),
+        /// Mean steps of Wall-follow.
+        wall_follow_steps: Option<f64> => neither("Wall-follow's steps").at_least(0),
+        /// Mean steps of the Oracle.
+        oracle_steps: Option<f64> => neither("Oracle's steps").at_least(0),
+    }
+}
+
+impl DrawingRun {
+    fn relations(&self) -> Result<(), String> {
+        let missed = [
+            self.misses_traps,
+            self.misses_oracle_steps,
+            self.misses_avoid_success,
+            self.misses_avoid_steps,
+            self.misses_wall_follow_success,
+            self.misses_wall_follow_steps,
+        ];
+        let contradicted =
+            "a drawing is kept if it misses nothing, and rejected if it misses something";
+        require(self.kept != missed.contains(&true), contradicted)
+    }
+}
+
+/// The experiment, ready to run.
+#[derive(Debug)]
+struct Drawings;
+
+fn open(options: &Options) -> Result<Experiment, BoxError> {
+    let judged = options.runs_of(&ENTRY);
+    if judged > MOST_DRAWINGS {
+        return Err(format!("{judged} drawings: the rule judges {MOST_DRAWINGS} at most").into());
+    }
+    let tables = DRAWINGS.map(|drawing| table(drawing, judged)).into();
+    Ok(Experiment::new(ENTRY, tables, toml::Table::new(), Drawings))
+}
+
+fn table(drawing: Drawing, judged: u32) -> Table {
+    let name = drawing.name();
+    let count = |field: &str| Metric::count_of(field, field, judged).decimals(0);
+    let counts = [
+        DrawingRun::kept,
+        DrawingRun::misses_traps,
+        DrawingRun::misses_oracle_steps,
+        DrawingRun::misses_avoid_success,
+        DrawingRun::misses_avoid_steps,
+        DrawingRun::misses_wall_follow_success,
+        DrawingRun::misses_wall_follow_steps,
+    ];
+    let table = Table::of::<DrawingRun>(
+        name,
+        format!("Drawings of the {name} maze, kept and rejected"),
+    );
+    counts
+        .into_iter()
+        .fold(table, |table, field| table.metric(count(field)))
+        .metrics_from(DrawingRun::as_listed)
+        .row(Row::new("drawings"))
+        .note(
+            "Run n is drawing n of a sequence with a seed of its own. A drawing is rejected (×) for each condition that it misses; \
+             one whose loop rules it out is not played. Each is judged by 1000 runs of Avoid, Wall-follow and the Oracle.",
+        )
+}
+
+impl Procedure for Drawings {
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let mut drawings = DRAWINGS.into_iter();
+        let drawing = drawings.find(|drawing| drawing.name() == job.table);
+        let drawing = drawing.ok_or_else(|| format!("there is no maze {:?}", job.table))?;
+        let judged = drawing.judged(job.run)?;
+        let judged = judged.as_ref();
+        let misses = |condition| judged.is_some_and(|judged| judged.misses(condition));
+        let kept = judged.is_some_and(|judged| judged.summed_excess() <= 0.0);
+        let run = DrawingRun {
+            kept,
+            misses_traps: judged.is_none(),
+            misses_oracle_steps: misses(Condition::OracleSteps),
+            misses_avoid_success: misses(Condition::AvoidSuccess),
+            misses_avoid_steps: misses(Condition::AvoidSteps),
+            misses_wall_follow_success: misses(Condition::WallFollowSuccess),
+            misses_wall_follow_steps: misses(Condition::WallFollowSteps),
+            as_listed: drawing.listed(job.run).map(|listed| listed == kept),
+            excess: judged.map(Judged::summed_excess),
+            trapped_percent: judged.map(|judged| judged.trapped_percent),
+            avoid_success_percent: judged.map(|judged| judged.avoid.success_percent),
+            avoid_steps: judged.map(|judged| judged.avoid.mean_steps),
+            wall_follow_success_percent: judged.map(|judged| judged.wall_follow.success_percent),
+            wall_follow_steps: judged.map(|judged| judged.wall_follow.mean_steps),
+            oracle_steps: judged.map(|judged| judged.oracle.mean_steps),
+        };
+        Ok(run.fields()?)
+    }
+}

@@ -1,0 +1,350 @@
+//! The rule by which the paper's two mazes are drawn: a sequence of random drawings with the features that it names, of which
+//! those are kept that meet what its own figures imply.
+//!
+//! MSLST has no part in the rule. The drawings of the paper are lost; what they must have been is that the two
+//! baselines came out as they did, and that a robot which knows the maze is faster than the paper's MSLST was.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_maze::{GenerateError, Hook, Maze, MazeFile, OneLoop};
+
+use super::paper::PaperRow;
+use super::{Venue, right_hand};
+use tolman_arena::cast::Agent;
+use tolman_arena::course::Course;
+use tolman_arena::{episode, pioneer};
+use tolman_experiment::{BoxError, run_seed};
+use tolman_stats::wilson_interval;
+
+/// The seed of both sequences and of the runs that judge them.
+const SEED: u64 = 1;
+
+/// Runs of each agent that judge a drawing.
+const RUNS: u32 = 1000;
+
+/// Runs of each of the paper's rows.
+const PAPER_RUNS: u32 = 25;
+
+/// The normal quantile of a 95 % interval.
+const Z: f64 = 1.96;
+
+/// The tours that an exact Wall-follow may lose on the loop, per cent: the 95 % interval of the paper's 28 % of 25.
+const TRAPPED: (f64, f64) = (12.0, 49.0);
+
+/// Which of the paper's mazes a drawing stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Drawing {
+    /// "A simple J shape."
+    J,
+    /// "Several dead ends, a four-way intersection, and a loop."
+    Large,
+}
+
+/// The number of the first J drawing that is kept: `mazes/j.maze`.
+const J_DRAWING: u32 = 4;
+
+/// The numbers of the first Large drawings that are kept, as `tolman experiment mslst-drawings` finds them. The first is
+/// `mazes/large.maze`.
+pub(crate) const LARGE_DRAWINGS: [u32; 50] = [
+    0, 17, 21, 31, 37, 43, 49, 52, 63, 69, 76, 93, 109, 110, 114, 130, 143, 156, 163, 170, 175,
+    202, 214, 218, 230, 231, 243, 247, 248, 252, 259, 267, 279, 288, 292, 297, 312, 325, 326, 327,
+    341, 346, 347, 352, 367, 370, 372, 374, 376, 377,
+];
+
+/// What was found of a drawing.
+#[derive(Clone, Debug)]
+pub(crate) struct Judged {
+    /// Right-hand tours that never arrive.
+    pub(crate) trapped_percent: f64,
+    pub(crate) avoid: Played,
+    pub(crate) wall_follow: Played,
+    pub(crate) oracle: Played,
+    conditions: Vec<Judgement>,
+}
+
+/// The runs of one agent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Played {
+    pub(crate) success_percent: f64,
+    pub(crate) mean_steps: f64,
+}
+
+/// A condition and by how much it is missed.
+#[derive(Clone, Copy, Debug)]
+struct Judgement {
+    condition: Condition,
+    /// As a share of the bound; 0 where it is met.
+    excess: f64,
+}
+
+/// What a drawing must meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Condition {
+    /// Right-hand tours arrive as often as the paper's Wall-follow may have.
+    Traps,
+    /// The Oracle is no slower than the paper's MSLST was.
+    OracleSteps,
+    /// Each within the 95 % interval of the paper's 25 runs.
+    AvoidSuccess,
+    AvoidSteps,
+    WallFollowSuccess,
+    WallFollowSteps,
+}
+
+impl Drawing {
+    /// The drawing of this number, by geometry alone.
+    pub(crate) fn maze(self, number: u32) -> Result<Maze, GenerateError> {
+        let stream = format!("drawings of {}", self.name());
+        let rng = &mut ChaCha8Rng::seed_from_u64(run_seed(SEED, &stream, number));
+        let mut between = |least: u32, most: u32| rng.random_range(least..=most) as u16;
+        match self {
+            Self::J => {
+                let (width, height) = (between(3, 14), between(5, 18));
+                Hook { width, height }.generate(rng)
+            }
+            Self::Large => {
+                let drawing = OneLoop {
+                    width: between(9, 13),
+                    height: between(5, 8),
+                    dead_ends: 4,
+                    // 7.6 robot units, and MSLST remembers eight actions of one unit.
+                    short: 4,
+                };
+                drawing.generate(rng)
+            }
+        }
+    }
+
+    /// The drawing of this number as a world.
+    pub(crate) fn venue(self, number: u32) -> Result<Venue, BoxError> {
+        let file = MazeFile::from(self.maze(number)?);
+        let course = Course::for_body(self.name(), &file, &pioneer::body())?;
+        Ok(match self {
+            Self::J => super::j_like(course),
+            Self::Large => super::large_like(course),
+        })
+    }
+
+    /// Whether the lists say that this drawing is kept, where they reach as far.
+    pub(crate) fn listed(self, number: u32) -> Option<bool> {
+        match self {
+            Self::J => (number <= J_DRAWING).then_some(number == J_DRAWING),
+            Self::Large => {
+                let last = LARGE_DRAWINGS.last().copied().unwrap_or_default();
+                (number <= last).then(|| LARGE_DRAWINGS.contains(&number))
+            }
+        }
+    }
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::J => "J",
+            Self::Large => "Large",
+        }
+    }
+
+    /// The most steps of the Oracle, on average. In Large those of the paper's MSLST 20 in the runs in which it arrived; in J
+    /// the upper end of what its MSLST 100 may have needed.
+    const fn oracle_steps(self) -> f64 {
+        match self {
+            Self::J => 47.0,
+            Self::Large => 84.0,
+        }
+    }
+
+    /// What a drawing must meet. In J success is no condition: no such letter was ever seen in which our Wall-follow misses the
+    /// destination as often as the paper's.
+    pub(crate) const fn conditions(self) -> &'static [Condition] {
+        match self {
+            Self::J => &[
+                Condition::OracleSteps,
+                Condition::AvoidSteps,
+                Condition::WallFollowSteps,
+            ],
+            Self::Large => &[
+                Condition::Traps,
+                Condition::OracleSteps,
+                Condition::AvoidSuccess,
+                Condition::AvoidSteps,
+                Condition::WallFollowSuccess,
+                Condition::WallFollowSteps,
+            ],
+        }
+    }
+
+    /// Judges the drawing of this number by [`RUNS`] runs of each agent; none where its loop alone rules it out.
+    pub(crate) fn judged(self, number: u32) -> Result<Option<Judged>, BoxError> {
+        let venue = self.venue(number)?;
+        let trapped_percent = right_hand::trapped_percent(&venue.course.maze);
+        if self.conditions().contains(&Condition::Traps) && beyond(trapped_percent, TRAPPED) > 0.0 {
+            return Ok(None);
+        }
+        let mut judged = Judged {
+            trapped_percent,
+            avoid: played(&venue, Agent::Avoid)?,
+            wall_follow: played(&venue, Agent::WallFollow)?,
+            oracle: played(&venue, Agent::Oracle)?,
+            conditions: Vec::new(),
+        };
+        for condition in self.conditions() {
+            let excess = self.excess(*condition, &venue, &judged)?;
+            let condition = *condition;
+            judged.conditions.push(Judgement { condition, excess });
+        }
+        Ok(Some(judged))
+    }
+
+    fn excess(self, condition: Condition, venue: &Venue, judged: &Judged) -> Result<f64, BoxError> {
+        let paper = |agent: Agent| {
+            let row = venue.paper(agent.name());
+            row.ok_or_else(|| format!("the paper has no row {:?}", agent.name()))
+        };
+        Ok(match condition {
+            Condition::Traps => beyond(judged.trapped_percent, TRAPPED),
+            Condition::OracleSteps => beyond(judged.oracle.mean_steps, (0.0, self.oracle_steps())),
+            Condition::AvoidSuccess => {
+                let interval = success_interval(paper(Agent::Avoid)?)?;
+                beyond(judged.avoid.success_percent, interval)
+            }
+            Condition::AvoidSteps => {
+                let interval = steps_interval(paper(Agent::Avoid)?);
+                beyond(judged.avoid.mean_steps, interval)
+            }
+            Condition::WallFollowSuccess => {
+                let interval = success_interval(paper(Agent::WallFollow)?)?;
+                beyond(judged.wall_follow.success_percent, interval)
+            }
+            Condition::WallFollowSteps => {
+                let interval = steps_interval(paper(Agent::WallFollow)?);
+                beyond(judged.wall_follow.mean_steps, interval)
+            }
+        })
+    }
+}
+
+impl Judged {
+    /// Whether it misses a condition.
+    pub(crate) fn misses(&self, condition: Condition) -> bool {
+        let mut conditions = self.conditions.iter();
+        conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
+    }
+
+    /// By how much it misses all conditions, in shares of their bounds; 0 of a drawing that is kept.
+    pub(crate) fn summed_excess(&self) -> f64 {
+        self.conditions
+            .iter()
+            .map(|judgement| judgement.excess)
+            .sum()
+    }
+}
+
+/// How far a value lies outside an interval, as a share of the end that it is beyond.
+fn beyond(value: f64, (low, high): (f64, f64)) -> f64 {
+    if value < low {
+        (low - value) / low
+    } else if value > high {
+        (value - high) / high
+    } else {
+        0.0
+    }
+}
+
+/// Wilson's 95 % interval of the paper's success, per cent.
+fn success_interval(paper: &PaperRow) -> Result<(f64, f64), BoxError> {
+    let runs = f64::from(PAPER_RUNS);
+    let successes = libm::round(paper.success_percent * runs / 100.0) as u64;
+    let interval = wilson_interval(successes, PAPER_RUNS.into(), 0.95)?;
+    Ok((100.0 * interval.low, 100.0 * interval.high))
+}
+
+/// The 95 % interval of the paper's mean steps.
+fn steps_interval(paper: &PaperRow) -> (f64, f64) {
+    let (mean, sd) = paper.steps;
+    let half = Z * sd / f64::from(PAPER_RUNS).sqrt();
+    (mean - half, mean + half)
+}
+
+/// The runs of an agent, the same as those of its row in the table of that maze under seed 1.
+fn played(venue: &Venue, agent: Agent) -> Result<Played, BoxError> {
+    let (mut reached, mut steps) = (0_u32, 0_u32);
+    for run in 0..RUNS {
+        let trial = venue.trial(run_seed(SEED, &venue.table, run));
+        let mut mind = venue.mind(agent)?;
+        let episode = episode::run(&trial, &mut mind, |_| {})?;
+        reached += u32::from(episode.reached);
+        steps += episode.steps;
+    }
+    let mean = |sum: u32| f64::from(sum) / f64::from(RUNS);
+    Ok(Played {
+        success_percent: 100.0 * mean(reached),
+        mean_steps: mean(steps),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::venue::paper::{TABLE_2, TABLE_3};
+
+    /// The intervals of the paper's 25 runs, as any table of them has it.
+    #[test]
+    fn intervals_are_those_of_25_runs() {
+        let check = |(low, high): (f64, f64), expect: (f64, f64)| {
+            assert!((low - expect.0).abs() < 0.1, "{low}");
+            assert!((high - expect.1).abs() < 0.1, "{high}");
+        };
+        check(success_interval(&TABLE_3[0]).unwrap(), (23.4, 59.3));
+        check(success_interval(&TABLE_3[1]).unwrap(), (52.4, 85.7));
+        check(steps_interval(&TABLE_3[0]), (315.9, 451.6));
+        check(steps_interval(&TABLE_3[1]), (215.0, 342.1));
+        check(steps_interval(&TABLE_2[0]), (78.7, 140.3));
+        check(steps_interval(&TABLE_2[1]), (69.6, 113.9));
+    }
+
+    #[test]
+    fn excess_is_a_share_of_the_end_that_is_passed() {
+        for (value, expect) in [(5.0, 0.5), (10.0, 0.0), (20.0, 0.0), (25.0, 0.25)] {
+            assert!((beyond(value, (10.0, 20.0)) - expect).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_drawing_follows_from_its_number() {
+        for drawing in [Drawing::J, Drawing::Large] {
+            let maze = drawing.maze(3).unwrap();
+            assert_eq!(maze, drawing.maze(3).unwrap());
+            assert_ne!(maze, drawing.maze(4).unwrap());
+        }
+    }
+
+    /// The mazes are the first drawings that are kept, to the cell.
+    #[test]
+    fn the_papers_mazes_are_the_first_that_are_kept() {
+        let mazes = [
+            (Drawing::J, J_DRAWING, "j", crate::venue::j_maze().unwrap()),
+            (
+                Drawing::Large,
+                LARGE_DRAWINGS[0],
+                "large",
+                crate::venue::large_maze().unwrap(),
+            ),
+        ];
+        for (drawing, number, file, course) in mazes {
+            let maze = drawing.maze(number).unwrap();
+            assert_eq!(course.maze, maze, "mazes/{file}.maze should be\n{maze}");
+        }
+    }
+
+    /// The first of each sequence are judged again; `tolman experiment mslst-drawings` judges all.
+    #[test]
+    fn the_lists_agree_with_the_rule() {
+        for (drawing, numbers) in [(Drawing::J, 3..5), (Drawing::Large, 0..4)] {
+            for number in numbers {
+                let judged = drawing.judged(number).unwrap();
+                let kept = judged.is_some_and(|judged| judged.summed_excess() <= 0.0);
+                assert_eq!(drawing.listed(number), Some(kept), "{drawing:?} {number}");
+            }
+        }
+    }
+}
