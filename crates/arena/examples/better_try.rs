@@ -104,7 +104,7 @@ fn main() {
         let Ok(starts) = std::env::var("STARTS") else { continue };
         let starts: u64 = starts.parse().unwrap();
         let t = Instant::now();
-        let map = std::sync::Arc::new(BetterMap::of(actor.brain().learned().clone(), config.ring, &BetterConfig::pioneer()));
+        let map = std::sync::Arc::new(BetterMap::of(actor.brain().learned().clone(), config.ring, &BetterConfig::pioneer()).unwrap());
         println!("  map ready in {:?}", t.elapsed());
         let limit = (course.maze.grid().cell_count() as u32 * 20).max(500);
         let mut sums = [0u32; 2];

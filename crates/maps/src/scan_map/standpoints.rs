@@ -112,19 +112,21 @@ impl Standpoints {
         self.number([column, row])
     }
 
-    /// Returns the range expected at one to a bearing, m, the shortest of the beam there and those beside it; none where the map
-    /// does not say.
-    #[must_use]
-    pub fn clearance(&self, number: u32, bearing: Heading) -> Option<f64> {
-        let beams = i64::from(self.ring.beams);
-        let ahead = bearing.radians() - Heading::NORTH.radians();
-        let beam = libm::round(ahead / self.ring.spacing) as i64;
-        let ranges = [-1, 0, 1].map(|offset| {
-            let beam = (beam + offset).rem_euclid(beams.max(1));
-            self.ranges[(i64::from(number) * beams + beam) as usize]
-        });
-        let shortest = ranges.into_iter().filter(|range| *range != UNKNOWN).min()?;
-        Some(f64::from(shortest) * RANGE_UNIT)
+    /// Writes into `scan` what a robot at one would see that faces along `heading`: nothing in reach where the map does not say.
+    /// The scan's ring must be a full circle of as many beams.
+    pub fn scan(&self, number: u32, heading: Heading, scan: &mut Scan) {
+        let beams = self.ring.beams as usize;
+        let expected = &self.ranges[number as usize * beams..][..beams];
+        let ahead = heading.radians() + scan.ring.first_bearing - Heading::NORTH.radians();
+        let first = libm::round(ahead / self.ring.spacing) as i64;
+        let first = first.rem_euclid(beams.max(1) as i64) as usize;
+        let turned = expected[first..].iter().chain(&expected[..first]);
+        for (range, expected) in scan.ranges.iter_mut().zip(turned) {
+            *range = match *expected {
+                UNKNOWN => self.ring.max_range,
+                units => (f64::from(units) * RANGE_UNIT).min(self.ring.max_range),
+            };
+        }
     }
 
     /// Returns those that lie round a point, with the share that each has of it.

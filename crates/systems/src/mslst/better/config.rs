@@ -10,6 +10,10 @@ pub struct BetterConfig {
     pub odometry_sd: f64,
     /// Standard deviation of how far a wall pushed the robot aside in a time step in which it touched one, m.
     pub slide_sd: f64,
+    /// What its motors do.
+    pub motors: Motors,
+    /// From wall to wall of a corridor, m: what the layers are made for.
+    pub corridor_width: f64,
     /// How far an action leads, m.
     pub action_way: f64,
     /// Standard deviation of that, as a share of it.
@@ -26,9 +30,34 @@ impl BetterConfig {
             diameter: ROBOT_UNIT,
             odometry_sd: 0.05,
             slide_sd: 0.1,
+            motors: Motors::PIONEER,
+            corridor_width: 1.9 * ROBOT_UNIT,
             action_way: ROBOT_UNIT,
             action_sd: 0.2,
             buffer: 0.9 * ROBOT_UNIT,
         }
     }
+}
+
+/// What motors do, as far as a plan reckons with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motors {
+    /// Turn in a time step of the command 1, rad.
+    pub turn_per_command: f64,
+    /// By how much it misses, as a share (standard deviation).
+    pub turn_sd: f64,
+    /// Way in a time step of the command 1, m.
+    pub way_per_command: f64,
+    /// By how much it misses, as a share (standard deviation).
+    pub way_sd: f64,
+}
+
+impl Motors {
+    /// Those of the paper's robot.
+    pub const PIONEER: Self = Self {
+        turn_per_command: 91.0 * core::f64::consts::PI / 180.0,
+        turn_sd: 0.12,
+        way_per_command: 2.0 * ROBOT_UNIT,
+        way_sd: 0.25,
+    };
 }

@@ -2,11 +2,13 @@
 
 mod config;
 mod explorer;
+mod imagined;
 mod map;
 mod navigator;
 mod reckoning;
+mod rehearsal;
 
-pub use config::BetterConfig;
+pub use config::{BetterConfig, Motors};
 pub use explorer::BetterExplorer;
 pub use map::BetterMap;
 pub use navigator::BetterNavigator;

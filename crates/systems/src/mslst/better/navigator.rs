@@ -9,6 +9,7 @@ use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, T
 
 
 use super::reckoning::Reckoning;
+use super::rehearsal::facing;
 use super::{BetterConfig, BetterMap};
 use crate::{Brain, Doing, RolledStep};
 
@@ -70,8 +71,7 @@ impl BetterNavigator {
 
     /// The action that costs least on average over all it believes.
     fn cheapest(&self) -> Option<Direction> {
-        let along = libm::fabs(libm::sin(self.heading.radians()));
-        let axis = usize::from(along > core::f64::consts::FRAC_1_SQRT_2);
+        let axis = facing(self.heading);
         let mut costs = [0.0; 4];
         for (number, mass) in (0..).zip(self.whereabouts.probabilities()) {
             if *mass > NO_SAY / self.map.standpoints.len() as f64 {
