@@ -15,7 +15,7 @@ use crate::oracle::Seer;
 use crate::run::{self, Limited, TaskEnd};
 
 pub use crate::episode_error::EpisodeError;
-pub use step::Step;
+pub use step::{Chooser, Step};
 
 /// What a run is made of, beside the mind.
 #[derive(Clone, Debug)]
@@ -106,14 +106,22 @@ pub fn run(
             let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
             run::until_done(&mut robot, |robot| {
                 actor.act_seen(robot, ARRIVE, |brain, step| {
-                    see(&Step::of(Some(&**brain), step));
+                    see(&Step::of(Chooser::Brain(&**brain), step));
+                })
+            })
+        }
+        Mind::Rolling(brain) => {
+            let mut actor = Actor::new(&mut **brain, drive, stream(trial.seed, MIND_STREAM));
+            run::until_done(&mut robot, |robot| {
+                actor.act_seen(robot, ARRIVE, |brain, step| {
+                    see(&Step::of(Chooser::Rolling(&**brain), step));
                 })
             })
         }
         Mind::Oracle(oracle) => {
             let mut seer = Seer::new(oracle, drive);
             run::until_done(&mut robot, |robot| {
-                let standing = seer.act(robot, |step| see(&Step::of(None, step)));
+                let standing = seer.act(robot, |step| see(&Step::of(Chooser::Oracle, step)));
                 standing.map_err(ActorError::Robot)
             })
         }

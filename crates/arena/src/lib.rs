@@ -30,6 +30,6 @@ pub mod pioneer;
 pub mod run;
 mod simulated;
 
-pub use mind::{AnyBrain, Mind};
+pub use mind::{AnyBrain, AnyRollingBrain, Mind};
 pub use outing::{Depicted, HasSimulated, Outing, RobotFacts, Sent, Site};
 pub use simulated::Simulated;

@@ -1,17 +1,22 @@
 use core::convert::Infallible;
 
-use tolman_systems::{Brain, TimeStep};
+use tolman_systems::{Brain, RolledStep, TimeStep};
 
 use crate::oracle::Oracle;
 
 /// A brain of whichever kind that takes in all it observes.
 pub type AnyBrain = dyn Brain<Observation = TimeStep, Error = Infallible>;
 
+/// A brain of whichever kind that reckons with wheel encoders.
+pub type AnyRollingBrain = dyn Brain<Observation = RolledStep, Error = Infallible>;
+
 /// Whoever chooses the actions in an [episode](crate::episode).
 #[derive(Debug)]
 pub enum Mind {
     /// One that perceives.
     Brain(Box<AnyBrain>),
+    /// One that perceives, what its wheels rolled included.
+    Rolling(Box<AnyRollingBrain>),
     /// One that is shown the truth.
     Oracle(Box<Oracle>),
 }

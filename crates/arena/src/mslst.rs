@@ -1,11 +1,15 @@
 //! Phases I and II: the robot wanders, learns states, wanders again, and learns the graph.
 
+use alloc::sync::Arc;
+
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::Drive;
+use tolman_geom::Point;
 use tolman_robot::{Body, System, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_systems::mslst::better::{BetterConfig, BetterExplorer, BetterMap};
 use tolman_systems::mslst::{
     GrowthRecord, Learned, MslstConfig, ScanRecorder, States, StatesError, Topology,
 };
@@ -15,7 +19,7 @@ use crate::course::Course;
 use crate::episode::layers;
 use crate::episode_error::{EpisodeError, broken};
 use crate::pioneer::CoursePioneer;
-use crate::run::{self, Limited};
+use crate::run::{self, Ended, Limited};
 
 /// Why no map was learned.
 #[derive(Debug, Error)]
@@ -29,7 +33,65 @@ pub enum LearnError {
     States(#[from] StatesError),
 }
 
+/// What the better system learned, and what whoever watched it knows of it.
+#[derive(Clone, Debug)]
+pub struct BetterLearned {
+    /// What the brain gets.
+    pub map: Arc<BetterMap>,
+    /// How learning ended.
+    pub ended: Ended,
+    /// Where the robot truly was when each place was made, by id; metres.
+    pub positions: Vec<Point>,
+    /// True places: of the positions where actions ended, as many as lie a robot's diameter apart, first come first counted.
+    pub true_places: Vec<Point>,
+}
+
+/// Lets the better system learn a course on its own. It ends when it has been everywhere, or after ten times the steps that a run may take
+/// for each place that can be started from. The same seed gives the same map.
+///
+/// # Errors
+/// [`LearnError`] if the robot cannot be built for the course.
+pub fn learn_better(
+    course: &Course,
+    robot: &LaserPioneerConfig,
+    seed: u64,
+) -> Result<BetterLearned, LearnError> {
+    let config = BetterConfig {
+        diameter: 2.0 * robot.radius,
+        corridor_width: course.corridor_width,
+        ..BetterConfig::pioneer()
+    };
+    let wanderer = Wanderer::new(course, robot, &mut stream(seed, BETTER_STREAM))?;
+    let mut positions = Vec::new();
+    let mut true_places: Vec<Point> = Vec::new();
+    let limit = course.step_limit().saturating_mul(10);
+    let mut robot_in_run = Limited::new(wanderer.robot, limit);
+    let mut actor = Actor::new(BetterExplorer::new(config), wanderer.drive, wanderer.rng);
+    let ended = run::until_done(&mut robot_in_run, |robot| {
+        let standing = actor.act(robot, Task::Explore);
+        let here = robot.robot().truth().pose.position;
+        positions.resize(actor.brain().learned().places().len(), here);
+        if true_places
+            .iter()
+            .all(|place| (place - here).norm() >= config.diameter)
+        {
+            true_places.push(here);
+        }
+        standing
+    })
+    .map_err(|error| broken(&robot_in_run, error))?;
+    let scans = actor.into_brain().into_learned();
+    let map = BetterMap::of(scans, robot.ring, &config).map_err(EpisodeError::from)?;
+    Ok(BetterLearned {
+        map: Arc::new(map),
+        ended,
+        positions,
+        true_places,
+    })
+}
+
 /// The streams that the seed of a map is split into.
+const BETTER_STREAM: u64 = 13;
 const SCANS_STREAM: u64 = 11;
 const GRAPH_STREAM: u64 = 12;
 

@@ -2,7 +2,7 @@
 
 use tolman_robot::{Body, Ring};
 use tolman_sim::Contact;
-use tolman_sim::noise::Gaussian;
+use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, MotorNoise};
 use tolman_systems::mslst::ROBOT_UNIT;
 
@@ -55,6 +55,24 @@ pub fn calibrated() -> LaserPioneerConfig {
         ..LaserPioneerConfig::noiseless()
     }
 }
+
+/// The same robot with sensors that err, as the better MSLST is judged: encoders by `encoders` of each step (standard deviation) and by a share
+/// of up to 2 % that holds for the whole run, ranges by 2 %.
+#[must_use]
+pub fn with_sensor_noise(robot: &LaserPioneerConfig, encoders: f64) -> LaserPioneerConfig {
+    let mut noisy = robot.clone();
+    noisy.odometry_distance_noise = Gaussian::relative(encoders);
+    noisy.scan_noise = Gaussian::relative(0.02);
+    noisy.faults.odometry_distance.push(Fault::Bounded {
+        share: 0.02,
+        offset: 0.0,
+        steps: u32::MAX,
+    });
+    noisy
+}
+
+/// What encoders err by in a step, as a share of it, where nothing else is said.
+pub const ENCODER_SD: f64 = 0.03;
 
 /// Its body: a disc one robot unit across.
 #[must_use]

@@ -63,7 +63,9 @@ impl Decisions {
         let Some(choice) = self.choices.get(index) else {
             return f32::INFINITY;
         };
-        let first = index.checked_sub(1).map_or(0, |before| self.choices[before].ends);
+        let first = index
+            .checked_sub(1)
+            .map_or(0, |before| self.choices[before].ends);
         let ends = &self.ends[first as usize..choice.ends as usize];
         let (mut sum, mut sure) = (choice.cost, 0.0);
         for (end, probability) in ends {
@@ -73,7 +75,11 @@ impl Decisions {
             }
         }
         // What stays tries again.
-        if sure > f32::EPSILON { sum / sure } else { f32::INFINITY }
+        if sure > f32::EPSILON {
+            sum / sure
+        } else {
+            f32::INFINITY
+        }
     }
 }
 
@@ -115,7 +121,8 @@ pub fn expected_costs(
         let mut change: f32 = 0.0;
         for (state, _) in &order {
             let state = *state as usize;
-            let actions = (0..decisions.actions).map(|action| decisions.cost(&costs, state, action));
+            let actions =
+                (0..decisions.actions).map(|action| decisions.cost(&costs, state, action));
             let cost = actions.fold(f32::INFINITY, f32::min);
             if cost.is_finite() {
                 change = change.max((cost - costs[state]).abs());

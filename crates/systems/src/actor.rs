@@ -118,7 +118,9 @@ impl<B: Brain> Actor<B> {
                 let robot = scan.ring;
                 return Err(ActorError::Ring { robot, layers });
             }
-            let observed = self.brain.observe(&OfStep::of_step(&*robot, Doing::PutDown));
+            let observed = self
+                .brain
+                .observe(&OfStep::of_step(&*robot, Doing::PutDown));
             observed.map_err(ActorError::Brain)?;
             self.before = Before::Action;
         }

@@ -1,7 +1,9 @@
 use tolman_control::{Driven, Outcome};
 use tolman_geom::Heading;
 use tolman_maze::Direction;
-use tolman_robot::{Bumps, Compass, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks};
+use tolman_robot::{
+    Bumps, Compass, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks,
+};
 
 /// One time step as a [`Brain`](crate::Brain) observes it: what the robot sensed at its end, and the high-level
 /// action it belongs to.

@@ -1,9 +1,8 @@
 use tolman_control::{Driven, Outcome};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, Mapper, TurnTranslate};
-use tolman_systems::Brain;
+use tolman_robot::{Guess, TurnTranslate};
 
-use crate::mind::AnyBrain;
+use crate::mind::{AnyBrain, AnyRollingBrain};
 use crate::pioneer::CoursePioneer;
 use crate::run::Limited;
 
@@ -12,8 +11,8 @@ use crate::run::Limited;
 pub struct Step<'a> {
     /// The action it belongs to.
     pub action: Direction,
-    /// The brain that chose it; `None` for an oracle.
-    pub brain: Option<&'a AnyBrain>,
+    /// Who chose it.
+    pub brain: Chooser<'a>,
     /// What the motors were told.
     pub command: TurnTranslate,
     /// How the action ended with this step; `None` while it goes on.
@@ -22,11 +21,19 @@ pub struct Step<'a> {
     pub robot: &'a CoursePioneer,
 }
 
+/// Who chose an action.
+#[derive(Clone, Copy, Debug)]
+pub enum Chooser<'a> {
+    /// A brain that perceives.
+    Brain(&'a AnyBrain),
+    /// One that perceives what its wheels rolled, too.
+    Rolling(&'a AnyRollingBrain),
+    /// An oracle, which believes nothing.
+    Oracle,
+}
+
 impl<'a> Step<'a> {
-    pub(super) fn of(
-        brain: Option<&'a AnyBrain>,
-        driven: &Driven<'a, Limited<CoursePioneer>>,
-    ) -> Self {
+    pub(super) fn of(brain: Chooser<'a>, driven: &Driven<'a, Limited<CoursePioneer>>) -> Self {
         Self {
             action: driven.action,
             brain,
@@ -40,13 +47,21 @@ impl<'a> Step<'a> {
     /// nothing to say.
     #[must_use]
     pub fn words(&self) -> String {
-        self.brain.map_or_else(String::new, Brain::words)
+        match self.brain {
+            Chooser::Oracle => String::new(),
+            Chooser::Brain(brain) => brain.words(),
+            Chooser::Rolling(brain) => brain.words(),
+        }
     }
 
     /// Returns where the brain believed the robot to be when it chose the action, the likeliest first; empty if it
     /// does not ask.
     #[must_use]
     pub fn belief(&self) -> Vec<Guess> {
-        self.brain.map_or_else(Vec::new, Mapper::belief)
+        match self.brain {
+            Chooser::Oracle => Vec::new(),
+            Chooser::Brain(brain) => brain.belief(),
+            Chooser::Rolling(brain) => brain.belief(),
+        }
     }
 }

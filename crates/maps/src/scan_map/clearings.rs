@@ -44,9 +44,8 @@ impl<'a> Clearings<'a> {
     #[must_use]
     pub fn straight(&self, from: Point, unit: Vector, most: f64) -> f64 {
         let steps = (most / WallGrid::CELL) as u32;
-        let free = (1..=steps).take_while(|step| {
-            self.stands(from + unit * (f64::from(*step) * WallGrid::CELL))
-        });
+        let free = (1..=steps)
+            .take_while(|step| self.stands(from + unit * (f64::from(*step) * WallGrid::CELL)));
         free.count() as f64 * WallGrid::CELL
     }
 
@@ -117,16 +116,19 @@ impl<'a> Clearings<'a> {
     /// map says.
     fn stands_by(&self, at: Point) -> Vec<GridIndex> {
         let centre = index_of(at);
-        let cells = (-BY..=BY).flat_map(|row| {
-            (-BY..=BY).map(move |column| [centre[0] + column, centre[1] + row])
-        });
+        let cells = (-BY..=BY)
+            .flat_map(|row| (-BY..=BY).map(move |column| [centre[0] + column, centre[1] + row]));
         let stands: Vec<GridIndex> = cells
             .filter(|index| self.grid.stands(*index, self.radius))
             .collect();
         let in_sight = stands.iter().copied();
         let in_sight = in_sight.filter(|index| self.grid.sees(at, middle(*index)));
         let in_sight: Vec<GridIndex> = in_sight.collect();
-        if in_sight.is_empty() { stands } else { in_sight }
+        if in_sight.is_empty() {
+            stands
+        } else {
+            in_sight
+        }
     }
 }
 

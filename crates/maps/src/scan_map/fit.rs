@@ -77,12 +77,7 @@ pub(super) fn fit(
 }
 
 /// The best of the shifts within `window` of `centre`, on a mesh of this width.
-fn best_of(
-    centre: Vector,
-    window: Vector,
-    mesh: f64,
-    total: impl Fn(Vector) -> f64,
-) -> Vector {
+fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> f64) -> Vector {
     let [columns, rows] = [window.x, window.y].map(|window| libm::ceil(window / mesh) as i32);
     let mut best = (f64::NEG_INFINITY, centre);
     for row in -rows..=rows {

@@ -143,9 +143,8 @@ impl ScanMap {
             position: Some(place.position),
             landmark: place.landmark,
         };
-        let both_ways = |[a, b]: &[u32; 2]| {
-            [MapLink { from: *a, to: *b }, MapLink { from: *b, to: *a }]
-        };
+        let both_ways =
+            |[a, b]: &[u32; 2]| [MapLink { from: *a, to: *b }, MapLink { from: *b, to: *a }];
         MapView {
             places: (0..).zip(&self.places).map(place).collect(),
             links: self.links.iter().flat_map(both_ways).collect(),
@@ -192,8 +191,6 @@ impl ScanMap {
             (way < self.config.spacing_of_places && self.grid.sees(place.position, self.position))
                 .then_some((way, id))
         });
-        places
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, id)| id)
+        places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
     }
 }

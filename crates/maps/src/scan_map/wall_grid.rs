@@ -150,9 +150,8 @@ impl WallGrid {
 
     /// Whether a body of this radius can stand with its middle in a cell that a beam has passed, as far as walls are known.
     pub(super) fn stands(&self, index: GridIndex, radius: f64) -> bool {
-        self.cell(index).is_some_and(|cell| {
-            cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius
-        })
+        self.cell(index)
+            .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)
     }
 
     /// The first cell, and the one past the last.

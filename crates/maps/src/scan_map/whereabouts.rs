@@ -71,7 +71,11 @@ impl Whereabouts {
             }
             for (offset, share) in spread(sd) {
                 let to = from + moved + offset;
-                let passes = if grid.sees(*from, to) { 1.0 } else { THROUGH_A_WALL };
+                let passes = if grid.sees(*from, to) {
+                    1.0
+                } else {
+                    THROUGH_A_WALL
+                };
                 for (number, part) in on.around(to) {
                     if let Some(number) = number {
                         after[number as usize] += mass * share * part * passes;
@@ -98,7 +102,11 @@ impl Whereabouts {
             best = best.min(misfit);
             *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD));
         }
-        self.surprises = if best > SURPRISE { self.surprises + 1 } else { 0 };
+        self.surprises = if best > SURPRISE {
+            self.surprises + 1
+        } else {
+            0
+        };
         self.normalize(on);
     }
 
@@ -130,13 +138,20 @@ fn spread(sd: Vector) -> impl Iterator<Item = (Vector, f64)> {
     let offsets = move |sd: f64| {
         let wide = sd > fine;
         let steps: &[(f64, f64)] = if wide {
-            &[(-1.5, 0.12), (-0.75, 0.23), (0.0, 0.3), (0.75, 0.23), (1.5, 0.12)]
+            &[
+                (-1.5, 0.12),
+                (-0.75, 0.23),
+                (0.0, 0.3),
+                (0.75, 0.23),
+                (1.5, 0.12),
+            ]
         } else {
             &[(0.0, 1.0)]
         };
         steps.iter().map(move |(at, share)| (at * sd, *share))
     };
-    offsets(sd.x).flat_map(move |(x, a)| offsets(sd.y).map(move |(y, b)| (Vector::new(x, y), a * b)))
+    offsets(sd.x)
+        .flat_map(move |(x, a)| offsets(sd.y).map(move |(y, b)| (Vector::new(x, y), a * b)))
 }
 
 impl Whereabouts {

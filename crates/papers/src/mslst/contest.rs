@@ -110,6 +110,7 @@ impl Contest {
             .map(|map| run_seed(master_seed, &stream, map))
             .collect();
         let learners = configs.into_iter().map(Entrant::Mslst);
+        let learners = learners.chain([Entrant::Better]);
         let competitor = |entrant: Entrant| {
             let count = if entrant.learns() { maps } else { 1 };
             Competitor {
@@ -243,7 +244,11 @@ impl Contest {
     fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, &Ready), BoxError> {
         let competitor = self.competitor(job.row)?;
         let ready = competitor.ready(&self.venue, job.run)?;
-        Ok((self.venue.trial(job.seed), ready.mind(&self.venue)?, ready))
+        let trial = Trial {
+            robot: competitor.entrant.robot(&self.venue),
+            ..self.venue.trial(job.seed)
+        };
+        Ok((trial, ready.mind(&self.venue)?, ready))
     }
 
     /// One run and how often the robot bounced in it.
@@ -261,9 +266,7 @@ impl Contest {
     /// One run as it can be watched.
     pub(super) fn replay(&self, job: &Job<'_>) -> Result<Replay, BoxError> {
         let (trial, mut mind, ready) = self.cast(job)?;
-        let learned = ready.learned();
-        let nodes = learned.map_or(&[][..], |learned| &learned.survey.positions);
-        Ok(venue::replay(job, &trial, &mut mind, nodes)?)
+        Ok(venue::replay(job, &trial, &mut mind, ready.nodes())?)
     }
 }
 

@@ -6,8 +6,12 @@ use crate::venue::Venue;
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::EpisodeError;
-use tolman_arena::mslst::learn;
+use tolman_arena::mslst::{BetterLearned, learn, learn_better};
+use tolman_arena::pioneer::{ENCODER_SD, with_sensor_noise};
 use tolman_experiment::BoxError;
+use tolman_geom::Point;
+use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::mslst::better::BetterNavigator;
 use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 
 /// Who competes.
@@ -17,6 +21,8 @@ pub(super) enum Entrant {
     Agent(Agent),
     /// MSLST, which learns a map first.
     Mslst(MslstConfig),
+    /// The better system, whose sensors err.
+    Better,
 }
 
 /// An entrant that has learned what it learns, ready for any number of runs.
@@ -27,6 +33,7 @@ pub(super) enum Ready {
         learned: Box<Learned>,
         config: MslstConfig,
     },
+    Better(Box<BetterLearned>),
 }
 
 impl Entrant {
@@ -46,6 +53,7 @@ impl Entrant {
         match self {
             Self::Agent(agent) => agent.name().to_owned(),
             Self::Mslst(config) => format!("MSLST {}", config.threshold),
+            Self::Better => "Better".to_owned(),
         }
     }
 
@@ -62,8 +70,16 @@ impl Entrant {
     /// What its runs depend on beside the world.
     pub(super) const fn config(self) -> Option<MslstConfig> {
         match self {
-            Self::Agent(_) => None,
+            Self::Agent(_) | Self::Better => None,
             Self::Mslst(config) => Some(config),
+        }
+    }
+
+    /// The robot that it has: a better system is one that stands sensors that err.
+    pub(super) fn robot(self, venue: &Venue) -> LaserPioneerConfig {
+        match self {
+            Self::Agent(_) | Self::Mslst(_) => venue.robot.clone(),
+            Self::Better => with_sensor_noise(&venue.robot, ENCODER_SD),
         }
     }
 
@@ -75,6 +91,10 @@ impl Entrant {
                 learned: Box::new(learn(&venue.course, &venue.robot, &config, seed)?),
                 config,
             },
+            Self::Better => {
+                let learned = learn_better(&venue.course, &self.robot(venue), seed)?;
+                Ready::Better(Box::new(learned))
+            }
         })
     }
 }
@@ -88,13 +108,25 @@ impl Ready {
                 let map = Arc::new(learned.map.clone());
                 Mind::Brain(Box::new(Navigator::new(map, config)))
             }
+            Self::Better(learned) => {
+                Mind::Rolling(Box::new(BetterNavigator::new(Arc::clone(&learned.map))))
+            }
         })
+    }
+
+    /// Where the nodes of its map truly lie, by id.
+    pub(super) fn nodes(&self) -> &[Point] {
+        match self {
+            Self::Agent(_) => &[],
+            Self::Mslst { learned, .. } => &learned.survey.positions,
+            Self::Better(learned) => &learned.positions,
+        }
     }
 
     /// What MSLST has learned; none of others.
     pub(super) fn learned(&self) -> Option<&Learned> {
         match self {
-            Self::Agent(_) => None,
+            Self::Agent(_) | Self::Better(_) => None,
             Self::Mslst { learned, .. } => Some(learned),
         }
     }

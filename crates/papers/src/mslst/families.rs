@@ -14,7 +14,8 @@ use super::entrant::Entrant;
 use crate::venue::{Drawing, LARGE_DRAWINGS, Venue};
 use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
-use tolman_arena::{episode, pioneer};
+use tolman_arena::episode::{self, Trial};
+use tolman_arena::pioneer;
 use tolman_experiment::{
     BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Row, Table, record, run_seed,
 };
@@ -76,7 +77,9 @@ const BRAIDED: f64 = 0.5;
 impl Family {
     /// The drawings of Large that are kept, with at least 20 starts each; `runs` starts in all.
     pub(super) fn drawings(runs: u32, limit: Option<u32>) -> Self {
-        let learners = [20.0, 50.0].map(|threshold| Entrant::Mslst(MslstConfig::large(threshold)));
+        let [twenty, fifty] =
+            [20.0, 50.0].map(|threshold| Entrant::Mslst(MslstConfig::large(threshold)));
+        let learners = [twenty, fifty, Entrant::Better];
         let most = LARGE_DRAWINGS.len() as u32;
         Self::new(
             Kind::Drawings,
@@ -95,7 +98,7 @@ impl Family {
             runs,
             (RANDOM_MAZES, 5),
             limit,
-            Entrant::lineup([learner]),
+            Entrant::lineup([learner, Entrant::Better]),
         )
     }
 
@@ -184,7 +187,10 @@ impl Family {
         let ready = entrant.ready(&venue, job.seed)?;
         let (mut reached, mut actions, mut steps, mut arrived) = (0_u32, 0_u64, 0_u64, 0_u64);
         for start in 0..self.starts {
-            let trial = venue.trial(run_seed(job.seed, "starts", start));
+            let trial = Trial {
+                robot: entrant.robot(&venue),
+                ..venue.trial(run_seed(job.seed, "starts", start))
+            };
             let episode = episode::run(&trial, &mut ready.mind(&venue)?, |_| {})?;
             reached += u32::from(episode.reached);
             actions += u64::from(episode.actions);

@@ -2,7 +2,6 @@ use crate::mslst::ROBOT_UNIT;
 
 /// What the better system reckons with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct BetterConfig {
     /// Diameter of the robot, m.
     pub diameter: f64,

@@ -6,8 +6,8 @@ use tolman_maps::scan_map::{Advance, Clearings, ScanMap, ScanMapConfig, WayToGap
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
 
-use super::reckoning::{Reckoning, unit};
 use super::BetterConfig;
+use super::reckoning::{Reckoning, unit};
 use crate::{Brain, Doing, RolledStep};
 
 /// Learns a [`ScanMap`], and goes where it has gaps until it has none.
@@ -56,6 +56,12 @@ impl BetterExplorer {
         &self.map
     }
 
+    /// Returns what it has learned.
+    #[must_use]
+    pub fn into_learned(self) -> ScanMap {
+        self.map
+    }
+
     fn arrived(&mut self, seen: &RolledStep) {
         let (Some(scan), Some(heading)) = (&seen.step.scan, seen.step.heading) else {
             return;
@@ -75,7 +81,11 @@ impl BetterExplorer {
         let clearings = self.map.clearings();
         let Some(way) = clearings.way_to_gap(self.map.position()) else {
             let places = self.map.places().iter().map(|place| place.position);
-            return if clearings.has_gap(places) { Plan::Stuck } else { Plan::Finished };
+            return if clearings.has_gap(places) {
+                Plan::Stuck
+            } else {
+                Plan::Finished
+            };
         };
         let here = way.metres(self.map.position());
         let worth = |action: Direction| {

@@ -64,7 +64,11 @@ impl<'a> Imagined<'a> {
     /// Any number with this standard deviation, none beyond 1.7 of them.
     fn off(&mut self, sd: f64) -> f64 {
         let most = libm::sqrt(3.0) * sd;
-        if most > 0.0 { self.rng.random_range(-most..=most) } else { 0.0 }
+        if most > 0.0 {
+            self.rng.random_range(-most..=most)
+        } else {
+            0.0
+        }
     }
 
     /// Goes straight ahead, or along what it meets.

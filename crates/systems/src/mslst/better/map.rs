@@ -11,6 +11,7 @@ use super::rehearsal::{rehearse, state};
 /// get to the goal.
 #[derive(Clone, Debug)]
 pub struct BetterMap {
+    pub(super) config: BetterConfig,
     pub(super) scans: ScanMap,
     pub(super) standpoints: Standpoints,
     decisions: Decisions,
@@ -37,11 +38,18 @@ impl BetterMap {
         let goals: Vec<u32> = goals.collect();
         let costs = expected_costs(&decisions, &goals, SETTLED, MOST_SWEEPS);
         Ok(Self {
+            config: *config,
             scans,
             standpoints,
             decisions,
             costs,
         })
+    }
+
+    /// Returns the places, their links and the walls.
+    #[must_use]
+    pub const fn scans(&self) -> &ScanMap {
+        &self.scans
     }
 
     /// Returns the time steps to the goal on average from a standpoint by an action, facing along an axis; infinite where it does

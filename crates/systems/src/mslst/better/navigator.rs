@@ -7,16 +7,14 @@ use tolman_maps::scan_map::Whereabouts;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
-
+use super::BetterMap;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
-use super::{BetterConfig, BetterMap};
 use crate::{Brain, Doing, RolledStep};
 
 /// Finds out where it is on its map, and does what leads to the goal soonest on average over all it believes.
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
-    config: BetterConfig,
     map: Arc<BetterMap>,
     whereabouts: Whereabouts,
     reckoning: Reckoning,
@@ -34,11 +32,10 @@ const NO_SAY: f64 = 1e-4;
 impl BetterNavigator {
     /// Returns one that knows `map` and has no idea where it is.
     #[must_use]
-    pub fn new(map: Arc<BetterMap>, config: BetterConfig) -> Self {
+    pub fn new(map: Arc<BetterMap>) -> Self {
         Self {
             whereabouts: Whereabouts::anywhere(&map.standpoints),
             map,
-            config,
             reckoning: Reckoning::default(),
             heading: Heading::NORTH,
             failed: Vec::new(),
@@ -93,9 +90,9 @@ impl Mapper for BetterNavigator {
 
     fn observe(&mut self, seen: &RolledStep) -> Result<(), Infallible> {
         if seen.step.doing == Doing::PutDown {
-            *self = Self::new(Arc::clone(&self.map), self.config);
+            *self = Self::new(Arc::clone(&self.map));
         }
-        self.reckoning.add(seen, &self.config);
+        self.reckoning.add(seen, &self.map.config);
         match seen.step.doing {
             Doing::UnderWay(_) => return Ok(()),
             Doing::PutDown => {}
@@ -137,15 +134,22 @@ impl Brain for BetterNavigator {
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
             Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
             Task::Localize => {
-                let sure = self.whereabouts.certainty(&self.map.standpoints, self.config.diameter);
-                if sure > 0.95 { Standing::Done } else { Standing::UnderWay }
+                let sure = self
+                    .whereabouts
+                    .certainty(&self.map.standpoints, self.map.config.diameter);
+                if sure > 0.95 {
+                    Standing::Done
+                } else {
+                    Standing::UnderWay
+                }
             }
         }
     }
 
     fn words(&self) -> String {
-        let sure = self.whereabouts.certainty(&self.map.standpoints, self.config.diameter);
+        let sure = self
+            .whereabouts
+            .certainty(&self.map.standpoints, self.map.config.diameter);
         format!("believes with {:.0} % to know where it is", 100.0 * sure)
     }
 }
-
