@@ -20,6 +20,7 @@ pub mod diktiometry;
 pub mod episode;
 mod episode_error;
 pub mod gngslam;
+mod lingerer;
 pub mod micromouse;
 mod mind;
 pub mod mms;

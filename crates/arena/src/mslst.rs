@@ -18,6 +18,7 @@ use tolman_systems::{Actor, Doing, TimeStep, stream};
 use crate::course::Course;
 use crate::episode::layers;
 use crate::episode_error::{EpisodeError, broken};
+use crate::lingerer::Lingerer;
 use crate::pioneer::CoursePioneer;
 use crate::run::{self, Ended, Limited};
 
@@ -40,20 +41,24 @@ pub struct BetterLearned {
     pub map: Arc<BetterMap>,
     /// How learning ended.
     pub ended: Ended,
+    /// Actions until it had been everywhere.
+    pub actions: u32,
     /// Where the robot truly was when each place was made, by id; metres.
     pub positions: Vec<Point>,
     /// True places: of the positions where actions ended, as many as lie a robot's diameter apart, first come first counted.
     pub true_places: Vec<Point>,
 }
 
-/// Lets the better system learn a course on its own. It ends when it has been everywhere, or after ten times the steps that a run may take
-/// for each place that can be started from. The same seed gives the same map.
+/// Lets the better system learn a course on its own, until it has been everywhere or has made ten times the steps that a run may
+/// take there; then lets it wander on until it has made `times` as many actions, so that its map can be seen to stop growing. The same seed
+/// gives the same map.
 ///
 /// # Errors
 /// [`LearnError`] if the robot cannot be built for the course.
 pub fn learn_better(
     course: &Course,
     robot: &LaserPioneerConfig,
+    times: u32,
     seed: u64,
 ) -> Result<BetterLearned, LearnError> {
     let config = BetterConfig {
@@ -62,11 +67,12 @@ pub fn learn_better(
         ..BetterConfig::pioneer()
     };
     let wanderer = Wanderer::new(course, robot, &mut stream(seed, BETTER_STREAM))?;
+    let limit = course.step_limit().saturating_mul(10 * times);
+    let mut robot_in_run = Limited::new(wanderer.robot, limit);
+    let brain = Lingerer::new(BetterExplorer::new(config), times);
+    let mut actor = Actor::new(brain, wanderer.drive, wanderer.rng);
     let mut positions = Vec::new();
     let mut true_places: Vec<Point> = Vec::new();
-    let limit = course.step_limit().saturating_mul(10);
-    let mut robot_in_run = Limited::new(wanderer.robot, limit);
-    let mut actor = Actor::new(BetterExplorer::new(config), wanderer.drive, wanderer.rng);
     let ended = run::until_done(&mut robot_in_run, |robot| {
         let standing = actor.act(robot, Task::Explore);
         let here = robot.robot().truth().pose.position;
@@ -80,11 +86,14 @@ pub fn learn_better(
         standing
     })
     .map_err(|error| broken(&robot_in_run, error))?;
-    let scans = actor.into_brain().into_learned();
+    let lingerer = actor.into_brain();
+    let actions = lingerer.explored();
+    let scans = lingerer.into_learned();
     let map = BetterMap::of(scans, robot.ring, &config).map_err(EpisodeError::from)?;
     Ok(BetterLearned {
         map: Arc::new(map),
         ended,
+        actions,
         positions,
         true_places,
     })

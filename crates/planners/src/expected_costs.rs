@@ -83,8 +83,8 @@ impl Decisions {
     }
 }
 
-/// Returns what it costs on average to reach one of the `goals` from each state, by the actions that are cheapest on average;
-/// infinite where no actions lead there.
+/// Returns what it costs on average to reach one of the `goals` from each state by the actions that are cheapest on average;
+/// `hopeless` at most, which is what it costs to give up.
 ///
 /// Value iteration, in place, the states nearest to a goal first, until no cost changes by more than `tolerance` or `sweeps`
 /// are made. O(sweeps · ends). R. Bellman: *A Markovian decision process* (1957).
@@ -100,20 +100,21 @@ impl Decisions {
 /// decisions.add(1.0, [(0, 1.0)]);
 /// decisions.add(1.0, [(2, 1.0)]);
 /// decisions.add(1.0, [(2, 1.0)]);
-/// let costs = expected_costs(&decisions, &[2], 1e-6, 100);
+/// let costs = expected_costs(&decisions, &[2], 100.0, 1e-6, 100);
 /// assert_eq!(costs, [1.5, 0.5, 0.0]);
 /// ```
 #[must_use]
 pub fn expected_costs(
     decisions: &Decisions,
     goals: &[u32],
+    hopeless: f32,
     tolerance: f32,
     sweeps: usize,
 ) -> Vec<f32> {
-    let mut costs = vec![f32::INFINITY; decisions.len()];
+    let mut costs = vec![hopeless; decisions.len()];
     let mut order = if_all_goes_well(decisions, goals);
     for (state, cost) in &order {
-        costs[*state as usize] = *cost;
+        costs[*state as usize] = cost.min(hopeless);
     }
     let goals: BTreeSet<u32> = goals.iter().copied().collect();
     order.retain(|(state, _)| !goals.contains(state));
@@ -123,11 +124,9 @@ pub fn expected_costs(
             let state = *state as usize;
             let actions =
                 (0..decisions.actions).map(|action| decisions.cost(&costs, state, action));
-            let cost = actions.fold(f32::INFINITY, f32::min);
-            if cost.is_finite() {
-                change = change.max((cost - costs[state]).abs());
-                costs[state] = cost;
-            }
+            let cost = actions.fold(hopeless, f32::min);
+            change = change.max((cost - costs[state]).abs());
+            costs[state] = cost;
         }
         if change <= tolerance {
             break;

@@ -92,7 +92,7 @@ impl Entrant {
                 config,
             },
             Self::Better => {
-                let learned = learn_better(&venue.course, &self.robot(venue), seed)?;
+                let learned = learn_better(&venue.course, &self.robot(venue), 1, seed)?;
                 Ready::Better(Box::new(learned))
             }
         })

@@ -218,7 +218,7 @@ impl Family {
 }
 
 /// The random maze of a run.
-fn random(job: &Job<'_>) -> Result<Venue, BoxError> {
+pub(super) fn random(job: &Job<'_>) -> Result<Venue, BoxError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(job.seed);
     let mut side = || rng.random_range(LEAST_SIDE..=MOST_SIDE) as u16;
     let (width, height) = (side(), side());

@@ -10,6 +10,7 @@ pub mod drawing;
 mod entrant;
 mod families;
 mod figures;
+mod map_size;
 mod states;
 
 use crate::venue::{self, Venue};
@@ -77,6 +78,9 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     }
     tables.extend(contests.iter().map(Contest::table));
     tables.extend(families.iter().map(Family::table));
+    if papers {
+        tables.push(map_size::table(options.runs_of(&ENTRY)));
+    }
     let worlds = contests.iter();
     let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
     let mut config = venue::config(worlds)?;
@@ -102,6 +106,9 @@ impl Procedure for Mslst {
         let mut families = self.families.iter();
         if let Some(family) = families.find(|family| family.name() == job.table) {
             return family.run(job);
+        }
+        if job.table == map_size::MAP_SIZE {
+            return map_size::run(job);
         }
         match self.contest(job.table) {
             Some(contest) => contest.run(job),

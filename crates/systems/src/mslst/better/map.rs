@@ -19,6 +19,8 @@ pub struct BetterMap {
     costs: Vec<f32>,
 }
 
+/// What it costs to be where no way leads to the goal, time steps.
+pub(super) const HOPELESS: f32 = 1e4;
 /// Costs count as settled when none changes by more, time steps; and at the latest after so many rounds.
 const SETTLED: f32 = 0.01;
 const MOST_SWEEPS: usize = 200;
@@ -36,7 +38,7 @@ impl BetterMap {
             .filter(|number| standpoints.is_goal(*number))
             .flat_map(|number| [0, 1].map(|axis| state(number, axis) as u32));
         let goals: Vec<u32> = goals.collect();
-        let costs = expected_costs(&decisions, &goals, SETTLED, MOST_SWEEPS);
+        let costs = expected_costs(&decisions, &goals, HOPELESS, SETTLED, MOST_SWEEPS);
         Ok(Self {
             config: *config,
             scans,

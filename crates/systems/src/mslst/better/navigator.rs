@@ -8,6 +8,7 @@ use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
 use super::BetterMap;
+use super::map::HOPELESS;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
 use crate::{Brain, Doing, RolledStep};
@@ -24,8 +25,6 @@ pub struct BetterNavigator {
     next: Option<Direction>,
 }
 
-/// What a place is worth from which no way leads to the goal, time steps.
-const NO_WAY: f64 = 2000.0;
 /// A standpoint less probable than that has no say.
 const NO_SAY: f64 = 1e-4;
 
@@ -73,7 +72,7 @@ impl BetterNavigator {
         for (number, mass) in (0..).zip(self.whereabouts.probabilities()) {
             if *mass > NO_SAY / self.map.standpoints.len() as f64 {
                 for action in Direction::ALL {
-                    let cost = self.map.cost(number, axis, action).min(NO_WAY);
+                    let cost = self.map.cost(number, axis, action).min(f64::from(HOPELESS));
                     costs[action.index()] += mass * cost;
                 }
             }

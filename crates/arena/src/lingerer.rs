@@ -1,0 +1,85 @@
+use core::convert::Infallible;
+
+use rand::Rng;
+use tolman_maps::scan_map::ScanMap;
+use tolman_maze::Direction;
+use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
+use tolman_systems::baselines::AvoidBrain;
+use tolman_systems::mslst::better::BetterExplorer;
+use tolman_systems::{Brain, Doing, RolledStep};
+
+/// An explorer that wanders on for a while once it has been everywhere, and goes on learning.
+#[derive(Debug)]
+pub(crate) struct Lingerer {
+    explorer: BetterExplorer,
+    wander: AvoidBrain,
+    actions: u32,
+    /// How many of those it made before it had been everywhere first.
+    explored: Option<u32>,
+    times: u32,
+}
+
+impl Lingerer {
+    /// Returns one that makes `times` as many actions as it takes `explorer` to have been everywhere.
+    pub(crate) fn new(explorer: BetterExplorer, times: u32) -> Self {
+        Self {
+            explorer,
+            wander: AvoidBrain::default(),
+            actions: 0,
+            explored: None,
+            times,
+        }
+    }
+
+    /// How many actions it took to have been everywhere; all, where it never had.
+    pub(crate) fn explored(&self) -> u32 {
+        self.explored.unwrap_or(self.actions)
+    }
+
+    pub(crate) const fn learned(&self) -> &ScanMap {
+        self.explorer.learned()
+    }
+
+    pub(crate) fn into_learned(self) -> ScanMap {
+        self.explorer.into_learned()
+    }
+}
+
+impl Mapper for Lingerer {
+    type Observation = RolledStep;
+    type Error = Infallible;
+
+    fn observe(&mut self, seen: &RolledStep) -> Result<(), Infallible> {
+        let Ok(()) = self.wander.observe(&seen.step);
+        self.explorer.observe(seen)?;
+        self.actions += u32::from(matches!(seen.step.doing, Doing::Ended(..)));
+        if self.explored.is_none() && self.explorer.standing(Task::Explore) != Standing::UnderWay {
+            self.explored = Some(self.actions);
+        }
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        self.explorer.map()
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.explorer.belief()
+    }
+}
+
+impl Brain for Lingerer {
+    fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
+        match self.explored {
+            Some(_) => self.wander.choose(rng),
+            None => self.explorer.choose(rng),
+        }
+    }
+
+    fn standing(&self, task: Task) -> Standing {
+        match self.explored {
+            Some(explored) if self.actions < explored * self.times => Standing::UnderWay,
+            _ => self.explorer.standing(task),
+        }
+    }
+}

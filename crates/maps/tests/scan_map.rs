@@ -1,0 +1,183 @@
+//! The scan map in rooms whose walls are known: what it draws, where it fits a scan, and what it believes.
+
+use proptest::prelude::*;
+use tolman_geom::{Heading, Point, Vector};
+use tolman_maps::scan_map::{
+    Advance, GridRange, ScanMap, ScanMapConfig, Standpoints, WallGrid, Whereabouts,
+};
+use tolman_robot::{Landmark, Ring, Scan};
+
+const DIAMETER: f64 = 0.5;
+
+fn ring() -> Ring {
+    Ring::full(72, 1.25)
+}
+
+/// What a robot sees that looks `heading` in a corridor from (0, 0) to (`length`, 0.95).
+fn scan_of(length: f64, at: Point, heading: Heading) -> Scan {
+    let mut scan = Scan::clear(ring());
+    for (index, range) in (0..).zip(&mut scan.ranges) {
+        let way = heading.turned(ring().bearing(index)).unit();
+        let to_wall = |at: f64, way: f64, far: f64| {
+            if way > 1e-12 {
+                (far - at) / way
+            } else if way < -1e-12 {
+                -at / way
+            } else {
+                f64::INFINITY
+            }
+        };
+        let wall = to_wall(at.x, way.x, length).min(to_wall(at.y, way.y, 0.95));
+        *range = wall.min(ring().max_range);
+    }
+    scan
+}
+
+/// Walks along a corridor in steps whose odometry is off by `errors`, and back to where it began; returns the map and how far off its last
+/// position is.
+fn walked(length: f64, errors: &[f64]) -> (ScanMap, f64) {
+    let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
+    let start = Point::new(0.5, 0.475);
+    let mut at = start;
+    let mut observe = |at: Point, moved: Vector| {
+        map.observe(&Advance {
+            moved,
+            sd: Vector::new(0.02, 0.02),
+            heading: Heading::EAST,
+            scan: &scan_of(length, at, Heading::EAST),
+            landmark: (at.x > length - 0.6).then_some(Landmark::Goal),
+        });
+    };
+    observe(at, Vector::zeros());
+    let count = ((length - 1.0) / 0.4) as usize;
+    let there = (0..count).map(|_| 0.4);
+    let back = (0..count).map(|_| -0.4);
+    for (step, error) in there.chain(back).zip(errors.iter().cycle()) {
+        at.x += step;
+        observe(at, Vector::new(step + error, 0.5 * error));
+    }
+    let off = (map.position() - Point::origin()) - (at - start);
+    (map, off.norm())
+}
+
+#[test]
+fn walls_are_where_scans_met_them_and_unknown_beyond() {
+    let mut grid = WallGrid::default();
+    let at = Point::new(0.5, 0.475);
+    grid.add(at, Heading::NORTH, &scan_of(4.0, at, Heading::NORTH));
+    let GridRange::Wall(west) = grid.range(at, Heading::WEST, 2.0) else {
+        panic!("no wall to the west");
+    };
+    assert!((west - 0.5).abs() <= WallGrid::CELL, "{west}");
+    assert_eq!(grid.range(at, Heading::EAST, 2.0), GridRange::Unknown);
+    assert_eq!(grid.range(at, Heading::EAST, 1.0), GridRange::Clear);
+    assert!(
+        !grid.sees(at, Point::new(0.5, 2.0)),
+        "through the northern wall"
+    );
+    assert!(grid.sees(at, Point::new(1.2, 0.475)));
+    assert!(!grid.is_known(Point::new(3.0, 0.475)));
+}
+
+#[test]
+fn a_corridor_walked_to_and_fro_has_each_place_once() {
+    let (map, off) = walked(5.0, &[0.0]);
+    assert!(off < 0.05, "{off}");
+    let places = map.places().len();
+    assert!((6..=9).contains(&places), "{places}");
+    let view = map.view();
+    let goals = view.places.iter().filter(|place| place.landmark.is_some());
+    assert!(goals.count() >= 1);
+    assert!(view.links.iter().all(|link| link.from != link.to));
+}
+
+#[test]
+fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
+    let (map, _) = walked(5.0, &[0.0]);
+    let on = Standpoints::of(&map, ring(), 0.22);
+    let mut belief = Whereabouts::anywhere(&on);
+    // The map begins where the robot did: its western end lies half a metre to the west.
+    belief.saw(
+        &on,
+        Heading::EAST,
+        &scan_of(5.0, Point::new(0.4, 0.475), Heading::EAST),
+    );
+    let at = on.positions()[belief.likeliest().unwrap() as usize];
+    assert!((at - Point::new(-0.1, 0.0)).norm() < 0.15, "{at}");
+    // It goes two metres to the east, where nothing but corridor is seen, and knows where it is.
+    belief.moved(
+        &on,
+        map.grid(),
+        Vector::new(2.0, 0.0),
+        Vector::new(0.05, 0.05),
+    );
+    belief.saw(
+        &on,
+        Heading::EAST,
+        &scan_of(5.0, Point::new(2.4, 0.475), Heading::EAST),
+    );
+    let at = on.positions()[belief.likeliest().unwrap() as usize];
+    assert!((at - Point::new(1.9, 0.0)).norm() < 0.2, "{at}");
+    assert!(belief.certainty(&on, DIAMETER) > 0.95);
+}
+
+#[test]
+fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
+    let (map, _) = walked(5.0, &[0.0]);
+    let on = Standpoints::of(&map, ring(), 0.22);
+    let mut belief = Whereabouts::anywhere(&on);
+    belief.saw(
+        &on,
+        Heading::EAST,
+        &scan_of(5.0, Point::new(0.4, 0.475), Heading::EAST),
+    );
+    assert!(belief.certainty(&on, DIAMETER) > 0.9);
+    for _ in 0..3 {
+        belief.saw(&on, Heading::EAST, &Scan::clear(ring()));
+    }
+    assert!(belief.certainty(&on, DIAMETER) < 0.5);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Odometry errors do not add up where the walls tell.
+    #[test]
+    fn errors_do_not_add_up(errors in prop::collection::vec(-0.03..0.03_f64, 3..9), length in 2.0..4.0_f64) {
+        let (map, off) = walked(length, &errors);
+        prop_assert!(off < 0.12, "{off}");
+        prop_assert!(map.agreement() > 0.5);
+    }
+
+    /// However it moves and whatever it sees, its belief is a distribution.
+    #[test]
+    fn beliefs_add_up_to_one(
+        moves in prop::collection::vec((-0.6..0.6_f64, -0.2..0.2_f64, 0.3..4.7_f64), 1..8),
+    ) {
+        let (map, _) = walked(5.0, &[0.01]);
+        let on = Standpoints::of(&map, ring(), 0.22);
+        let mut belief = Whereabouts::anywhere(&on);
+        for (x, y, seen) in moves {
+            belief.moved(&on, map.grid(), Vector::new(x, y), Vector::new(0.06, 0.01));
+            belief.saw(&on, Heading::NORTH, &scan_of(5.0, Point::new(seen, 0.475), Heading::NORTH));
+            belief.missed_the_goal(&on);
+            let sum: f64 = belief.probabilities().iter().sum();
+            prop_assert!((sum - 1.0).abs() < 1e-9, "{sum}");
+        }
+    }
+
+    /// A grid that grows forgets nothing.
+    #[test]
+    fn growing_keeps_what_was_drawn(x in -20.0..20.0_f64, y in -20.0..20.0_f64) {
+        let mut grid = WallGrid::default();
+        let at = Point::new(0.5, 0.475);
+        grid.add(at, Heading::EAST, &scan_of(4.0, at, Heading::EAST));
+        let before = grid.clone();
+        prop_assume!(x.abs().max(y.abs()) > 4.0);
+        grid.add(Point::new(x, y), Heading::EAST, &Scan::clear(ring()));
+        for (column, row) in (0..40).flat_map(|column| (0..20).map(move |row| (column, row))) {
+            let at = Point::new(f64::from(column) * 0.04, f64::from(row) * 0.05);
+            prop_assert_eq!(before.wall_distance(at), grid.wall_distance(at));
+        }
+    }
+}

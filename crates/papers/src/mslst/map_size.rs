@@ -1,0 +1,88 @@
+//! How large the map of the better system is beside the true places, and whether it stops growing.
+
+use super::families::random;
+use tolman_arena::mslst::learn_better;
+use tolman_arena::pioneer::{ENCODER_SD, with_sensor_noise};
+use tolman_arena::run::TaskEnd;
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_systems::mslst::ROBOT_UNIT;
+
+record! {
+    /// A random maze that was learned.
+    pub(super) struct MapSizeRun {
+        /// Whether the robot says that it has been everywhere and knows the goal.
+        finished: bool => higher("says finished"),
+        /// Places of the map.
+        nodes: u32 => neither("nodes"),
+        /// Positions where actions ended, as many as lie a robot's diameter apart.
+        true_places: u32 => neither("true places").at_least(1),
+        /// Places over true places.
+        nodes_over_true_places: f64 => neither("nodes / true places").at_least(0),
+        /// Cells in which an action ended, as a share of all.
+        covered_percent: f64 => higher("covered").unit("%").percent(),
+        /// Actions until the robot had been everywhere, for each robot unit of corridor.
+        actions_per_unit: f64 => lower("actions / unit of corridor").at_least(0),
+    }
+}
+
+/// Name of the table.
+pub(super) const MAP_SIZE: &str = "map size";
+
+/// The rows, and how many times as long as exploring takes each of them goes on.
+const ROWS: [(&str, u32); 3] = [
+    ("Better", 1),
+    ("Better, twice as long", 2),
+    ("Better, ten times as long", 10),
+];
+
+/// Random mazes, where enough runs are asked for.
+const MOST_MAZES: u32 = 100;
+
+pub(super) fn table(runs: u32) -> Table {
+    let mazes = runs.clamp(1, MOST_MAZES);
+    let of_ratio = MapSizeRun::nodes_over_true_places;
+    Table::of::<MapSizeRun>(MAP_SIZE, "How large a map grows, in random mazes of 10 to 20 cells a side")
+        .metric(Metric::mean(of_ratio).decimals(3))
+        .metric(Metric::greatest("most_nodes_over_true_places", of_ratio).titled("nodes / true places, most").decimals(3))
+        .metric(Metric::mean(MapSizeRun::nodes))
+        .metric(Metric::percent("finished_percent", MapSizeRun::finished))
+        .metric(Metric::mean(MapSizeRun::covered_percent).decimals(1))
+        .metric(Metric::mean(MapSizeRun::actions_per_unit).decimals(2))
+        .rows(ROWS.map(|(row, _)| Row::new(row).runs(mazes)))
+        .note(format!(
+            "{mazes} mazes. True places are the positions where actions ended, as many as lie a robot's diameter apart, first come first \
+             counted. After exploring, the robot wanders on like Avoid."
+        ))
+}
+
+/// Learns a maze.
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let times = ROWS.iter().find(|(row, _)| *row == job.row);
+    let (_, times) = times.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+    let venue = random(job)?;
+    let robot = with_sensor_noise(&venue.robot, ENCODER_SD);
+    let learned = learn_better(&venue.course, &robot, *times, job.seed)?;
+    let (nodes, places) = (
+        learned.positions.len() as u32,
+        learned.true_places.len() as u32,
+    );
+    let width = venue.course.corridor_width;
+    let cells = venue.course.maze.grid().cell_count();
+    let mut seen: Vec<(i64, i64)> = learned
+        .true_places
+        .iter()
+        .map(|at| ((at.x / width) as i64, (at.y / width) as i64))
+        .collect();
+    seen.sort_unstable();
+    seen.dedup();
+    let units = cells as f64 * width / ROBOT_UNIT;
+    let run = MapSizeRun {
+        finished: learned.ended.end == TaskEnd::Done,
+        nodes,
+        true_places: places,
+        nodes_over_true_places: f64::from(nodes) / f64::from(places.max(1)),
+        covered_percent: 100.0 * seen.len() as f64 / cells as f64,
+        actions_per_unit: f64::from(learned.actions) / units,
+    };
+    Ok(run.fields()?)
+}
