@@ -13,6 +13,7 @@ const PINNED: &[(&str, u32)] = &[
     ("baselines", 5),
     ("quantizers", 3),
     ("mslst", 5),
+    ("mslst-drawings", 2),
     ("mslst-sweeps", 1),
     ("micromouse", 1),
     ("diktiometry", 1),
