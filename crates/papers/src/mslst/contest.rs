@@ -9,14 +9,14 @@ use tolman_control::Outcome;
 use tolman_maze::Direction;
 
 use super::MAPS;
+use crate::tolerances::{SUCCESS, TIME};
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Trial};
 use tolman_arena::mslst::{LearnError, learn};
 use tolman_experiment::{
-    BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, Tolerance, record, require,
-    run_seed,
+    BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, record, require, run_seed,
 };
 use tolman_replay::Replay;
 use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
@@ -115,9 +115,9 @@ impl Contest {
         let table = self
             .venue
             .table::<ContestRun>()
-            .metric(Metric::percent("success_percent", MazeRun::reached))
-            .metric(Metric::mean(MazeRun::actions).tolerance(Tolerance::Spread))
-            .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Spread))
+            .metric(Metric::percent("success_percent", MazeRun::reached).tolerance(SUCCESS))
+            .metric(Metric::mean(MazeRun::actions).tolerance(TIME))
+            .metric(Metric::mean(MazeRun::steps).tolerance(TIME))
             .metric(
                 Metric::multiple("steps_of_oracle", MazeRun::steps, oracle)
                     .titled("steps / Oracle's"),
