@@ -368,7 +368,12 @@ impl LearnedMap for MapFile {
     }
 
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
-        terrain.maze("the picture of a common-pattern map")?;
+        if let Terrain::Free(_) = terrain {
+            return Err(anyhow!(
+                "a common-pattern map does not say where its junctions lie, and in a world whose walls stand anywhere they cannot be \
+                 laid over cells: leave --svg out; `tolman learn --replay` shows where the robot took them to be"
+            ));
+        }
         Ok(drawing::over_maze(&self.map, &course_of(self, terrain)?))
     }
 
@@ -410,7 +415,15 @@ impl LearnedMap for MapFile {
     }
 
     fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
-        terrain.maze("the count of the fragments that there truly are")?;
+        if let Terrain::Free(_) = terrain {
+            return match unfinished(&self.map) {
+                Some(why) => Ok(Some(why)),
+                None => Err(anyhow!(
+                    "the map knows of nothing that is missing, and in a world whose walls stand anywhere nobody has counted the fragments \
+                     that there truly are: drive by it with `tolman drive`"
+                )),
+            };
+        }
         let course = course_of(self, terrain)?;
         Ok(complaint(&self.map, &course.maze, true))
     }
