@@ -1,6 +1,6 @@
 //! `cargo xtask golden`: a few runs of every experiment give the values that are committed, to the bit.
 
-use std::collections::BTreeSet;
+use alloc::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
@@ -9,8 +9,10 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace::{self, cargo, succeed};
 
-/// The experiments whose runs are pinned, the runs of each row, and the tables of which there are more.
-const PINNED: &[(&str, u32, &[(u32, &str)])] = &[
+/// An experiment whose runs are pinned, the runs of each row, and the tables of which there are more.
+type Pinned = (&'static str, u32, &'static [(u32, &'static str)]);
+
+const PINNED: &[Pinned] = &[
     ("baselines", 5, &[]),
     ("quantizers", 3, &[]),
     ("mslst", 5, &[]),

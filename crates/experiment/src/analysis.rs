@@ -3,8 +3,8 @@
 use super::sample::Sample;
 use super::verdict::Case;
 use super::{
-    Doubt, Experiment, Finding, Metric, PaperValue, Reached, Row, RowPair, Run, Table, Tally,
-    Verdict, run_seed,
+    Doubt, Experiment, Finding, Metric, PaperValue, Reached, Row, RowPair, Run, Table, Verdict,
+    VerdictTally, run_seed,
 };
 use tolman_stats::{ConfidenceInterval, Method, PValue};
 
@@ -113,7 +113,7 @@ impl Analysis {
 
     /// Returns how many of the paper's values ours match.
     #[must_use]
-    pub fn tally(&self) -> Tally {
+    pub fn tally(&self) -> VerdictTally {
         self.tables
             .iter()
             .flat_map(TableAnalysis::verdicts)

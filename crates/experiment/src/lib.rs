@@ -71,7 +71,7 @@ pub use summary::{P_TABLE, Summary, SummaryRow};
 pub use table::{
     Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance, Within,
 };
-pub use tally::Tally;
+pub use tally::VerdictTally;
 pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text};
 pub use verdict::{Doubt, Finding, Verdict};

@@ -4,7 +4,7 @@ use super::{Finding, Verdict};
 
 /// How many values of the paper ours match, of all that it has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct VerdictTally {
     /// Values that match.
     pub matches: usize,
     /// Values of our own systems that are better.
@@ -15,7 +15,7 @@ pub struct Tally {
     pub cannot_tell: usize,
 }
 
-impl Tally {
+impl VerdictTally {
     /// Returns how many values the paper has.
     #[must_use]
     pub const fn all(&self) -> usize {
@@ -39,7 +39,7 @@ impl Tally {
     }
 }
 
-impl<'a> FromIterator<&'a Verdict> for Tally {
+impl<'a> FromIterator<&'a Verdict> for VerdictTally {
     fn from_iter<I: IntoIterator<Item = &'a Verdict>>(verdicts: I) -> Self {
         let mut tally = Self::default();
         for verdict in verdicts {
@@ -50,7 +50,7 @@ impl<'a> FromIterator<&'a Verdict> for Tally {
 }
 
 /// `5 of 18 match, 3 differ, 10 cannot tell`.
-impl fmt::Display for Tally {
+impl fmt::Display for VerdictTally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} of {} match", self.matches, self.all())?;
         if self.better > 0 {
@@ -82,7 +82,7 @@ mod tests {
             Finding::CannotTell(Doubt::OneRun),
         ];
         let verdicts = findings.map(verdict);
-        let mut tally: Tally = verdicts.iter().collect();
+        let mut tally: VerdictTally = verdicts.iter().collect();
         assert_eq!(tally.to_string(), "2 of 4 match, 1 differ, 1 cannot tell");
         tally.add(&Finding::Better);
         assert_eq!((tally.all(), tally.judged()), (5, 4));

@@ -303,14 +303,13 @@ mod tests {
     const THIRD: Tolerance = Tolerance::relative(0.35, "lines are drawn anew");
 
     fn judge(metric: Metric, row: Row, sample: &Sample<'_>) -> Verdict {
-        let mut table = Table::of::<Throw>("1", "Throws").metric(metric);
-        table.paper_runs = row.paper_runs;
+        let table = Table::of::<Throw>("1", "Throws").metric(metric).row(row);
         let case = Case {
             table: &table,
-            row: &row,
+            row: &table.rows[0],
             metric: &table.metrics[0],
             sample,
-            paper: &row.paper[0],
+            paper: &table.rows[0].paper[0],
             seed: 1,
         };
         case.judge()

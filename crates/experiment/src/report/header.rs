@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::{Contrast, ExperimentOutcome, Tally, duration};
+use crate::{Contrast, ExperimentOutcome, VerdictTally, duration};
 
 /// Corrected p-values below this are called a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
@@ -69,7 +69,7 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
         @if tables.len() > 1 {
             nav aria-label="tables" {
                 @for (number, table) in (1_u32..).zip(tables) {
-                    @let told: Tally = table.verdicts().collect();
+                    @let told: VerdictTally = table.verdicts().collect();
                     a href={ "#table-" (number) } {
                         "Table " (table.table.name)
                         @if told.all() > 0 { span { (told) } }
@@ -81,12 +81,12 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
 }
 
 /// What is found of the paper's values that ours do not match.
-fn others(told: &Tally) -> String {
+fn others(told: &VerdictTally) -> String {
     let better = match told.better {
         0 => String::new(),
         better => format!("{better} better, "),
     };
-    let Tally {
+    let VerdictTally {
         differs,
         cannot_tell,
         ..
