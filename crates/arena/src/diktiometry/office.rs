@@ -182,6 +182,23 @@ impl Office {
         &self.config
     }
 
+    /// Returns whether a position lies in a corridor, and not in the blocks between them.
+    #[must_use]
+    pub fn is_in_corridor(&self, position: Point) -> bool {
+        let half = 0.5 * self.config.corridor_width;
+        let Some(cell) = self.course.world.cell_at(position) else {
+            return false;
+        };
+        let offset = position - self.config.middle(cell);
+        let along = |way: Direction| offset.dot(&unit(way));
+        let ways = self.course.maze.neighbours(cell).map(|(way, _)| way);
+        let in_the_cell = offset.abs().max() < half;
+        in_the_cell
+            || ways
+                .into_iter()
+                .any(|way| along(way) > 0.0 && along(way.left()).abs() < half)
+    }
+
     /// Returns a random pose from which a run may begin: anywhere in the corridors outside the destination
     /// and outside doorways, where `body` stands clear of the walls; any heading.
     #[must_use]

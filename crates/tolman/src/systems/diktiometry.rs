@@ -179,6 +179,16 @@ impl SystemEntry for DiktiometryEntry {
             let rng = &mut stream(setup.seed, START_STREAM);
             let random = || Some(office.random_start(&robot.body(), rng));
             let start = start.on(&office.course, random)?;
+            if !office.is_in_corridor(start.position) {
+                let Point { coords: at, .. } = start.position;
+                return Err(anyhow!(
+                    "({}, {}) m lies between the corridors, which are {} m wide and {} m apart; start in one",
+                    at.x,
+                    at.y,
+                    office.config().corridor_width,
+                    office.config().pitch()
+                ));
+            }
             let body = office_robot(&office, robot, start, setup.seed)?;
             let map = observer.clone();
             let system = Wayfinder::new(routines, robot.sight, map, goal, setup.seed);
