@@ -17,4 +17,5 @@ mod physics;
 mod replay;
 mod report;
 mod support;
+mod verdicts;
 mod yardsticks;

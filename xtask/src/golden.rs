@@ -1,5 +1,6 @@
 //! `cargo xtask golden`: a few runs of every experiment give the values that are committed, to the bit.
 
+use alloc::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
@@ -8,17 +9,23 @@ use anyhow::{Context, Result, ensure};
 
 use crate::workspace::{self, cargo, succeed};
 
-/// The experiments whose runs are pinned, and the runs of each row.
-const PINNED: &[(&str, u32)] = &[
-    ("baselines", 5),
-    ("quantizers", 3),
-    ("mslst", 5),
-    ("mslst-drawings", 2),
-    ("mslst-sweeps", 1),
-    ("micromouse", 1),
-    ("diktiometry", 1),
-    ("cpm", 1),
-    ("gngslam", 1),
+/// An experiment whose runs are pinned, the runs of each row, and the tables of which there are more.
+type Pinned = (&'static str, u32, &'static [(u32, &'static str)]);
+
+const PINNED: &[Pinned] = &[
+    ("baselines", 5, &[]),
+    ("quantizers", 3, &[]),
+    ("mslst", 5, &[]),
+    ("mslst-drawings", 2, &[]),
+    ("mslst-sweeps", 1, &[]),
+    ("micromouse", 1, &[(20, "noise")]),
+    ("diktiometry", 1, &[]),
+    (
+        "cpm",
+        1,
+        &[(40, "explored"), (200, "aliased"), (100, "localization")],
+    ),
+    ("gngslam", 1, &[(10, "guesses")]),
 ];
 
 /// Plays the runs and compares them with those in `tests/golden`; `bless` puts them there instead.
@@ -32,18 +39,35 @@ pub(crate) fn run(bless: bool) -> Result<()> {
     let target = workspace::target_folder()?;
     let tolman = || Command::new(target.join("release").join("tolman"));
     let mut moved = Vec::new();
-    for (name, runs) in PINNED {
+    for (name, runs, more) in PINNED {
         let made = target.join("golden").join(name);
         if made.exists() {
             fs::remove_dir_all(&made)
                 .with_context(|| format!("cannot empty {}", made.display()))?;
         }
-        workspace::output(
-            tolman()
-                .env("TOLMAN_DATA", made.join("nowhere"))
-                .args(["experiment", name, "--runs", &runs.to_string(), "--out"])
-                .arg(&made),
-        )?;
+        let play = |runs: u32, table: &[&str]| {
+            workspace::output(
+                tolman()
+                    .env("TOLMAN_DATA", made.join("nowhere"))
+                    .args(["experiment", name, "--runs", &runs.to_string(), "--out"])
+                    .arg(&made)
+                    .args(table),
+            )
+        };
+        play(*runs, &[])?;
+        let file = made.join("runs.jsonl");
+        let mut all = fs::read_to_string(&file)?;
+        for (runs, table) in *more {
+            play(*runs, &["--table", table])?;
+            // A table alone leaves the runs of the others aside; its first are there already.
+            let lines: BTreeSet<String> = all.lines().map(str::to_owned).collect();
+            for line in fs::read_to_string(&file)?.lines() {
+                if !lines.contains(line) {
+                    all += &format!("{line}\n");
+                }
+            }
+        }
+        fs::write(&file, all)?;
         let pinned = pinned(name);
         if bless {
             fs::create_dir_all(&pinned)?;

@@ -54,7 +54,8 @@ pub struct Episode {
 /// The streams that one run's seed is split into, beside the simulation's own.
 const LAYERS_STREAM: u64 = 1;
 const MIND_STREAM: u64 = 2;
-const START_STREAM: u64 = 3;
+/// The stream of random starts.
+pub const START_STREAM: u64 = 3;
 
 /// What a mind is asked to do.
 const ARRIVE: Task = Task::Reach(Goal::Landmark(Landmark::Goal));

@@ -1,13 +1,17 @@
 //! What the runs say: every metric of every row, beside the paper and beside the reference row.
 
 use super::sample::Sample;
-use super::{Experiment, Metric, PaperValue, Reached, Row, RowPair, Run, Table, Verdict, run_seed};
+use super::verdict::Case;
+use super::{
+    Doubt, Experiment, Finding, Metric, PaperValue, Reached, Row, RowPair, Run, Table, Verdict,
+    VerdictTally, run_seed,
+};
 use tolman_stats::{ConfidenceInterval, Method, PValue};
 
 /// All tables of an experiment, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Those that have runs, in the experiment's order.
+    /// Those that have runs, or would have if their files were here, in the experiment's order.
     pub tables: Vec<TableAnalysis>,
 }
 
@@ -36,9 +40,9 @@ pub struct MetricAnalysis {
 pub struct Measured {
     /// The name of the row.
     pub row: String,
-    /// How many runs were measured.
+    /// How many runs were measured; 0 where the paper's value stands alone.
     pub n: u64,
-    /// The value, in the metric's unit.
+    /// The value, in the metric's unit; NaN of no runs.
     pub value: f64,
     /// Whether the value was reached, or is what was not enough.
     pub reached: Reached,
@@ -52,7 +56,7 @@ pub struct Measured {
     pub interval: Option<ConfidenceInterval>,
     /// What the paper says.
     pub paper: Option<PaperValue>,
-    /// Whether that matches.
+    /// Whether that matches, where the paper says something.
     pub verdict: Option<Verdict>,
     /// How the row differs from the reference row.
     pub contrast: Option<Contrast>,
@@ -82,7 +86,7 @@ impl Analysis {
         let tables = experiment
             .tables
             .iter()
-            .filter(|table| table.is_filled())
+            .filter(|table| table.is_shown())
             .map(|table| TableAnalysis {
                 metrics: table
                     .metrics
@@ -101,8 +105,19 @@ impl Analysis {
 
     /// The values that do not match the paper's, each with its table and metric, for `--check`.
     pub fn disagreements(&self) -> impl Iterator<Item = (&Table, &Metric, &Measured)> {
-        self.values()
-            .filter(|(_, _, measured)| measured.verdict.is_some_and(|verdict| !verdict.matches))
+        self.values().filter(|(_, _, measured)| {
+            let verdict = measured.verdict.as_ref();
+            verdict.is_some_and(|verdict| verdict.finding == Finding::Differs)
+        })
+    }
+
+    /// Returns how many of the paper's values ours match.
+    #[must_use]
+    pub fn tally(&self) -> VerdictTally {
+        self.tables
+            .iter()
+            .flat_map(TableAnalysis::verdicts)
+            .collect()
     }
 
     /// Every measured value with its table and metric.
@@ -115,6 +130,35 @@ impl Analysis {
                     .map(move |measured| (&table.table, &metric.metric, measured))
             })
         })
+    }
+}
+
+impl TableAnalysis {
+    /// Returns the verdicts on the paper's values: of all metrics, then of the pairs of rows.
+    pub fn verdicts(&self) -> impl Iterator<Item = &Verdict> {
+        let rows = self.metrics.iter().flat_map(|metric| &metric.rows);
+        let of_values = rows.filter_map(|measured| measured.verdict.as_ref());
+        of_values.chain(self.pairs.iter().filter_map(|pair| pair.verdict.as_ref()))
+    }
+}
+
+impl Measured {
+    /// Returns the paper's value where we have none.
+    fn alone(row: &Row, paper: &PaperValue) -> Self {
+        let doubt = row.missing.clone().map_or(Doubt::NoRuns, Doubt::NoData);
+        Self {
+            row: row.name.clone(),
+            n: 0,
+            value: f64::NAN,
+            reached: Reached::Yes,
+            sd: None,
+            mean: None,
+            median: None,
+            interval: None,
+            paper: Some(paper.clone()),
+            verdict: Some(Verdict::unknown(doubt)),
+            contrast: None,
+        }
     }
 }
 
@@ -148,13 +192,37 @@ fn measure(table: &Table, metric: &Metric, runs: &[Run], master_seed: u64) -> Me
                 median: sample.median(),
                 interval: sample.interval(run_seed(master_seed, &stream, 0)),
                 paper: paper.cloned(),
-                verdict: paper
-                    .and_then(|paper| Verdict::of(value, paper, table.paper_runs, metric)),
+                verdict: paper.map(|paper| {
+                    let stream = format!(
+                        "difference of {}, {}, {}",
+                        table.name, row.name, metric.name
+                    );
+                    let case = Case {
+                        table,
+                        row,
+                        metric,
+                        sample,
+                        paper,
+                        seed: run_seed(master_seed, &stream, 0),
+                    };
+                    case.judge()
+                }),
                 contrast: None,
             }
         })
         .collect();
     contrast(table, &samples, &mut rows);
+    for (place, row) in table.rows.iter().enumerate() {
+        let is_there = rows.iter().any(|measured| measured.row == row.name);
+        if let (false, Some(paper)) = (is_there, row.paper_value(&metric.name)) {
+            let before = |measured: &&Measured| {
+                let mut rows = table.rows[..place].iter();
+                rows.any(|row| row.name == measured.row)
+            };
+            let at = rows.iter().filter(before).count();
+            rows.insert(at, Measured::alone(row, paper));
+        }
+    }
     MetricAnalysis {
         metric: metric.clone(),
         rows,

@@ -1,10 +1,10 @@
 //! What is refused before or after it is used.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 
 use super::{
     BoxError, Entry, Error, Experiment, Metric, Options, Presence, Run, Statistic, Table,
-    Tolerance, plots, require,
+    Tolerance, Within, plots, require,
 };
 use tolman_draw::Figure;
 
@@ -38,12 +38,35 @@ pub(super) fn tables(experiment: &Experiment) -> Result<(), Error> {
         for table in tables {
             self::table(table).map_err(|what| format!("table {:?}: {what}", table.name))?;
         }
+        one_tolerance(tables)?;
         figure_names(&plots::names(experiment))
     };
     sound(&experiment.tables).map_err(|what| Error::Tables {
         name: experiment.entry.name.to_owned(),
         what,
     })
+}
+
+/// Refuses a metric that is judged more strictly in one table than in another.
+fn one_tolerance(tables: &[Table]) -> Result<(), String> {
+    let mut stated: BTreeMap<&str, (&str, Tolerance)> = BTreeMap::new();
+    for table in tables {
+        for metric in &table.metrics {
+            let Some(tolerance) = metric.tolerance else {
+                continue;
+            };
+            let (first, other) = *stated
+                .entry(&metric.name)
+                .or_insert((&table.name, tolerance));
+            if other != tolerance {
+                return Err(format!(
+                    "the metric {:?} has one tolerance in table {first:?} and another in {:?}; a quantity has one",
+                    metric.name, table.name
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn table(table: &Table) -> Result<(), String> {
@@ -92,11 +115,11 @@ fn columns(table: &Table) -> Result<(), String> {
 /// Refuses what no value can be measured or judged by.
 fn metric(table: &Table, metric: &Metric) -> Result<(), String> {
     let reaches = |size: f64, least: f64| size.is_finite() && size >= least;
-    match metric.tolerance {
-        Some(Tolerance::Absolute(size) | Tolerance::Relative(size)) if !reaches(size, 0.0) => {
+    match metric.tolerance.map(|tolerance| tolerance.within) {
+        Some(Within::Absolute(size) | Within::Relative(size)) if !reaches(size, 0.0) => {
             return Err(format!("within {size} of the paper's; give 0 or more"));
         }
-        Some(Tolerance::Factor(factor)) if !reaches(factor, 1.0) => {
+        Some(Within::Factor(factor)) if !reaches(factor, 1.0) => {
             return Err(format!("within the factor {factor}; give 1 or more"));
         }
         _ => {}

@@ -119,6 +119,18 @@ impl Column {
         self
     }
 
+    /// Returns the least and the greatest value that a run can have.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let least = match self.kind {
+            Kind::Count => 0.0,
+            _ => f64::NEG_INFINITY,
+        };
+        (
+            self.low.unwrap_or(least),
+            self.high.unwrap_or(f64::INFINITY),
+        )
+    }
+
     /// Whether the range leaves no value.
     pub(super) fn is_void(&self) -> bool {
         let sound = |bound: Option<f64>| bound.is_none_or(|bound| !bound.is_nan());

@@ -33,6 +33,22 @@ pub enum Error {
         /// The option.
         option: &'static str,
     },
+    /// A table has a number of runs that no caller changes.
+    #[error(
+        "table {table:?} has one run for each thing that it is tried on, {own} of a row; leave --runs out"
+    )]
+    FixedRuns {
+        /// The table.
+        table: String,
+        /// How many runs its rows have, at most.
+        own: u32,
+    },
+    /// No row of a table that was named has a run.
+    #[error("table {table:?} has no runs of so few; give it more --runs")]
+    EmptyTable {
+        /// The table.
+        table: String,
+    },
     /// More runs are asked for than there is room for.
     #[error("{runs} runs of each row are too many; give --runs {most} or fewer")]
     TooManyRuns {
@@ -204,6 +220,8 @@ impl Error {
             Self::Unknown { .. }
                 | Self::Open { .. }
                 | Self::Zero { .. }
+                | Self::FixedRuns { .. }
+                | Self::EmptyTable { .. }
                 | Self::TooManyRuns { .. }
                 | Self::Seed { .. }
                 | Self::ForeignFolder { .. }

@@ -1,6 +1,6 @@
 //! One paper's tables and how to fill them.
 
-use super::{BoxError, Entry, Error, Fields, Job, Run, Table};
+use super::{BoxError, Entry, Error, Fields, Job, Options, Run, Table};
 use tolman_draw::Figure;
 use tolman_replay::Replay;
 
@@ -132,14 +132,51 @@ impl Experiment {
     pub(super) fn choose(mut self, names: &[String]) -> Result<Self, Error> {
         self.in_part = !names.is_empty();
         for name in names {
-            self.table(name)?;
+            if !self.table(name)?.1.is_shown() {
+                return Err(Error::EmptyTable {
+                    table: name.clone(),
+                });
+            }
         }
         for table in &mut self.tables {
             if self.in_part && !names.contains(&table.name) {
-                for row in &mut table.rows {
-                    row.runs = Some(0);
-                }
+                table.leave_out();
             }
+        }
+        Ok(self)
+    }
+
+    /// Holds the number of runs that the caller asks for against the tables that have one of their own: refuses it for those that
+    /// are named, and says of the others that it is not theirs.
+    ///
+    /// # Errors
+    /// [`Error::FixedRuns`].
+    pub(super) fn with_runs(mut self, options: &Options) -> Result<Self, Error> {
+        if options.runs.is_none() {
+            return Ok(self);
+        }
+        let fixed: Vec<&Table> = self
+            .tables
+            .iter()
+            .filter(|table| table.is_fixed())
+            .collect();
+        if let (true, Some(table)) = (self.in_part, fixed.first()) {
+            let own = table.rows.iter().filter_map(|row| row.runs).max();
+            return Err(Error::FixedRuns {
+                table: table.name.clone(),
+                own: own.unwrap_or(0),
+            });
+        }
+        if !fixed.is_empty() {
+            let names: Vec<&str> = fixed.iter().map(|table| table.name.as_str()).collect();
+            let told = format!(
+                "--runs is not for {}, with one run for each thing that a row is tried on.",
+                names.join(", ")
+            );
+            self.skipped = Some(match self.skipped {
+                Some(skipped) => format!("{skipped} {told}"),
+                None => told,
+            });
         }
         Ok(self)
     }

@@ -45,6 +45,7 @@ mod settling;
 pub mod shell;
 mod summary;
 mod table;
+mod tally;
 mod terminal;
 mod text;
 mod verdict;
@@ -67,10 +68,13 @@ pub use runner::{ExperimentOutcome, execute};
 pub use seed::run_seed;
 pub use settling::{Reached, Settling};
 pub use summary::{P_TABLE, Summary, SummaryRow};
-pub use table::{Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance};
+pub use table::{
+    Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance, Within,
+};
+pub use tally::VerdictTally;
 pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text};
-pub use verdict::Verdict;
+pub use verdict::{Doubt, Finding, Verdict};
 
 pub(crate) use sample::RESAMPLES;
 pub(crate) use terminal::duration;

@@ -83,6 +83,11 @@ impl Options {
         })
     }
 
+    /// Runs of a row that has another number than the experiment's: the caller's, else its own, `full` or `quick`.
+    pub fn runs_else(&self, full: u32, quick: u32) -> u32 {
+        self.runs.unwrap_or(if self.quick { quick } else { full })
+    }
+
     /// The threads that play this many runs.
     pub(super) fn threads_for(&self, runs: u64) -> u32 {
         let wanted = self.jobs.unwrap_or_else(|| {
@@ -105,12 +110,15 @@ impl Options {
     /// The command that makes the same results again.
     pub fn command_of(&self, entry: &Entry) -> String {
         let mut command = format!(
-            "{} experiment {} --seed {} --runs {}",
+            "{} experiment {} --seed {}",
             self.program.command(),
             entry.name,
-            self.seed,
-            self.runs_of(entry)
+            self.seed
         );
+        // A table alone may have a number of runs of its own.
+        if self.runs.is_some() || self.tables.is_empty() {
+            command += &format!(" --runs {}", self.runs_of(entry));
+        }
         if self.quick {
             command += " --quick";
         }

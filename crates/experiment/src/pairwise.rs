@@ -1,7 +1,7 @@
 //! All rows of a table against each other, as papers report them.
 
 use super::sample::Sample;
-use super::{Contrast, Correction, Run, Statistic, Table};
+use super::{Contrast, Correction, Doubt, Run, Statistic, Table, Verdict};
 
 /// Which rows are compared with each other, and in what.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,12 @@ pub struct RowPair {
     pub contrast: Contrast,
     /// The paper's p-value.
     pub paper: Option<f64>,
+    /// Why it is not judged, where the paper has one.
+    pub verdict: Option<Verdict>,
 }
+
+/// Why a p-value is no quantity.
+const OF_SAMPLES: &str = "a p-value speaks of its samples, not of a quantity";
 
 impl RowPair {
     /// Both rows in words.
@@ -54,12 +59,15 @@ impl Pairwise {
         let mut pairs = Vec::new();
         for (place, (first, a)) in samples.iter().enumerate() {
             for (second, b) in &samples[place + 1..] {
+                let paper = self.paper_value(first, second);
+                let aside = |_| Verdict::unknown(Doubt::Aside(OF_SAMPLES.to_owned()));
                 pairs.extend(Contrast::of(a, b).map(|contrast| RowPair {
                     first: (*first).clone(),
                     second: (*second).clone(),
                     n: (a.len() + b.len()) as u64,
                     contrast,
-                    paper: self.paper_value(first, second),
+                    paper,
+                    verdict: paper.map(aside),
                 }));
             }
         }

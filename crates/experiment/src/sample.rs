@@ -1,6 +1,6 @@
 //! The runs of one row as the sample of one metric.
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::settling::settles;
@@ -202,6 +202,49 @@ impl<'a> Sample<'a> {
         .ok()
     }
 
+    /// The interval of the difference between the value and that of a sample of `others` runs which is known by its value alone:
+    /// `observed` less how far two such samples of this one's runs differ by chance. `None` where there is nothing to draw from.
+    pub(super) fn stand_in(
+        &self,
+        observed: f64,
+        others: u32,
+        seed: u64,
+    ) -> Option<ConfidenceInterval> {
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        let own = self.len();
+        let by_chance: Vec<f64> = (0..RESAMPLES)
+            .map(|_| self.redrawn(own, rng) - self.redrawn(others as usize, rng))
+            .collect();
+        let end = |share: f64| tolman_stats::quantile(&by_chance, share).ok();
+        let (low, high) = (end(0.5 - 0.5 * LEVEL)?, end(0.5 + 0.5 * LEVEL)?);
+        Some(ConfidenceInterval::new(observed - high, observed - low))
+    }
+
+    /// The value of so many of its runs, drawn with replacement.
+    fn redrawn(&self, count: usize, rng: &mut ChaCha8Rng) -> f64 {
+        let drawn = match self {
+            Self::Flags { flags, whole } => Self::Flags {
+                flags: drawn(flags, count, rng),
+                whole: *whole,
+            },
+            Self::Numbers { numbers, centre } => Self::Numbers {
+                numbers: drawn(numbers, count, rng),
+                centre: *centre,
+            },
+            Self::Pairs(pairs) => Self::Pairs(drawn(pairs, count, rng)),
+            Self::Curves {
+                curves,
+                step,
+                limit,
+            } => Self::Curves {
+                curves: drawn(curves, count, rng),
+                step: *step,
+                limit: *limit,
+            },
+        };
+        drawn.value().0
+    }
+
     /// One number for each run, for rank tests.
     pub(super) fn numbers(&self) -> Vec<f64> {
         match self {
@@ -217,6 +260,12 @@ impl<'a> Sample<'a> {
             Self::Curves { .. } | Self::Spreads(_) => Vec::new(),
         }
     }
+}
+
+/// So many of these, drawn with replacement.
+fn drawn<T: Copy>(all: &[T], count: usize, rng: &mut ChaCha8Rng) -> Vec<T> {
+    let one = |_| all[rng.random_range(0..all.len() as u32) as usize];
+    (0..count).map(one).collect()
 }
 
 /// Whether a run says both how low its curve ends and what the margin is a share of.

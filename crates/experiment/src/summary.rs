@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Analysis, Error, Reached};
+use super::{Analysis, Error, Reached, Verdict};
 
 /// The table of all p-values of rows compared each with each.
 pub const P_TABLE: &str = "p";
@@ -40,6 +40,26 @@ pub struct SummaryRow {
     pub n: u64,
     /// The paper's value.
     pub paper: Option<f64>,
+    /// Where the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<&'static str>,
+    /// Why nobody can tell.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+    /// Half the width of the 95 % interval of the difference: what could have been seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<f64>,
+}
+
+/// The word, the reason and the resolution of a verdict.
+type Told = (Option<&'static str>, Option<String>, Option<f64>);
+
+fn told(verdict: Option<&Verdict>) -> Told {
+    let Some(verdict) = verdict else {
+        return (None, None, None);
+    };
+    let why = verdict.finding.doubt().map(ToString::to_string);
+    (Some(verdict.finding.word()), why, verdict.resolution())
 }
 
 impl Summary {
@@ -53,30 +73,42 @@ impl Summary {
                             .rows
                             .iter()
                             .filter(|measured| measured.row == row.name)
-                            .map(|measured| SummaryRow {
-                                table: table.table.name.clone(),
-                                row: row.name.clone(),
-                                metric: metric.metric.name.clone(),
-                                value: measured.value,
-                                reached: (measured.reached == Reached::No).then_some(false),
-                                sd: measured.sd,
-                                n: measured.n,
-                                paper: measured.paper.as_ref().map(|paper| paper.value),
+                            .map(|measured| {
+                                let (verdict, why, resolution) = told(measured.verdict.as_ref());
+                                SummaryRow {
+                                    table: table.table.name.clone(),
+                                    row: row.name.clone(),
+                                    metric: metric.metric.name.clone(),
+                                    value: measured.value,
+                                    reached: (measured.reached == Reached::No).then_some(false),
+                                    sd: measured.sd,
+                                    n: measured.n,
+                                    paper: measured.paper.as_ref().map(|paper| paper.value),
+                                    verdict,
+                                    why,
+                                    resolution,
+                                }
                             }),
                     );
                 }
             }
         }
         for table in &analysis.tables {
-            rows.extend(table.pairs.iter().map(|pair| SummaryRow {
-                table: P_TABLE.to_owned(),
-                row: format!("{}: {}", table.table.name, pair.name()),
-                metric: "p".to_owned(),
-                value: pair.contrast.p.value(),
-                reached: None,
-                sd: None,
-                n: pair.n,
-                paper: pair.paper,
+            rows.extend(table.pairs.iter().map(|pair| {
+                let (verdict, why, resolution) = told(pair.verdict.as_ref());
+                SummaryRow {
+                    table: P_TABLE.to_owned(),
+                    row: format!("{}: {}", table.table.name, pair.name()),
+                    metric: "p".to_owned(),
+                    value: pair.contrast.p.value(),
+                    reached: None,
+                    sd: None,
+                    n: pair.n,
+                    paper: pair.paper,
+                    verdict,
+                    why,
+                    resolution,
+                }
             }));
         }
         Self {

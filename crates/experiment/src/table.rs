@@ -57,6 +57,38 @@ impl Table {
         self
     }
 
+    /// Leaves it out.
+    pub(super) fn leave_out(&mut self) {
+        for row in &mut self.rows {
+            row.runs = Some(0);
+            row.missing = None;
+        }
+    }
+
+    /// Whether it is shown: a row has runs, or would have if its files were here.
+    #[must_use]
+    pub fn is_shown(&self) -> bool {
+        self.is_filled() || self.rows.iter().any(|row| row.missing.is_some())
+    }
+
+    /// Returns which files are not here that its rows need, each once.
+    #[must_use]
+    pub fn missing(&self) -> Vec<&str> {
+        let mut told: Vec<&str> = Vec::new();
+        for what in self.rows.iter().filter_map(|row| row.missing.as_deref()) {
+            if !told.contains(&what) {
+                told.push(what);
+            }
+        }
+        told
+    }
+
+    /// Whether every row with runs has a number of its own.
+    pub(super) fn is_fixed(&self) -> bool {
+        let mut rows = self.rows.iter().filter(|row| row.runs != Some(0));
+        self.is_filled() && rows.all(|row| row.is_fixed)
+    }
+
     /// Whether a row has runs.
     #[must_use]
     pub fn is_filled(&self) -> bool {
@@ -206,6 +238,14 @@ pub struct Row {
     /// How many runs it has, whatever the caller asks for: those of something without chance, one for each
     /// thing it is tried on. `None` leaves it to the caller.
     pub runs: Option<u32>,
+    /// Whether the number of its runs is that of the things it is tried on, which no caller changes.
+    pub(super) is_fixed: bool,
+    /// How many runs the paper's row has, if another number than the table's.
+    pub paper_runs: Option<u32>,
+    /// Whether it is a system of our own, which may be better than what the paper has; others reproduce the paper.
+    pub own: bool,
+    /// Which files its runs need that are not here, and where they come from; `None` if all is here.
+    pub missing: Option<String>,
 }
 
 impl Row {
@@ -215,6 +255,10 @@ impl Row {
             name: name.into(),
             paper: Vec::new(),
             runs: None,
+            is_fixed: false,
+            paper_runs: None,
+            own: false,
+            missing: None,
         }
     }
 
@@ -230,16 +274,66 @@ impl Row {
         self.said(metric.into(), mean, Some(sd))
     }
 
-    fn said(mut self, metric: String, value: f64, sd: Option<f64>) -> Self {
-        self.paper.push(PaperValue { metric, value, sd });
+    /// Adds a number of the paper that ours is not judged by, with the reason: a bound, a range, a world of another size.
+    #[must_use]
+    pub fn paper_aside(
+        mut self,
+        metric: impl Into<String>,
+        value: f64,
+        why: impl Into<String>,
+    ) -> Self {
+        self.paper.push(PaperValue {
+            metric: metric.into(),
+            value,
+            sd: None,
+            aside: Some(why.into()),
+        });
         self
     }
 
-    /// Sets how many runs it has, whatever the caller asks for.
+    fn said(mut self, metric: String, value: f64, sd: Option<f64>) -> Self {
+        self.paper.push(PaperValue {
+            metric,
+            value,
+            sd,
+            aside: None,
+        });
+        self
+    }
+
+    /// Says of how many runs the paper's values are, if of another number than the table's.
+    #[must_use]
+    pub fn paper_runs(mut self, runs: u32) -> Self {
+        self.paper_runs = Some(runs);
+        self
+    }
+
+    /// Says which files its runs need that are not here, and where they come from. It stands with the paper's values alone.
+    #[must_use]
+    pub fn missing(mut self, what: impl Into<String>) -> Self {
+        self.missing = Some(what.into());
+        self.runs(0)
+    }
+
+    /// Says that it is a system of our own, which may be better than what the paper has.
+    #[must_use]
+    pub fn own(mut self) -> Self {
+        self.own = true;
+        self
+    }
+
+    /// Sets how many runs it has, where that is not what the caller asks of every row but follows from it.
     #[must_use]
     pub fn runs(mut self, runs: u32) -> Self {
         self.runs = Some(runs);
         self
+    }
+
+    /// Gives it one run for each of `things` that it is tried on, whatever the caller asks for.
+    #[must_use]
+    pub fn run_each(mut self, things: u32) -> Self {
+        self.is_fixed = true;
+        self.runs(things)
     }
 
     /// How many runs it has where the caller asks for `runs` of each row.
@@ -263,6 +357,8 @@ pub struct PaperValue {
     pub value: f64,
     /// The standard deviation, where it is given.
     pub sd: Option<f64>,
+    /// Why ours is not judged by it; `None` if it is.
+    pub aside: Option<String>,
 }
 
 /// One measured quantity: how the runs of a row become one value.
@@ -557,9 +653,18 @@ impl Statistic {
     }
 }
 
-/// How far our value may lie from the paper's and still match it.
+/// How far our value may lie from the paper's and still match it. A quantity has one tolerance in all tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tolerance {
+pub struct Tolerance {
+    /// How far.
+    pub within: Within,
+    /// Reason it is so much, as a sentence without its full stop.
+    pub reason: &'static str,
+}
+
+/// The size of a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Within {
     /// By this much, in the metric's unit.
     Absolute(f64),
     /// By this share of the paper's value: 0.35 is ± 35 %.
@@ -567,7 +672,27 @@ pub enum Tolerance {
     /// By this factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half of
     /// it.
     Factor(f64),
-    /// By the paper's own standard deviation: within the spread of its runs. Where the paper gives none,
-    /// nothing is judged.
-    Spread,
+}
+
+impl Tolerance {
+    /// Returns a tolerance of so much, in the metric's unit.
+    #[must_use]
+    pub const fn absolute(by: f64, reason: &'static str) -> Self {
+        let within = Within::Absolute(by);
+        Self { within, reason }
+    }
+
+    /// Returns a tolerance of this share of the paper's value.
+    #[must_use]
+    pub const fn relative(share: f64, reason: &'static str) -> Self {
+        let within = Within::Relative(share);
+        Self { within, reason }
+    }
+
+    /// Returns a tolerance by this factor, at least 1.
+    #[must_use]
+    pub const fn factor(factor: f64, reason: &'static str) -> Self {
+        let within = Within::Factor(factor);
+        Self { within, reason }
+    }
 }

@@ -2,7 +2,9 @@
 
 use core::fmt::Write;
 
-use super::{Analysis, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis};
+use super::{
+    Analysis, Finding, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
+};
 
 /// Whether text is coloured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +16,8 @@ pub enum Ink {
 }
 
 /// All tables of an analysis, each with a line end. Behind a value of ours stands `=` where it
-/// matches the paper's and `!` where it differs.
+/// matches the paper's, `!` where it differs, `+` where it is better and `?` where nobody can tell, and how much of a
+/// difference could have been seen. The last line counts them.
 pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     let mut text = String::new();
     for table in &analysis.tables {
@@ -22,6 +25,11 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
             text.push('\n');
         }
         text += &table_as_text(table, ink);
+    }
+    let tally = analysis.tally();
+    if tally.all() > 0 {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "\nOf the paper's values {tally}.");
     }
     text
 }
@@ -43,6 +51,7 @@ pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     };
     let value = value_with_spread(metric, measured.value, sd);
     match measured.reached {
+        Reached::Yes if measured.n == 0 => "–".to_owned(),
         Reached::Yes => value,
         Reached::No => format!("> {value}"),
     }
@@ -78,13 +87,14 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     let mut heads = " ".repeat(names);
     let mut subheads = heads.clone();
     for column in &columns {
-        let width = column.paper.map_or(0, |paper| paper + 2) + column.ours + 2;
+        let width = column.paper.map_or(0, |paper| paper + 2) + column.ours + 2 + column.seen;
         let _ = write!(heads, "   {:<width$}", column.heading);
         let _ = match column.paper {
             Some(paper) => write!(subheads, "   {:>paper$}  ", "paper"),
             None => write!(subheads, "   "),
         };
-        let _ = write!(subheads, "{:>1$}  ", "ours", column.ours);
+        let (ours, seen) = (column.ours, column.seen);
+        let _ = write!(subheads, "{:>ours$}  {:seen$}", "ours", "");
     }
     let _ = writeln!(text, "{}\n{}", heads.trim_end(), subheads.trim_end());
 
@@ -104,8 +114,13 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
             };
             let _ = write!(line, "{ours:>0$} ", column.ours);
             line += &mark(measured, ink);
+            let seen = measured.and_then(|measured| seen(&column.metric.metric, measured));
+            let _ = write!(line, "{:<1$}", seen.unwrap_or_default(), column.seen);
         }
         let _ = writeln!(text, "{}", line.trim_end());
+    }
+    for missing in table.missing() {
+        let _ = writeln!(text, "{missing}");
     }
     for pair in &analysis.pairs {
         let paper = pair
@@ -123,6 +138,8 @@ struct Column<'a> {
     /// The width of the paper's values, if there are any.
     paper: Option<usize>,
     ours: usize,
+    /// The width of how much of a difference could have been seen.
+    seen: usize,
 }
 
 impl<'a> Column<'a> {
@@ -142,16 +159,29 @@ impl<'a> Column<'a> {
         let ours = widest(cells.iter().map(|cell| &cell.1).collect())
             .unwrap_or(0)
             .max(4);
+        let seen = metric
+            .rows
+            .iter()
+            .filter_map(|row| seen(&metric.metric, row));
+        let seen = seen.map(|text| text.chars().count()).max().unwrap_or(0);
         // A long heading widens the last column.
-        let before = paper.map_or(0, |paper| paper + 2);
+        let before = paper.map_or(0, |paper| paper + 2) + seen;
         let ours = ours.max(heading.chars().count().saturating_sub(before + 2));
         Self {
             metric,
             heading,
             paper,
             ours,
+            seen,
         }
     }
+}
+
+/// How much of a difference could have been seen, as ` ± 12.3`; `None` where nobody can say.
+pub(crate) fn seen(metric: &Metric, measured: &Measured) -> Option<String> {
+    let resolution = measured.verdict.as_ref()?.resolution()?;
+    let decimals = metric.places();
+    Some(format!(" ±{resolution:.decimals$}"))
 }
 
 fn cells(metric: &Metric, measured: &Measured) -> (String, String) {
@@ -166,11 +196,13 @@ fn cells(metric: &Metric, measured: &Measured) -> (String, String) {
 }
 
 fn mark(measured: Option<&Measured>, ink: Ink) -> String {
-    let verdict = measured.and_then(|measured| measured.verdict);
-    let (mark, colour) = match verdict.map(|verdict| verdict.matches) {
+    let verdict = measured.and_then(|measured| measured.verdict.as_ref());
+    let (mark, colour) = match verdict.map(|verdict| &verdict.finding) {
         None => return " ".into(),
-        Some(true) => ("=", "32"),
-        Some(false) => ("!", "31"),
+        Some(Finding::Matches) => ("=", "32"),
+        Some(Finding::Better) => ("+", "32"),
+        Some(Finding::Differs) => ("!", "31"),
+        Some(Finding::CannotTell(_)) => ("?", "33"),
     };
     painted(mark, colour, ink)
 }

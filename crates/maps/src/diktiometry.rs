@@ -62,6 +62,7 @@ mod observation;
 mod observer;
 mod opportunities;
 mod path_graph;
+mod place_belief;
 mod projector;
 mod reference_graph;
 mod report;
@@ -93,6 +94,7 @@ pub use opportunities::{Opportunity, OpportunityKind};
 pub use path_graph::{
     Estim, Fate, Ground, Link, LinkStatus, MergeNote, PathGraph, Place, Successor,
 };
+pub use place_belief::{Explained, PlaceBelief};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
     Contradiction, Culprit, PlanStep, Predicted, Restructured, StepReport, TrackReport,
@@ -104,7 +106,7 @@ use counts::{Expected, wilson_upper};
 use estimator::{Rank, trusted_odometry};
 use indexing::{Candidate, Expectation, ViewIndex, expected, moved, plies};
 use looks::Similarity;
-use matching::{Choice, Situation, choose, remember, share_a_view, similarity};
+use matching::{Choice, Situation, agrees, choose, remember, share_a_view, similarity};
 use opportunities::steps_along;
 use projector::Projection;
 use reference_graph::{Reached, search};

@@ -8,6 +8,10 @@ use std::path::PathBuf;
 
 const DEFAULT: &str = "../shared/data";
 
+/// Where mazes of others come from, as a sentence without its beginning.
+pub(crate) const MAZES: &str = "it is one of the mazes that Udacity gives with its project \"Plot and Navigate a Virtual Maze\", or of \
+                                the collections of micromouse contests; put it into `mazes` of the folder that TOLMAN_DATA names";
+
 /// The folder, if it is there.
 #[must_use]
 pub fn folder() -> Option<PathBuf> {

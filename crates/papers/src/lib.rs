@@ -20,6 +20,7 @@ mod mslst_sweeps;
 mod plan;
 mod quantizers;
 mod recorder;
+mod tolerances;
 mod venue;
 
 use tolman_experiment::Entry;

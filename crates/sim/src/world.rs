@@ -292,6 +292,15 @@ impl World {
         )
     }
 
+    /// Returns the same world with the cells of `other`: it was made from the same maze.
+    #[must_use]
+    pub fn with_cells_of(self, other: &Self) -> Self {
+        Self {
+            cells: other.cells,
+            ..self
+        }
+    }
+
     /// The cell of the maze this world was made from in which `point` lies; none outside it, and
     /// none in a world of another kind.
     #[must_use]

@@ -10,6 +10,7 @@ pub use rand;
 mod beta;
 mod bootstrap;
 mod confidence_interval;
+mod difference;
 mod effect;
 mod error;
 mod mann_whitney;
@@ -30,6 +31,7 @@ mod properties;
 
 pub use bootstrap::{bca_interval, bootstrap_means, percentile_interval};
 pub use confidence_interval::ConfidenceInterval;
+pub use difference::{SampleSummary, mean_difference_interval, rate_difference_interval};
 pub use effect::a12;
 pub use error::SampleError;
 pub use mann_whitney::{MannWhitney, mann_whitney};

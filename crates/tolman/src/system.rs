@@ -8,13 +8,13 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tolman_arena::Outing;
 use tolman_arena::course::{Course, Terrain};
-use tolman_arena::episode::layers;
+use tolman_arena::episode::{layers, random_start};
 use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_control::Stack;
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
 use tolman_sim::robots::LaserPioneer;
-use tolman_systems::{Origin, stream};
+use tolman_systems::Origin;
 
 use crate::start::Start;
 
@@ -296,17 +296,20 @@ fn choose<T>(
 pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack), Error> {
     setup.robot(&[LASER_PIONEER])?;
     let course = setup.terrain.course(setup.world, &body())?;
-    let start = setup.start(&course, Start::Random, || {
-        let mut rng = stream(setup.seed, START_STREAM);
-        Some(course.random_start(&body(), &mut rng))
-    })?;
-    let robot = course.robot_at(start, LaserPioneer::new(calibrated())?, setup.seed)?;
+    let random = || Some(random_start(&course, &body(), setup.seed));
+    let start = setup.start(&course, Start::Random, random)?;
+    let robot = pioneer_at(&course, start, setup.seed)?;
     let layers = layers(&course, &calibrated())?;
     Ok((course, robot, layers))
 }
 
-/// The stream of random starts.
-const START_STREAM: u64 = 3;
+/// Puts the calibrated laser Pioneer at `start`. `seed` is that of all noise.
+///
+/// # Errors
+/// If it cannot stand there.
+pub(crate) fn pioneer_at(course: &Course, start: Pose, seed: u64) -> Result<CoursePioneer, Error> {
+    Ok(course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?)
+}
 
 /// A name as it is typed.
 pub(crate) fn slug(name: &str) -> String {

@@ -7,7 +7,7 @@ use tolman_systems::cpm::{
     Walker,
 };
 
-use crate::run::{self, InRun, TaskEnd};
+use crate::run::{self, InRun};
 
 /// Time steps after which a robot on CPM has failed, whatever it still hopes for: 36 hours of the paper's.
 const STEP_LIMIT: u32 = 10_000_000;
@@ -60,8 +60,8 @@ pub(super) fn find_out<B: CpmRobot>(
     walker: &mut Walker<B>,
     rng: &mut impl Rng,
     mut see: impl FnMut(&Walker<B>),
-) -> CpmResult<TaskEnd, B> {
-    let ended = run::until_done(walker, |walker| -> CpmResult<Standing, B> {
+) -> CpmResult<(), B> {
+    run::until_done(walker, |walker| -> CpmResult<Standing, B> {
         let flow = search.advance(walker, rng)?;
         see(walker);
         Ok(match flow {
@@ -69,5 +69,5 @@ pub(super) fn find_out<B: CpmRobot>(
             ControlFlow::Break(()) => Standing::Done,
         })
     })?;
-    Ok(ended.end)
+    Ok(())
 }

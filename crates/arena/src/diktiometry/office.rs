@@ -1,12 +1,14 @@
 //! A world of corridors in which corners and doorways are the places: the paper's simulated environments.
 
 use alloc::collections::BTreeMap;
+use core::f64::consts::PI;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_geom::{Point, Vector};
+use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Cell, Direction, Grid, Maze};
+use tolman_robot::Body;
 use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World, WorldError};
 
 use crate::course::Course;
@@ -157,7 +159,7 @@ impl Office {
             material: paint(),
         });
         let walls = walls.collect();
-        let mut world = World::from_segments(walls)?;
+        let mut world = World::from_segments(walls)?.with_cells_of(&bare);
         for zone in bare.zones() {
             world = world.with_zone(zone.clone())?;
         }
@@ -178,6 +180,54 @@ impl Office {
     #[must_use]
     pub const fn config(&self) -> &OfficeConfig {
         &self.config
+    }
+
+    /// Returns whether a position lies in a corridor, and not in the blocks between them.
+    #[must_use]
+    pub fn is_in_corridor(&self, position: Point) -> bool {
+        let half = 0.5 * self.config.corridor_width;
+        let Some(cell) = self.course.world.cell_at(position) else {
+            return false;
+        };
+        let offset = position - self.config.middle(cell);
+        let along = |way: Direction| offset.dot(&unit(way));
+        let ways = self.course.maze.neighbours(cell).map(|(way, _)| way);
+        let in_the_cell = offset.abs().max() < half;
+        in_the_cell
+            || ways
+                .into_iter()
+                .any(|way| along(way) > 0.0 && along(way.left()).abs() < half)
+    }
+
+    /// Returns a random pose from which a run may begin: anywhere in the corridors outside the destination
+    /// and outside doorways, where `body` stands clear of the walls; any heading.
+    #[must_use]
+    pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
+        let goals = self.course.maze.goals();
+        let mut ways: Vec<(Cell, Direction)> = Vec::new();
+        for cell in self.cells.iter().filter(|cell| !goals.contains(cell)) {
+            let neighbours = self.course.maze.neighbours(*cell);
+            ways.extend(neighbours.map(|(direction, _)| (*cell, direction)));
+        }
+        let heading = Heading::from_radians(rng.random_range(-PI..PI));
+        let chosen = rng.random_range(0..ways.len().max(1) as u32) as usize;
+        let Some((cell, direction)) = ways.get(chosen).copied() else {
+            return Pose::new(Point::origin(), heading);
+        };
+        let width = self.config.corridor_width;
+        let play = (0.5 * width - body.radius()).max(0.0) * 0.99;
+        let is_doorway = self
+            .passage(cell, direction)
+            .is_some_and(|at| self.doorways.contains(&at));
+        let shut_out = if is_doorway {
+            0.5 * DOORWAY_DEPTH * width + body.radius()
+        } else {
+            0.0
+        };
+        let far = (0.5 * self.config.pitch() - shut_out).max(0.0);
+        let along = unit(direction) * rng.random_range(0.0..=far);
+        let aside = unit(direction.left()) * rng.random_range(-play..=play);
+        Pose::new(self.config.middle(cell) + along + aside, heading)
     }
 
     /// No two places are nearer to each other than this, whatever doorways are shut, m: δ_sep. O(places²).

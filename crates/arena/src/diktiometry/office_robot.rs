@@ -25,18 +25,17 @@ pub(super) fn set_doorway(
     leaves.try_for_each(|leaf| robot.set_door(&format!("{number} {leaf}"), state))
 }
 
-/// Returns a robot at `at`, m, in `office`, facing north. `seed` is that of all noise.
+/// Returns a robot at `pose` in `office`. `seed` is that of all noise.
 ///
 /// # Errors
 /// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
 pub fn office_robot(
     office: &Office,
     config: &SurveyorConfig,
-    at: Point,
+    pose: Pose,
     seed: u64,
 ) -> Result<OfficeRobot, RunError> {
     let robot = CameraPioneer::new(config.camera_robot())?;
-    let pose = Pose::new(at, Heading::NORTH);
     Ok(office.course.robot_at(pose, robot, seed)?)
 }
 
@@ -54,7 +53,7 @@ pub fn surveyor(
     let routines = config
         .routines(furniture.corridor_width)
         .with_doorways(furniture.doorway_width());
-    let robot = office_robot(office, config, at, seed)?;
+    let robot = office_robot(office, config, Pose::new(at, Heading::NORTH), seed)?;
     Ok(Surveyor::new(robot, config.sight, routines)?)
 }
 

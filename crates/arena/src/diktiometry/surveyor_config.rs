@@ -1,4 +1,4 @@
-use tolman_robot::{CameraSensing, Ring};
+use tolman_robot::{Body, CameraSensing, Ring};
 use tolman_sim::Contact;
 use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{CameraPioneerConfig, LaserPioneerConfig, MotorNoise};
@@ -91,6 +91,14 @@ impl SurveyorConfig {
         match self.sight {
             PlaceCue::Camera { .. } => CAMERA_PIONEER,
             PlaceCue::Laser { .. } => LASER_PIONEER,
+        }
+    }
+
+    /// Returns the robot's outline.
+    #[must_use]
+    pub const fn body(&self) -> Body {
+        Body::Circle {
+            radius: self.pioneer.radius,
         }
     }
 

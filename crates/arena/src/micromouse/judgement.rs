@@ -6,7 +6,7 @@ use tolman_planners::moves::MoveMap;
 use tolman_planners::{Passages, TooLarge, Unknown};
 use tolman_systems::micromouse::{Driver, MouseError, SIDE, Search, Searcher};
 
-use super::{MouseTrial, MouseTrialError, brief, check};
+use super::{MouseTrial, MouseTrialError, RefereedStep, brief, check};
 
 /// How good a trial was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -71,8 +71,21 @@ pub fn try_on(
     searcher: Searcher,
     seed: u64,
 ) -> Result<(MouseTrial, Judgement), MouseTrialError> {
+    watch(maze, searcher, seed, |_| {})
+}
+
+/// The same; `see` is told of every step as soon as it is made.
+///
+/// # Errors
+/// If the maze is none a mouse can run in.
+pub fn watch(
+    maze: &Maze,
+    searcher: Searcher,
+    seed: u64,
+    see: impl FnMut(&RefereedStep),
+) -> Result<(MouseTrial, Judgement), MouseTrialError> {
     let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
-    let trial = MouseTrial::play(maze, &mut mouse)?;
+    let trial = MouseTrial::watch(maze, &mut mouse, see)?;
     let judgement = Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?;
     Ok((trial, judgement))
 }

@@ -86,6 +86,18 @@ impl MouseTrial {
     /// # Errors
     /// If the referee refuses the maze or an order.
     pub fn play(maze: &Maze, mouse: &mut Driver<impl Search>) -> Result<Self, MouseTrialError> {
+        Self::watch(maze, mouse, |_| {})
+    }
+
+    /// The same; `see` is told of every step as soon as it is made.
+    ///
+    /// # Errors
+    /// If the referee refuses the maze or an order.
+    pub fn watch(
+        maze: &Maze,
+        mouse: &mut Driver<impl Search>,
+        mut see: impl FnMut(&RefereedStep),
+    ) -> Result<Self, MouseTrialError> {
         let mut referee = Referee::new(maze)?;
         let mut steps = Vec::new();
         let mut gave_up = None;
@@ -95,13 +107,15 @@ impl MouseTrial {
                 Ok(order) => {
                     let event = referee.take(order)?;
                     let (cell, heading) = referee.pose();
-                    steps.push(RefereedStep {
+                    let step = RefereedStep {
                         sight,
                         order,
                         event,
                         cell,
                         heading,
-                    });
+                    };
+                    see(&step);
+                    steps.push(step);
                 }
                 Err(error) => {
                     gave_up = Some(error);

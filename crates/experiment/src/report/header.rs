@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::{Contrast, ExperimentOutcome, duration};
+use crate::{Contrast, ExperimentOutcome, VerdictTally, duration};
 
 /// Corrected p-values below this are called a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
@@ -38,14 +38,14 @@ pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
 /// The outcome in a few numbers.
 pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     let values = || outcome.analysis.values().map(|(_, _, measured)| measured);
-    let (matching, verdicts) = tally(values().filter_map(|one| Some(one.verdict?.matches)));
+    let told = outcome.analysis.tally();
     let differs = |contrast: Contrast| contrast.p.value() < SIGNIFICANT;
     let (differing, contrasts) = tally(values().filter_map(|one| one.contrast.map(differs)));
     let total = outcome.runs.len() as u64;
     html! {
         div.cards {
-            @if verdicts > 0 {
-                (card(&format!("{matching} / {verdicts}"), "values match the paper's"))
+            @if told.all() > 0 {
+                (card(&format!("{} of {} match", told.matches, told.all()), &others(&told)))
             }
             (card(&grouped(total), &runs_of_rows(outcome)))
             @if outcome.played < total {
@@ -69,16 +69,29 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
         @if tables.len() > 1 {
             nav aria-label="tables" {
                 @for (number, table) in (1_u32..).zip(tables) {
-                    @let rows = table.metrics.iter().flat_map(|metric| &metric.rows);
-                    @let (matching, all) = tally(rows.filter_map(|row| Some(row.verdict?.matches)));
+                    @let told: VerdictTally = table.verdicts().collect();
                     a href={ "#table-" (number) } {
                         "Table " (table.table.name)
-                        @if all > 0 { span { (matching) " / " (all) " match" } }
+                        @if told.all() > 0 { span { (told) } }
                     }
                 }
             }
         }
     }
+}
+
+/// What is found of the paper's values that ours do not match.
+fn others(told: &VerdictTally) -> String {
+    let better = match told.better {
+        0 => String::new(),
+        better => format!("{better} better, "),
+    };
+    let VerdictTally {
+        differs,
+        cannot_tell,
+        ..
+    } = told;
+    format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
 }
 
 /// How many of these hold, and how many there are.

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::replays;
 
-use crate::{ExperimentOutcome, Metric, RESAMPLES, Statistic, Tolerance, heading};
+use crate::{ExperimentOutcome, Metric, RESAMPLES, Statistic, Within, heading};
 
 /// The notes below everything, only about what the page shows.
 pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
@@ -25,26 +25,20 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
         .tables
         .iter()
         .any(|table| table.table.comparison.is_some());
-    // Of each value that is judged, whether a tolerance is stated for it.
-    let judged: Vec<bool> = analysis
-        .values()
-        .filter(|(_, _, measured)| measured.verdict.is_some())
-        .map(|(_, metric, _)| metric.tolerance.is_some())
-        .collect();
+    let judged = analysis.tally().all() > 0;
     let carried = replays::carried(outcome);
     let partly = outcome.replays.of_each_row < outcome.runs_per_row;
     html! {
         section.notes {
             h2 { "How to read this" }
             ul {
-                @if !judged.is_empty() {
-                    li { b { "Verdict. " } (tolerances(&metrics))
-                        @if judged.contains(&false) {
-                            "Where no tolerance is stated, our value matches if it lies within the 95 % \
-                             interval of the paper's own sample: exact binomial for a share, mean \
-                             ± 1.96 standard errors for a mean. "
-                        }
-                        "The accepted values stand beside the verdict."
+                @if judged {
+                    li { b { "Verdict. " } "Ours " b { "differs" } " from the paper's value where the 95 % interval of the difference, with \
+                         the spread of both samples, excludes 0 and the difference exceeds the tolerance. It " b { "matches" }
+                         " where the difference is within the tolerance and the interval includes 0. Of all else the runs " b { "cannot tell" }
+                         ". A system of our own may be " b { "better" } ". Behind ± stands half the width of the interval: a smaller difference \
+                         could not have been seen. Shares: Newcombe's interval; means with the paper's spread: Welch's; all else: "
+                         (RESAMPLES) " resamples of our runs, which stand for the paper's too. " (tolerances(&metrics))
                     }
                 }
                 li { b { "95 % interval. " }
@@ -98,21 +92,17 @@ fn tolerances(metrics: &[&Metric]) -> String {
             continue;
         };
         let decimals = metric.places();
-        let text = match (tolerance, &metric.statistic) {
-            (Tolerance::Absolute(points), Statistic::Percent(_)) => {
-                format!("{} within ± {points:.0} percentage points", metric.title)
+        let size = match (tolerance.within, &metric.statistic) {
+            (Within::Absolute(points), Statistic::Percent(_)) => {
+                format!("{} ± {points:.0} percentage points", metric.title)
             }
-            (Tolerance::Absolute(by), _) => format!("{} within ± {by:.decimals$}", heading(metric)),
-            (Tolerance::Relative(share), _) => {
-                format!("{} within ± {:.0} %", metric.title, 100.0 * share)
+            (Within::Absolute(by), _) => format!("{} ± {by:.decimals$}", heading(metric)),
+            (Within::Relative(share), _) => {
+                format!("{} ± {:.0} %", metric.title, 100.0 * share)
             }
-            (Tolerance::Spread, _) => {
-                format!("{} within the paper's standard deviation", metric.title)
-            }
-            (Tolerance::Factor(factor), _) => {
-                format!("{} within a factor of {factor}", metric.title)
-            }
+            (Within::Factor(factor), _) => format!("{} a factor of {factor}", metric.title),
         };
+        let text = format!("{size} ({})", tolerance.reason);
         if !told.contains(&text) {
             told.push(text);
         }
@@ -120,8 +110,5 @@ fn tolerances(metrics: &[&Metric]) -> String {
     if told.is_empty() {
         return String::new();
     }
-    format!(
-        "Our value matches the paper's if it lies within the stated tolerance: {}. ",
-        told.join(", ")
-    )
+    format!("Tolerances: {}.", told.join("; "))
 }

@@ -39,6 +39,7 @@ pub(super) fn section(number: u32, analysis: &TableAnalysis, figures: &[Figure])
                 }
             }
             @if !analysis.pairs.is_empty() { (pairs::table(analysis)) }
+            @for missing in table.missing() { p.note.missing { (missing) } }
             @if !table.note.is_empty() { p.note { (table.note) } }
             (figures::grid(figures.iter().filter(|f| f.table.as_deref() == Some(&table.name))))
         }
@@ -123,7 +124,9 @@ fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize
                     }
                 } @else { td.none { "–" } }
             }
-            td data-label="ours" data-column="ours" data-value=(measured.value) { (ours(metric, measured)) }
+            @if measured.n > 0 {
+                td data-label="ours" data-column="ours" data-value=(measured.value) { (ours(metric, measured)) }
+            } @else { td.none { "–" } }
             @if columns.also {
                 @if let Some(also) = also { td.quiet data-label="also" { (also) } } @else { td.none { "–" } }
             }
@@ -133,7 +136,7 @@ fn row(columns: &Columns<'_>, metric: &Metric, measured: &Measured, place: usize
                 }
             } @else { td.none { "–" } }
             @if let Some(comparison) = columns.comparison { (contrast(comparison, measured)) }
-            @if columns.paper { (verdict(metric, measured.verdict)) }
+            @if columns.paper { (verdict(metric, measured.verdict.as_ref())) }
         }
     }
 }
@@ -168,22 +171,37 @@ fn magnitude(a12: f64) -> &'static str {
     }
 }
 
-fn verdict(metric: &Metric, verdict: Option<Verdict>) -> Markup {
-    let decimals = metric.places();
+/// The verdict, with how much of a difference could have been seen; who points at it reads the tolerance or the reason.
+fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     html! {
-        @if let Some(Verdict { matches, accepted, .. }) = verdict {
-            td.verdict data-column="verdict" data-value=(if matches { "matches" } else { "differs" }) {
-                span.accepted {
-                    (format!("{:.decimals$} – {:.decimals$}", accepted.low, accepted.high))
+        @if let Some(verdict) = verdict {
+            @let word = verdict.finding.word();
+            td.verdict data-column="verdict" data-value=(word) title=(told(metric, verdict)) {
+                @if let Some(resolution) = verdict.resolution() {
+                    span.accepted { "± " (format!("{resolution:.0$}", metric.places())) }
+                } @else if let Some(doubt) = verdict.finding.doubt() {
+                    span.accepted { (doubt) }
                 }
                 // Where they do not fit beside each other the line breaks here.
                 " "
-                span class=(if matches { "badge matches" } else { "badge differs" }) {
-                    (if matches { "matches" } else { "differs" })
-                }
+                span class={ "badge " (word.replace(' ', "-")) } { (word) }
             }
         } @else { td.verdict.none { "–" } }
     }
+}
+
+/// Which values lie within the tolerance, and why nobody can tell.
+fn told(metric: &Metric, verdict: &Verdict) -> String {
+    let decimals = metric.places();
+    let within = verdict.accepted.map(|accepted| {
+        format!(
+            "tolerated: {:.decimals$} – {:.decimals$}",
+            accepted.low, accepted.high
+        )
+    });
+    let why = verdict.finding.doubt().map(ToString::to_string);
+    let parts: Vec<String> = within.into_iter().chain(why).collect();
+    parts.join("; ")
 }
 
 /// The median beside a mean, the mean beside a median.

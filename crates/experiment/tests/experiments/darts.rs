@@ -11,6 +11,11 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{Replay, RobotTrack, Scenery};
 use tolman_robot::Body;
 
+/// How far shares of hits may lie apart.
+pub(crate) const HITS: Tolerance = Tolerance::absolute(15.0, "darts scatter");
+/// The same of numbers of throws.
+pub(crate) const LENGTH: Tolerance = Tolerance::relative(0.35, "arms tire");
+
 /// The most darts of a run.
 const DARTS: u32 = 10;
 
@@ -18,10 +23,10 @@ record! {
     /// What a run measures.
     pub(crate) struct Throws {
         /// Whether a dart hit.
-        success: bool => higher("success").tolerance(Tolerance::Absolute(15.0)),
+        success: bool => higher("success").tolerance(HITS),
         /// Number of darts thrown.
         throws: u64 =>
-            lower("throws").at_least(1).at_most(DARTS).tolerance(Tolerance::Relative(0.35)),
+            lower("throws").at_least(1).at_most(DARTS).tolerance(LENGTH),
         /// How the run ended.
         outcome: Option<String> => neither("outcome"),
         /// Distance of the last dart from the middle.

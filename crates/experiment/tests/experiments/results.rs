@@ -3,12 +3,12 @@
 use std::fs;
 
 use tolman_experiment::{
-    Better, Correction, Error, Ink, Metric, Options, Pairwise, Program, Row, RowPair, Run,
-    Tolerance, tables_as_text, write_replay,
+    Better, Correction, Doubt, Error, Finding, Ink, Metric, Options, Pairwise, Program, Row,
+    RowPair, Run, Tolerance, tables_as_text, write_replay,
 };
 use tolman_stats::Method;
 
-use crate::darts::{Darts, Throws};
+use crate::darts::{Darts, HITS, LENGTH, Throws};
 use crate::support::{fresh, options, read, run};
 
 fn throws_of(run: &Run) -> f64 {
@@ -32,10 +32,24 @@ fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
     assert_eq!(rows.len(), 2 * 3 * 4);
     assert_eq!(
         keys(&rows[0]),
-        ["metric", "n", "paper", "row", "sd", "table", "value"]
+        [
+            "metric",
+            "n",
+            "paper",
+            "resolution",
+            "row",
+            "sd",
+            "table",
+            "value",
+            "verdict"
+        ]
     );
     assert!(rows[0]["sd"].is_null(), "a percentage has no spread");
     assert_eq!(rows[0]["paper"], 60.0);
+    assert_eq!(
+        keys(&rows[2]),
+        ["metric", "n", "paper", "row", "sd", "table", "value"]
+    );
     assert!(
         rows[2]["paper"].is_null(),
         "the paper does not say how far novices miss"
@@ -70,7 +84,10 @@ fn medians_and_counts_are_those_of_the_runs() {
     let mut darts = Darts::new();
     let table = darts.tables.swap_remove(0);
     let table = table
-        .metric(Metric::median("median_throws", "throws").tolerance(Tolerance::Factor(1.5)))
+        .metric(
+            Metric::median("median_throws", "throws")
+                .tolerance(Tolerance::factor(1.5, "nobody counts")),
+        )
         .metric(Metric::count_of("hits_of_twenty", "success", 20).titled("hits"));
     darts.tables = vec![table];
     darts.tables[0].rows[0] = Row::new("Novice")
@@ -95,7 +112,7 @@ fn medians_and_counts_are_those_of_the_runs() {
     let interval = median.interval.unwrap();
     assert!((interval.low - throws[13]).abs() < 1e-12);
     assert!((interval.high - throws[26]).abs() < 1e-12);
-    assert!(!median.verdict.unwrap().matches);
+    assert_eq!(median.verdict.unwrap().finding, Finding::Differs);
 
     let (count, percent) = (novice("hits_of_twenty"), novice("success_percent"));
     assert!((5.0 * count.value - percent.value).abs() < 1e-12);
@@ -214,11 +231,11 @@ fn metrics_that_judge_or_count_by_nothing_are_refused() {
     for (metric, what) in [
         (Metric::count_of("hits", "success", 0), "0 runs"),
         (
-            Metric::mean("throws").tolerance(Tolerance::Factor(0.5)),
+            Metric::mean("throws").tolerance(Tolerance::factor(0.5, "")),
             "factor 0.5",
         ),
         (
-            Metric::mean("throws").tolerance(Tolerance::Relative(f64::NAN)),
+            Metric::mean("throws").tolerance(Tolerance::relative(f64::NAN, "")),
             "NaN",
         ),
     ] {
@@ -290,14 +307,12 @@ fn metrics_are_titled_explained_and_judged_by_their_columns() {
         );
     }
     let table = &Darts::new().tables[0];
-    assert_eq!(table.metrics[1].tolerance, Some(Tolerance::Relative(0.35)));
-    let own = Metric::mean(Throws::throws)
-        .tolerance(Tolerance::Spread)
-        .titled("darts");
+    assert_eq!(table.metrics[1].tolerance, Some(LENGTH));
+    let own = Metric::mean(Throws::throws).tolerance(HITS).titled("darts");
     let own = &table.clone().metric(own.named("darts")).metrics[4];
     assert_eq!(
         (own.tolerance, own.title.as_str(), own.better),
-        (Some(Tolerance::Spread), "darts", Some(Better::Lower))
+        (Some(HITS), "darts", Some(Better::Lower))
     );
 }
 
@@ -323,7 +338,74 @@ fn disagreements_are_the_values_outside_their_tolerance() {
         .find(|(table, _, measured)| table.name == "1 (near)" && measured.row == "Novice")
         .unwrap();
     assert_eq!(metric.name, "throws");
-    assert!((found.verdict.unwrap().accepted.low - 0.65 * 2.0 * steps).abs() < 1e-9);
+    let accepted = found.verdict.as_ref().unwrap().accepted.unwrap();
+    assert!((accepted.low - 0.65 * 2.0 * steps).abs() < 1e-9);
+}
+
+#[test]
+fn every_value_of_the_paper_is_judged_or_says_why_not() {
+    let out = fresh("judged").join("out");
+    let outcome = run(&Darts::new(), &options(&out)).0.unwrap();
+    let with_paper = outcome
+        .summary
+        .rows
+        .iter()
+        .filter(|row| row.paper.is_some());
+    let mut counted = 0;
+    for row in with_paper {
+        counted += 1;
+        let verdict = row.verdict.unwrap();
+        assert_eq!(verdict == "cannot tell", row.why.is_some(), "{row:?}");
+        assert!(row.why.is_some() || row.resolution.is_some(), "{row:?}");
+    }
+    let tally = outcome.analysis.tally();
+    assert_eq!((tally.all(), counted), (9, 9));
+    // Of the miss nobody has said how far it may lie from the paper's.
+    assert!(tally.cannot_tell >= 1 && tally.judged() >= 1, "{tally}");
+    let text = tables_as_text(&outcome.analysis, Ink::Plain);
+    assert!(
+        text.ends_with(&format!("Of the paper's values {tally}.\n")),
+        "{text}"
+    );
+    let page = read(&out, "report.html");
+    assert!(page.contains(&format!("{} of 9 match", tally.matches)));
+    assert!(page.contains(LENGTH.reason) && page.contains("no tolerance is stated"));
+}
+
+#[test]
+fn a_table_without_its_files_stands_with_the_papers_values() {
+    let out = fresh("no-files").join("out");
+    let mut darts = Darts::new();
+    let needs = "board.txt is not here: ask the club";
+    for row in &mut darts.tables[0].rows {
+        *row = row.clone().missing(needs);
+    }
+    let outcome = run(&darts, &options(&out)).0.unwrap();
+    let mut values = outcome.analysis.values();
+    let (_, _, measured) = values.find(|(table, ..)| table.name == "1 (near)").unwrap();
+    assert!(measured.n == 0 && measured.value.is_nan());
+    let finding = measured.verdict.as_ref().unwrap().finding.clone();
+    assert_eq!(
+        finding,
+        Finding::CannotTell(Doubt::NoData(needs.to_owned()))
+    );
+    assert!(outcome.runs.iter().all(|run| run.table == "2 (far)"));
+    for told in [
+        tables_as_text(&outcome.analysis, Ink::Plain),
+        read(&out, "report.html"),
+        read(&out, "summary.json"),
+    ] {
+        assert!(told.contains(needs), "{told}");
+    }
+}
+
+#[test]
+fn a_quantity_has_one_tolerance() {
+    let out = fresh("two-tolerances").join("out");
+    let mut darts = Darts::new();
+    darts.tables[1].metrics[1].tolerance = Some(HITS);
+    let error = run(&darts, &options(&out)).0.unwrap_err();
+    assert!(error.to_string().contains("a quantity has one"), "{error}");
 }
 
 #[test]

@@ -10,4 +10,5 @@ extern crate alloc;
 mod files;
 mod learning;
 mod properties;
+mod put_down;
 mod walk;

@@ -261,7 +261,7 @@ pub(crate) fn percept(look: [f64; 4]) -> Signature {
     Signature::new(1, look.to_vec()).unwrap()
 }
 
-fn exits(robot: &AbstractRobot) -> Exits {
+pub(crate) fn exits(robot: &AbstractRobot) -> Exits {
     let exits = robot.world().exits(robot.at());
     Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
 }

@@ -8,6 +8,7 @@ mod detector;
 mod figures;
 mod worlds;
 
+use crate::tolerances::{STEPS_PER_ACTION, SUCCESS, TIME};
 use crate::venue::{self, MazeRun, Venue};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
@@ -15,7 +16,7 @@ use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Run,
-    Table, Tolerance,
+    Table,
 };
 use tolman_replay::Replay;
 
@@ -71,17 +72,14 @@ fn table(venue: &Venue) -> Table {
     };
     venue
         .table::<MazeRun>()
-        .metric(
-            Metric::percent("success_percent", MazeRun::reached)
-                .tolerance(Tolerance::Absolute(15.0)),
-        )
-        .metric(Metric::mean(MazeRun::actions))
-        .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Relative(0.35)))
+        .metric(Metric::percent("success_percent", MazeRun::reached).tolerance(SUCCESS))
+        .metric(Metric::mean(MazeRun::actions).tolerance(TIME))
+        .metric(Metric::mean(MazeRun::steps).tolerance(TIME))
         .metric(
             Metric::ratio("steps_per_action", MazeRun::steps, MazeRun::actions)
                 .titled("steps / action")
                 .defined("Time steps of all runs for each of their actions.")
-                .tolerance(Tolerance::Relative(0.2)),
+                .tolerance(STEPS_PER_ACTION),
         )
         .rows(ROWS.map(row))
         .compared_with(ROWS[0].name(), Correction::Bonferroni)

@@ -5,7 +5,7 @@ use tolman_systems::cpm::Done;
 use super::trials::{Setting, Trials, better, in_both_modes};
 use tolman_arena::course::Course;
 use tolman_arena::cpm::CpmTrial;
-use tolman_experiment::{BoxError, Fields, Record, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Options, Record, Table, record, require};
 
 /// The name of the table.
 pub(super) const EXPLORED: &str = "explored";
@@ -63,8 +63,8 @@ impl ExploredRun {
     }
 }
 
-/// `papers`: the mazes are the paper's, and others are drawn beside them; `quick`: for a first look.
-pub(super) fn explored(courses: &[Course], papers: bool, quick: bool) -> Trials {
+/// `papers`: the mazes are the paper's, and others are drawn beside them.
+pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> Trials {
     let mut settings = in_both_modes(courses);
     if papers {
         settings.push(Setting::aliased("Aliased better", better()));
@@ -76,7 +76,7 @@ pub(super) fn explored(courses: &[Course], papers: bool, quick: bool) -> Trials 
              for who knows the maze. Theorem 1 bounds the time until the last fragment is walked, whether the robot knows it or not: \
              from the times that it took for the fragments before the first it had walked before, and the longest that it took for any.",
         );
-    let runs = if quick { QUICK_RUNS } else { RUNS };
+    let runs = options.runs_else(RUNS, QUICK_RUNS);
     let row = |setting: &Setting| setting.row().runs(runs);
     Trials::new(table, settings, row, measure)
 }

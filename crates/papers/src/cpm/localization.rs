@@ -6,7 +6,7 @@ use super::{mazes, trials};
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, TrialRecord, epuck};
 use tolman_experiment::Record as _;
-use tolman_experiment::{BoxError, Fields, Job, Row, Table, record, require, run_seed};
+use tolman_experiment::{BoxError, Fields, Job, Options, Row, Table, record, require, run_seed};
 use tolman_systems::cpm::{Approach, CommonPatterns};
 
 /// The name of the table.
@@ -107,10 +107,10 @@ fn cast(row: &str) -> (&str, Approach) {
     }
 }
 
-/// `quick`: for a first look.
-pub(super) fn table(courses: &[Course], quick: bool) -> Table {
+/// The table.
+pub(super) fn table(courses: &[Course], options: &Options) -> Table {
     let title = "Put down in mid-fragment of one of the mazes";
-    let runs = if quick { QUICK_RUNS } else { RUNS };
+    let runs = options.runs_else(RUNS, QUICK_RUNS);
     let mazes = courses.iter().map(|course| course.name.as_str());
     let rows = mazes.chain([ALIASED]).flat_map(|maze| {
         ["", TO_AND_FRO].map(|suffix| Row::new(format!("{maze}{suffix}")).runs(runs))

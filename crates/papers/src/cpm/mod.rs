@@ -93,17 +93,17 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         trials::figure_9(&courses, papers),
         trials::offline(&courses),
         trials::unlearned(&courses),
-        explored::explored(&courses, papers, options.quick),
+        explored::explored(&courses, papers, options),
     ];
     let mut tables: Vec<Table> = trials.iter().map(|trials| trials.table.clone()).collect();
     tables.push(episodes::table(&courses));
     tables.push(places::table(&courses));
     if papers {
-        let aliased = trials::aliased(options.quick);
+        let aliased = trials::aliased(options);
         tables.push(aliased.table.clone());
         trials.push(aliased);
         tables.push(real::table(&real.course));
-        tables.push(localization::table(&courses, options.quick));
+        tables.push(localization::table(&courses, options));
         tables.push(dictionary::table(&learning));
         tables.push(detector::table());
     }

@@ -1,9 +1,10 @@
 //! The baseline: positions and cells drawn at random.
 
+use crate::tolerances::{AREA, MAP_SCORE};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_arena::gngslam::PointScore;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, Tolerance, record};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Table, record};
 use tolman_stats::{mean, quantile, standard_deviation};
 
 /// The name of the table.
@@ -12,7 +13,7 @@ pub(super) const NAME: &str = "guesses";
 const BY_CENTRE: &str = "to the centre";
 const BY_BORDER: &str = "to the border";
 
-/// Guesses of a run, and runs: ten million together, the paper's number.
+/// Guesses of a run, and the paper's number of runs of that size: ten million together.
 const GUESSES: usize = 1_000_000;
 const RUNS: u32 = 10;
 
@@ -20,17 +21,18 @@ record! {
     /// A million guesses.
     struct GuessRun {
         /// Mean score of a guess.
-        score: f64 => higher("score").share().decimals(3).tolerance(Tolerance::Absolute(0.006)),
+        score: f64 => higher("score").share().decimals(3).tolerance(MAP_SCORE),
         /// Median score of a guess.
-        median: f64 => higher("median").share().decimals(3).tolerance(Tolerance::Absolute(0.006)),
+        median: f64 => higher("median").share().decimals(3).tolerance(MAP_SCORE),
         /// Standard deviation of the scores of guesses.
-        sd: f64 => neither("standard deviation").share().decimals(3).tolerance(Tolerance::Absolute(0.006)),
+        sd: f64 => neither("standard deviation").share().decimals(3).tolerance(MAP_SCORE),
         /// Guesses inside the cell.
-        inside_percent: f64 => higher("inside").percent().tolerance(Tolerance::Absolute(0.01)),
+        inside_percent: f64 => higher("inside").percent().tolerance(AREA),
     }
 }
 
-pub(super) fn table() -> Table {
+pub(super) fn table(options: &Options) -> Table {
+    let runs = options.runs_else(RUNS, RUNS);
     Table::of::<GuessRun>(NAME, "The baseline: any position for any cell")
         .metric(Metric::mean(GuessRun::score))
         .metric(Metric::mean(GuessRun::median))
@@ -42,9 +44,10 @@ pub(super) fn table() -> Table {
                 .paper(GuessRun::median, 0.12)
                 .paper(GuessRun::sd, 0.16)
                 .paper(GuessRun::inside_percent, 1.56)
-                .runs(RUNS),
+                .paper_runs(RUNS)
+                .runs(runs),
         )
-        .row(Row::new(BY_BORDER).runs(RUNS))
+        .row(Row::new(BY_BORDER).runs(runs))
         .note("A million guesses a run, ten million together as in the paper.")
 }
 

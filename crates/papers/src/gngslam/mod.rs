@@ -14,11 +14,12 @@ mod sets;
 
 use alloc::collections::BTreeMap;
 
+use crate::tolerances::MAP_SCORE;
 use serde::Serialize;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Pairwise, Procedure,
-    Record, Row, Run, Table, Tolerance, record,
+    Record, Row, Run, Table, record,
 };
 
 use search_space::TABLE_3_1;
@@ -79,8 +80,8 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let mut tables = vec![
         paper(),
         optimum::table(runs),
-        variants(runs),
-        guesses::table(),
+        variants(options.runs.unwrap_or(runs.min(VARIANT_RUNS))),
+        guesses::table(options),
     ];
     tables.extend(online::tables(options));
     let slam = GngSlam {
@@ -97,7 +98,7 @@ record! {
         /// Mean over a random fifth of the records of 1 where the nearest node lies in the record's cell, else 0.5 / distance to its
         /// middle, in cells (equation 3.2). None where both goals are nearest to one node: those count as 0 in the search
         /// and are left out here, as in the paper.
-        score: Option<f64> => higher("score").share().decimals(3).tolerance(Tolerance::Relative(0.2)),
+        score: Option<f64> => higher("score").share().decimals(3).tolerance(MAP_SCORE),
         /// The same with 0.5 / (0.5 + distance to the cell), which the paper wishes for.
         border_score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Whether both goals are nearest to one node, so that the map cannot be turned and has no score.
@@ -126,7 +127,9 @@ fn of_maps(name: &str, title: &str) -> Table {
 fn paper() -> Table {
     let rows = SETS.iter();
     of_maps(TABLE, "Scores of maps by the features they are learned from")
-        .rows(rows.map(|set| Row::new(set.row).paper(MapRun::score, set.score)))
+        .rows(rows.map(|set| Row::new(set.row)
+            .paper(MapRun::score, set.score)
+            .paper_runs(set.samples)))
         .row(Row::new(RANDOM).paper(MapRun::score, RANDOM_SCORE))
         .compared_with(RANDOM, Correction::Holm)
         .pairwise(Pairwise {
@@ -147,7 +150,7 @@ fn variants(runs: u32) -> Table {
     let settings = settings().into_iter();
     let rows = settings.filter(|setting| setting.table == VARIANTS);
     of_maps(VARIANTS, "Set 1 with one thing changed")
-        .rows(rows.map(|setting| Row::new(setting.row).runs(runs.min(VARIANT_RUNS))))
+        .rows(rows.map(|setting| Row::new(setting.row).runs(runs)))
         .note(
             "In Table 4.1 wheels slip but count rightly, features are scaled by groups, and maps stretched over the cells where \
              records were taken. Here each wheel counts wrongly by a constant share. Raw values are metres, and colours of 0 to 1.",

@@ -14,7 +14,7 @@ use tolman_experiment::{
 use tolman_geom::Point;
 use tolman_systems::gngslam::OnlineSlamConfig;
 
-use super::{ASKED, ENTRY, RANDOM, guesses};
+use super::{ASKED, RANDOM, guesses};
 
 /// The names of the tables.
 const ONLINE: &str = "online";
@@ -75,12 +75,9 @@ pub(super) struct LongRuns(Mutex<BTreeMap<u32, Shared>>);
 /// A run that whoever comes first makes, while the others wait.
 type Shared = Arc<Mutex<Option<Arc<OnlineRun>>>>;
 
-/// The tables; the runs of a row are at most `MOST_RUNS`.
+/// The tables.
 pub(super) fn tables(options: &Options) -> Vec<Table> {
-    let runs = match (options.runs, options.quick) {
-        (None, true) => QUICK_RUNS,
-        _ => options.runs_of(&ENTRY).min(MOST_RUNS),
-    };
+    let runs = options.runs_else(MOST_RUNS, QUICK_RUNS);
     let row = |name: &str| Row::new(name).runs(runs);
     let long = format!(
         "Learned from {LEARNED} looks on the paper's pitch, tried by another robot for {TRIED} looks, which is put down anywhere; wheels wrong by \

@@ -22,7 +22,11 @@ pub(super) fn table(runs: u32) -> Table {
     let searches = SETS.len() as u32 * (runs / MAPS);
     let rows = TABLE_3_1.iter().map(|parameter| {
         let (low, high) = parameter.optimal;
-        let row = Row::new(parameter.name).paper(OptimumRun::value, 0.5 * (low + high));
+        let row = Row::new(parameter.name).paper_aside(
+            OptimumRun::value,
+            0.5 * (low + high),
+            format!("the paper has a range, {low} to {high}"),
+        );
         row.runs(searches)
     });
     Table::of::<OptimumRun>(NAME, "Parameters at the end of the searches")

@@ -61,7 +61,7 @@ pub(super) fn tables(paper: &[PaperTable]) -> Vec<Table> {
     if mazes.is_empty() {
         return Vec::new();
     }
-    let of_all = |row| Row::new(row).runs(mazes.len() as u32);
+    let of_all = |row| Row::new(row).run_each(mazes.len() as u32);
     let planners = Table::of::<PlannerRun>(PLANNERS, "Searches in a known maze, by cells")
         .metrics_from(PlannerRun::path_cells)
         .rows(ROWS.map(of_all))

@@ -18,11 +18,12 @@ use serde::Serialize;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 
 use crate::data;
+use crate::tolerances::{MOUSE_SCORE, MOVES};
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
-    Tolerance, record, require,
+    record, require,
 };
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
@@ -71,10 +72,7 @@ const WITHOUT_ROLLOUTS: &str = "sets-without-rollouts";
 /// If a maze that the caller names cannot be read, or is too large.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     let folder = data::folder();
-    let paper = match &folder {
-        Some(folder) => paper::tables(folder)?,
-        None => Vec::new(),
-    };
+    let paper = paper::tables(folder.as_deref())?;
     let sets = sets::all(folder.as_deref(), &options.mazes)?;
     let mut tables: Vec<Table> = paper.iter().map(PaperTable::table).collect();
     tables.extend(comparisons::tables(&paper));
@@ -86,7 +84,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let title = "The same search, without rollouts";
     tables.push(sets_table(WITHOUT_ROLLOUTS, title, &sets));
     tables.push(competition::table(&sets));
-    tables.push(noise::table());
+    tables.push(noise::table(options));
     let complaints: Vec<String> = sets.iter().filter_map(MazeSet::complaint).collect();
     let skipped = (!complaints.is_empty()).then(|| complaints.join(" "));
     let config = toml::Table::try_from(Config {
@@ -139,9 +137,9 @@ record! {
         /// Steps of the first run.
         run_1: Option<u32> => lower("first run").unit("steps"),
         /// Steps of the second run.
-        move_length: Option<u32> => lower("move length").tolerance(Tolerance::Relative(0.15)),
+        move_length: Option<u32> => lower("move length").tolerance(MOVES),
         /// A thirtieth of the first run's steps and all of the second's.
-        score: Option<f64> => lower("score").tolerance(Tolerance::Relative(0.2)),
+        score: Option<f64> => lower("score").tolerance(MOUSE_SCORE),
         /// Score above that of a mouse that knows the maze.
         score_minus_floor: Option<f64> => lower("score − floor"),
     }

@@ -7,7 +7,7 @@ use tolman_maze::{Braided, Maze};
 use super::check_score;
 use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table, record, require};
+use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table, record, require};
 use tolman_systems::micromouse::noisy::PoseSource;
 
 /// The name of the table.
@@ -21,7 +21,7 @@ const LOCALIZATIONS: [(PoseSource, &str); 2] = [
     (PoseSource::DeadReckoning, "dead reckoning"),
 ];
 
-/// Mazes of each row, the same in all.
+/// Mazes of each row, the same in all, unless the caller asks for more or fewer.
 const MAZES: u32 = 20;
 
 record! {
@@ -56,10 +56,11 @@ impl NoiseRun {
     }
 }
 
-pub(super) fn table() -> Table {
+pub(super) fn table(options: &Options) -> Table {
+    let runs = options.runs_else(MAZES, MAZES);
     Table::of::<NoiseRun>(NOISE, "The mouse among thick walls, with noise")
         .metrics_from(NoiseRun::arrived)
-        .rows(mice().map(|(name, ..)| Row::new(name).runs(MAZES)))
+        .rows(mice().map(|(name, ..)| Row::new(name).runs(runs)))
         .note(
             "One run a maze of 12 × 12 cells, half-braided, on the continuous simulator. Noise 1: wheels slip by up to \
              10 % and drift by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the runs that \

@@ -5,7 +5,7 @@ use std::path::Path;
 use tolman_maze::Maze;
 
 use super::{Metric, MouseRun, Row, Table};
-use crate::maze_file;
+use crate::{data, maze_file};
 use tolman_experiment::BoxError;
 use tolman_systems::micromouse::Searcher;
 
@@ -23,7 +23,9 @@ pub(super) struct PaperTable {
 struct PaperRow {
     name: &'static str,
     searcher: Searcher,
-    maze: Maze,
+    maze: Option<Maze>,
+    /// Its file below the folder of data.
+    file: &'static str,
     /// Move length and average score.
     paper: Option<(f64, f64)>,
 }
@@ -35,6 +37,10 @@ impl PaperRow {
             row = row
                 .paper(MouseRun::move_length, moves)
                 .paper("average_score", score);
+        }
+        if self.maze.is_none() {
+            let file = self.file;
+            return row.missing(format!("{file} is not here: {}", data::MAZES));
         }
         row.runs = self.searcher.is_deterministic().then_some(1);
         row
@@ -108,32 +114,29 @@ const fn lines(maze: &'static str, [low, high, target]: [(f64, f64); 3]) -> [Lin
     ]
 }
 
-/// The tables whose mazes are all below the folder of data.
-pub(super) fn tables(folder: &Path) -> Result<Vec<PaperTable>, BoxError> {
+/// The tables, with the mazes that are below the folder of data.
+pub(super) fn tables(folder: Option<&Path>) -> Result<Vec<PaperTable>, BoxError> {
     let mut tables = Vec::new();
     for (name, title, note, lines) in TABLES {
         let mut rows = Vec::new();
         for (row, searcher, file, paper) in lines.iter().copied() {
-            let path = folder.join("mazes").join(file);
-            if !path.exists() {
-                continue;
-            }
-            let maze = maze_file::read(&path)?.maze;
+            let path = folder.map(|folder| folder.join("mazes").join(file));
+            let path = path.filter(|path| path.exists());
+            let read = |path| maze_file::read(path).map(|file| file.maze);
             rows.push(PaperRow {
                 name: row,
                 searcher,
-                maze,
+                maze: path.as_deref().map(read).transpose()?,
+                file,
                 paper,
             });
         }
-        if !rows.is_empty() {
-            tables.push(PaperTable {
-                name,
-                title,
-                note,
-                rows,
-            });
-        }
+        tables.push(PaperTable {
+            name,
+            title,
+            note,
+            rows,
+        });
     }
     Ok(tables)
 }
@@ -153,10 +156,12 @@ impl PaperTable {
 
     pub(super) fn row(&self, name: &str) -> Option<(Searcher, &Maze)> {
         let row = self.rows.iter().find(|row| row.name == name)?;
-        Some((row.searcher, &row.maze))
+        Some((row.searcher, row.maze.as_ref()?))
     }
 
     pub(super) fn mazes(&self) -> impl Iterator<Item = (&str, &Maze)> {
-        self.rows.iter().map(|row| (row.name, &row.maze))
+        self.rows
+            .iter()
+            .filter_map(|row| Some((row.name, row.maze.as_ref()?)))
     }
 }

@@ -84,7 +84,7 @@ impl MazeSet {
 
     /// Its row, of one run for each maze.
     pub(super) fn row(&self) -> Row {
-        Row::new(&self.name).runs(self.mazes.len() as u32)
+        Row::new(&self.name).run_each(self.mazes.len() as u32)
     }
 
     /// The maze of a run, with its name.

@@ -9,13 +9,13 @@ use tolman_maze::Direction;
 
 use super::MAPS;
 use super::entrant::{Entrant, Ready};
+use crate::tolerances::{SUCCESS, TIME};
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Trial};
 use tolman_experiment::{
-    BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, Tolerance, record, require,
-    run_seed,
+    BoxError, Correction, Fields, Job, Metric, Pairwise, Record, Table, record, require, run_seed,
 };
 use tolman_replay::Replay;
 use tolman_systems::mslst::{Learned, MslstConfig};
@@ -177,9 +177,9 @@ impl Contest {
         };
         self.venue
             .table::<ContestRun>()
-            .metric(Metric::percent("success_percent", MazeRun::reached))
-            .metric(Metric::mean(MazeRun::actions).tolerance(Tolerance::Spread))
-            .metric(Metric::mean(MazeRun::steps).tolerance(Tolerance::Spread))
+            .metric(Metric::percent("success_percent", MazeRun::reached).tolerance(SUCCESS))
+            .metric(Metric::mean(MazeRun::actions).tolerance(TIME))
+            .metric(Metric::mean(MazeRun::steps).tolerance(TIME))
             .metric(Metric::mean(MazeRun::steps_arrived))
             .metric(over("steps_over_oracle", Agent::Oracle))
             .metric(over(

@@ -2,11 +2,12 @@
 
 use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
+use crate::tolerances::PROTOTYPES;
 use crate::venue::{self, StatesRow, TABLE_1, states_row};
 use tolman_arena::course::Course;
 use tolman_arena::mslst;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, Tolerance, record};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
 /// The table's name in `summary.json`.
 pub(super) const NAME: &str = "1";
@@ -18,7 +19,7 @@ record! {
     /// An equilibrium GNG that learned the scans of phase I.
     struct NetworkRun {
         /// Units of the network, each a state.
-        states: usize => neither("states").decimals(1).tolerance(Tolerance::Factor(1.5)),
+        states: usize => neither("states").decimals(1).tolerance(PROTOTYPES),
         /// Root of the mean squared distance of a scan from the nearest state.
         rms_error: f64 => lower("RMS error").unit("robot units").at_least(0),
     }

@@ -77,6 +77,24 @@ pub(super) enum Task {
     },
 }
 
+impl Task {
+    /// Returns what it comes to in the cell `at`; `prove` chooses the stop to drive to where a run is to be proved.
+    pub(super) fn decide<const N: usize>(
+        self,
+        chart: &Chart<N>,
+        at: Cell,
+        prove: impl FnOnce(u16) -> Option<Cell>,
+    ) -> MoveDecision {
+        let target = match self {
+            Self::Decided(decision) => return decision,
+            Self::DriveTo(target) => Some(target),
+            Self::Prove { closed } => prove(closed),
+        };
+        let leap = target.and_then(|target| chart.leap_towards(target, at));
+        leap.map_or(MoveDecision::Stuck, MoveDecision::Drive)
+    }
+}
+
 impl<const N: usize> MoveExplorer<N> {
     /// An explorer for a mouse that makes its runs from `start` and has seen nothing.
     ///
@@ -103,13 +121,8 @@ impl<const N: usize> MoveExplorer<N> {
         at: Cell,
     ) -> Result<MoveDecision, TooLarge> {
         let chart = self.chart(walls, goals, at)?;
-        let target = match self.task(&chart, at) {
-            Task::Decided(decision) => return Ok(decision),
-            Task::DriveTo(target) => Some(target),
-            Task::Prove { closed } => self.proofs::<1>(&chart, at, closed).best(),
-        };
-        let leap = target.and_then(|target| chart.leap_towards(target, at));
-        Ok(leap.map_or(MoveDecision::Stuck, MoveDecision::Drive))
+        let prove = |closed| self.proofs::<1>(&chart, at, closed).best();
+        Ok(self.task(&chart, at).decide(&chart, at, prove))
     }
 
     /// What is known, from where the mouse is now.

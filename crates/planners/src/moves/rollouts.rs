@@ -2,7 +2,6 @@ use tolman_maze::{Cell, Walls};
 
 use super::chart::Chart;
 use super::completion::Completions;
-use super::explorer::Task;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
 use super::{MoveDecision, MoveExplorer, MoveExplorerConfigError};
@@ -148,13 +147,8 @@ impl<const N: usize> Rollouts<N> {
         at: Cell,
     ) -> Result<MoveDecision, TooLarge> {
         let chart = self.base.chart(walls, goals, at)?;
-        let target = match self.base.task(&chart, at) {
-            Task::Decided(decision) => return Ok(decision),
-            Task::DriveTo(target) => Some(target),
-            Task::Prove { closed } => self.aim(&chart, at, closed),
-        };
-        let leap = target.and_then(|target| chart.leap_towards(target, at));
-        Ok(leap.map_or(MoveDecision::Stuck, MoveDecision::Drive))
+        let task = self.base.task(&chart, at);
+        Ok(task.decide(&chart, at, |closed| self.aim(&chart, at, closed)))
     }
 
     fn aim(&mut self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {

@@ -10,7 +10,7 @@
 //! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
 //!
 //! A [`Diktiometer`] is all of this as a [`System`](tolman_robot::System): it explores, finds out
-//! where it is, and goes to places and landmarks.
+//! where it is, and goes to places and landmarks. A [`Wayfinder`] is put down anywhere on a learned map.
 //!
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
 //! Symposium 1992.
@@ -23,12 +23,14 @@ mod guide;
 mod odometer;
 mod place_middle;
 mod planner;
+mod route_finder;
 mod routine_config;
 mod rover;
 mod rover_map;
 mod surveyor;
 #[cfg(test)]
 mod tests;
+mod wayfinder;
 
 pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
 pub use errors::{RoutineError, SenseError};
@@ -39,7 +41,10 @@ pub use routine_config::{RoutineConfig, RoutineConfigError};
 pub use rover::{Arrival, Rover};
 pub use rover_map::{MapError, MappedMove, RoverMap};
 pub use surveyor::Surveyor;
+pub use wayfinder::{Wayfinder, WayfinderError};
 
 use corridor::{Around, Beside, View, compass, round_scan};
 use guide::{Guide, Next};
 use place_middle::{Offset, offset};
+use route_finder::RouteFinder;
+use rover_map::{first_place, observed};

@@ -50,10 +50,7 @@ impl RoverMap {
     /// [`MapError`] if the rover sees nothing or `config` is out of its bounds.
     pub fn begin<R: Rover>(rover: &mut R, config: Config) -> Result<Self, MapError<R::Error>> {
         let seen = rover.look().map_err(MapError::Robot)?;
-        let start = FirstPlace {
-            percept: percept(&config, &seen),
-            exits: exits(&seen),
-        };
+        let start = first_place(&config, &seen);
         Ok(Self {
             observer: Observer::new(config, start)?,
             exits: seen.exits,
@@ -93,13 +90,8 @@ impl RoverMap {
         direction: Direction,
     ) -> Result<MappedMove, MapError<R::Error>> {
         let arrival = rover.go(direction).map_err(MapError::Robot)?;
-        let report = self.observer.step(&ObservedMove {
-            action: Action(direction.index() as u32),
-            odometry: PoseBox::new(arrival.moved, Interval::ZERO),
-            percept: percept(self.observer.config(), &arrival),
-            exits: exits(&arrival),
-            outcome: arrival.outcome,
-        })?;
+        let observed = observed(self.observer.config(), direction, &arrival);
+        let report = self.observer.step(&observed)?;
         self.exits = arrival.exits;
         Ok(MappedMove { arrival, report })
     }
@@ -119,6 +111,25 @@ impl RoverMap {
     /// Returns the observer, to tell it of moves that no rover of ours made.
     pub(super) const fn observer_mut(&mut self) -> &mut Observer {
         &mut self.observer
+    }
+}
+
+/// Returns a move in `direction` as a mapper of this configuration is told of it.
+pub(super) fn observed(config: &Config, direction: Direction, arrival: &Arrival) -> ObservedMove {
+    ObservedMove {
+        action: Action(direction.index() as u32),
+        odometry: PoseBox::new(arrival.moved, Interval::ZERO),
+        percept: percept(config, arrival),
+        exits: exits(arrival),
+        outcome: arrival.outcome,
+    }
+}
+
+/// Returns the place that the rover looks at as a mapper of this configuration is told of it.
+pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
+    FirstPlace {
+        percept: percept(config, seen),
+        exits: exits(seen),
     }
 }
 

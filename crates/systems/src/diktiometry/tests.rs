@@ -3,7 +3,7 @@
 use core::convert::Infallible;
 
 use tolman_geom::{Heading, Point, Vector};
-use tolman_maps::diktiometry::Config;
+use tolman_maps::diktiometry::{Config, Observer, PlaceId};
 use tolman_maze::{Direction, Maze};
 use tolman_robot::{
     Goal, Landmark, Landmarked, LaserSensing, MapView, Mapper, Odometry, Position, Ring, Robot,
@@ -321,4 +321,112 @@ fn what_cannot_be_driven_is_refused_by_name() {
     let failure = system(1).act(&mut robot, Task::Explore).unwrap_err();
     let told = format!("{failure:?}");
     assert!(told.contains("NotRound"), "{told}");
+}
+
+/// A map of the ring, and the place on it where the goal is.
+fn known_ring() -> (Observer, Option<PlaceId>) {
+    let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
+    let mut learner = system(2);
+    let done = pursue(&mut learner, &mut robot, Task::Explore);
+    assert_eq!(done, Standing::Done);
+    let places = learner.map().places;
+    let goal = places.iter().find(|place| place.landmark.is_some());
+    let goal = goal.map(|place| PlaceId(place.id));
+    (learner.observer().unwrap().clone(), goal)
+}
+
+fn wayfinder(known: &(Observer, Option<PlaceId>), seed: u64) -> Wayfinder<LaserEye> {
+    let eye = LaserEye { columns: 24 };
+    Wayfinder::new(
+        system(0).config().routines,
+        eye,
+        known.0.clone(),
+        known.1,
+        seed,
+    )
+}
+
+/// Points amid the corridors and at places of the ring.
+const STARTS: [[f64; 2]; 7] = [
+    [0.5, 1.7],
+    [0.4, 3.1],
+    [2.2, 3.6],
+    [3.5, 2.4],
+    [1.9, 0.5],
+    [4.4, 0.55],
+    [3.5, 0.5],
+];
+
+#[test]
+fn a_robot_that_was_put_down_anywhere_finds_its_way() {
+    let known = known_ring();
+    for (seed, start) in (0..).zip(STARTS) {
+        let mut robot = Landmarked::new(Scripted::new(start, 1.02), at_the_end);
+        let mut system = wayfinder(&known, seed);
+        assert!(system.place_belief().is_none());
+        let task = Task::Reach(Goal::Landmark(Landmark::Goal));
+        let mut moves = 0;
+        let standing = loop {
+            moves += 1;
+            match System::act(&mut system, &mut robot, task).unwrap() {
+                Standing::UnderWay => assert!(moves < 40, "{start:?}"),
+                standing => break standing,
+            }
+        };
+        assert_eq!(standing, Standing::Done, "{start:?}");
+        assert_eq!(at_the_end(robot.robot()), Some(Landmark::Goal));
+        let whole: f64 = system.belief().iter().map(|guess| guess.weight).sum();
+        assert!((whole - 1.0).abs() < 1e-9);
+        // The map is as it was.
+        assert_eq!(system.map().places.len(), PLACES.len());
+    }
+}
+
+#[test]
+fn a_robot_that_is_carried_off_on_its_way_finds_out() {
+    let known = known_ring();
+    let home = Task::Reach(Goal::Place(0));
+    for (seed, start) in (0..).zip(STARTS) {
+        let mut robot = Landmarked::new(Scripted::new(start, 1.0), |_| None);
+        let mut system = wayfinder(&(known.0.clone(), None), seed);
+        for _ in 0..40 {
+            if System::act(&mut system, &mut robot, Task::Localize).unwrap() == Standing::Done {
+                break;
+            }
+        }
+        assert!(system.belief()[0].weight > 0.5, "{start:?}");
+        // To another place than it knows it stands at.
+        let at = robot.robot().at;
+        let elsewhere = PLACES
+            .map(Point::from)
+            .into_iter()
+            .find(|place| !near(*place, at));
+        robot.robot_mut().at = elsewhere.unwrap();
+        robot.robot_mut().sense(0.0, 0.0);
+        let mut moves = 0;
+        while System::act(&mut system, &mut robot, home).unwrap() == Standing::UnderWay {
+            moves += 1;
+            assert!(moves < 80, "{start:?}");
+        }
+        assert!(near(robot.robot().at, Point::from(PLACES[0])), "{start:?}");
+    }
+}
+
+#[test]
+fn a_goal_that_the_map_does_not_have_is_given_up() {
+    let (map, _) = known_ring();
+    let mut robot = Landmarked::new(Scripted::new(STARTS[0], 1.0), |_| None);
+    let mut system = wayfinder(&(map, None), 1);
+    let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
+    for (task, why) in [
+        (goal, "at no place"),
+        (Task::Reach(Goal::Place(99)), "99"),
+        (Task::Explore, "learns none"),
+    ] {
+        let standing = System::act(&mut system, &mut robot, task).unwrap();
+        assert!(
+            matches!(&standing, Standing::GaveUp { why: told } if told.contains(why)),
+            "{standing:?}"
+        );
+    }
 }

@@ -63,7 +63,7 @@ pub(super) struct Arguments {
     /// Say which runs of two folders of results differ and in what, and nothing else; exit with 1 if any do
     #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
     compare: Vec<PathBuf>,
-    /// Exit with 3 if a table disagrees with the paper
+    /// Exit with 3 if a table disagrees with the paper, or none of the paper's values could be judged
     #[arg(long)]
     check: bool,
     /// Write each summary.json on standard output instead of the tables
@@ -110,6 +110,13 @@ pub(super) fn carry_out(
         // The next experiment takes its time: show what there is.
         out.flush()?;
         disagreements.extend(outcome.analysis.disagreements().filter_map(told));
+        let tally = outcome.analysis.tally();
+        if tally.all() > 0 && tally.judged() == 0 {
+            let all = tally.all();
+            disagreements.push(format!(
+                "{name}: none of the paper's {all} values could be judged; give it more --runs, or the files that it lacks"
+            ));
+        }
     }
     if arguments.check && !disagreements.is_empty() {
         return Err(Failure::Disagrees(anyhow!("{}", disagreements.join("\n"))));
@@ -177,15 +184,17 @@ fn classify(error: Error) -> Failure {
 
 /// A value that does not match the paper's.
 fn told((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<String> {
-    let (paper, accepted) = (measured.paper.as_ref()?, measured.verdict?.accepted);
+    let verdict = measured.verdict.as_ref()?;
+    let (paper, accepted) = (measured.paper.as_ref()?, verdict.accepted?);
     Some(format!(
-        "table {}, row {}: {} is {:.2}, the paper has {}; {:.2} to {:.2} agree",
+        "table {}, row {}: {} is {:.2}, the paper has {}; {:.2} to {:.2} are tolerated, and a difference of {:.2} would have been seen",
         table.name,
         measured.row,
         metric.name,
         measured.value,
         paper.value,
         accepted.low,
-        accepted.high
+        accepted.high,
+        verdict.resolution()?
     ))
 }

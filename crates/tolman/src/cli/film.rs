@@ -3,11 +3,12 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use tolman_arena::Outing;
+use tolman_geom::Point;
 use tolman_replay::{
     Belief, Floor, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery,
     TimeSeries,
 };
-use tolman_robot::Landmark;
+use tolman_robot::{Landmark, Position};
 
 /// Nodes that moved less than this are left where they are, m.
 const STILL: f64 = 0.05;
@@ -24,6 +25,8 @@ pub(super) struct Film {
     nodes: BTreeMap<u32, MapNode>,
     edges: BTreeMap<(u32, u32), MapEdge>,
     places: TimeSeries,
+    /// Where the robot truly was when the system first believed to be at a place.
+    met: BTreeMap<u32, Point>,
     /// The place that is labelled as the goal.
     goal: Option<u32>,
 }
@@ -38,6 +41,7 @@ impl Film {
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
             places: TimeSeries::new("places on the map", ""),
+            met: BTreeMap::new(),
             goal: None,
         };
         film.map(outing, 0);
@@ -48,6 +52,7 @@ impl Film {
     pub(super) fn see(&mut self, outing: &dyn Outing) {
         let step = outing.path().len().saturating_sub(1) as u32;
         self.actions += 1;
+        self.meet(outing);
         if self.actions <= DENSE || self.actions.is_multiple_of(self.actions / DENSE) {
             self.map(outing, step);
         }
@@ -72,6 +77,17 @@ impl Film {
         shown.note(step, &belief, site);
     }
 
+    /// Notes where the robot is, if the system believes that it is at a place.
+    fn meet(&mut self, outing: &dyn Outing) {
+        let likeliest = outing.belief().into_iter().next();
+        if let (Some(guess), Some(pose)) = (likeliest, outing.path().last())
+            && let Position::Place(id) = guess.at
+            && guess.weight > 0.5
+        {
+            self.met.entry(id).or_insert(pose.position);
+        }
+    }
+
     /// Notes what has changed on the map.
     fn map(&mut self, outing: &dyn Outing, step: u32) {
         let map = outing.map();
@@ -85,7 +101,9 @@ impl Film {
         let sites = outing.sites();
         for place in &map.places {
             let site = sites.get(&place.id).copied();
-            let Some(at) = site.or(place.position) else {
+            // Of a map that does not say where its places lie, they are where the robot believed to be there.
+            let met = self.met.get(&place.id).copied();
+            let Some(at) = site.or(place.position).or(met) else {
                 continue;
             };
             let node = self.nodes.entry(place.id);

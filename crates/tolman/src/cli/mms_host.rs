@@ -10,7 +10,7 @@ use serde_json::json;
 use tolman_arena::micromouse::SideSeen;
 use tolman_arena::mms::{Exchange, Hosted, Limits, Log, MouseExit, host};
 use tolman_geom::{Heading, Pose};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Direction, Grid, Maze};
 
 use super::looks::Looks;
 use super::maze::Collection;
@@ -78,23 +78,24 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     let looks = &arguments.looks;
     looks.of_one(&arguments.maze, mazes.len() + unsound.len())?;
     looks.overwrite()?;
-    let hosted = maze::each(&mazes, arguments.jobs, |_, maze| {
-        let mut heard = Vec::new();
+    let hosted = maze::each(&mazes, arguments.jobs, |file, maze| {
+        let mut watched = match looks.any() {
+            true => Some(Watched::new(arguments, file, maze)?),
+            false => None,
+        };
         let hosted = host(&words, maze, &limits, log, |exchange| {
-            if looks.any() {
-                heard.push(exchange.clone());
+            if let Some(watched) = &mut watched {
+                watched.hear(exchange);
             }
         });
-        Ok((hosted.or_bad_input()?, heard))
+        Ok((hosted.or_bad_input()?, watched))
     })?;
-    let (hosted, heard): (Vec<Hosted>, Vec<Vec<Exchange>>) = hosted.into_iter().unzip();
-    for ((file, _), hosted) in mazes.iter().zip(&hosted) {
+    let (hosted, watched): (Vec<Hosted>, Vec<Option<Watched>>) = hosted.into_iter().unzip();
+    for (((file, _), hosted), watched) in mazes.iter().zip(&hosted).zip(watched) {
+        if let Some(watched) = watched {
+            watched.way.show(looks, &outcome(hosted))?;
+        }
         arguments.tell(file, hosted, out)?;
-    }
-    if let (true, [(file, maze)], [hosted], [heard]) =
-        (looks.any(), &mazes[..], &hosted[..], &heard[..])
-    {
-        arguments.show(file, maze, hosted, heard)?;
     }
     if hosted.len() > 1 && !looks.json {
         writeln!(out, "{}", summary(&hosted))?;
@@ -137,30 +138,37 @@ impl Arguments {
         }
         Ok(writeln!(out, "{name}: {}", outcome(hosted))?)
     }
+}
 
-    /// Shows what the mouse did as it is asked for.
-    fn show(
-        &self,
-        file: &Path,
-        maze: &Maze,
-        hosted: &Hosted,
-        heard: &[Exchange],
-    ) -> Result<(), Failure> {
-        let header = json!({ "rules": "mms", "mouse": self.mouse });
-        let mut way = Way::new(maze::name(file), &of_mms(maze), header)?;
-        let mut sensed = Vec::new();
-        for exchange in heard {
-            let is_open = |cell, side| way.knows_open(cell, side);
-            let mut seen = exchange.sides_seen(maze.grid(), is_open);
-            way.see(&seen);
-            seen.retain(|side| !sensed.contains(side));
-            sensed.extend(seen);
-            if exchange.is_movement {
-                way.go(way_step(exchange, &sensed));
-                sensed.clear();
-            }
+/// What a mouse does, as it is shown.
+struct Watched {
+    way: Way,
+    grid: Grid,
+    /// Sides that the mouse asked for since its last movement.
+    sensed: Vec<SideSeen>,
+}
+
+impl Watched {
+    fn new(arguments: &Arguments, file: &Path, maze: &Maze) -> Result<Self, Failure> {
+        let header = json!({ "rules": "mms", "mouse": arguments.mouse });
+        let way = Way::new(maze::name(file), &of_mms(maze), header)?;
+        Ok(Self {
+            way: way.watched(&arguments.looks, None)?,
+            grid: maze.grid(),
+            sensed: Vec::new(),
+        })
+    }
+
+    fn hear(&mut self, exchange: &Exchange) {
+        let way = &self.way;
+        let mut seen = exchange.sides_seen(self.grid, |cell, side| way.knows_open(cell, side));
+        self.way.see(&seen);
+        seen.retain(|side| !self.sensed.contains(side));
+        self.sensed.extend(seen);
+        if exchange.is_movement {
+            self.way.go(way_step(exchange, &self.sensed));
+            self.sensed.clear();
         }
-        way.show(&self.looks, &outcome(hosted))
     }
 }
 

@@ -10,7 +10,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use serde_json::json;
-use tolman_arena::micromouse::{self, Judgement, MouseTrial, RefereedStep, Ruling, sides_seen};
+use tolman_arena::micromouse::{
+    self, Judgement, MAX_STEPS, MouseTrial, RefereedStep, Ruling, sides_seen,
+};
 use tolman_geom::Pose;
 use tolman_maze::Maze;
 use tolman_systems::micromouse::mms::Until;
@@ -94,20 +96,14 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     arguments.looks.of_one(path, files)?;
     arguments.looks.overwrite()?;
     let tried = maze::each(&mazes, arguments.jobs, |file, maze| {
-        let tried = micromouse::try_on(maze, arguments.search, arguments.seed);
-        let (trial, judgement) = tried.with_context(|| maze::name(file)).or_bad_input()?;
-        Ok(Tried {
-            file,
-            maze,
-            trial,
-            judgement,
-        })
+        arguments.send(file, maze)
     })?;
-    for tried in &tried {
+    let (tried, ways): (Vec<Tried<'_>>, Vec<Option<Way>>) = tried.into_iter().unzip();
+    for (tried, way) in tried.iter().zip(ways) {
+        if let Some(way) = way {
+            way.show(&arguments.looks, &tried.outcome())?;
+        }
         arguments.tell(tried, out)?;
-    }
-    if let (true, Some(tried)) = (arguments.looks.any(), tried.first()) {
-        arguments.show(tried)?;
     }
     if !arguments.looks.json {
         let drawn = if tried.len() > 1 { arguments.worst } else { 1 };
@@ -140,23 +136,46 @@ impl Arguments {
         Ok(writeln!(out, "{name}: {}", tried.outcome())?)
     }
 
-    /// Shows the mouse's way as it is asked for.
-    fn show(&self, tried: &Tried<'_>) -> Result<(), Failure> {
+    /// Sends the mouse through a maze, and shows its way while it goes, if that is asked for.
+    fn send<'a>(
+        &self,
+        file: &'a Path,
+        maze: &'a Maze,
+    ) -> Result<(Tried<'a>, Option<Way>), Failure> {
+        let mut way = match self.looks.any() {
+            true => Some(self.way(file, maze)?),
+            false => None,
+        };
+        let mut at = maze.start();
+        let tried = micromouse::watch(maze, self.search, self.seed, |step| {
+            let Some(way) = &mut way else {
+                return;
+            };
+            if let Some((cell, heading)) = at {
+                way.see(&sides_seen(step.sight, cell, heading));
+            }
+            at = Some((step.cell, step.heading));
+            way.go(way_step(step, way.in_cell(step.cell, step.heading)));
+        });
+        let (trial, judgement) = tried.with_context(|| maze::name(file)).or_bad_input()?;
+        let tried = Tried {
+            file,
+            maze,
+            trial,
+            judgement,
+        };
+        Ok((tried, way))
+    }
+
+    /// The way that the mouse is about to go.
+    fn way(&self, file: &Path, maze: &Maze) -> Result<Way, Failure> {
         let header = json!({
             "rules": "Plot and Navigate a Virtual Maze",
             "search": self.search.name(),
             "seed": self.seed,
         });
-        let mut way = Way::new(maze::name(tried.file), tried.maze, header)?;
-        let mut at = tried.maze.start();
-        for step in &tried.trial.steps {
-            if let Some((cell, heading)) = at {
-                way.see(&sides_seen(step.sight, cell, heading));
-            }
-            at = Some((step.cell, step.heading));
-            way.go(way_step(step, way.in_cell(step.cell, step.heading))?);
-        }
-        way.show(&self.looks, &tried.outcome())
+        let way = Way::new(maze::name(file), maze, header)?;
+        way.watched(&self.looks, Some(MAX_STEPS))
     }
 }
 
@@ -179,13 +198,16 @@ impl Tried<'_> {
 }
 
 /// A step as it is shown.
-fn way_step(step: &RefereedStep, pose: Pose) -> Result<WayStep, Failure> {
+fn way_step(step: &RefereedStep, pose: Pose) -> WayStep {
     let RefereedStep { sight, order, .. } = *step;
-    let mut line = serde_json::to_value(order)?;
-    line["cell"] = json!({ "x": step.cell.x, "y": step.cell.y });
-    line["heading"] = json!(step.heading.to_string());
-    line["sensed"] = json!({ "left": sight.left, "front": sight.front, "right": sight.right });
-    Ok(WayStep {
+    let line = json!({
+        "rotation": order.rotation,
+        "movement": order.movement,
+        "cell": { "x": step.cell.x, "y": step.cell.y },
+        "heading": step.heading.to_string(),
+        "sensed": { "left": sight.left, "front": sight.front, "right": sight.right },
+    });
+    WayStep {
         pose,
         words: in_words(order),
         line,
@@ -193,7 +215,7 @@ fn way_step(step: &RefereedStep, pose: Pose) -> Result<WayStep, Failure> {
             Ruling::RunTwo => Came::PutBack,
             _ => Came::Moved,
         },
-    })
+    }
 }
 
 /// An order in words: "left, 3 cells".

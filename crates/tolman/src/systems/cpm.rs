@@ -15,7 +15,7 @@ use tolman_maps::cpm::{CpMap, JunctionId, PlanLeg, Turn};
 use tolman_maze::{Cell, Maze};
 use tolman_papers::cpm::drawing;
 use tolman_robot::{Landmark, Task};
-use tolman_sim::robots::{Epuck, LaserPioneer};
+use tolman_sim::robots::Epuck;
 use tolman_systems::Origin;
 use tolman_systems::cpm::{
     self, CommonPatterns, CpmConfig, CpmRobot, Lesson, MapFile, Mode, RingAsEpuck, Walker,
@@ -23,7 +23,7 @@ use tolman_systems::cpm::{
 };
 
 use crate::start::Start;
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
+use crate::system::{LearnedMap, MapText, Setup, SystemEntry, pioneer_at};
 
 /// [`cpm`] on the e-puck, or on the laser Pioneer taken for one.
 #[derive(Clone, Copy, Debug)]
@@ -172,7 +172,7 @@ impl Ground {
             _ => {
                 let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
                 let course = Course::new("learning", maze, self.course.corridor_width)?;
-                let robot = pioneer_at(&course, course.start()?, seed)?;
+                let robot = ring_at(&course, course.start()?, seed)?;
                 let config = walker(self.robot, course.corridor_width)?;
                 let mut walker = Walker::new(robot, config);
                 let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -190,7 +190,7 @@ impl Ground {
                 Ok(self.send_with(robot, setup, mode, cpm))
             }
             _ => {
-                let robot = pioneer_at(&self.course, start, seed)?;
+                let robot = ring_at(&self.course, start, seed)?;
                 Ok(self.send_with(robot, setup, mode, cpm))
             }
         }
@@ -258,12 +258,9 @@ fn epuck_at(course: &Course, start: Pose, seed: u64) -> Result<SimulatedEpuck, E
     Ok(course.robot_at(start, Epuck::new(epuck())?, seed)?)
 }
 
-fn pioneer_at(
-    course: &Course,
-    start: Pose,
-    seed: u64,
-) -> Result<RingAsEpuck<CoursePioneer>, Error> {
-    let pioneer = course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?;
+/// The laser Pioneer as an e-puck.
+fn ring_at(course: &Course, start: Pose, seed: u64) -> Result<RingAsEpuck<CoursePioneer>, Error> {
+    let pioneer = pioneer_at(course, start, seed)?;
     let measures = ring_measures(&calibrated(), course.corridor_width);
     Ok(RingAsEpuck::new(pioneer, measures)?)
 }
@@ -371,7 +368,12 @@ impl LearnedMap for MapFile {
     }
 
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
-        terrain.maze("the picture of a common-pattern map")?;
+        if let Terrain::Free(_) = terrain {
+            return Err(anyhow!(
+                "a common-pattern map does not say where its junctions lie, and in a world whose walls stand anywhere they cannot be \
+                 laid over cells: leave --svg out; `tolman learn --replay` shows where the robot took them to be"
+            ));
+        }
         Ok(drawing::over_maze(&self.map, &course_of(self, terrain)?))
     }
 
@@ -413,7 +415,15 @@ impl LearnedMap for MapFile {
     }
 
     fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
-        terrain.maze("the count of the fragments that there truly are")?;
+        if let Terrain::Free(_) = terrain {
+            return match unfinished(&self.map) {
+                Some(why) => Ok(Some(why)),
+                None => Err(anyhow!(
+                    "the map knows of nothing that is missing, and in a world whose walls stand anywhere nobody has counted the fragments \
+                     that there truly are: drive by it with `tolman drive`"
+                )),
+            };
+        }
         let course = course_of(self, terrain)?;
         Ok(complaint(&self.map, &course.maze, true))
     }

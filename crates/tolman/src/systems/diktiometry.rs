@@ -8,17 +8,19 @@ use tolman_arena::course::{Course, Terrain};
 use tolman_arena::diktiometry::{
     MapScore, Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig, office_robot,
 };
+use tolman_arena::episode::START_STREAM;
 use tolman_arena::pioneer::{CAMERA_PIONEER, LASER_PIONEER};
 use tolman_arena::run::InRun;
 use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
-use tolman_geom::{Point, Pose};
+use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId, Use};
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::drawing::map_over_world;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
 use tolman_sim::Bounds;
-use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig};
+use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, Wayfinder};
+use tolman_systems::stream;
 
 use crate::start::Start;
 use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
@@ -152,11 +154,6 @@ impl SystemEntry for DiktiometryEntry {
                 "the diktiometry drives by one map: give --map once"
             ));
         };
-        if setup.start.is_some() {
-            return Err(anyhow!(
-                "the diktiometry follows a robot and cannot be put down elsewhere: leave --start out, it goes on where the map has it"
-            ));
-        }
         let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
         let heed = file.config.heed;
         let Driving { heed } = setup.settings.over(&Driving { heed })?;
@@ -174,17 +171,39 @@ impl SystemEntry for DiktiometryEntry {
         let routines = robot
             .routines(office.config().corridor_width)
             .with_doorways(office.config().doorway_width());
+        let steps = setup.steps.unwrap_or(100_000);
+        // Where it sensed the goal when it learned.
+        let goal = file.goal();
+        let name = config.robot.name();
+        if let Some(start) = setup.start {
+            let rng = &mut stream(setup.seed, START_STREAM);
+            let random = || Some(office.random_start(&robot.body(), rng));
+            let start = start.on(&office.course, random)?;
+            if !office.is_in_corridor(start.position) {
+                let Point { coords: at, .. } = start.position;
+                return Err(anyhow!(
+                    "({}, {}) m lies between the corridors, which are {} m wide and {} m apart; start in one",
+                    at.x,
+                    at.y,
+                    office.config().corridor_width,
+                    office.config().pitch()
+                ));
+            }
+            let body = office_robot(&office, robot, start, setup.seed)?;
+            let map = observer.clone();
+            let system = Wayfinder::new(routines, robot.sight, map, goal, setup.seed);
+            let sent = Sent::new(office.course, body, steps, system).called(name);
+            return Ok(Box::new(sent));
+        }
         let mut paper = DiktiometerConfig::paper(routines, observer.config().clone());
         paper.heed = heed;
         let mut system = Diktiometer::with_map(paper, robot.sight, observer.clone(), setup.seed);
-        // Where it sensed the goal when it learned.
-        if let Some(goal) = file.goal() {
+        if let Some(goal) = goal {
             system.remember(Landmark::Goal, goal);
         }
-        let body = office_robot(&office, robot, past.at, setup.seed)?;
-        let steps = setup.steps.unwrap_or(100_000);
-        let course = office.course;
-        let sent = Sent::new(course, body, steps, system).called(config.robot.name());
+        let pose = Pose::new(past.at, Heading::NORTH);
+        let body = office_robot(&office, robot, pose, setup.seed)?;
+        let sent = Sent::new(office.course, body, steps, system).called(name);
         Ok(Box::new(sent))
     }
 

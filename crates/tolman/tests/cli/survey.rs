@@ -135,6 +135,28 @@ fn a_survey_is_gone_on_with_by_the_robot_that_made_it_and_furnished_as_it_was() 
 }
 
 #[test]
+fn a_robot_that_is_put_down_anywhere_drives_to_the_goal() {
+    let folder = folder("put down");
+    fs::write(folder.join("ring.maze"), RING).unwrap();
+    let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
+    carry_out("learn --system diktiometry --maze ring.maze --set colours=6 --set moves=80 --out ring.json")
+        .done();
+    let drive = "drive --map ring.json --maze ring.maze --start";
+    for start in ["random --seed 3", "random --seed 4", "6.1,2.2,45", "marked"] {
+        let told = carry_out(&format!("{drive} {start}"));
+        assert!(told.done().contains("diktiometry is done"), "{start}");
+    }
+    let told = ["out of time", "the robot is not at the goal"];
+    carry_out(&format!("{drive} random --seed 3 --steps 20")).refused(1, &told);
+    carry_out(&format!("{drive} 4,4")).refused(2, &["(4, 4) m lies between the corridors"]);
+    carry_out(&format!("{drive} 40,4")).refused(2, &["(40, 4) m", "start in a corridor"]);
+    carry_out("learn --system diktiometry --maze ring.maze --set moves=1 --out start.json")
+        .failed(1, &["places were visited"]);
+    let told = ["the goal is at no place of the map"];
+    carry_out("drive --map start.json --maze ring.maze --start random").refused(1, &told);
+}
+
+#[test]
 fn a_file_that_is_no_sound_survey_is_refused() {
     let folder = folder("no survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();

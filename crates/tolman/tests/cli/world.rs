@@ -102,6 +102,26 @@ fn a_map_of_a_world_is_learned_and_followed_there_alone() {
 }
 
 #[test]
+fn a_map_of_cpm_says_what_it_can_of_a_world() {
+    let folder = folder("world-cpm");
+    let world = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../mazes/worlds/corridors.json"
+    );
+    let learn = "learn --system cpm --robot laser-pioneer --steps 1500 --out map.json --replay map.html --world";
+    let arguments: Vec<&str> = learn.split(' ').chain([world]).collect();
+    tolman_in(&folder, &arguments).failed(1, &["time was up"]);
+    let replay = fs::read_to_string(folder.join("map.html")).unwrap();
+    assert!(replay.contains("places on the map"));
+    let check = ["map", "check", "map.json", "--world", world];
+    tolman_in(&folder, &check).refused(1, &["unfinished", "nobody has been through"]);
+    let show = [
+        "map", "show", "map.json", "--svg", "map.svg", "--world", world,
+    ];
+    tolman_in(&folder, &show).refused(2, &["does not say where its junctions lie", "--svg"]);
+}
+
+#[test]
 fn what_needs_a_maze_says_so() {
     let folder = with_worlds("world-maze");
     let refused = |arguments: &[&str], part: &str| {

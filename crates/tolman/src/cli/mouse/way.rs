@@ -38,6 +38,8 @@ pub(in crate::cli) struct Way {
     walls: WallsKnown,
     /// Steps after which it was put back to the start.
     lifts: Vec<u32>,
+    /// Who looks while it goes.
+    live: Option<Live>,
 }
 
 /// What a mouse did in one step.
@@ -79,7 +81,31 @@ impl Way {
             steps: Vec::new(),
             walls: WallsKnown::new(maze.grid(), PITCH),
             lifts: Vec::new(),
+            live: None,
         })
+    }
+
+    /// Lets `looks` watch it from now on, step by step, if that is asked for; `step_limit` is the most steps it may have.
+    ///
+    /// # Errors
+    /// If the terminal has gone.
+    pub(in crate::cli) fn watched(
+        mut self,
+        looks: &Looks,
+        step_limit: Option<u32>,
+    ) -> Result<Self, Failure> {
+        if looks.live {
+            self.live = Some(Live::open(Scene {
+                course: self.course.clone(),
+                word: "mouse".to_owned(),
+                seed: self.header["seed"].as_u64().unwrap_or(0),
+                start: self.poses[0],
+                step_us: STEP_US,
+                radius: BODY.radius(),
+                step_limit,
+            })?);
+        }
+        Ok(self)
     }
 
     /// Returns the middle of a cell, looking to `direction`.
@@ -98,23 +124,32 @@ impl Way {
         self.walls.knows_open(cell, side)
     }
 
-    /// Notes a step.
+    /// Notes a step, and shows it to who looks until the next is due.
     pub(in crate::cli) fn go(&mut self, step: WayStep) {
         if step.came == Came::PutBack {
             self.lifts.push(self.poses.len() as u32);
+        }
+        if let Some(live) = &mut self.live {
+            live.watch(&Now {
+                pose: step.pose,
+                bump: step.came == Came::Crashed,
+                action: &step.words,
+                ended: None,
+                scan: None,
+            });
         }
         self.poses.push(step.pose);
         self.steps.push(step);
     }
 
-    /// Shows it and writes it down as `looks` asks for; `told` is the outcome in words.
+    /// Shows its outcome, `told` in words, to who looked, and writes it down as `looks` asks for.
     ///
     /// # Errors
     /// If a file cannot be written, or the terminal has gone.
-    pub(in crate::cli) fn show(self, looks: &Looks, told: &str) -> Result<(), Failure> {
+    pub(in crate::cli) fn show(mut self, looks: &Looks, told: &str) -> Result<(), Failure> {
         let overwrite = looks.overwrite()?;
-        if looks.live {
-            self.play(told)?;
+        if let Some(live) = self.live.take() {
+            live.close(told).context("the terminal has gone")?;
         }
         if let Some(path) = &looks.trace {
             file::write(path, self.trace())?;
@@ -126,28 +161,6 @@ impl Way {
             Some(path) => replay_file::write(path, self.replay(told), overwrite),
             None => Ok(()),
         }
-    }
-
-    fn play(&self, told: &str) -> Result<(), Failure> {
-        let mut live = Live::open(Scene {
-            course: self.course.clone(),
-            word: "mouse".to_owned(),
-            seed: self.header["seed"].as_u64().unwrap_or(0),
-            start: self.poses[0],
-            step_us: STEP_US,
-            radius: BODY.radius(),
-            step_limit: Some(self.steps.len() as u32),
-        })?;
-        for step in &self.steps {
-            live.watch(&Now {
-                pose: step.pose,
-                bump: step.came == Came::Crashed,
-                action: &step.words,
-                ended: None,
-                scan: None,
-            });
-        }
-        Ok(live.close(told).context("the terminal has gone")?)
     }
 
     /// The way as JSON lines: a header, and a line a step.

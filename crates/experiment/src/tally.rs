@@ -1,0 +1,94 @@
+use core::fmt;
+
+use super::{Finding, Verdict};
+
+/// How many values of the paper ours match, of all that it has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct VerdictTally {
+    /// Values that match.
+    pub matches: usize,
+    /// Values of our own systems that are better.
+    pub better: usize,
+    /// Values that differ.
+    pub differs: usize,
+    /// Values of which nobody can tell.
+    pub cannot_tell: usize,
+}
+
+impl VerdictTally {
+    /// Returns how many values the paper has.
+    #[must_use]
+    pub const fn all(&self) -> usize {
+        self.judged() + self.cannot_tell
+    }
+
+    /// Returns how many could be judged.
+    #[must_use]
+    pub const fn judged(&self) -> usize {
+        self.matches + self.better + self.differs
+    }
+
+    /// Counts one more.
+    fn add(&mut self, finding: &Finding) {
+        *match finding {
+            Finding::Matches => &mut self.matches,
+            Finding::Better => &mut self.better,
+            Finding::Differs => &mut self.differs,
+            Finding::CannotTell(_) => &mut self.cannot_tell,
+        } += 1;
+    }
+}
+
+impl<'a> FromIterator<&'a Verdict> for VerdictTally {
+    fn from_iter<I: IntoIterator<Item = &'a Verdict>>(verdicts: I) -> Self {
+        let mut tally = Self::default();
+        for verdict in verdicts {
+            tally.add(&verdict.finding);
+        }
+        tally
+    }
+}
+
+/// `5 of 18 match, 3 differ, 10 cannot tell`.
+impl fmt::Display for VerdictTally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {} match", self.matches, self.all())?;
+        if self.better > 0 {
+            write!(f, ", {} better", self.better)?;
+        }
+        write!(
+            f,
+            ", {} differ, {} cannot tell",
+            self.differs, self.cannot_tell
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Doubt;
+    use super::*;
+
+    #[test]
+    fn a_headline_counts_every_value_once() {
+        let verdict = |finding| Verdict {
+            finding,
+            ..Verdict::unknown(Doubt::NoRuns)
+        };
+        let findings = [
+            Finding::Matches,
+            Finding::Differs,
+            Finding::Matches,
+            Finding::CannotTell(Doubt::OneRun),
+        ];
+        let verdicts = findings.map(verdict);
+        let mut tally: VerdictTally = verdicts.iter().collect();
+        assert_eq!(tally.to_string(), "2 of 4 match, 1 differ, 1 cannot tell");
+        tally.add(&Finding::Better);
+        assert_eq!((tally.all(), tally.judged()), (5, 4));
+        assert_eq!(
+            tally.to_string(),
+            "2 of 5 match, 1 better, 1 differ, 1 cannot tell"
+        );
+    }
+}

@@ -1,0 +1,235 @@
+use alloc::collections::{BTreeMap, BTreeSet, VecDeque};
+use alloc::vec::Vec;
+
+use super::{
+    Action, Exits, FirstPlace, MoveOutcome, ObservedMove, Observer, PlaceId, agrees, share_a_view,
+};
+
+/// Where on a learned map a robot may be that was put down anywhere: the chance of each place.
+///
+/// What the robot sees and does makes some places likelier. Those that it contradicts are dropped. A
+/// robot that finds itself where the map did not lead is looked for everywhere again. The map is only
+/// read.
+///
+/// Beyond the paper, whose tracks begin at a known place: a histogram filter over places (S. Thrun,
+/// W. Burgard, D. Fox, *Probabilistic Robotics*, 2005, section 8.2).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlaceBelief {
+    /// By place; they sum to 1.
+    chances: BTreeMap<PlaceId, f64>,
+}
+
+/// Whether the map explains a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Explained {
+    /// It led where the map has it, from a place where the robot may have been.
+    ByTheMap,
+    /// The robot is elsewhere than the map leads.
+    NotAtAll,
+}
+
+/// Chance that a place looks as it never did.
+const NEW_LOOK: f64 = 0.05;
+/// Chance that a way seems open that was shut, or shut that was open.
+const CHANGED_EXIT: f64 = 0.1;
+/// Chance that an action which the map knows leads elsewhere, or that the robot is carried.
+const ASTRAY: f64 = 0.01;
+/// Share of the likeliest place's chance below which a place is dropped.
+const LEAST: f64 = 1e-4;
+/// Pairs of places looked at for what tells two places apart.
+const PAIRS: usize = 20_000;
+
+impl PlaceBelief {
+    /// Returns what a robot believes that was put down at a place of the map of `observer`, and sees it.
+    /// O(places).
+    #[must_use]
+    pub fn put_down(observer: &Observer, seen: &FirstPlace) -> Self {
+        let places = observer.map.paths.places();
+        let mut belief = Self {
+            chances: places.map(|(id, _)| (id, 1.0)).collect(),
+        };
+        belief.weigh(|place| observer.likelihood(place, seen));
+        belief
+    }
+
+    /// Takes in a move and what is seen where it ended. O(places + links · log places).
+    pub fn follow(&mut self, observer: &Observer, step: &ObservedMove) -> Explained {
+        let seen = FirstPlace {
+            percept: step.percept.clone(),
+            exits: step.exits.clone(),
+        };
+        let mut led: BTreeMap<PlaceId, f64> = BTreeMap::new();
+        for (place, chance) in &self.chances {
+            for (to, share) in observer.led(*place, step) {
+                *led.entry(to).or_default() += chance * share;
+            }
+        }
+        let anywhere = ASTRAY / observer.map.paths.standing().max(1) as f64;
+        let (mut explained, mut strayed) = (0.0, 0.0);
+        let places = observer.map.paths.places();
+        let chances = places.map(|(place, _)| {
+            let likelihood = observer.likelihood(place, &seen);
+            let by_map = (1.0 - ASTRAY) * led.get(&place).copied().unwrap_or(0.0) * likelihood;
+            explained += by_map;
+            strayed += anywhere * likelihood;
+            (place, by_map + anywhere * likelihood)
+        });
+        self.chances = chances.collect();
+        self.weigh(|_| 1.0);
+        match explained > strayed {
+            true => Explained::ByTheMap,
+            false => Explained::NotAtAll,
+        }
+    }
+
+    /// Multiplies the chance of each place by what `likelihood` says of it, 0 … 1, and drops those that
+    /// have become too unlikely. If nothing is likely, the belief stays as it was.
+    pub fn weigh(&mut self, likelihood: impl Fn(PlaceId) -> f64) {
+        let weighed = self.chances.iter();
+        let weighed = weighed.map(|(place, chance)| (*place, chance * likelihood(*place)));
+        let weighed: Vec<(PlaceId, f64)> = weighed.collect();
+        let best = weighed
+            .iter()
+            .map(|(_, weight)| *weight)
+            .fold(0.0, f64::max);
+        if best > 0.0 {
+            let kept = weighed
+                .into_iter()
+                .filter(|(_, weight)| *weight > LEAST * best);
+            self.chances = kept.collect();
+            let all: f64 = self.chances.values().sum();
+            self.chances.values_mut().for_each(|chance| *chance /= all);
+        }
+    }
+
+    /// Returns the places where the robot may be with their chances, which sum to 1, the likeliest
+    /// first, of equals the older.
+    #[must_use]
+    pub fn places(&self) -> Vec<(PlaceId, f64)> {
+        let mut places: Vec<(PlaceId, f64)> =
+            self.chances.iter().map(|(id, p)| (*id, *p)).collect();
+        places.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        places
+    }
+
+    /// Returns the action with which the shortest way begins that tells the two likeliest places apart
+    /// by what the map has of them; `None` if there is only one, or nothing on the map tells them apart.
+    /// Breadth-first over pairs of places, 20,000 at most.
+    #[must_use]
+    pub fn telling_action(&self, observer: &Observer) -> Option<Action> {
+        let places = self.places();
+        let [(one, _), (other, _), ..] = places[..] else {
+            return None;
+        };
+        let actions = (0..observer.config.actions.len() as u32).map(Action);
+        let mut seen = BTreeSet::from([(one, other)]);
+        let mut ahead = VecDeque::from([((one, other), None)]);
+        while let Some((pair, first)) = ahead.pop_front() {
+            for action in actions.clone() {
+                let first = first.or(Some(action));
+                match observer.both(pair, action) {
+                    Pair::ToldApart => return first,
+                    Pair::At(next) if seen.len() < PAIRS && seen.insert(next) => {
+                        ahead.push_back((next, first));
+                    }
+                    Pair::At(_) | Pair::Unknown => {}
+                }
+            }
+        }
+        None
+    }
+}
+
+/// What becomes of two places where a robot may be by one action.
+enum Pair {
+    /// What happens tells them apart.
+    ToldApart,
+    /// It may now be at these two.
+    At((PlaceId, PlaceId)),
+    /// The map does not know, or the action leads to one place from both.
+    Unknown,
+}
+
+impl Observer {
+    /// Returns how likely a place looks as seen, up to a factor.
+    fn likelihood(&self, place: PlaceId, seen: &FirstPlace) -> f64 {
+        let known = self.map.place(place);
+        let look = match agrees(known, seen.percept.as_ref(), &self.config.percepts) {
+            true => 1.0,
+            false => NEW_LOOK,
+        };
+        look * libm::pow(
+            CHANGED_EXIT,
+            self.differing(&known.exits, &seen.exits) as f64,
+        )
+    }
+
+    /// Returns how many actions seem possible at one place and not at the other, as far as known.
+    fn differing(&self, one: &Exits, other: &Exits) -> usize {
+        let (Exits::Seen(one), Exits::Seen(other)) = (one, other) else {
+            return 0;
+        };
+        let actions = (0..self.config.actions.len() as u32).map(Action);
+        actions
+            .filter(|action| one.contains(action) != other.contains(action))
+            .count()
+    }
+
+    /// Returns where a move led if it began at `place`, with what share of the chance.
+    fn led(&self, place: PlaceId, step: &ObservedMove) -> Vec<(PlaceId, f64)> {
+        if step.outcome == MoveOutcome::Blocked {
+            let open = self.map.place(place).is_open(step.action);
+            return Vec::from([(place, if open { CHANGED_EXIT } else { 1.0 })]);
+        }
+        let moved = self.between_places(step.odometry.position);
+        let fits = |to: PlaceId| {
+            self.motion(place, to)
+                .is_none_or(|known| known.meets(moved))
+        };
+        let known = self.predict(place, step.action);
+        if known.is_empty() {
+            // A way that was never gone may lead to whatever lies there.
+            let places = self.map.paths.places().map(|(id, _)| id);
+            let there: Vec<PlaceId> = places
+                .filter(|to| {
+                    self.motion(place, *to)
+                        .is_some_and(|known| known.meets(moved))
+                })
+                .collect();
+            let share = CHANGED_EXIT / there.len().max(1) as f64;
+            return there.into_iter().map(|to| (to, share)).collect();
+        }
+        let known = known.into_iter().filter(|predicted| fits(predicted.place));
+        known
+            .map(|predicted| (predicted.place, predicted.probability))
+            .collect()
+    }
+
+    /// Returns what becomes of two places by an action.
+    fn both(&self, (one, other): (PlaceId, PlaceId), action: Action) -> Pair {
+        let paths = &self.map.paths;
+        let end = |place| Some(self.map.link(paths.likeliest(place, action)?).to);
+        let (Some(a), Some(b)) = (end(one), end(other)) else {
+            return Pair::Unknown;
+        };
+        let ways = [(one, a), (other, b)].map(|(from, to)| self.motion(from, to));
+        let [at_a, at_b] = [a, b].map(|place| self.map.place(place));
+        let apart = match ways {
+            // As wide as odometry was on the way that is known, and where in the places it stopped.
+            [Some(way_a), Some(way_b)] => {
+                let between = self.between_places(way_a - way_b);
+                between.norm().low() > 0.2 * way_a.norm().high()
+            }
+            _ => false,
+        };
+        let unlike = !share_a_view(at_a, at_b, &self.config.percepts);
+        if apart || unlike || self.differing(&at_a.exits, &at_b.exits) > 0 {
+            return Pair::ToldApart;
+        }
+        if a == b {
+            Pair::Unknown
+        } else {
+            Pair::At((a, b))
+        }
+    }
+}

@@ -1,0 +1,270 @@
+use alloc::collections::BTreeSet;
+use alloc::format;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::diktiometry::{
+    Action, Explained, Link, LinkId, MoveOutcome, ObservedMove, Observer, PathGraph, PlaceBelief,
+    PlaceId,
+};
+use tolman_maze::Direction;
+use tolman_planners::{Graph, path_to};
+use tolman_robot::{Goal, Landmark, Standing, Task};
+
+use super::{Next, Rover, first_place, observed};
+use crate::stream;
+
+/// Chooses the next move of a rover that was put down anywhere on a learned map. It knows no robot.
+#[derive(Clone, Debug)]
+pub(super) struct RouteFinder {
+    map: Observer,
+    goal: Option<PlaceId>,
+    /// `None` before the rover stands at a place for the first time.
+    belief: Option<PlaceBelief>,
+    exits: [bool; 4],
+    /// Actions that were not as the map has them.
+    shut: BTreeSet<(PlaceId, Action)>,
+    /// Number of moves since it knew where it was.
+    unsure: usize,
+    walk: ChaCha8Rng,
+}
+
+/// Chance of a place from which on it is known to be that.
+const SURE: f64 = 0.9;
+/// Chance that a landmark is not sensed at the place where it was learned.
+const UNSENSED: f64 = 0.05;
+/// Stream of the random walk.
+const WALK_STREAM: u64 = 1;
+/// Number of moves after which a rover that fits nowhere gives up, beside ten for each place.
+const PATIENCE: usize = 40;
+
+impl RouteFinder {
+    pub(super) fn new(map: Observer, goal: Option<PlaceId>, seed: u64) -> Self {
+        Self {
+            map,
+            goal,
+            belief: None,
+            exits: [false; 4],
+            shut: BTreeSet::new(),
+            unsure: 0,
+            walk: stream(seed, WALK_STREAM),
+        }
+    }
+
+    pub(super) const fn map(&self) -> &Observer {
+        &self.map
+    }
+
+    pub(super) const fn goal(&self) -> Option<PlaceId> {
+        self.goal
+    }
+
+    pub(super) const fn belief(&self) -> Option<&PlaceBelief> {
+        self.belief.as_ref()
+    }
+
+    /// Drives to a place from wherever it was put down, which the belief is not told, and looks round.
+    pub(super) fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
+        let mut seen = rover.look()?;
+        let mut ways = Vec::from(Direction::ALL);
+        ways.sort_by_key(|way| !seen.exits[way.index()]);
+        for way in ways {
+            seen = rover.go(way)?;
+            if seen.outcome == MoveOutcome::Arrived {
+                break;
+            }
+        }
+        let first = first_place(self.map.config(), &seen);
+        self.belief = Some(PlaceBelief::put_down(&self.map, &first));
+        self.exits = seen.exits;
+        Ok(())
+    }
+
+    /// Lets `rover` go in `direction` and takes in where that led.
+    pub(super) fn go<V: Rover>(
+        &mut self,
+        rover: &mut V,
+        direction: Direction,
+    ) -> Result<(), V::Error> {
+        let arrival = rover.go(direction)?;
+        let seen = observed(self.map.config(), direction, &arrival);
+        self.take_in(&seen);
+        self.exits = arrival.exits;
+        Ok(())
+    }
+
+    /// Takes in a move. What leads elsewhere from a place that is known is not as the map has it.
+    pub(super) fn take_in(&mut self, seen: &ObservedMove) {
+        let from = self.here();
+        let Some(belief) = &mut self.belief else {
+            return;
+        };
+        let explained = belief.follow(&self.map, seen);
+        if let (Some(from), Explained::NotAtAll) = (from, explained) {
+            self.shut.insert((from, seen.action));
+        }
+        self.unsure = match self.here() {
+            Some(_) => 0,
+            None => self.unsure + 1,
+        };
+    }
+
+    /// Weighs that the rover senses no landmark where it stands, if that is so.
+    pub(super) fn recognize(&mut self, here: Option<Landmark>) {
+        if let (Some(belief), Some(goal), None) = (&mut self.belief, self.goal, here) {
+            belief.weigh(|place| if place == goal { UNSENSED } else { 1.0 });
+        }
+    }
+
+    /// Returns the place where it is, if it knows.
+    fn here(&self) -> Option<PlaceId> {
+        let places = self.belief.as_ref()?.places();
+        let (place, chance) = *places.first()?;
+        (chance >= SURE).then_some(place)
+    }
+
+    /// Returns the likeliest place where the map tells no more places apart.
+    fn likeliest(&self) -> Option<PlaceId> {
+        let belief = self.belief.as_ref()?;
+        let (place, _) = *belief.places().first()?;
+        belief.telling_action(&self.map).is_none().then_some(place)
+    }
+
+    pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
+        if self.is_done(task, here) {
+            return Next::Break(Standing::Done);
+        }
+        let to = match task {
+            Task::Explore => return give_up("it was put down on a learned map and learns none"),
+            Task::Localize => None,
+            Task::Reach(Goal::Place(id)) => match self.map.map().paths.resolve(PlaceId(id)) {
+                None => return give_up(&format!("place {id} is not on the map")),
+                to => to,
+            },
+            Task::Reach(Goal::Landmark(landmark)) => {
+                match self.goal.filter(|_| landmark == Landmark::Goal) {
+                    None => {
+                        return give_up(
+                            "the goal is at no place of the map: learn it with more moves",
+                        );
+                    }
+                    to => to,
+                }
+            }
+        };
+        let places = self.map.map().paths.places().count();
+        if self.unsure > PATIENCE + 10 * places {
+            let moves = self.unsure;
+            return give_up(&format!(
+                "it does not find out where it is: after {moves} moves no place of the map fits"
+            ));
+        }
+        match (self.here().or_else(|| self.likeliest()), to) {
+            (Some(from), Some(to)) if from != to => self.follow_plan(from, to),
+            _ => self.tell_apart(),
+        }
+    }
+
+    /// Follows the shortest way from one place to another along what is not known to be shut.
+    fn follow_plan(&mut self, from: PlaceId, to: PlaceId) -> Next {
+        while let Some(direction) = self.first_step(from, to) {
+            if self.exits[direction.index()] {
+                return Next::Continue(direction);
+            }
+            self.shut.insert((from, Action(direction.index() as u32)));
+        }
+        // What is held to be shut may have been a wrong belief.
+        self.shut.clear();
+        self.wander()
+    }
+
+    fn first_step(&self, from: PlaceId, to: PlaceId) -> Option<Direction> {
+        let ways = OpenWays {
+            paths: &self.map.map().paths,
+            shut: &self.shut,
+        };
+        let path = path_to(&ways, from.0, |place| place == to.0)?;
+        let next = PlaceId(*path.get(1)?);
+        let mut links = ways.of(from);
+        let (action, _) = links.find(|(_, to)| *to == next)?;
+        Direction::ALL.get(action.0 as usize).copied()
+    }
+
+    /// Returns in a few words what it makes of its situation.
+    pub(super) fn words(&self) -> String {
+        let places = self
+            .belief
+            .as_ref()
+            .map(PlaceBelief::places)
+            .unwrap_or_default();
+        match (self.here(), places.len()) {
+            (_, 0) => "between places".to_owned(),
+            (Some(place), _) => format!("at place {}", place.0),
+            (None, places) => format!("at one of {places} places"),
+        }
+    }
+
+    /// Makes the move that tells the likeliest places apart, or any.
+    fn tell_apart(&mut self) -> Next {
+        let belief = self.belief.as_ref();
+        let telling = belief.and_then(|belief| belief.telling_action(&self.map));
+        let direction = telling.and_then(|action| Direction::ALL.get(action.0 as usize));
+        match direction {
+            Some(direction) if self.exits[direction.index()] => Next::Continue(*direction),
+            _ => self.wander(),
+        }
+    }
+
+    fn wander(&mut self) -> Next {
+        let mut open = Vec::from(Direction::ALL);
+        open.retain(|direction| self.exits[direction.index()]);
+        let chosen = self.walk.random_range(0..open.len().max(1) as u32) as usize;
+        match open.get(chosen) {
+            Some(direction) => Next::Continue(*direction),
+            None => give_up("no way leads on from where it stands"),
+        }
+    }
+
+    pub(super) fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
+        match task {
+            Task::Explore => false,
+            Task::Localize => self.here().or_else(|| self.likeliest()).is_some(),
+            Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
+            Task::Reach(Goal::Place(id)) => {
+                let place = self.map.map().paths.resolve(PlaceId(id));
+                place.is_some() && place == self.here()
+            }
+        }
+    }
+}
+
+fn give_up(why: &str) -> Next {
+    Next::Break(Standing::gave_up(why))
+}
+
+/// The ways of a map that are not known to be shut.
+struct OpenWays<'a> {
+    paths: &'a PathGraph,
+    shut: &'a BTreeSet<(PlaceId, Action)>,
+}
+
+impl OpenWays<'_> {
+    /// Returns the actions that can be done at a place, with where they lead.
+    fn of(&self, place: PlaceId) -> impl Iterator<Item = (Action, PlaceId)> {
+        let open = move |link: &(LinkId, &Link)| !self.shut.contains(&(place, link.1.action));
+        let links = self.paths.likely(place).filter(open);
+        links.map(|(_, link)| (link.action, link.to))
+    }
+}
+
+impl Graph for OpenWays<'_> {
+    fn node_count(&self) -> usize {
+        self.paths.node_count()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        for (_, to) in self.of(PlaceId(node)) {
+            visit(to.0, 1);
+        }
+    }
+}

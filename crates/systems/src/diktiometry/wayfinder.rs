@@ -1,0 +1,133 @@
+use core::error::Error;
+
+use thiserror::Error as ThisError;
+use tolman_maps::diktiometry::{ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId};
+use tolman_robot::{
+    Compass, Guess, Landmark, MapView, Mapper, Position, Ranges, Robot, Rolls, SensesLandmarks,
+    Standing, System, Task, TurnTranslate,
+};
+
+use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineError, Surveyor};
+
+/// A robot with a learned diktiometry that was put down anywhere: it finds out where it is and goes
+/// where it is sent. It never changes the map.
+///
+/// Its tasks:
+///
+/// - **Localize**: it keeps a [`PlaceBelief`] and makes the moves that tell the likeliest places apart,
+///   until one is believed by 90 % or the map tells no more of them apart.
+/// - **Reach** a place or a landmark: it localizes, follows the shortest way on the map, and looks where
+///   it is again when the map did not lead where it came. A way that was not as the map has it is not
+///   planned on again, as long as there are others. It gives up where the landmark is at no place of
+///   the map, or where nothing fits the map for long.
+/// - **Explore**: it gives up. A [`Diktiometer`](super::Diktiometer) learns maps.
+///
+/// `E` is what it tells places apart by; the map's percepts have to fit it.
+#[derive(Clone, Debug)]
+pub struct Wayfinder<E> {
+    routines: RoutineConfig,
+    eye: E,
+    finder: RouteFinder,
+}
+
+/// Why a [`Wayfinder`] cannot go on.
+#[derive(Debug, ThisError)]
+#[non_exhaustive]
+pub enum WayfinderError<E: Error + 'static> {
+    /// The routines' configuration is out of its bounds.
+    #[error(transparent)]
+    Config(#[from] RoutineConfigError),
+    /// The robot cannot go on.
+    #[error("the robot cannot go on")]
+    Robot(#[from] RoutineError<E>),
+}
+
+impl<E> Wayfinder<E> {
+    /// Returns a robot that knows the map of `observer`, but not where on it it is. `goal` is the place
+    /// where the landmark [`Goal`](Landmark::Goal) was sensed. `seed` is that of its random walk.
+    #[must_use]
+    pub fn new(
+        routines: RoutineConfig,
+        eye: E,
+        map: Observer,
+        goal: Option<PlaceId>,
+        seed: u64,
+    ) -> Self {
+        let finder = RouteFinder::new(map, goal, seed);
+        Self {
+            routines,
+            eye,
+            finder,
+        }
+    }
+
+    /// Returns what it believes of where it is; `None` before it stands at a place for the first time.
+    #[must_use]
+    pub const fn place_belief(&self) -> Option<&PlaceBelief> {
+        self.finder.belief()
+    }
+}
+
+impl<E> Mapper for Wayfinder<E> {
+    type Observation = ObservedMove;
+    type Error = ObservedMoveError;
+
+    /// Takes in a move that another made, if it stands at a place already.
+    fn observe(&mut self, seen: &ObservedMove) -> Result<(), ObservedMoveError> {
+        self.finder.take_in(seen);
+        Ok(())
+    }
+
+    fn map(&self) -> MapView {
+        let mut view = Mapper::map(self.finder.map());
+        let mut places = view.places.iter_mut();
+        if let Some(place) = places.find(|known| Some(PlaceId(known.id)) == self.finder.goal()) {
+            place.landmark = Some(Landmark::Goal);
+        }
+        view
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        let places = self
+            .place_belief()
+            .into_iter()
+            .flat_map(PlaceBelief::places);
+        let guess = |(place, weight): (PlaceId, f64)| Guess {
+            at: Position::Place(place.0),
+            weight,
+        };
+        places.map(guess).collect()
+    }
+}
+
+impl<R, E> System<R> for Wayfinder<E>
+where
+    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing>,
+{
+    type Failure = WayfinderError<R::Error>;
+
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
+        let mut rover = Surveyor::new(robot, &self.eye, self.routines)?;
+        if self.finder.belief().is_none() {
+            self.finder.find_footing(&mut rover)?;
+        }
+        let here = rover.robot().landmark();
+        let direction = match self.finder.next(task, here) {
+            Next::Continue(direction) => direction,
+            Next::Break(standing) => return Ok(standing),
+        };
+        self.finder.go(&mut rover, direction)?;
+        let here = rover.robot().landmark();
+        self.finder.recognize(here);
+        if self.finder.is_done(task, here) {
+            return Ok(Standing::Done);
+        }
+        Ok(Standing::UnderWay)
+    }
+
+    fn words(&self) -> String {
+        self.finder.words()
+    }
+}
