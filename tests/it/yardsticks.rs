@@ -1,11 +1,10 @@
 //! The floor and the ceiling are what they are called.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use tolman_arena::cast::{Agent, Cast};
 use tolman_arena::course::Course;
 use tolman_arena::{episode, pioneer};
 use tolman_maze::{Braided, MazeFile};
+use tolman_systems::stream;
 
 use crate::support::{mind, own_course, trial};
 
@@ -56,7 +55,7 @@ fn random_course(seed: u64) -> Course {
         height: 6,
         share: 0.5,
     };
-    let maze = maze.generate(&mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
+    let maze = maze.generate(&mut stream(seed, 0)).unwrap();
     let name = format!("braided maze {seed}");
     Course::for_body(&name, &MazeFile::from(maze), &pioneer::body()).unwrap()
 }

@@ -317,3 +317,29 @@ fn ratio_of_sums(pairs: &[(f64, f64)]) -> f64 {
     let under: f64 = pairs.iter().map(|pair| pair.1).sum();
     over / under
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_and_ratios_of_spreads_are_values_without_interval() {
+        let quarter = Sample::Numbers {
+            numbers: vec![5.0, 1.0, 4.0, 2.0, 3.0],
+            centre: Centre::Quantile(0.25),
+        };
+        // Numerators spread twice as far as denominators.
+        let spreads = Sample::Spreads(vec![(10.0, 3.0), (14.0, 5.0), (18.0, 7.0)]);
+        for sample in [quarter, spreads] {
+            assert!((sample.value().0 - 2.0).abs() < 1e-12, "{sample:?}");
+            assert_eq!(sample.interval(1), None);
+            assert_eq!(sample.sd(), None);
+        }
+    }
+
+    #[test]
+    fn what_does_not_spread_divides_nothing() {
+        assert_eq!(ratio_of_spreads(&[(1.0, 2.0), (3.0, 2.0)]), None);
+        assert_eq!(ratio_of_spreads(&[(1.0, 2.0)]), None);
+    }
+}

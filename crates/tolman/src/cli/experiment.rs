@@ -78,7 +78,7 @@ pub(super) fn carry_out(
 ) -> Result<(), Failure> {
     if arguments.list {
         for entry in &app.catalogue.experiments {
-            writeln!(out, "{:<12} {}", entry.name, entry.title)?;
+            writeln!(out, "{:<14} {}", entry.name, entry.title)?;
         }
         return Ok(());
     }

@@ -92,6 +92,20 @@ fn the_number_of_jobs_changes_nothing() {
 }
 
 #[test]
+fn a_limit_of_the_caller_ends_runs() {
+    let folder = folder("limit");
+    baselines(&folder, "out", &["--limit", "3"]).done();
+    let runs = fs::read_to_string(folder.join("out/runs.jsonl")).unwrap();
+    for line in runs.lines().filter(|line| line.contains("\"steps\"")) {
+        let run: Value = serde_json::from_str(line).unwrap();
+        assert!(run["steps"].as_u64().unwrap() <= 3, "{line}");
+    }
+    let config = fs::read_to_string(folder.join("out/config.toml")).unwrap();
+    assert!(config.contains("--limit 3"), "{config}");
+    baselines(&folder, "none", &["--limit", "0"]).refused(2, &["--limit"]);
+}
+
+#[test]
 fn a_broken_line_is_reported_and_its_run_made_again() {
     let folder = folder("broken");
     baselines(&folder, "out", &[]).done();
