@@ -232,6 +232,7 @@ impl<'a> Sample<'a> {
                 centre: *centre,
             },
             Self::Pairs(pairs) => Self::Pairs(drawn(pairs, count, rng)),
+            Self::Spreads(pairs) => Self::Spreads(drawn(pairs, count, rng)),
             Self::Curves {
                 curves,
                 step,
