@@ -213,3 +213,17 @@ fn what_is_no_number_is_no_reading_and_leaves_the_map_as_it_was() {
     );
     assert_eq!((map.here(), map.places().len()), before);
 }
+
+#[test]
+fn an_empty_map_begins_where_a_robot_is_put_down_on_it() {
+    for grows in [true, false] {
+        let mut robot = Wanderer::new(4);
+        let mut map = PlaceGraph::new(PlaceGraphConfig::indoors()).put_down(grows);
+        assert_eq!(map.here(), None);
+        let mut seen = robot.see();
+        seen.put_down = true;
+        map.observe(&seen).unwrap();
+        assert_eq!(map.here(), Some(Pose::IDENTITY));
+        assert!(map.is_localized());
+    }
+}

@@ -127,12 +127,15 @@ impl PlaceGraph {
     }
 
     /// Returns the map with another robot in it, whose wheels are not known and which may be anywhere, and which adds new places
-    /// only if `grows`.
+    /// only if `grows`. An empty map begins where the robot looks first, whether it grows or not.
     #[must_use]
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =
             WheelError::unknown(self.config.scale_deviation, self.config.curvature_deviation);
-        self.whereabouts = Whereabouts::Lost(Vec::new());
+        // On an empty map there is nothing to look for: its first look is its first place.
+        if !self.places.is_empty() {
+            self.whereabouts = Whereabouts::Lost(Vec::new());
+        }
         self.grows = grows;
         self
     }
