@@ -6,7 +6,7 @@ use core::ops::Range;
 use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maps::place_graph::PlaceGraph;
-use tolman_robot::{Landmark, Robot, Rolls, SensesLandmarks, Stopping, System, Task};
+use tolman_robot::{Reckoned, Stopping, System, Task};
 use tolman_sim::robots::{Pioneer2dx, Pioneer2dxError};
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig, OnlineSlamError};
@@ -147,64 +147,32 @@ fn run(
     let start = pitch.start(seed)?;
     let model = Pioneer2dx::new(pitch.robot(seed, calibration)?)?;
     let robot = Simulated::new(Arc::clone(&pitch.world), model, start, seed)?;
-    let mut robot = Stopping::new(Reckoning {
-        robot,
-        pose: start,
-        rolled: 0.0,
-    });
+    let mut robot = Stopping::new(robot);
+    let (mut reckoned, mut way) = (start, 0.0);
     let mut seen = Vec::with_capacity(looks as usize);
     for _ in 0..looks {
         // Its standing is no matter: it has as many looks as it has.
-        system.act(&mut robot, Task::Explore)?;
+        let mut robot_heard = Reckoned::new(&mut robot, |rolled| {
+            reckoned = rolled.applied_to(reckoned);
+            way += rolled.distance.abs();
+        });
+        system.act(&mut robot_heard, Task::Explore)?;
         let here = system.graph().here().unwrap_or(Pose::IDENTITY);
         seen.push(LookedFrom {
-            truth: robot.robot.truth().pose,
+            truth: robot.truth().pose,
             corrected: world_from_map.compose(here),
-            reckoned: robot.pose,
+            reckoned,
             is_localized: system.graph().is_localized(),
             recognized: system.graph().recognized(),
-            rolled: robot.rolled,
+            rolled: way,
         });
     }
     Ok(OnlineRun {
         looks: seen,
         map: system.graph().clone(),
         world_from_map,
-        bumps: robot.robot.bumps(),
+        bumps: robot.bumps(),
     })
-}
-
-/// A robot beside which its odometry is added up.
-#[derive(Debug)]
-struct Reckoning {
-    robot: Simulated<Pioneer2dx>,
-    pose: Pose,
-    rolled: f64,
-}
-
-impl Robot for Reckoning {
-    type Command = <Simulated<Pioneer2dx> as Robot>::Command;
-    type Sensing = <Simulated<Pioneer2dx> as Robot>::Sensing;
-    type Error = StepError;
-
-    fn sensing(&self) -> &Self::Sensing {
-        self.robot.sensing()
-    }
-
-    fn step(&mut self, command: &Self::Command) -> Result<(), StepError> {
-        self.robot.step(command)?;
-        if let Some(rolled) = self.robot.sensing().odometry() {
-            self.pose = rolled.applied_to(self.pose);
-            self.rolled += rolled.distance.abs();
-        }
-        Ok(())
-    }
-}
-
-impl SensesLandmarks for Reckoning {
-    fn landmark(&self) -> Option<Landmark> {
-        self.robot.landmark()
-    }
 }
 
 #[cfg(test)]

@@ -8,11 +8,9 @@
 //! 2. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and corrects its pose by the places that it
 //!    has learned ([`tolman_maps::place_graph`]).
 
-mod dead_reckoned;
 mod online;
 mod route;
 mod wanderer;
 
-use dead_reckoned::DeadReckoned;
 pub use online::{OnlineSlam, OnlineSlamConfig, OnlineSlamError};
 pub use wanderer::{Wanderer, WandererConfig, WandererError};

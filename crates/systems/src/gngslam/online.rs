@@ -9,8 +9,8 @@ use tolman_control::wander::{LegEnd, UntilNear, UntilNearConfig};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{
-    Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Robot, Rolls, SensesLandmarks,
-    Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
+    Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Reckoned, Robot, Rolls,
+    SensesLandmarks, Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
 };
 
 use super::route::Route;
@@ -175,10 +175,7 @@ impl OnlineSlam {
         R: Robot<Command = TurnTranslate>,
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
-        let mut robot = Counting {
-            robot,
-            rolled: &mut self.rolled,
-        };
+        let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
         let end = self.driver.drive(&mut robot)?;
         if end == LegEnd::Bumped {
             go_free(&mut robot)?;
@@ -206,10 +203,7 @@ impl OnlineSlam {
         R: Robot<Command = TurnTranslate>,
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
-        let mut robot = Counting {
-            robot,
-            rolled: &mut self.rolled,
-        };
+        let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
         let (mut turned, mut per_command) = (0.0, None);
         for _ in 0..LONGEST_TURN {
             let left = angle - turned;
@@ -244,12 +238,8 @@ impl OnlineSlam {
         R::Sensing: TakesSnapshots + Rolls,
     {
         for _ in 0..self.config.patience {
-            let mut counting = Counting {
-                robot: &mut *robot,
-                rolled: &mut self.rolled,
-            };
-            counting
-                .step(&TurnTranslate::STOP)
+            Reckoned::new(&mut *robot, |rolled| self.rolled.push(rolled))
+                .stop()
                 .map_err(OnlineSlamError::Robot)?;
             if let Some(snapshot) = robot.sensing().snapshot() {
                 let seen = SeenThere {
@@ -369,31 +359,6 @@ const LEAST_PIECE: f64 = 0.02;
 
 /// What lies within this angle lies ahead, rad.
 const AHEAD: f64 = 0.25;
-
-/// A robot whose steps are noted.
-struct Counting<'a, R> {
-    robot: &'a mut R,
-    rolled: &'a mut Vec<Odometry>,
-}
-
-impl<R> Robot for Counting<'_, R>
-where
-    R: Robot<Sensing: Rolls>,
-{
-    type Command = R::Command;
-    type Sensing = R::Sensing;
-    type Error = R::Error;
-
-    fn sensing(&self) -> &R::Sensing {
-        self.robot.sensing()
-    }
-
-    fn step(&mut self, command: &R::Command) -> Result<(), R::Error> {
-        self.robot.step(command)?;
-        self.rolled.extend(self.robot.sensing().odometry());
-        Ok(())
-    }
-}
 
 impl Mapper for OnlineSlam {
     type Observation = SeenThere;
