@@ -42,5 +42,7 @@ pub mod place_map;
 #[cfg(feature = "alloc")]
 pub mod pose_graph;
 #[cfg(feature = "alloc")]
+mod tangent;
+#[cfg(feature = "alloc")]
 pub mod wall_belief;
 pub mod wall_map;

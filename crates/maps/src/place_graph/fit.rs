@@ -8,8 +8,8 @@ use tolman_geom::{Pose, Vector};
 use tolman_robot::Sounding;
 
 use super::surfaces::Surface;
-use super::wheels::difference;
 use super::{Outline, OutlinePoint};
+use crate::tangent::{difference, moved};
 
 /// Where a robot is that sees an outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,13 +110,6 @@ pub(super) fn fit(
         likelihood: likelihood(outline, &residuals) - 0.5 * (prior * off).dot(&off),
         by_place,
     })
-}
-
-fn moved(pose: Pose, step: &Vector3<f64>) -> Pose {
-    Pose::new(
-        pose.position + pose.heading.rotate(Vector::new(step.x, step.y)),
-        pose.heading.turned(step.z),
-    )
 }
 
 fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) -> Vec<Residual> {

@@ -9,9 +9,10 @@ use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Odometry, Position
 use super::fit::{Fit, fit};
 use super::hypotheses::{self, Hypothesis, turned_into};
 use super::surfaces::{Surface, Surfaces};
-use super::wheels::{WheelError, difference};
+use super::wheels::WheelError;
 use super::{Outline, PlaceGraphConfig};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
+use crate::tangent::difference;
 
 /// What a robot has seen where it stands, and how it came there.
 #[derive(Clone, Debug, Default, PartialEq)]

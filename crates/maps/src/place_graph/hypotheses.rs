@@ -9,8 +9,9 @@ use tolman_geom::{Heading, Point, Pose};
 
 use super::fit::{Fit, fit};
 use super::surfaces::Surface;
-use super::wheels::{Rolled, difference};
+use super::wheels::Rolled;
 use super::{Outline, PlaceGraphConfig};
+use crate::tangent::difference;
 
 /// One place where the robot may be.
 #[derive(Clone, Debug, PartialEq)]
