@@ -10,7 +10,7 @@ use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{
     Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Reckoned, Robot, Rolls,
-    SensesLandmarks, Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
+    SensesLandmarks, Standing, System, TakesSnapshots, Task, TurnTranslate,
 };
 
 use super::route::Route;
@@ -99,11 +99,8 @@ pub struct OnlineSlam {
     route: Option<Route>,
 }
 
-/// How many time steps it goes away from something that it has touched, at half its full speed.
+/// How many time steps it goes away from something that it has touched.
 const STEPS_FREE: u32 = 4;
-
-/// A turn takes no more time steps than this.
-const LONGEST_TURN: u32 = 60;
 
 /// A random turn is at least so large, rad: what is near ahead is near all the same a little beside.
 const LEAST_TURN: f64 = 0.5;
@@ -178,7 +175,7 @@ impl OnlineSlam {
         let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
         let end = self.driver.drive(&mut robot)?;
         if end == LegEnd::Bumped {
-            go_free(&mut robot)?;
+            self.driver.go_free(&mut robot, STEPS_FREE)?;
         }
         Ok(end)
     }
@@ -204,31 +201,7 @@ impl OnlineSlam {
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
         let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
-        let (mut turned, mut per_command) = (0.0, None);
-        for _ in 0..LONGEST_TURN {
-            let left = angle - turned;
-            if left.abs() < LEAST_PIECE || left * angle < 0.0 {
-                break;
-            }
-            let most = self.config.drive.turn;
-            // How far a full command turns it is not known before the first step.
-            let wanted =
-                per_command.map_or(FIRST_COMMAND, |rate: f64| (left.abs() / rate).min(most));
-            let command = TurnTranslate {
-                turn: wanted.min(most) * left.signum(),
-                translate: 0.0,
-            };
-            robot.step(&command)?;
-            if robot.sensing().bump() == Some(true) {
-                return go_free(&mut robot);
-            }
-            let rolled = robot.sensing().odometry().map_or(0.0, |rolled| rolled.turn);
-            turned += rolled;
-            per_command = (rolled.abs() > 0.0)
-                .then(|| (rolled / command.turn).abs())
-                .or(per_command);
-        }
-        Ok(())
+        self.driver.turn_by(&mut robot, angle)
     }
 
     /// Stands still until a snapshot comes, and takes it in.
@@ -329,33 +302,6 @@ impl OnlineSlam {
         Ok(())
     }
 }
-
-/// Goes a little away from what is nearest: back if that lies ahead, and on if it lies behind.
-fn go_free<R>(robot: &mut R) -> Result<(), R::Error>
-where
-    R: Robot<Command = TurnTranslate>,
-    R::Sensing: TakesSnapshots,
-{
-    let nearest = robot
-        .sensing()
-        .soundings()
-        .min_by(|a, b| a.range.total_cmp(&b.range));
-    let ahead = nearest.is_none_or(|nearest| libm::cos(nearest.mount.heading.radians()) > 0.0);
-    let command = TurnTranslate {
-        turn: 0.0,
-        translate: if ahead { -0.5 } else { 0.5 },
-    };
-    for _ in 0..STEPS_FREE {
-        robot.step(&command)?;
-    }
-    Ok(())
-}
-
-/// The first command of a turn, as a fraction of the full rate.
-const FIRST_COMMAND: f64 = 0.05;
-
-/// A turn this near to what was wanted is done, rad.
-const LEAST_PIECE: f64 = 0.02;
 
 /// What lies within this angle lies ahead, rad.
 const AHEAD: f64 = 0.25;
