@@ -21,6 +21,6 @@ mod wheels;
 
 pub use config::PlaceGraphConfig;
 pub use foot_line::foot_line;
-pub use graph::{GraphPlace, PlaceGraph, PlaceGraphError, SeenThere};
+pub use graph::{PlaceGraph, PlaceGraphError, SeenThere};
 pub use outline::{Outline, OutlinePoint};
 pub use wheels::WheelError;

@@ -129,7 +129,7 @@ fn of_point(
 ) -> Option<Residual> {
     let there = pose.transform(point.position);
     let normal = point.normal.map(|normal| pose.heading.rotate(normal));
-    let mut nearest: Option<(f64, &Surface)> = None;
+    let mut nearest: Option<&Surface> = None;
     // What is far is seen vaguely.
     let reach = gate + 2.0 * point.deviation;
     let mut within = reach * reach;
@@ -137,10 +137,10 @@ fn of_point(
         let squared = (surface.position() - there).norm_squared();
         if squared < within && is_alike(surface, point, normal) {
             within = squared;
-            nearest = Some((squared, surface));
+            nearest = Some(surface);
         }
     }
-    let (_, surface) = nearest?;
+    let surface = nearest?;
     let across = surface.normal();
     let sight = (there - pose.position).normalize();
     let along_sight = point.deviation * across.dot(&sight).abs();

@@ -26,20 +26,14 @@ pub struct SeenThere {
     pub put_down: bool,
 }
 
-/// A place of a [`PlaceGraph`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct GraphPlace {
-    /// What is seen from there.
-    pub outline: Outline,
-}
-
 /// Places that a robot has been at, and where they lie; it corrects the robot's pose while it grows.
 ///
 /// The map's frame has its origin where the robot was first put down, looking along x.
 #[derive(Clone, Debug)]
 pub struct PlaceGraph {
     config: PlaceGraphConfig,
-    places: Vec<GraphPlace>,
+    /// What is seen from each place.
+    places: Vec<Outline>,
     graph: PoseGraph,
     surfaces: Surfaces,
     wheels: WheelError,
@@ -48,7 +42,6 @@ pub struct PlaceGraph {
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,
-    recognized: f64,
     /// At so many places they are fitted to each other next.
     relaxes_at: usize,
 }
@@ -122,7 +115,6 @@ impl PlaceGraph {
             whereabouts: Whereabouts::Nowhere,
             unsettled: 0,
             grows: true,
-            recognized: 0.0,
             relaxes_at: FIRST_RELAXED,
         }
     }
@@ -141,9 +133,9 @@ impl PlaceGraph {
         self
     }
 
-    /// Returns the places, by id.
+    /// Returns what is seen from each place, by id.
     #[must_use]
-    pub fn places(&self) -> &[GraphPlace] {
+    pub fn places(&self) -> &[Outline] {
         &self.places
     }
 
@@ -175,16 +167,10 @@ impl PlaceGraph {
         matches!(self.whereabouts, Whereabouts::Known(_))
     }
 
-    /// Returns the share of what was last seen that lies where the map has it, 0 … 1.
-    #[must_use]
-    pub const fn recognized(&self) -> f64 {
-        self.recognized
-    }
-
     fn begin(&mut self, outline: Outline) -> Whereabouts {
         let place = self.graph.add_pose(Pose::IDENTITY);
         self.surfaces.add(place, Pose::IDENTITY, &outline);
-        self.places.push(GraphPlace { outline });
+        self.places.push(outline);
         Whereabouts::Known(Here::at(Pose::IDENTITY, Matrix3::identity() * 1e-6, place))
     }
 
@@ -203,7 +189,6 @@ impl PlaceGraph {
         let expected = here.pose.compose(predicted.pose);
         let surfaces: Vec<&Surface> = self.surfaces.all().collect();
         let fitted = fit(&outline, &surfaces, expected, &covariance);
-        self.recognized = fitted.as_ref().map_or(0.0, |fit| fit.share);
         let contradicted = fitted.as_ref().map_or(0.0, |fit| fit.contradicted);
         here.doubt = (here.doubt + contradicted - USUAL_CONTRADICTION).max(0.0);
         match fitted.filter(|fit| self.believes(&outline, fit)) {
@@ -274,7 +259,7 @@ impl PlaceGraph {
             )?;
         }
         self.surfaces.add(place, here.pose, &outline);
-        self.places.push(GraphPlace { outline });
+        self.places.push(outline);
         self.unsettled += 1;
         *here = Here::at(here.pose, here.covariance, place);
         if self.unsettled >= self.config.optimize_every {
@@ -328,8 +313,8 @@ impl PlaceGraph {
     fn survey(&mut self) {
         self.surfaces = Surfaces::default();
         let places = self.places.iter().zip(self.graph.poses());
-        for (id, (place, pose)) in (0..).zip(places) {
-            self.surfaces.add(id, *pose, &place.outline);
+        for (id, (outline, pose)) in (0..).zip(places) {
+            self.surfaces.add(id, *pose, outline);
         }
     }
 
@@ -340,9 +325,9 @@ impl PlaceGraph {
         let covariance = Matrix3::from_diagonal(&variances);
         for _ in 0..RELAX_ROUNDS {
             let surfaces: Vec<&Surface> = self.surfaces.all().collect();
-            for (id, place) in (0..).zip(&self.places) {
+            for (id, outline) in (0..).zip(&self.places) {
                 let pose = self.graph.poses()[id as usize];
-                let fitted = fit(&place.outline, &surfaces, pose, &covariance);
+                let fitted = fit(outline, &surfaces, pose, &covariance);
                 if let Some(fit) = fitted.filter(|fit| fit.share >= self.config.least_share) {
                     self.graph.move_pose(id, fit.pose);
                 }
@@ -365,7 +350,7 @@ impl PlaceGraph {
         };
         let rolled = self.wheels.predict(rolled);
         let surfaces: Vec<&Surface> = self.surfaces.all().collect();
-        let hypotheses = hypotheses::looked(hypotheses, &rolled, outline, &surfaces, &self.config);
+        let hypotheses = hypotheses::looked(hypotheses, &rolled, outline, &surfaces, self.config.most_hypotheses);
         let weights = hypotheses::weights(&hypotheses);
         match (hypotheses.first(), weights.first()) {
             (Some(best), Some(weight)) if *weight > SURE && best.looks >= LEAST_LOOKS => {
