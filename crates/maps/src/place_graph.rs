@@ -16,6 +16,8 @@ mod foot_line;
 mod graph;
 mod hypotheses;
 mod outline;
+#[cfg(feature = "serde")]
+mod saved;
 mod surfaces;
 mod wheels;
 
@@ -23,4 +25,6 @@ pub use config::PlaceGraphConfig;
 pub use foot_line::foot_line;
 pub use graph::{PlaceGraph, PlaceGraphError, SeenThere};
 pub use outline::{Outline, OutlinePoint};
+#[cfg(feature = "serde")]
+pub use saved::{SavedPlaceGraph, SavedPlaceGraphError};
 pub use wheels::WheelError;

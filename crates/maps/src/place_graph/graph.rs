@@ -30,11 +30,18 @@ pub struct SeenThere {
 ///
 /// The map's frame has its origin where the robot was first put down, looking along x.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::SavedPlaceGraph", into = "super::SavedPlaceGraph")
+)]
 pub struct PlaceGraph {
-    config: PlaceGraphConfig,
+    pub(super) config: PlaceGraphConfig,
     /// What is seen from each place.
-    places: Vec<Outline>,
-    graph: PoseGraph,
+    pub(super) places: Vec<Outline>,
+    pub(super) graph: PoseGraph,
+    /// Places that the robot went between, the lower one first.
+    pub(super) links: BTreeSet<(u32, u32)>,
     surfaces: Surfaces,
     wheels: WheelError,
     whereabouts: Whereabouts,
@@ -99,6 +106,9 @@ const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 /// The first number of places that are fitted to each other.
 const FIRST_RELAXED: usize = 20;
 
+/// Places farther apart than so many times the distance between places have others between them.
+const LONGEST_LINK: f64 = 2.0;
+
 /// So many places at most are joined by a fit, those that brought most of it.
 const MOST_JOINED: usize = 4;
 
@@ -111,12 +121,32 @@ impl PlaceGraph {
             config,
             places: Vec::new(),
             graph: PoseGraph::new(),
+            links: BTreeSet::new(),
             surfaces: Surfaces::default(),
             whereabouts: Whereabouts::Nowhere,
             unsettled: 0,
             grows: true,
             relaxes_at: FIRST_RELAXED,
         }
+    }
+
+    /// Returns a map as it was kept, with a robot put down anywhere on it.
+    #[cfg(feature = "serde")]
+    pub(super) fn restored(
+        config: PlaceGraphConfig,
+        places: Vec<Outline>,
+        graph: PoseGraph,
+        links: BTreeSet<(u32, u32)>,
+    ) -> Self {
+        let mut map = Self {
+            relaxes_at: FIRST_RELAXED.max(places.len() + places.len() / 4),
+            places,
+            graph,
+            links,
+            ..Self::new(config)
+        };
+        map.survey();
+        map.put_down(true)
     }
 
     /// Returns the map with another robot in it, whose wheels are not known and which may be anywhere, and which adds new places
@@ -199,7 +229,9 @@ impl PlaceGraph {
                 here.pose = fit.pose;
                 here.covariance = fit.covariance;
                 // The place to hold on to is the nearest, not the one that was new last, long ago.
-                here.last = self.nearest(fit.pose.position);
+                let nearest = self.nearest(fit.pose.position);
+                self.link(here.last, nearest);
+                here.last = nearest;
                 here.since = self.graph.poses()[here.last as usize].between(fit.pose);
                 here.since_covariance = fit.covariance + Matrix3::from_diagonal(&beside_a_place());
                 self.grow(&mut here, outline, Some(&fit))?;
@@ -258,6 +290,8 @@ impl PlaceGraph {
                 PoseEdgeKind::Closure,
             )?;
         }
+        self.links
+            .insert((here.last.min(place), here.last.max(place)));
         self.surfaces.add(place, here.pose, &outline);
         self.places.push(outline);
         self.unsettled += 1;
@@ -266,6 +300,14 @@ impl PlaceGraph {
             self.settle(here);
         }
         Ok(())
+    }
+
+    /// Notes that the robot went from one place to another, if they lie so near that there was none between them.
+    fn link(&mut self, from: u32, to: u32) {
+        let [a, b] = [from, to].map(|id| self.graph.poses()[id as usize].position);
+        if from != to && (a - b).norm() < LONGEST_LINK * self.config.place_distance {
+            self.links.insert((from.min(to), from.max(to)));
+        }
     }
 
     fn is_known(&self, pose: Pose) -> bool {
@@ -350,7 +392,13 @@ impl PlaceGraph {
         };
         let rolled = self.wheels.predict(rolled);
         let surfaces: Vec<&Surface> = self.surfaces.all().collect();
-        let hypotheses = hypotheses::looked(hypotheses, &rolled, outline, &surfaces, self.config.most_hypotheses);
+        let hypotheses = hypotheses::looked(
+            hypotheses,
+            &rolled,
+            outline,
+            &surfaces,
+            self.config.most_hypotheses,
+        );
         let weights = hypotheses::weights(&hypotheses);
         match (hypotheses.first(), weights.first()) {
             (Some(best), Some(weight)) if *weight > SURE && best.looks >= LEAST_LOOKS => {
@@ -440,14 +488,12 @@ impl Mapper for PlaceGraph {
             position: Some(pose.position),
             landmark: None,
         });
-        let links: BTreeSet<MapLink> = (self.graph.edges().iter())
-            .filter(|edge| edge.kind == PoseEdgeKind::Odometry)
-            .flat_map(|edge| [(edge.from, edge.to), (edge.to, edge.from)])
-            .map(|(from, to)| MapLink { from, to })
-            .collect();
+        let links = self.links.iter().copied();
+        let links =
+            links.flat_map(|(a, b)| [MapLink { from: a, to: b }, MapLink { from: b, to: a }]);
         MapView {
             places: places.collect(),
-            links: links.into_iter().collect(),
+            links: links.collect(),
         }
     }
 

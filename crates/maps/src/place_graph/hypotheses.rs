@@ -7,10 +7,10 @@ use core::f64::consts::TAU;
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Heading, Point, Pose};
 
+use super::Outline;
 use super::fit::{Fit, fit};
 use super::surfaces::Surface;
 use super::wheels::Rolled;
-use super::Outline;
 use crate::tangent::difference;
 
 /// One place where the robot may be.

@@ -5,6 +5,7 @@ use crate::tangent::difference;
 
 /// What was measured between two poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseEdge {
     /// The pose from which it was measured.
     pub from: u32,

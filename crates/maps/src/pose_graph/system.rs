@@ -3,8 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::Pose;
+use tolman_geom::nalgebra::{Matrix3, Vector3};
 
 use super::PoseEdge;
 use super::edge::Linearized;
