@@ -22,7 +22,7 @@ pub use near_limits::NearLimits;
 pub use running_mean::RunningMean;
 pub use stop_at_bump::StopAtBump;
 pub use stop_near::StopNear;
-pub use until_near::{TurnEnd, UntilNear, UntilNearConfig};
+pub use until_near::{TurnByEnd, TurnEnd, UntilNear, UntilNearConfig};
 
 use tolman_robot::TurnTranslate;
 

@@ -79,6 +79,15 @@ pub enum TurnEnd {
     Wedged,
 }
 
+/// How a turn by an angle ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnByEnd {
+    /// It has turned as far as it was to, or took as many time steps as it may.
+    Turned,
+    /// The body touched something, and the robot went free of it.
+    Touched,
+}
+
 /// How often a robot that touches something turns the other way before it counts as wedged.
 const MOST_REVERSALS: u32 = 4;
 
@@ -190,7 +199,7 @@ impl UntilNear {
     ///
     /// # Errors
     /// If the robot fails.
-    pub fn turn_by<R>(&self, robot: &mut R, angle: f64) -> Result<(), R::Error>
+    pub fn turn_by<R>(&self, robot: &mut R, angle: f64) -> Result<TurnByEnd, R::Error>
     where
         R: Robot<Command = TurnTranslate>,
         R::Sensing: Soundings + Rolls + Bumps,
@@ -211,7 +220,8 @@ impl UntilNear {
             };
             robot.step(&command)?;
             if robot.sensing().bump() == Some(true) {
-                return self.go_free(robot, STEPS_FREE);
+                self.go_free(robot, STEPS_FREE)?;
+                return Ok(TurnByEnd::Touched);
             }
             let rolled = robot.sensing().odometry().map_or(0.0, |rolled| rolled.turn);
             turned += rolled;
@@ -219,7 +229,7 @@ impl UntilNear {
                 .then(|| (rolled / command.turn).abs())
                 .or(per_command);
         }
-        Ok(())
+        Ok(TurnByEnd::Turned)
     }
 
     /// Goes away from what is nearest by `steps` time steps, at half the speed of a leg: back if that lies ahead, and on if it lies
@@ -330,7 +340,11 @@ mod tests {
         // The wall in the west is behind, beside, and ahead.
         for (angle, heading, along) in [(0.001, 0.0, 1.1), (1.0, 1.0, 1.15), (-4.1, -3.1, 1.25)] {
             driver.turn_by(&mut robot, angle).unwrap();
-            let off = robot.truth().pose.heading.turn_to(Heading::from_radians(heading));
+            let off = robot
+                .truth()
+                .pose
+                .heading
+                .turn_to(Heading::from_radians(heading));
             assert!(off.abs() < 0.04, "{off}");
             driver.go_free(&mut robot, 5).unwrap();
             let x = robot.truth().pose.position.x;

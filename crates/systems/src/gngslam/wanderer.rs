@@ -159,6 +159,14 @@ impl Wanderer {
         Ok(end)
     }
 
+    /// Returns a robot whose every step is added to where the wheels have it.
+    pub(super) fn reckoned<'a, R>(&'a mut self, robot: R) -> Reckoned<R, impl FnMut(Odometry) + 'a>
+    where
+        R: Robot<Sensing: Rolls> + 'a,
+    {
+        Reckoned::new(robot, adding_to(&mut self.odometry))
+    }
+
     /// Stands still until a snapshot comes, and returns the record of this place.
     ///
     /// # Errors
