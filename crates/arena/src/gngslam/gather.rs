@@ -62,14 +62,25 @@ pub fn gather_with(
     seed: u64,
     count: usize,
 ) -> Result<DataSet, GatherError> {
+    let mut robot = pitch.put(robot, seed)?;
+    let mut wanderer = Wanderer::new(wanderer, seed);
+    gather_by(pitch, &mut robot, &mut wanderer, seed, count)
+}
+
+/// The same with a robot and a wanderer that are there before and after.
+pub(super) fn gather_by(
+    pitch: &Pitch,
+    robot: &mut Stopping<Simulated<Pioneer2dx>>,
+    wanderer: &mut Wanderer,
+    seed: u64,
+    count: usize,
+) -> Result<DataSet, GatherError> {
     if count == 0 {
         return Err(GatherError::NoRecords);
     }
-    let mut robot = pitch.put(robot, seed)?;
-    let mut wanderer = Wanderer::new(wanderer, seed);
     let mut records = Vec::with_capacity(count);
     for _ in 0..count {
-        records.push(next(pitch, &mut robot, &mut wanderer)?);
+        records.push(next(pitch, robot, wanderer)?);
     }
     mislabel(&mut records, &mut stream(seed, LABELS));
     Ok(DataSet {

@@ -3,13 +3,14 @@
 use core::ops::Range;
 
 use thiserror::Error;
-use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::PlaceGraph;
 use tolman_robot::{Reckoned, Stopping, System, Task};
 use tolman_sim::StepError;
 use tolman_sim::robots::Pioneer2dx;
 use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig, OnlineSlamError};
 
+use super::laid_over::rigid_motion;
 use super::{Pitch, PutError};
 use crate::Simulated;
 
@@ -54,24 +55,6 @@ impl OnlineRun {
             look.corrected = world_from_world.compose(look.corrected);
         }
     }
-}
-
-/// The rigid motion that brings the first points of all pairs nearest to the second.
-fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
-    let count = pairs.len().max(1) as f64;
-    let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {
-        (sum.0 + from.coords, sum.1 + to.coords)
-    };
-    let (from, to) = pairs.iter().fold((Vector::zeros(), Vector::zeros()), sum);
-    let (from, to) = (from / count, to / count);
-    let (mut along, mut across) = (0.0, 0.0);
-    for (a, b) in pairs {
-        let (a, b) = (a.coords - from, b.coords - to);
-        along += a.dot(&b);
-        across += a.perp(&b);
-    }
-    let heading = Heading::from_radians(libm::atan2(across, along));
-    Pose::new(Point::from(to - heading.rotate(from)), heading)
 }
 
 /// Why there is no run.
@@ -221,8 +204,7 @@ mod tests {
         system.put_down();
         system.act(&mut robot, Task::Localize).unwrap();
         assert!(!system.graph().is_localized());
-        let mut standings =
-            (0..100).map(|_| system.act(&mut robot, Task::Localize).unwrap());
+        let mut standings = (0..100).map(|_| system.act(&mut robot, Task::Localize).unwrap());
         assert!(standings.any(|standing| standing == Standing::Done));
         let here = start.compose(system.graph().here().unwrap());
         let off = (here.position - robot.truth().pose.position).norm();
