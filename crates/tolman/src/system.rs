@@ -13,6 +13,7 @@ use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_control::Stack;
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
+use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneer;
 use tolman_systems::{Origin, stream};
 
@@ -296,13 +297,21 @@ fn choose<T>(
 pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack), Error> {
     setup.robot(&[LASER_PIONEER])?;
     let course = setup.terrain.course(setup.world, &body())?;
-    let start = setup.start(&course, Start::Random, || {
-        let mut rng = stream(setup.seed, START_STREAM);
-        Some(course.random_start(&body(), &mut rng))
-    })?;
+    let start = start_anywhere(setup, &course, &body())?;
     let robot = course.robot_at(start, LaserPioneer::new(calibrated())?, setup.seed)?;
     let layers = layers(&course, &calibrated())?;
     Ok((course, robot, layers))
+}
+
+/// Returns where a robot of this body starts on `course`: what was said, else anywhere.
+///
+/// # Errors
+/// As [`Setup::start`].
+pub fn start_anywhere(setup: &Setup<'_>, course: &Course, body: &Body) -> Result<Pose, Error> {
+    setup.start(course, Start::Random, || {
+        let mut rng = stream(setup.seed, START_STREAM);
+        Some(course.random_start(body, &mut rng))
+    })
 }
 
 /// The stream of random starts.
