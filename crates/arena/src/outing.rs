@@ -3,9 +3,10 @@ use alloc::fmt;
 
 use tolman_geom::{Point, Pose};
 use tolman_robot::{
-    Body, Guess, Landmark, MapView, Ring, Robot, Scan, SensesLandmarks, Standing, System, Task,
+    Body, Guess, Landmark, MapView, Position, Ring, Robot, Scan, SensesLandmarks, Standing, System,
+    Task,
 };
-use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer};
+use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 use tolman_sim::trace::Recordable;
 use tolman_systems::cpm::RingAsEpuck;
 
@@ -176,6 +177,10 @@ impl Depicted for Epuck {
     const NAME: &'static str = "e-puck";
 }
 
+impl Depicted for Pioneer2dx {
+    const NAME: &'static str = crate::gngslam::PIONEER_2DX;
+}
+
 /// Any [`System`] with any simulated robot, as an [`Outing`].
 ///
 /// What it does with its map is said by [`keeping`](Self::keeping), [`judged`](Self::judged),
@@ -195,11 +200,13 @@ pub struct Sent<R: Robot, S> {
     choice: Count<S>,
     /// What the robot is called, if not as its model.
     name: Option<&'static str>,
+    /// Where the origin of the map truly lies, if the map says where its places are.
+    world_from_map: Option<Pose>,
 }
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
 type Keep<S> = Box<dyn Fn(&S, &[Site]) -> Result<Option<String>, BoxError>>;
-type Judge<S> = Box<dyn Fn(&S, Task) -> Option<String>>;
+type Judge<S> = Box<dyn Fn(&S, &[Site], Task) -> Option<String>>;
 type Lie<S> = Box<dyn Fn(&S) -> BTreeMap<u32, Point>>;
 
 impl<R: Robot, S> fmt::Debug for Sent<R, S> {
@@ -221,10 +228,11 @@ impl<R: Robot, S> Sent<R, S> {
             actions: 0,
             count: Box::new(|_| 0),
             keep: Box::new(|_, _| Ok(None)),
-            judge: Box::new(|_, _| None),
+            judge: Box::new(|_, _, _| None),
             lie: Box::new(|_| BTreeMap::new()),
             choice: Box::new(|_| 0),
             name: None,
+            world_from_map: None,
         }
     }
 
@@ -248,6 +256,12 @@ impl<R: Robot, S> Sent<R, S> {
     /// Lets `judge` say why the map is known to be wrong or unfinished after a task.
     #[must_use]
     pub fn judged(self, judge: impl Fn(&S, Task) -> Option<String> + 'static) -> Self {
+        self.judging(move |system, _, task| judge(system, task))
+    }
+
+    /// The same, with how each place was made, by id.
+    #[must_use]
+    pub fn judging(self, judge: impl Fn(&S, &[Site], Task) -> Option<String> + 'static) -> Self {
         let judge = Box::new(judge);
         Self { judge, ..self }
     }
@@ -264,6 +278,17 @@ impl<R: Robot, S> Sent<R, S> {
     pub fn called(self, name: &'static str) -> Self {
         let name = Some(name);
         Self { name, ..self }
+    }
+
+    /// Shows the places of the map, and where it believes the robot to be, where the map has them, with its origin at
+    /// `world_from_map`; not where they truly lie.
+    #[must_use]
+    pub fn laid_at(self, world_from_map: Pose) -> Self {
+        let world_from_map = Some(world_from_map);
+        Self {
+            world_from_map,
+            ..self
+        }
     }
 
     /// Lets `lie` say where the places of the map truly lie.
@@ -332,14 +357,31 @@ where
     }
 
     fn map(&self) -> MapView {
-        self.system.map()
+        let mut map = self.system.map();
+        if let Some(world_from_map) = self.world_from_map {
+            for place in &mut map.places {
+                place.position = place.position.map(|at| world_from_map.transform(at));
+            }
+        }
+        map
     }
 
     fn belief(&self) -> Vec<Guess> {
-        self.system.belief()
+        let mut belief = self.system.belief();
+        for guess in &mut belief {
+            if let (Some(world_from_map), Position::Point(at)) =
+                (self.world_from_map, &mut guess.at)
+            {
+                *at = world_from_map.transform(*at);
+            }
+        }
+        belief
     }
 
     fn sites(&self) -> BTreeMap<u32, Point> {
+        if self.world_from_map.is_some() {
+            return BTreeMap::new();
+        }
         let mut sites = (self.lie)(&self.system);
         sites.extend((0..).zip(self.sites.iter().map(|site| site.position)));
         sites
@@ -354,7 +396,7 @@ where
     }
 
     fn complaint(&self, task: Task) -> Option<String> {
-        (self.judge)(&self.system, task)
+        (self.judge)(&self.system, &self.sites, task)
     }
 
     fn trace(&self) -> Result<Vec<u8>, BoxError> {

@@ -202,3 +202,12 @@ fn arenas_have_names() {
         .to_string();
     assert_eq!(told, "`calibration` is 0.9; give a share from 0 to 0.5");
 }
+
+/// What `tolman pitch world pitch` writes lies among the worlds.
+#[test]
+fn the_pitch_among_the_worlds_is_the_pitch() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/mazes/worlds/pitch.json");
+    let written = std::fs::read_to_string(path).unwrap();
+    let world = Pitch::paper().unwrap().world_to_goal().unwrap();
+    assert_eq!(written, world.to_json().unwrap() + "\n");
+}

@@ -44,5 +44,7 @@ pub mod pose_graph;
 #[cfg(feature = "alloc")]
 pub mod scan_map;
 #[cfg(feature = "alloc")]
+mod tangent;
+#[cfg(feature = "alloc")]
 pub mod wall_belief;
 pub mod wall_map;

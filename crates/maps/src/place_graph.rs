@@ -16,11 +16,15 @@ mod foot_line;
 mod graph;
 mod hypotheses;
 mod outline;
+#[cfg(feature = "serde")]
+mod saved;
 mod surfaces;
 mod wheels;
 
 pub use config::PlaceGraphConfig;
 pub use foot_line::foot_line;
-pub use graph::{GraphPlace, PlaceGraph, PlaceGraphError, SeenThere};
+pub use graph::{PlaceGraph, PlaceGraphError, SeenThere};
 pub use outline::{Outline, OutlinePoint};
+#[cfg(feature = "serde")]
+pub use saved::{SavedPlaceGraph, SavedPlaceGraphError};
 pub use wheels::WheelError;

@@ -213,3 +213,61 @@ fn what_is_no_number_is_no_reading_and_leaves_the_map_as_it_was() {
     );
     assert_eq!((map.here(), map.places().len()), before);
 }
+
+#[test]
+fn an_empty_map_begins_where_a_robot_is_put_down_on_it() {
+    for grows in [true, false] {
+        let mut robot = Wanderer::new(4);
+        let mut map = PlaceGraph::new(PlaceGraphConfig::indoors()).put_down(grows);
+        assert_eq!(map.here(), None);
+        let mut seen = robot.see();
+        seen.put_down = true;
+        map.observe(&seen).unwrap();
+        assert_eq!(map.here(), Some(Pose::IDENTITY));
+        assert!(map.is_localized());
+    }
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_map_comes_back_from_a_file_to_the_bit() {
+    let (_, _, map, mut robot) = errors(5, 60);
+    let text = serde_json::to_string(&map).unwrap();
+    let mut read: PlaceGraph = serde_json::from_str(&text).unwrap();
+    assert_eq!(read.places(), map.places());
+    assert_eq!(read.poses(), map.poses());
+    assert_eq!(read.map(), map.map());
+    assert_eq!(serde_json::to_string(&read).unwrap(), text);
+    // It finds a robot as the map does that was never written down.
+    let mut kept = map.put_down(true);
+    for _ in 0..6 {
+        let seen = robot.see();
+        kept.observe(&seen).unwrap();
+        read.observe(&seen).unwrap();
+        assert_eq!(read.belief(), kept.belief());
+        robot.move_on();
+    }
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_file_that_holds_no_map_is_refused() {
+    let (_, _, map, _) = errors(6, 20);
+    let sound = serde_json::to_value(&map).unwrap();
+    let check = |pointer: &str, value: serde_json::Value, expect: &str| {
+        let mut file = sound.clone();
+        *file.pointer_mut(pointer).unwrap() = value;
+        let told = serde_json::from_value::<PlaceGraph>(file).unwrap_err();
+        assert!(told.to_string().contains(expect), "{pointer}: {told}");
+    };
+    check("/format", "soup".into(), "the format is \"soup\"");
+    check("/version", 2.into(), "version 2");
+    check(
+        "/config/place_distance",
+        (-1.0).into(),
+        "`place_distance` is -1",
+    );
+    check("/places/0/outline/points/0/deviation", 0.into(), "place 0");
+    check("/links/0/1", 999.into(), "there are");
+    check("/edges/0/to", 999.into(), "needs a pose that is not there");
+}

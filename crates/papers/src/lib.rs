@@ -11,7 +11,7 @@ mod baselines;
 pub mod cpm;
 pub mod data;
 pub mod diktiometry;
-mod gngslam;
+pub mod gngslam;
 mod maze_file;
 mod micromouse;
 pub mod mslst;

@@ -9,6 +9,7 @@ use tolman_robot::epuck::{MOST_WHEEL_SPEED, WheelSpeeds};
 use tolman_robot::{Ring, TurnTranslate};
 use tolman_sim::robots::{
     CameraPioneer, CameraPioneerConfig, Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig,
+    Pioneer2dx, Pioneer2dxConfig,
 };
 use tolman_sim::trace::{Reader, Recordable, ReplayError, TraceLine};
 use tolman_sim::{DoorEvent, DoorState, World};
@@ -39,6 +40,16 @@ impl Portrait for LaserPioneer {
 impl Portrait for CameraPioneer {
     fn ring(config: &CameraPioneerConfig) -> Option<Ring> {
         Some(config.pioneer.ring)
+    }
+
+    fn parts(command: &TurnTranslate) -> Vec<(&'static str, f64)> {
+        LaserPioneer::parts(command)
+    }
+}
+
+impl Portrait for Pioneer2dx {
+    fn ring(_config: &Pioneer2dxConfig) -> Option<Ring> {
+        None
     }
 
     fn parts(command: &TurnTranslate) -> Vec<(&'static str, f64)> {

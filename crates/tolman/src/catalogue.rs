@@ -2,7 +2,7 @@ use tolman_experiment::Entry;
 
 use crate::Family;
 use crate::system::SystemEntry;
-use crate::systems::{CpmEntry, DiktiometryEntry, MslstEntry};
+use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstEntry};
 
 /// What the command knows by name.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ impl Catalogue {
     pub fn tolman() -> Self {
         Self {
             program: "tolman",
-            systems: vec![&MslstEntry, &CpmEntry, &DiktiometryEntry],
+            systems: vec![&MslstEntry, &CpmEntry, &DiktiometryEntry, &GngSlamEntry],
             families: Family::ALL.to_vec(),
             experiments: tolman_papers::catalogue().to_vec(),
         }

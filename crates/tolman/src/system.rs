@@ -13,6 +13,7 @@ use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
 use tolman_control::Stack;
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
+use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneer;
 use tolman_systems::Origin;
 
@@ -296,8 +297,7 @@ fn choose<T>(
 pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack), Error> {
     setup.robot(&[LASER_PIONEER])?;
     let course = setup.terrain.course(setup.world, &body())?;
-    let random = || Some(random_start(&course, &body(), setup.seed));
-    let start = setup.start(&course, Start::Random, random)?;
+    let start = start_anywhere(setup, &course, &body())?;
     let robot = pioneer_at(&course, start, setup.seed)?;
     let layers = layers(&course, &calibrated())?;
     Ok((course, robot, layers))
@@ -309,6 +309,15 @@ pub fn laser_pioneer(setup: &Setup<'_>) -> Result<(Course, CoursePioneer, Stack)
 /// If it cannot stand there.
 pub(crate) fn pioneer_at(course: &Course, start: Pose, seed: u64) -> Result<CoursePioneer, Error> {
     Ok(course.robot_at(start, LaserPioneer::new(calibrated())?, seed)?)
+}
+
+/// Returns where a robot of this body starts on `course`: what was said, else anywhere.
+///
+/// # Errors
+/// As [`Setup::start`].
+pub fn start_anywhere(setup: &Setup<'_>, course: &Course, body: &Body) -> Result<Pose, Error> {
+    let random = || Some(random_start(course, body, setup.seed));
+    setup.start(course, Start::Random, random)
 }
 
 /// A name as it is typed.

@@ -1,14 +1,13 @@
-use alloc::sync::Arc;
-
 use thiserror::Error;
 use tolman_robot::Stopping;
-use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig, Pioneer2dxError};
-use tolman_sim::{PlaceError, Solo, StepError};
+use tolman_sim::StepError;
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::gngslam::{Wanderer, WandererConfig, WandererError};
 use tolman_systems::stream;
 
 use super::data_set::mislabel;
-use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PitchError};
+use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PutError};
+use crate::Simulated;
 
 /// Why no data was gathered.
 #[derive(Debug, Error)]
@@ -17,15 +16,9 @@ pub enum GatherError {
     /// No records are asked for.
     #[error("0 records were asked for; gather at least 1")]
     NoRecords,
-    /// The robot cannot be built.
-    #[error("the robot cannot be built")]
-    Robot(#[from] Pioneer2dxError),
-    /// There is no place for the robot in the arena.
+    /// The robot cannot be put into the arena.
     #[error(transparent)]
-    Pitch(#[from] PitchError),
-    /// The robot cannot stand where it begins.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
+    Robot(#[from] PutError),
     /// The robot got stuck or took no snapshot.
     #[error(transparent)]
     Wanderer(#[from] WandererError<StepError>),
@@ -69,20 +62,25 @@ pub fn gather_with(
     seed: u64,
     count: usize,
 ) -> Result<DataSet, GatherError> {
+    let mut robot = pitch.put(robot, seed)?;
+    let mut wanderer = Wanderer::new(wanderer, seed);
+    gather_by(pitch, &mut robot, &mut wanderer, seed, count)
+}
+
+/// The same with a robot and a wanderer that are there before and after.
+pub(super) fn gather_by(
+    pitch: &Pitch,
+    robot: &mut Stopping<Simulated<Pioneer2dx>>,
+    wanderer: &mut Wanderer,
+    seed: u64,
+    count: usize,
+) -> Result<DataSet, GatherError> {
     if count == 0 {
         return Err(GatherError::NoRecords);
     }
-    let robot = Pioneer2dx::new(robot)?;
-    let mut robot = Stopping::new(Solo::new(
-        Arc::clone(&pitch.world),
-        robot,
-        pitch.start(seed)?,
-        seed,
-    )?);
-    let mut wanderer = Wanderer::new(wanderer, seed);
     let mut records = Vec::with_capacity(count);
     for _ in 0..count {
-        records.push(next(pitch, &mut robot, &mut wanderer)?);
+        records.push(next(pitch, robot, wanderer)?);
     }
     mislabel(&mut records, &mut stream(seed, LABELS));
     Ok(DataSet {
@@ -97,7 +95,7 @@ pub fn gather_with(
 /// The next record, with the truth.
 fn next(
     pitch: &Pitch,
-    robot: &mut Stopping<Solo<Pioneer2dx>>,
+    robot: &mut Stopping<Simulated<Pioneer2dx>>,
     wanderer: &mut Wanderer,
 ) -> Result<LabelledRecord, GatherError> {
     let record = wanderer.leg(robot)?;

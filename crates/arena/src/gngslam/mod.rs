@@ -9,17 +9,21 @@
 //! 3. [`DataSet::to_text`] and [`DataSet::from_text`] keep it in a file.
 //! 4. A [`PlaceScorer`] turns and stretches a map onto the cells ([`FieldFromMap`]) and asks it about some of the records (section
 //!    3.4, *Score*). Each answer has a [`PointScore`].
-//! 5. [`learn_online`] and [`localize_online`] run the system that corrects its pose while it learns.
+//! 5. [`drive_place_map`] drives by a map that was learned of such a data set.
+//! 6. [`learn_online`] and [`localize_online`] run the system that corrects its pose while it learns.
 
 mod cells;
 mod data_set;
 mod data_text;
+mod driven;
 mod field_from_map;
 mod gather;
+mod laid_over;
 mod online;
 mod pitch;
 mod pitches;
 mod point_score;
+mod put;
 mod random_pitch;
 mod room;
 mod score;
@@ -27,9 +31,12 @@ mod score;
 pub use cells::CellGrid;
 pub use data_set::{DataSet, GoalRecords, LabelledRecord};
 pub use data_text::DataTextError;
+pub use driven::{DrivenMap, DrivenMapError, PlaceDrive, drive_place_map};
 pub use field_from_map::{FieldExtent, FieldFrame, FieldFromMap};
 pub use gather::{GatherError, gather, gather_with};
+pub use laid_over::LaidOver;
 pub use online::{LookedFrom, OnlineRun, OnlineRunError, learn_online, localize_online};
-pub use pitch::{Goals, Pitch, PitchError};
+pub use pitch::{Goals, PIONEER_2DX, Pitch, PitchError, paper_robot};
 pub use point_score::PointScore;
+pub use put::PutError;
 pub use score::{GoalNodes, PlaceScore, PlaceScorer};

@@ -1,17 +1,17 @@
 //! Runs of the system that corrects its pose while it learns, with the truth beside them.
 
-use alloc::sync::Arc;
 use core::ops::Range;
 
 use thiserror::Error;
-use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::PlaceGraph;
-use tolman_robot::{Landmark, Robot, Rolls, SensesLandmarks, Stopping, System, Task};
-use tolman_sim::robots::{Pioneer2dx, Pioneer2dxError};
-use tolman_sim::{PlaceError, StepError};
+use tolman_robot::{Reckoned, Stopping, System, Task};
+use tolman_sim::StepError;
+use tolman_sim::robots::Pioneer2dx;
 use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig, OnlineSlamError};
 
-use super::{Pitch, PitchError};
+use super::laid_over::rigid_motion;
+use super::{Pitch, PutError};
 use crate::Simulated;
 
 /// Where a robot was at a look, and where it was believed to be.
@@ -25,8 +25,6 @@ pub struct LookedFrom {
     pub reckoned: Pose,
     /// Whether the system knew where it was.
     pub is_localized: bool,
-    /// The share of what it saw that the map had there.
-    pub recognized: f64,
     /// Way that the wheels had rolled, m.
     pub rolled: f64,
 }
@@ -59,37 +57,13 @@ impl OnlineRun {
     }
 }
 
-/// The rigid motion that brings the first points of all pairs nearest to the second.
-fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
-    let count = pairs.len().max(1) as f64;
-    let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {
-        (sum.0 + from.coords, sum.1 + to.coords)
-    };
-    let (from, to) = pairs.iter().fold((Vector::zeros(), Vector::zeros()), sum);
-    let (from, to) = (from / count, to / count);
-    let (mut along, mut across) = (0.0, 0.0);
-    for (a, b) in pairs {
-        let (a, b) = (a.coords - from, b.coords - to);
-        along += a.dot(&b);
-        across += a.perp(&b);
-    }
-    let heading = Heading::from_radians(libm::atan2(across, along));
-    Pose::new(Point::from(to - heading.rotate(from)), heading)
-}
-
 /// Why there is no run.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OnlineRunError {
-    /// The robot cannot be built.
-    #[error("the robot cannot be built")]
-    Robot(#[from] Pioneer2dxError),
-    /// There is no place for the robot in the arena.
+    /// The robot cannot be put into the arena.
     #[error(transparent)]
-    Pitch(#[from] PitchError),
-    /// The robot cannot stand where it begins.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
+    Robot(#[from] PutError),
     /// The system cannot go on.
     #[error("the system cannot go on")]
     System(#[from] OnlineSlamError<StepError>),
@@ -107,9 +81,9 @@ pub fn learn_online(
     seed: u64,
     looks: u32,
 ) -> Result<OnlineRun, OnlineRunError> {
-    let system = OnlineSlam::new(config, seed);
-    let start = pitch.start(seed)?;
-    run(pitch, system, start, calibration, seed, looks)
+    let robot = put(pitch, calibration, seed)?;
+    let start = robot.truth().pose;
+    run(OnlineSlam::new(config, seed), robot, start, looks)
 }
 
 /// Puts another robot down anywhere in the arena of a run, with the map that was learned there and without a word of where it is.
@@ -126,89 +100,57 @@ pub fn localize_online(
 ) -> Result<OnlineRun, OnlineRunError> {
     let map = learned.map.clone().put_down(false);
     let system = OnlineSlam::on(map, config, seed);
-    run(
-        pitch,
-        system,
-        learned.world_from_map,
-        calibration,
-        seed,
-        looks,
-    )
+    let robot = put(pitch, calibration, seed)?;
+    run(system, robot, learned.world_from_map, looks)
 }
 
-fn run(
+/// A robot whose wheels are out of calibration.
+fn put(
     pitch: &Pitch,
-    mut system: OnlineSlam,
-    world_from_map: Pose,
     calibration: f64,
     seed: u64,
+) -> Result<Stopping<Simulated<Pioneer2dx>>, PutError> {
+    pitch.put(pitch.robot(seed, calibration)?, seed)
+}
+
+/// Lets a system wander, with a map whose origin lies at `world_from_map`.
+fn run(
+    mut system: OnlineSlam,
+    mut robot: Stopping<Simulated<Pioneer2dx>>,
+    world_from_map: Pose,
     looks: u32,
 ) -> Result<OnlineRun, OnlineRunError> {
-    let start = pitch.start(seed)?;
-    let model = Pioneer2dx::new(pitch.robot(seed, calibration)?)?;
-    let robot = Simulated::new(Arc::clone(&pitch.world), model, start, seed)?;
-    let mut robot = Stopping::new(Reckoning {
-        robot,
-        pose: start,
-        rolled: 0.0,
-    });
+    let start = robot.truth().pose;
+    let (mut reckoned, mut way) = (start, 0.0);
     let mut seen = Vec::with_capacity(looks as usize);
     for _ in 0..looks {
         // Its standing is no matter: it has as many looks as it has.
-        system.act(&mut robot, Task::Explore)?;
+        let mut robot_heard = Reckoned::new(&mut robot, |rolled| {
+            reckoned = rolled.applied_to(reckoned);
+            way += rolled.distance.abs();
+        });
+        system.act(&mut robot_heard, Task::Explore)?;
         let here = system.graph().here().unwrap_or(Pose::IDENTITY);
         seen.push(LookedFrom {
-            truth: robot.robot.truth().pose,
+            truth: robot.truth().pose,
             corrected: world_from_map.compose(here),
-            reckoned: robot.pose,
+            reckoned,
             is_localized: system.graph().is_localized(),
-            recognized: system.graph().recognized(),
-            rolled: robot.rolled,
+            rolled: way,
         });
     }
     Ok(OnlineRun {
         looks: seen,
         map: system.graph().clone(),
         world_from_map,
-        bumps: robot.robot.bumps(),
+        bumps: robot.bumps(),
     })
-}
-
-/// A robot beside which its odometry is added up.
-#[derive(Debug)]
-struct Reckoning {
-    robot: Simulated<Pioneer2dx>,
-    pose: Pose,
-    rolled: f64,
-}
-
-impl Robot for Reckoning {
-    type Command = <Simulated<Pioneer2dx> as Robot>::Command;
-    type Sensing = <Simulated<Pioneer2dx> as Robot>::Sensing;
-    type Error = StepError;
-
-    fn sensing(&self) -> &Self::Sensing {
-        self.robot.sensing()
-    }
-
-    fn step(&mut self, command: &Self::Command) -> Result<(), StepError> {
-        self.robot.step(command)?;
-        if let Some(rolled) = self.robot.sensing().odometry() {
-            self.pose = rolled.applied_to(self.pose);
-            self.rolled += rolled.distance.abs();
-        }
-        Ok(())
-    }
-}
-
-impl SensesLandmarks for Reckoning {
-    fn landmark(&self) -> Option<Landmark> {
-        self.robot.landmark()
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use alloc::sync::Arc;
+
     use tolman_robot::{Goal, Ring, Standing};
     use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
@@ -235,10 +177,8 @@ mod tests {
     #[test]
     fn it_drives_back_to_where_it_began() {
         let pitch = Pitch::named("l-room").unwrap();
-        let start = pitch.start(3).unwrap();
-        let model = Pioneer2dx::new(pitch.robot(3, CALIBRATION).unwrap()).unwrap();
-        let robot = Simulated::new(Arc::clone(&pitch.world), model, start, 3).unwrap();
-        let mut robot = Stopping::new(robot);
+        let mut robot = put(&pitch, CALIBRATION, 3).unwrap();
+        let start = robot.truth().pose;
         let mut system = OnlineSlam::new(OnlineSlamConfig::pioneer_2dx(), 3);
         for _ in 0..100 {
             system.act(&mut robot, Task::Explore).unwrap();
@@ -249,6 +189,26 @@ mod tests {
         assert_eq!(end, Some(Standing::Done));
         let off = (robot.truth().pose.position - start.position).norm();
         assert!(off < 0.5, "{off}");
+    }
+
+    #[test]
+    fn a_robot_that_is_lifted_while_it_learns_finds_itself_again() {
+        let pitch = Pitch::named("l-room").unwrap();
+        let mut robot = put(&pitch, CALIBRATION, 4).unwrap();
+        let start = robot.truth().pose;
+        let mut system = OnlineSlam::new(OnlineSlamConfig::pioneer_2dx(), 4);
+        for _ in 0..150 {
+            system.act(&mut robot, Task::Explore).unwrap();
+        }
+        robot.robot_mut().place(pitch.start(77).unwrap()).unwrap();
+        system.put_down();
+        system.act(&mut robot, Task::Localize).unwrap();
+        assert!(!system.graph().is_localized());
+        let mut standings = (0..100).map(|_| system.act(&mut robot, Task::Localize).unwrap());
+        assert!(standings.any(|standing| standing == Standing::Done));
+        let here = start.compose(system.graph().here().unwrap());
+        let off = (here.position - robot.truth().pose.position).norm();
+        assert!(off < 0.3, "{off}");
     }
 
     #[test]

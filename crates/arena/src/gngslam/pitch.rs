@@ -8,7 +8,7 @@ use tolman_maze::Cell;
 use tolman_robot::pioneer_2dx;
 use tolman_sim::robots::{Pioneer2dxConfig, WheelScale};
 use tolman_sim::sensors::{Backdrop, Light};
-use tolman_sim::{Bounds, World, WorldError};
+use tolman_sim::{Area, Bounds, World, WorldError, Zone};
 use tolman_systems::stream;
 
 use super::CellGrid;
@@ -77,6 +77,10 @@ pub enum PitchError {
 const START: u64 = 1;
 const WHEELS: u64 = 2;
 
+/// How far before a goal the middle of its zone lies, and its radius, m.
+const ZONE_BEFORE: f64 = 0.8;
+const ZONE_RADIUS: f64 = 0.5;
+
 /// How many places are tried for a start.
 const TRIES: u32 = 10_000;
 
@@ -123,6 +127,22 @@ impl Pitch {
         self.room.holds(point)
     }
 
+    /// Returns its world as the command sends robots into one: the zone `destination` lies before the blue goal, and `start` before the
+    /// yellow one.
+    ///
+    /// # Errors
+    /// None.
+    pub fn world_to_goal(&self) -> Result<World, PitchError> {
+        let before = |name: &str, goal: Pose| {
+            let centre = goal.position + goal.heading.unit() * ZONE_BEFORE;
+            let radius = ZONE_RADIUS;
+            Zone::new(name, vec![Area::Disc { centre, radius }])
+        };
+        let Goals { blue, yellow } = self.goals;
+        let world = World::clone(&self.world).with_zone(before("destination", blue))?;
+        Ok(world.with_zone(before("start", yellow))?)
+    }
+
     /// Returns where a run begins: any place where a Pioneer 2-DX can turn, any heading.
     ///
     /// # Errors
@@ -152,24 +172,35 @@ impl Pitch {
         Pose::new(bounds.min + offset, heading)
     }
 
-    /// Returns the paper's robot in this arena's light. Its wheels count wrongly by a constant share within ± `calibration`, each
-    /// its own, by `seed`; 0 for wheels that are right but for slip.
+    /// Returns the [paper's robot](paper_robot) in this arena's light.
     ///
     /// # Errors
-    /// [`PitchError::Calibration`] if that is no share from 0 to 0.5.
+    /// As that.
     pub fn robot(&self, seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
-        if !(0.0..=0.5).contains(&calibration) {
-            return Err(PitchError::Calibration { calibration });
-        }
-        let mut rng = stream(seed, WHEELS);
-        let mut scale = || 1.0 + calibration * rng.random_range(-1.0..=1.0);
-        let wheels = WheelScale {
-            left: scale(),
-            right: scale(),
-        };
-        let mut robot = Pioneer2dxConfig::paper().with_wheel_scale(wheels);
+        let mut robot = paper_robot(seed, calibration)?;
         robot.camera.light = self.light;
         robot.camera.backdrop = self.backdrop;
         Ok(robot)
     }
+}
+
+/// What the Pioneer 2-DX is called, as in the files of maps.
+pub const PIONEER_2DX: &str = "Pioneer 2-DX";
+
+/// Returns the paper's robot. Its wheels count wrongly by a constant share within ± `calibration`, each its own, by `seed`; 0 for
+/// wheels that are right but for slip.
+///
+/// # Errors
+/// [`PitchError::Calibration`] if that is no share from 0 to 0.5.
+pub fn paper_robot(seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
+    if !(0.0..=0.5).contains(&calibration) {
+        return Err(PitchError::Calibration { calibration });
+    }
+    let mut rng = stream(seed, WHEELS);
+    let mut scale = || 1.0 + calibration * rng.random_range(-1.0..=1.0);
+    let wheels = WheelScale {
+        left: scale(),
+        right: scale(),
+    };
+    Ok(Pioneer2dxConfig::paper().with_wheel_scale(wheels))
 }

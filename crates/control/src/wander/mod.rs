@@ -6,7 +6,7 @@
 //! 1. [`RunningMean`]: the mean of the last three readings of each sensor, as noise is coped with.
 //! 2. [`GoAhead`], the top layer: straight on. [`StopNear`] corrects it: nothing nearer than its threshold, which depends on
 //!    where the sensor looks. [`StopAtBump`] corrects both: what no sensor heard has been touched.
-//! 3. [`UntilNear`]: carries that out on a [`Robot`](tolman_robot::Robot), and turns it to where the way is clear.
+//! 3. [`UntilNear`]: carries that out on a [`Robot`](tolman_robot::Robot), and turns it to where the way is clear, or by an angle.
 //!
 //! Where to turn is the business of whoever drives.
 
@@ -22,7 +22,7 @@ pub use near_limits::NearLimits;
 pub use running_mean::RunningMean;
 pub use stop_at_bump::StopAtBump;
 pub use stop_near::StopNear;
-pub use until_near::{TurnEnd, UntilNear, UntilNearConfig};
+pub use until_near::{TurnByEnd, TurnEnd, UntilNear, UntilNearConfig};
 
 use tolman_robot::TurnTranslate;
 

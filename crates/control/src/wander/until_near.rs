@@ -79,6 +79,15 @@ pub enum TurnEnd {
     Wedged,
 }
 
+/// How a turn by an angle ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnByEnd {
+    /// It has turned as far as it was to, or took as many time steps as it may.
+    Turned,
+    /// The body touched something, and the robot went free of it.
+    Touched,
+}
+
 /// How often a robot that touches something turns the other way before it counts as wedged.
 const MOST_REVERSALS: u32 = 4;
 
@@ -181,16 +190,94 @@ impl UntilNear {
         R: Robot<Command = TurnTranslate>,
         R::Sensing: Soundings,
     {
-        let command = TurnTranslate {
-            turn: 0.0,
-            translate: -0.5 * self.config.translate,
-        };
-        for _ in 0..steps {
-            robot.step(&command)?;
-            self.near.take_in(robot.sensing());
-        }
-        Ok(())
+        let back = -0.5 * self.config.translate;
+        creep(robot, back, steps, |sensing| self.near.take_in(sensing))
     }
+
+    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, as well as the wheels tell, whatever is near. Where the
+    /// body touches something it [goes free](Self::go_free) of that instead.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn turn_by<R>(&self, robot: &mut R, angle: f64) -> Result<TurnByEnd, R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: Soundings + Rolls + Bumps,
+    {
+        let (mut turned, mut per_command) = (0.0, None);
+        for _ in 0..MOST_TURN_STEPS {
+            let left: f64 = angle - turned;
+            if left.abs() < NEAR_ENOUGH || left * angle < 0.0 {
+                break;
+            }
+            let most = self.config.turn;
+            // How far a full command turns it is not known before the first step.
+            let wanted =
+                per_command.map_or(FIRST_COMMAND, |rate: f64| (left.abs() / rate).min(most));
+            let command = TurnTranslate {
+                turn: wanted.min(most) * left.signum(),
+                translate: 0.0,
+            };
+            robot.step(&command)?;
+            if robot.sensing().bump() == Some(true) {
+                self.go_free(robot, STEPS_FREE)?;
+                return Ok(TurnByEnd::Touched);
+            }
+            let rolled = robot.sensing().odometry().map_or(0.0, |rolled| rolled.turn);
+            turned += rolled;
+            per_command = (rolled.abs() > 0.0)
+                .then(|| (rolled / command.turn).abs())
+                .or(per_command);
+        }
+        Ok(TurnByEnd::Turned)
+    }
+
+    /// Goes away from what is nearest by `steps` time steps, at half the speed of a leg: back if that lies ahead, and on if it lies
+    /// behind.
+    ///
+    /// # Errors
+    /// If the robot fails.
+    pub fn go_free<R>(&self, robot: &mut R, steps: u32) -> Result<(), R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: Soundings,
+    {
+        let soundings = robot.sensing().soundings();
+        let nearest = soundings.min_by(|a, b| a.range.total_cmp(&b.range));
+        let ahead = nearest.is_none_or(|nearest| libm::cos(nearest.mount.heading.radians()) > 0.0);
+        let half = 0.5 * self.config.translate;
+        creep(robot, if ahead { -half } else { half }, steps, |_| {})
+    }
+}
+
+/// A turn by an angle takes no more time steps than this.
+const MOST_TURN_STEPS: u32 = 60;
+
+/// The first command of such a turn, as a fraction of the full rate.
+const FIRST_COMMAND: f64 = 0.05;
+
+/// It is done this near to what was wanted, rad.
+const NEAR_ENOUGH: f64 = 0.02;
+
+/// How many time steps a robot goes away from what it touched while it turned.
+const STEPS_FREE: u32 = 4;
+
+/// Goes straight on, or back, for so many time steps.
+fn creep<R>(
+    robot: &mut R,
+    translate: f64,
+    steps: u32,
+    mut each: impl FnMut(&R::Sensing),
+) -> Result<(), R::Error>
+where
+    R: Robot<Command = TurnTranslate>,
+{
+    let turn = 0.0;
+    for _ in 0..steps {
+        robot.step(&TurnTranslate { turn, translate })?;
+        each(robot.sensing());
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -243,6 +330,26 @@ mod tests {
         let heading = robot.truth().pose.heading.degrees();
         assert!(!(0.0..90.0).contains(&heading), "{heading}");
         assert_eq!(driver.drive(&mut robot), Ok(LegEnd::Near));
+    }
+
+    #[test]
+    fn it_turns_by_an_angle_and_goes_away_from_what_is_near() {
+        let start = Pose::new(Point::new(1.0, 2.0), Heading::EAST);
+        let mut robot = robot(6.0, 4.0, start);
+        let driver = UntilNear::new(UntilNearConfig::paper());
+        // The wall in the west is behind, beside, and ahead.
+        for (angle, heading, along) in [(0.001, 0.0, 1.1), (1.0, 1.0, 1.15), (-4.1, -3.1, 1.25)] {
+            driver.turn_by(&mut robot, angle).unwrap();
+            let off = robot
+                .truth()
+                .pose
+                .heading
+                .turn_to(Heading::from_radians(heading));
+            assert!(off.abs() < 0.04, "{off}");
+            driver.go_free(&mut robot, 5).unwrap();
+            let x = robot.truth().pose.position.x;
+            assert!((x - along).abs() < 0.01, "{x}");
+        }
     }
 
     /// In a chest it turns once round, and drives when it gives way.

@@ -46,4 +46,16 @@ impl PlaceGraphConfig {
             },
         }
     }
+
+    /// Returns the same for wheels that are out of calibration by up to `share` each, 0 … 1, and stand `track` apart, m.
+    #[must_use]
+    pub const fn for_wheels(mut self, share: f64, track: f64) -> Self {
+        self.scale_deviation = share;
+        self.curvature_deviation = CURVATURE * share / track;
+        self
+    }
 }
+
+/// By which share of the error of one wheel the robot curves, as a standard deviation: two wheels err one way each. So 3 % on a track of
+/// 0.32 m are 0.15 rad/m.
+const CURVATURE: f64 = 1.6;

@@ -8,8 +8,8 @@ use tolman_geom::{Pose, Vector};
 use tolman_robot::Sounding;
 
 use super::surfaces::Surface;
-use super::wheels::difference;
 use super::{Outline, OutlinePoint};
+use crate::tangent::{difference, moved};
 
 /// Where a robot is that sees an outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,13 +112,6 @@ pub(super) fn fit(
     })
 }
 
-fn moved(pose: Pose, step: &Vector3<f64>) -> Pose {
-    Pose::new(
-        pose.position + pose.heading.rotate(Vector::new(step.x, step.y)),
-        pose.heading.turned(step.z),
-    )
-}
-
 fn residuals(outline: &Outline, surfaces: &[&Surface], pose: Pose, gate: f64) -> Vec<Residual> {
     let points = outline.points.iter();
     let points = points.filter_map(|point| of_point(point, surfaces, pose, gate));
@@ -136,7 +129,7 @@ fn of_point(
 ) -> Option<Residual> {
     let there = pose.transform(point.position);
     let normal = point.normal.map(|normal| pose.heading.rotate(normal));
-    let mut nearest: Option<(f64, &Surface)> = None;
+    let mut nearest: Option<&Surface> = None;
     // What is far is seen vaguely.
     let reach = gate + 2.0 * point.deviation;
     let mut within = reach * reach;
@@ -144,10 +137,10 @@ fn of_point(
         let squared = (surface.position() - there).norm_squared();
         if squared < within && is_alike(surface, point, normal) {
             within = squared;
-            nearest = Some((squared, surface));
+            nearest = Some(surface);
         }
     }
-    let (_, surface) = nearest?;
+    let surface = nearest?;
     let across = surface.normal();
     let sight = (there - pose.position).normalize();
     let along_sight = point.deviation * across.dot(&sight).abs();

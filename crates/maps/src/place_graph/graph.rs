@@ -9,9 +9,10 @@ use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, Odometry, Position
 use super::fit::{Fit, fit};
 use super::hypotheses::{self, Hypothesis, turned_into};
 use super::surfaces::{Surface, Surfaces};
-use super::wheels::{WheelError, difference};
+use super::wheels::WheelError;
 use super::{Outline, PlaceGraphConfig};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
+use crate::tangent::difference;
 
 /// What a robot has seen where it stands, and how it came there.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,21 +26,22 @@ pub struct SeenThere {
     pub put_down: bool,
 }
 
-/// A place of a [`PlaceGraph`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct GraphPlace {
-    /// What is seen from there.
-    pub outline: Outline,
-}
-
 /// Places that a robot has been at, and where they lie; it corrects the robot's pose while it grows.
 ///
 /// The map's frame has its origin where the robot was first put down, looking along x.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "super::SavedPlaceGraph", into = "super::SavedPlaceGraph")
+)]
 pub struct PlaceGraph {
-    config: PlaceGraphConfig,
-    places: Vec<GraphPlace>,
-    graph: PoseGraph,
+    pub(super) config: PlaceGraphConfig,
+    /// What is seen from each place.
+    pub(super) places: Vec<Outline>,
+    pub(super) graph: PoseGraph,
+    /// Places that the robot went between, the lower one first.
+    pub(super) links: BTreeSet<(u32, u32)>,
     surfaces: Surfaces,
     wheels: WheelError,
     whereabouts: Whereabouts,
@@ -47,7 +49,6 @@ pub struct PlaceGraph {
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,
-    recognized: f64,
     /// At so many places they are fitted to each other next.
     relaxes_at: usize,
 }
@@ -105,6 +106,9 @@ const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 /// The first number of places that are fitted to each other.
 const FIRST_RELAXED: usize = 20;
 
+/// Places farther apart than so many times the distance between places have others between them.
+const LONGEST_LINK: f64 = 2.0;
+
 /// So many places at most are joined by a fit, those that brought most of it.
 const MOST_JOINED: usize = 4;
 
@@ -117,29 +121,51 @@ impl PlaceGraph {
             config,
             places: Vec::new(),
             graph: PoseGraph::new(),
+            links: BTreeSet::new(),
             surfaces: Surfaces::default(),
             whereabouts: Whereabouts::Nowhere,
             unsettled: 0,
             grows: true,
-            recognized: 0.0,
             relaxes_at: FIRST_RELAXED,
         }
     }
 
+    /// Returns a map as it was kept, with a robot put down anywhere on it.
+    #[cfg(feature = "serde")]
+    pub(super) fn restored(
+        config: PlaceGraphConfig,
+        places: Vec<Outline>,
+        graph: PoseGraph,
+        links: BTreeSet<(u32, u32)>,
+    ) -> Self {
+        let mut map = Self {
+            relaxes_at: FIRST_RELAXED.max(places.len() + places.len() / 4),
+            places,
+            graph,
+            links,
+            ..Self::new(config)
+        };
+        map.survey();
+        map.put_down(true)
+    }
+
     /// Returns the map with another robot in it, whose wheels are not known and which may be anywhere, and which adds new places
-    /// only if `grows`.
+    /// only if `grows`. An empty map begins where the robot looks first, whether it grows or not.
     #[must_use]
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =
             WheelError::unknown(self.config.scale_deviation, self.config.curvature_deviation);
-        self.whereabouts = Whereabouts::Lost(Vec::new());
+        // On an empty map there is nothing to look for: its first look is its first place.
+        if !self.places.is_empty() {
+            self.whereabouts = Whereabouts::Lost(Vec::new());
+        }
         self.grows = grows;
         self
     }
 
-    /// Returns the places, by id.
+    /// Returns what is seen from each place, by id.
     #[must_use]
-    pub fn places(&self) -> &[GraphPlace] {
+    pub fn places(&self) -> &[Outline] {
         &self.places
     }
 
@@ -171,16 +197,10 @@ impl PlaceGraph {
         matches!(self.whereabouts, Whereabouts::Known(_))
     }
 
-    /// Returns the share of what was last seen that lies where the map has it, 0 … 1.
-    #[must_use]
-    pub const fn recognized(&self) -> f64 {
-        self.recognized
-    }
-
     fn begin(&mut self, outline: Outline) -> Whereabouts {
         let place = self.graph.add_pose(Pose::IDENTITY);
         self.surfaces.add(place, Pose::IDENTITY, &outline);
-        self.places.push(GraphPlace { outline });
+        self.places.push(outline);
         Whereabouts::Known(Here::at(Pose::IDENTITY, Matrix3::identity() * 1e-6, place))
     }
 
@@ -199,7 +219,6 @@ impl PlaceGraph {
         let expected = here.pose.compose(predicted.pose);
         let surfaces: Vec<&Surface> = self.surfaces.all().collect();
         let fitted = fit(&outline, &surfaces, expected, &covariance);
-        self.recognized = fitted.as_ref().map_or(0.0, |fit| fit.share);
         let contradicted = fitted.as_ref().map_or(0.0, |fit| fit.contradicted);
         here.doubt = (here.doubt + contradicted - USUAL_CONTRADICTION).max(0.0);
         match fitted.filter(|fit| self.believes(&outline, fit)) {
@@ -210,7 +229,9 @@ impl PlaceGraph {
                 here.pose = fit.pose;
                 here.covariance = fit.covariance;
                 // The place to hold on to is the nearest, not the one that was new last, long ago.
-                here.last = self.nearest(fit.pose.position);
+                let nearest = self.nearest(fit.pose.position);
+                self.link(here.last, nearest);
+                here.last = nearest;
                 here.since = self.graph.poses()[here.last as usize].between(fit.pose);
                 here.since_covariance = fit.covariance + Matrix3::from_diagonal(&beside_a_place());
                 self.grow(&mut here, outline, Some(&fit))?;
@@ -269,14 +290,24 @@ impl PlaceGraph {
                 PoseEdgeKind::Closure,
             )?;
         }
+        self.links
+            .insert((here.last.min(place), here.last.max(place)));
         self.surfaces.add(place, here.pose, &outline);
-        self.places.push(GraphPlace { outline });
+        self.places.push(outline);
         self.unsettled += 1;
         *here = Here::at(here.pose, here.covariance, place);
         if self.unsettled >= self.config.optimize_every {
             self.settle(here);
         }
         Ok(())
+    }
+
+    /// Notes that the robot went from one place to another, if they lie so near that there was none between them.
+    fn link(&mut self, from: u32, to: u32) {
+        let [a, b] = [from, to].map(|id| self.graph.poses()[id as usize].position);
+        if from != to && (a - b).norm() < LONGEST_LINK * self.config.place_distance {
+            self.links.insert((from.min(to), from.max(to)));
+        }
     }
 
     fn is_known(&self, pose: Pose) -> bool {
@@ -324,8 +355,8 @@ impl PlaceGraph {
     fn survey(&mut self) {
         self.surfaces = Surfaces::default();
         let places = self.places.iter().zip(self.graph.poses());
-        for (id, (place, pose)) in (0..).zip(places) {
-            self.surfaces.add(id, *pose, &place.outline);
+        for (id, (outline, pose)) in (0..).zip(places) {
+            self.surfaces.add(id, *pose, outline);
         }
     }
 
@@ -336,9 +367,9 @@ impl PlaceGraph {
         let covariance = Matrix3::from_diagonal(&variances);
         for _ in 0..RELAX_ROUNDS {
             let surfaces: Vec<&Surface> = self.surfaces.all().collect();
-            for (id, place) in (0..).zip(&self.places) {
+            for (id, outline) in (0..).zip(&self.places) {
                 let pose = self.graph.poses()[id as usize];
-                let fitted = fit(&place.outline, &surfaces, pose, &covariance);
+                let fitted = fit(outline, &surfaces, pose, &covariance);
                 if let Some(fit) = fitted.filter(|fit| fit.share >= self.config.least_share) {
                     self.graph.move_pose(id, fit.pose);
                 }
@@ -361,7 +392,13 @@ impl PlaceGraph {
         };
         let rolled = self.wheels.predict(rolled);
         let surfaces: Vec<&Surface> = self.surfaces.all().collect();
-        let hypotheses = hypotheses::looked(hypotheses, &rolled, outline, &surfaces, &self.config);
+        let hypotheses = hypotheses::looked(
+            hypotheses,
+            &rolled,
+            outline,
+            &surfaces,
+            self.config.most_hypotheses,
+        );
         let weights = hypotheses::weights(&hypotheses);
         match (hypotheses.first(), weights.first()) {
             (Some(best), Some(weight)) if *weight > SURE && best.looks >= LEAST_LOOKS => {
@@ -451,14 +488,12 @@ impl Mapper for PlaceGraph {
             position: Some(pose.position),
             landmark: None,
         });
-        let links: BTreeSet<MapLink> = (self.graph.edges().iter())
-            .filter(|edge| edge.kind == PoseEdgeKind::Odometry)
-            .flat_map(|edge| [(edge.from, edge.to), (edge.to, edge.from)])
-            .map(|(from, to)| MapLink { from, to })
-            .collect();
+        let links = self.links.iter().copied();
+        let links =
+            links.flat_map(|(a, b)| [MapLink { from: a, to: b }, MapLink { from: b, to: a }]);
         MapView {
             places: places.collect(),
-            links: links.into_iter().collect(),
+            links: links.collect(),
         }
     }
 

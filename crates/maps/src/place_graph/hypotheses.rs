@@ -7,10 +7,11 @@ use core::f64::consts::TAU;
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Heading, Point, Pose};
 
+use super::Outline;
 use super::fit::{Fit, fit};
 use super::surfaces::Surface;
-use super::wheels::{Rolled, difference};
-use super::{Outline, PlaceGraphConfig};
+use super::wheels::Rolled;
+use crate::tangent::difference;
 
 /// One place where the robot may be.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,13 +77,13 @@ fn all_round(position: Point) -> impl Iterator<Item = Hypothesis> {
     })
 }
 
-/// Returns the hypotheses after the robot has rolled and looked, the best first.
+/// Returns the hypotheses after the robot has rolled and looked, the best first, `most` at most.
 pub(super) fn looked(
     before: Vec<Hypothesis>,
     rolled: &Rolled,
     outline: &Outline,
     surfaces: &[&Surface],
-    config: &PlaceGraphConfig,
+    most: usize,
 ) -> Vec<Hypothesis> {
     let mut after: Vec<Hypothesis> = (before.into_iter())
         .filter_map(|hypothesis| hypothesis.looked(rolled, outline, surfaces))
@@ -92,7 +93,7 @@ pub(super) fn looked(
     let mut kept: Vec<Hypothesis> = vec![];
     for hypothesis in after {
         let is_known = kept.iter().any(|other| hypothesis.is(other));
-        if !is_known && hypothesis.score > best - HOPELESS && kept.len() < config.most_hypotheses {
+        if !is_known && hypothesis.score > best - HOPELESS && kept.len() < most {
             kept.push(hypothesis);
         }
     }

@@ -2,6 +2,8 @@ use tolman_geom::Pose;
 use tolman_geom::nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
 use tolman_robot::Odometry;
 
+use crate::tangent::difference;
+
 /// What is known of the constant error of the wheels: that they are larger or smaller than they should be, together and one beside
 /// the other.
 ///
@@ -107,10 +109,4 @@ fn way(rolled: &[Odometry], scale: f64, curvature: f64) -> Pose {
             step.turn * (1.0 + scale) + step.distance * curvature,
         )
     })
-}
-
-/// Where `other` lies from `pose`, as a vector.
-pub(super) fn difference(pose: Pose, other: Pose) -> Vector3<f64> {
-    let off = pose.between(other);
-    Vector3::new(off.position.x, off.position.y, off.heading.radians())
 }

@@ -1,8 +1,11 @@
 use tolman_geom::nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use tolman_geom::{Heading, Pose};
 
+use crate::tangent::difference;
+
 /// What was measured between two poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseEdge {
     /// The pose from which it was measured.
     pub from: u32,
@@ -37,8 +40,7 @@ impl PoseEdge {
     /// Returns how far `to` lies from where the measurement has it: x and y, m, and the heading, rad.
     #[must_use]
     pub fn error(&self, from: Pose, to: Pose) -> Vector3<f64> {
-        let off = self.measured.between(from.between(to));
-        Vector3::new(off.position.x, off.position.y, off.heading.radians())
+        difference(self.measured, from.between(to))
     }
 
     /// Returns the squared error, weighted by the information: χ².
@@ -85,8 +87,8 @@ mod tests {
     use proptest::prelude::*;
     use tolman_geom::Point;
 
-    use super::super::system::moved;
     use super::*;
+    use crate::tangent::moved;
 
     fn pose() -> impl Strategy<Value = Pose> {
         let part = -5.0..5.0;

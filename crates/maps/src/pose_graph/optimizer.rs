@@ -2,8 +2,9 @@ use alloc::vec::Vec;
 
 use tolman_geom::Pose;
 
-use super::system::{LinearSystem, moved};
+use super::system::LinearSystem;
 use super::{PoseEdge, PoseEdgeKind, PoseGraph};
+use crate::tangent::moved;
 
 /// How a graph of poses is optimized.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,17 +3,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use tolman_geom::Pose;
 use tolman_geom::nalgebra::{Matrix3, Vector3};
-use tolman_geom::{Point, Pose};
 
 use super::PoseEdge;
 use super::edge::Linearized;
-
-/// Moves a pose in its own frame.
-pub(super) fn moved(pose: Pose, step: &Vector3<f64>) -> Pose {
-    let position = pose.transform(Point::new(step.x, step.y));
-    Pose::new(position, pose.heading.turned(step.z))
-}
 
 /// One linear system. Pose 0 is held.
 pub(super) struct LinearSystem<'a> {

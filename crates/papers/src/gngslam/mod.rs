@@ -2,7 +2,9 @@
 //! and the system that corrects its pose while it learns.
 
 mod annealing;
+pub mod drawing;
 mod drawings;
+mod driven;
 mod figures;
 mod guesses;
 mod online;
@@ -83,6 +85,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         variants(options.runs.unwrap_or(runs.min(VARIANT_RUNS))),
         guesses::table(options),
     ];
+    tables.push(driven::table(options));
     tables.extend(online::tables(options));
     let slam = GngSlam {
         seed: options.seed,
@@ -176,6 +179,7 @@ impl Procedure for GngSlam {
         let is_row = |setting: &sets::Setting| (setting.table, setting.row) == (job.table, job.row);
         let run = match (job.table, job.row, settings().iter().position(is_row)) {
             (guesses::NAME, ..) => return guesses::run(job),
+            (table, ..) if driven::has(table) => return driven::run(job),
             (table, ..) if online::has(table) => return online::run(&self.long, job),
             (optimum::NAME, ..) => return optimum::run(&self.searches, job),
             (TABLE, RANDOM, _) => random_map(job.seed),
@@ -188,6 +192,7 @@ impl Procedure for GngSlam {
     fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         let mut figures = figures::of(runs, self.seed)?;
         figures.extend(self.searches.drawings(runs)?);
+        figures.extend(driven::figures(runs)?);
         figures.extend(online::figures(runs)?);
         Ok(figures)
     }

@@ -12,6 +12,7 @@ use tolman_experiment::{
     BoxError, Fields, Job, Metric, Options, Record, Row, Run, Table, record, run_seed,
 };
 use tolman_geom::Point;
+use tolman_robot::pioneer_2dx::TRACK;
 use tolman_systems::gngslam::OnlineSlamConfig;
 
 use super::{ASKED, RANDOM, guesses};
@@ -20,6 +21,15 @@ use super::{ASKED, RANDOM, guesses};
 const ONLINE: &str = "online";
 const OTHERS: &str = "other arenas";
 const BY_SEED: &str = "random arenas";
+const WHEELS: &str = "wheels wrong by up to 10 %";
+
+const TAKEN_FOR_GOOD: &str = "taken for 3 %";
+const KNOWN_TO_BE_BAD: &str = "known to be 10 %";
+
+/// The arenas of that table begin with this one, and how far the wheels are out of calibration in them.
+const FIRST_BAD: u64 = 101;
+const BAD_RUNS: u32 = 5;
+const BADLY: f64 = 0.1;
 
 const BETTER: &str = "better";
 const RAW: &str = "raw odometry";
@@ -95,6 +105,10 @@ pub(super) fn tables(options: &Options) -> Vec<Table> {
             .metric(Metric::least("score_least", OnlineFields::score).decimals(3))
             .rows([row(BETTER), row(RANDOM)])
             .note("Each run is in an arena of its own: 3 to 6.5 m a side, goals of any colours anywhere, windows, furniture, light."),
+        learned(WHEELS, "The same on a robot that is badly calibrated")
+            .metric(Metric::least("score_least", OnlineFields::score).decimals(3))
+            .rows([TAKEN_FOR_GOOD, KNOWN_TO_BE_BAD].map(|name| row(name).runs(runs.min(BAD_RUNS))))
+            .note("Run n is in the random arena 101 + n. The system expects wheels that are wrong by 3 %, as in the other tables, or by 10 %."),
     ]
 }
 
@@ -112,7 +126,7 @@ fn learned(name: &str, title: &str) -> Table {
 
 /// Whether a table is one of these.
 pub(super) fn has(table: &str) -> bool {
-    [ONLINE, OTHERS, BY_SEED].contains(&table)
+    [ONLINE, OTHERS, BY_SEED, WHEELS].contains(&table)
 }
 
 pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
@@ -120,6 +134,14 @@ pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
         (_, RANDOM) => guessed(job.seed),
         (ONLINE, RAW) => trajectory(&*long.run(job)?, |look| look.reckoned.position),
         (ONLINE, CORRECTED) => trajectory(&*long.run(job)?, |look| look.corrected.position),
+        (WHEELS, row) => {
+            let mut config = OnlineSlamConfig::pioneer_2dx();
+            if row == KNOWN_TO_BE_BAD {
+                config.map = config.map.for_wheels(BADLY, TRACK);
+            }
+            let pitch = Pitch::random(FIRST_BAD + u64::from(job.run))?;
+            tried_with(&pitch, config, BADLY, job.seed)?
+        }
         (ONLINE, _) => tried(&Pitch::paper()?, job.seed)?,
         (BY_SEED, _) => tried(&Pitch::random(job.seed)?, job.seed)?,
         (_, arena) => tried(&Pitch::named(arena)?, job.seed)?,
@@ -138,11 +160,20 @@ fn guessed(seed: u64) -> OnlineFields {
 
 /// Learns an arena, and tries the map with another robot.
 fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
-    let config = OnlineSlamConfig::pioneer_2dx();
-    let mut learned = learn_online(pitch, config, CALIBRATION, seed, LEARNED)?;
+    tried_with(pitch, OnlineSlamConfig::pioneer_2dx(), CALIBRATION, seed)
+}
+
+/// The same by other settings, with wheels that are wrong by up to `calibration`.
+fn tried_with(
+    pitch: &Pitch,
+    config: OnlineSlamConfig,
+    calibration: f64,
+    seed: u64,
+) -> Result<OnlineFields, BoxError> {
+    let mut learned = learn_online(pitch, config, calibration, seed, LEARNED)?;
     learned.align(0..LEARNED as usize);
     let other = run_seed(seed, "tried", 0);
-    let tried = localize_online(pitch, &learned, config, CALIBRATION, other, TRIED)?;
+    let tried = localize_online(pitch, &learned, config, calibration, other, TRIED)?;
     let scores = tried.looks.iter().map(|look| score(pitch, look));
     let localized = (0..).zip(&tried.looks).find(|(_, look)| look.is_localized);
     Ok(OnlineFields {

@@ -5,14 +5,20 @@
 //!
 //! 1. A [`Wanderer`] drives any robot that turns and translates and takes snapshots: straight on until something is near, then
 //!    elsewhere by chance (section 3.2). Where a leg ends it takes a [`PlaceRecord`](tolman_maps::place_map::PlaceRecord).
-//! 2. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and corrects its pose by the places that it
-//!    has learned ([`tolman_maps::place_graph`]).
+//! 2. A [`PlacePilot`] drives to a node of the map that was learned of them.
+//! 3. [`OnlineSlam`] is what the paper's section 6 asks for: it learns while it drives, and corrects its pose by the places that it
+//!    has learned ([`tolman_maps::place_graph`]). A [`MapFile`] keeps them.
 
-mod dead_reckoned;
+mod frontier;
+mod map_file;
 mod online;
+mod place_pilot;
 mod route;
+mod sighting;
 mod wanderer;
 
-use dead_reckoned::DeadReckoned;
-pub use online::{OnlineSlam, OnlineSlamConfig, OnlineSlamError};
+pub use map_file::{MapFile, MapFileError};
+pub use online::{ExplorationPolicy, OnlineSlam, OnlineSlamConfig, OnlineSlamError};
+pub use place_pilot::{PlacePilot, PlacePilotConfig, PlacePilotError};
+pub use sighting::LandmarkSighting;
 pub use wanderer::{Wanderer, WandererConfig, WandererError};

@@ -5,15 +5,18 @@ use core::f64::consts::PI;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_control::wander::{LegEnd, UntilNear, UntilNearConfig};
+use tolman_control::wander::{LegEnd, TurnByEnd, UntilNear, UntilNearConfig};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{
-    Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Robot, Rolls, SensesLandmarks,
-    Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
+    Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Reckoned, Robot, Rolls,
+    SensesLandmarks, Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
 };
 
-use super::route::Route;
+use super::LandmarkSighting;
+use super::frontier::{Lane, frontiers, ways_on};
+use super::route::{Obstacles, Route, Target};
+use super::sighting::amid;
 use crate::stream;
 
 /// How an [`OnlineSlam`] moves and maps.
@@ -27,12 +30,19 @@ pub struct OnlineSlamConfig {
     pub turn_piece: f64,
     /// So many looks round where it is put down come first.
     pub first_looks: u32,
-    /// It has explored all when so many looks in a row have shown no new place.
+    /// Where it goes to explore.
+    pub explore: ExplorationPolicy,
+    /// It has explored all when so many looks in a row have shown no new place, and no place is left from where the floor goes on.
     pub quiet_looks: u32,
+    /// The floor goes on where nothing stands in a lane of half this width, m. It is narrower than the robot, since places are seldom in
+    /// the middle of a corridor.
+    pub lane: f64,
     /// Time steps that it stands still for a snapshot at most, at least 1.
     pub patience: u32,
     /// It has come to a place when it is this near, m.
     pub arrival: f64,
+    /// What its limits are multiplied by where it has driven before, 0 … 1: it gets through there, however near the walls are.
+    pub give_way: f64,
     /// How it maps.
     pub map: PlaceGraphConfig,
 }
@@ -48,12 +58,41 @@ impl OnlineSlamConfig {
             drive,
             turn_piece: PI / 6.0,
             first_looks: 18,
+            explore: ExplorationPolicy::ByChance,
             quiet_looks: 150,
+            lane: 0.25,
             patience: 10,
             arrival: 0.3,
+            give_way: 0.8,
             map: PlaceGraphConfig::indoors(),
         }
     }
+
+    /// Returns our values for a round robot of this `radius`, m, that looks all round from its middle and drives and turns at these
+    /// fractions of its full rates, 0 … 1: some 0.04 m and 0.2 rad a time step. Which way it looks makes no new place.
+    #[must_use]
+    pub const fn all_round(radius: f64, translate: f64, turn: f64) -> Self {
+        let mut config = Self::pioneer_2dx();
+        config.drive = config.drive.with_rates(translate, turn);
+        config.explore = ExplorationPolicy::ToTheUnknown;
+        config.quiet_looks = 20;
+        config.lane = 0.6 * radius;
+        config.drive.limits.ahead = radius + 0.25;
+        config.drive.limits.side = radius + 0.01;
+        config.give_way = 0.95;
+        config.map.place_turn = 2.0 * PI;
+        config
+    }
+}
+
+/// Where an [`OnlineSlam`] goes to explore.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ExplorationPolicy {
+    /// Straight on until something is near, and then elsewhere by chance, as in the paper.
+    ByChance,
+    /// To the nearest point where the floor goes on beyond the map, as long as there are any; then by chance.
+    ToTheUnknown,
 }
 
 /// Why an [`OnlineSlam`] cannot go on.
@@ -94,16 +133,46 @@ pub struct OnlineSlam {
     turn: f64,
     /// Looks since the last new place.
     quiet: u32,
-    /// Places from which a landmark was sensed.
-    landmarks: Vec<(Landmark, u32)>,
+    /// Where landmarks were sensed.
+    sightings: Vec<LandmarkSighting>,
+    /// Places that it came back to and did not sense the goal at.
+    tried: Vec<u32>,
     route: Option<Route>,
+    obstacles: Obstacles,
+    /// Where it goes to explore.
+    frontier: Option<Frontier>,
+    /// Whether the floor goes on nowhere beyond the map, as far as it knows.
+    ends_here: bool,
+    /// Points that it came to, or could not come to, in the map's frame.
+    explored: Vec<Point>,
+    /// Whether it touched something in the action under way.
+    has_touched: bool,
+    /// How often it forgets them and goes there again.
+    retries: u32,
 }
 
-/// How many time steps it goes away from something that it has touched, at half its full speed.
-const STEPS_FREE: u32 = 4;
+/// A point that it goes to, to explore.
+#[derive(Clone, Copy, Debug)]
+struct Frontier {
+    target: Target,
+    /// Pieces of the way that are left until it is given up.
+    patience: u32,
+}
 
-/// A turn takes no more time steps than this.
-const LONGEST_TURN: u32 = 60;
+/// Pieces of the way after which a point that it goes to, to explore, is given up.
+const PATIENCE: u32 = 60;
+
+/// How often points that it could not come to are tried again.
+const RETRIES: u32 = 2;
+
+/// What counts as so many pieces: that something was in the way.
+const BLOCKED: u32 = 20;
+
+/// It goes this much farther beyond a place than it has to, m.
+const BEYOND: f64 = 0.05;
+
+/// How many time steps it goes away from something that it has touched.
+const STEPS_FREE: u32 = 4;
 
 /// A random turn is at least so large, rad: what is near ahead is near all the same a little beside.
 const LEAST_TURN: f64 = 0.5;
@@ -127,11 +196,54 @@ impl OnlineSlam {
             looks_round: config.first_looks,
             turn: 0.0,
             quiet: 0,
-            landmarks: Vec::new(),
+            sightings: Vec::new(),
+            tried: Vec::new(),
             route: None,
+            obstacles: Obstacles::default(),
+            frontier: None,
+            ends_here: false,
+            explored: Vec::new(),
+            has_touched: false,
+            retries: RETRIES,
             map,
             config,
         }
+    }
+
+    /// Lets it know where landmarks were sensed on its map. Those beside no place of it are left out.
+    #[must_use]
+    pub fn with_sightings(mut self, sightings: Vec<LandmarkSighting>) -> Self {
+        let places = self.map.places().len();
+        self.sightings = sightings;
+        self.sightings
+            .retain(|sighting| (sighting.place as usize) < places);
+        self
+    }
+
+    /// Returns where landmarks were sensed.
+    #[must_use]
+    pub fn sightings(&self) -> &[LandmarkSighting] {
+        &self.sightings
+    }
+
+    /// Returns the places on the shortest way between two places, both included; `None` if there is none, or a place is not there.
+    /// O(links log places).
+    #[must_use]
+    pub fn plan(&self, from: u32, to: u32) -> Option<Vec<u32>> {
+        let poses = self.map.poses().poses();
+        let [from, point] = [from, to].map(|place| poses.get(place as usize));
+        let target = Target {
+            place: to,
+            point: point?.position,
+        };
+        let route = Route::find(&self.map, from?.position, target, &Obstacles::default())?;
+        Some(route.places().collect())
+    }
+
+    /// Returns the place where a landmark is to be sensed; `None` if none is known.
+    #[must_use]
+    pub fn place_with(&self, landmark: Landmark) -> Option<u32> {
+        amid(&self.sightings, landmark, &[], &self.map).map(|target| target.place)
     }
 
     /// Returns the map.
@@ -149,6 +261,17 @@ impl OnlineSlam {
         self.rolled.clear();
     }
 
+    /// Whether it goes where the floor goes on: once it has looked round.
+    fn goes_beyond(&self) -> bool {
+        self.config.explore == ExplorationPolicy::ToTheUnknown && self.looks_round == 0
+    }
+
+    /// Whether it has looked for long without finding a place, and knows of nowhere else to look.
+    fn has_explored(&self) -> bool {
+        let is_quiet = self.quiet >= self.config.quiet_looks;
+        is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)
+    }
+
     /// Goes on a little: round, or straight on until something is near and then elsewhere by chance.
     fn wander<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
@@ -163,10 +286,31 @@ impl OnlineSlam {
             return self.turn_on(robot);
         }
         if self.drive(robot)? != LegEnd::TooLong {
-            let angle = self.rng.random_range(LEAST_TURN..PI);
-            self.turn = if self.rng.random() { angle } else { -angle };
+            self.turn = self.turn_elsewhere(robot.sensing());
         }
         Ok(())
+    }
+
+    /// Returns by how much to turn where something is near, rad: by chance, or into any direction in which nothing is near.
+    fn turn_elsewhere(&mut self, sensing: &impl Soundings) -> f64 {
+        if self.config.explore == ExplorationPolicy::ToTheUnknown {
+            let ways = ways_on(sensing, self.lane());
+            if !ways.is_empty() {
+                return ways[self.rng.random_range(0..ways.len() as u32) as usize];
+            }
+        }
+        let angle = self.rng.random_range(LEAST_TURN..PI);
+        if self.rng.random() { angle } else { -angle }
+    }
+
+    /// What it needs to go on beyond a place.
+    fn lane(&self) -> Lane {
+        let apart = self.config.map.place_distance;
+        Lane {
+            half_width: self.config.lane,
+            reach: apart + self.config.arrival + BEYOND,
+            apart,
+        }
     }
 
     /// Drives a piece of the way, as far as nothing is near.
@@ -175,13 +319,11 @@ impl OnlineSlam {
         R: Robot<Command = TurnTranslate>,
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
-        let mut robot = Counting {
-            robot,
-            rolled: &mut self.rolled,
-        };
+        let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
         let end = self.driver.drive(&mut robot)?;
         if end == LegEnd::Bumped {
-            go_free(&mut robot)?;
+            self.has_touched = true;
+            self.driver.go_free(&mut robot, STEPS_FREE)?;
         }
         Ok(end)
     }
@@ -206,34 +348,8 @@ impl OnlineSlam {
         R: Robot<Command = TurnTranslate>,
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
-        let mut robot = Counting {
-            robot,
-            rolled: &mut self.rolled,
-        };
-        let (mut turned, mut per_command) = (0.0, None);
-        for _ in 0..LONGEST_TURN {
-            let left = angle - turned;
-            if left.abs() < LEAST_PIECE || left * angle < 0.0 {
-                break;
-            }
-            let most = self.config.drive.turn;
-            // How far a full command turns it is not known before the first step.
-            let wanted =
-                per_command.map_or(FIRST_COMMAND, |rate: f64| (left.abs() / rate).min(most));
-            let command = TurnTranslate {
-                turn: wanted.min(most) * left.signum(),
-                translate: 0.0,
-            };
-            robot.step(&command)?;
-            if robot.sensing().bump() == Some(true) {
-                return go_free(&mut robot);
-            }
-            let rolled = robot.sensing().odometry().map_or(0.0, |rolled| rolled.turn);
-            turned += rolled;
-            per_command = (rolled.abs() > 0.0)
-                .then(|| (rolled / command.turn).abs())
-                .or(per_command);
-        }
+        let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
+        self.has_touched |= self.driver.turn_by(&mut robot, angle)? == TurnByEnd::Touched;
         Ok(())
     }
 
@@ -244,12 +360,8 @@ impl OnlineSlam {
         R::Sensing: TakesSnapshots + Rolls,
     {
         for _ in 0..self.config.patience {
-            let mut counting = Counting {
-                robot: &mut *robot,
-                rolled: &mut self.rolled,
-            };
-            counting
-                .step(&TurnTranslate::STOP)
+            Reckoned::new(&mut *robot, |rolled| self.rolled.push(rolled))
+                .stop()
                 .map_err(OnlineSlamError::Robot)?;
             if let Some(snapshot) = robot.sensing().snapshot() {
                 let seen = SeenThere {
@@ -274,39 +386,112 @@ impl OnlineSlam {
             return;
         };
         let place = self.map.nearest(here.position);
-        if !self.landmarks.contains(&(landmark, place)) {
-            self.landmarks.push((landmark, place));
+        let is_known =
+            |known: &LandmarkSighting| (known.landmark, known.place) == (landmark, place);
+        if !self.sightings.iter().any(is_known) {
+            let pose = self.map.poses().poses()[place as usize];
+            self.sightings.push(LandmarkSighting {
+                landmark,
+                place,
+                at: pose.inverse().transform(here.position),
+            });
         }
     }
 
     /// Where a goal lies on the map.
-    fn place_of(&self, goal: Goal) -> Option<u32> {
+    fn target(&self, goal: Goal) -> Option<Target> {
         match goal {
-            Goal::Place(place) => Some(place),
-            Goal::Landmark(wanted) => {
-                let mut known = self.landmarks.iter().rev();
-                known
-                    .find(|(landmark, _)| *landmark == wanted)
-                    .map(|(_, place)| *place)
+            Goal::Place(place) => {
+                let pose = self.map.poses().poses().get(place as usize)?;
+                let point = pose.position;
+                Some(Target { place, point })
             }
+            Goal::Landmark(wanted) => amid(&self.sightings, wanted, &self.tried, &self.map),
         }
     }
 
-    /// Goes a piece of the way to a place.
-    fn approach<R>(&mut self, robot: &mut R, here: Pose, goal: u32) -> Result<Standing, R::Error>
+    /// It is where it was to sense the goal and does not sense it: it goes where else the goal was sensed, and when it has been
+    /// everywhere it is not where it believes to be, and looks for itself anew.
+    fn miss(&mut self, goal: Goal, place: u32) {
+        self.route = None;
+        self.tried.push(place);
+        if self.target(goal).is_none() {
+            self.tried.clear();
+            self.put_down();
+        }
+    }
+
+    /// Goes a piece of the way to where the floor goes on beyond the map; `false` if there is nothing like that.
+    fn go_beyond<R>(&mut self, robot: &mut R, here: Pose) -> Result<bool, R::Error>
     where
         R: Robot<Command = TurnTranslate>,
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
-        if self.route.as_ref().is_none_or(|route| route.goal != goal) {
-            self.route = Route::find(&self.map, here.position, goal);
+        if self.frontier.is_none() {
+            self.frontier = self.next_frontier(here.position);
+            if self.frontier.is_none() && self.retries > 0 {
+                // What was in the way of some may be so no more.
+                self.retries -= 1;
+                self.explored.clear();
+                self.frontier = self.next_frontier(here.position);
+            }
+            self.ends_here = self.frontier.is_none();
+        }
+        let Some(Frontier { target, patience }) = self.frontier else {
+            return Ok(false);
+        };
+        self.has_touched = false;
+        let standing = self.approach(robot, here, target)?;
+        let costs = match (self.has_touched, self.route.is_none()) {
+            (true, _) => PATIENCE,
+            (false, true) => BLOCKED,
+            (false, false) => 1,
+        };
+        if standing != Standing::UnderWay || patience <= costs {
+            // Whatever there was to be seen from there has been seen.
+            self.explored.push(target.point);
+            self.frontier = None;
+            self.route = None;
+        } else {
+            let patience = patience - costs;
+            self.frontier = Some(Frontier { target, patience });
+        }
+        Ok(true)
+    }
+
+    fn next_frontier(&self, here: Point) -> Option<Frontier> {
+        let targets = frontiers(&self.map, self.lane(), &self.explored);
+        let target = self.obstacles.nearest(&self.map, here, targets)?;
+        let patience = PATIENCE;
+        Some(Frontier { target, patience })
+    }
+
+    /// Goes a piece of the way to a target.
+    fn approach<R>(
+        &mut self,
+        robot: &mut R,
+        here: Pose,
+        target: Target,
+    ) -> Result<Standing, R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
+    {
+        let arrival = self.config.arrival;
+        let is_other = |route: &Route| {
+            let apart = (route.target.point - target.point).norm();
+            route.target.place != target.place || apart > arrival
+        };
+        if self.route.as_ref().is_none_or(is_other) {
+            self.route = Route::find(&self.map, here.position, target, &self.obstacles);
         }
         let Some(route) = &mut self.route else {
+            let place = target.place;
             return Ok(Standing::gave_up(format!(
-                "no way to place {goal} is known"
+                "no way to place {place} is known"
             )));
         };
-        let Some(next) = route.next(here.position, self.config.arrival) else {
+        let Some(next) = route.next(here.position, arrival) else {
             return Ok(Standing::Done);
         };
         self.go_towards(robot, here, next)?;
@@ -326,12 +511,15 @@ impl OnlineSlam {
             return self.turn_by(robot, bearing.clamp(-piece, piece));
         }
         // Where it has driven before it gets through, however near the walls are.
-        self.driver.give_way(0.6);
+        self.driver.give_way(self.config.give_way);
         let end = self.drive(robot)?;
         self.driver.give_way(1.0);
         if end != LegEnd::TooLong {
             // Something is in the way: round it, and look for another way from there.
-            self.route = None;
+            let route = self.route.take();
+            if let Some(link) = route.and_then(|route| route.link()) {
+                self.obstacles.note(link);
+            }
             self.turn = if self.rng.random() { 1.2 } else { -1.2 };
             self.turn_on(robot)?;
             self.drive(robot)?;
@@ -340,60 +528,8 @@ impl OnlineSlam {
     }
 }
 
-/// Goes a little away from what is nearest: back if that lies ahead, and on if it lies behind.
-fn go_free<R>(robot: &mut R) -> Result<(), R::Error>
-where
-    R: Robot<Command = TurnTranslate>,
-    R::Sensing: TakesSnapshots,
-{
-    let nearest = robot
-        .sensing()
-        .soundings()
-        .min_by(|a, b| a.range.total_cmp(&b.range));
-    let ahead = nearest.is_none_or(|nearest| libm::cos(nearest.mount.heading.radians()) > 0.0);
-    let command = TurnTranslate {
-        turn: 0.0,
-        translate: if ahead { -0.5 } else { 0.5 },
-    };
-    for _ in 0..STEPS_FREE {
-        robot.step(&command)?;
-    }
-    Ok(())
-}
-
-/// The first command of a turn, as a fraction of the full rate.
-const FIRST_COMMAND: f64 = 0.05;
-
-/// A turn this near to what was wanted is done, rad.
-const LEAST_PIECE: f64 = 0.02;
-
 /// What lies within this angle lies ahead, rad.
 const AHEAD: f64 = 0.25;
-
-/// A robot whose steps are noted.
-struct Counting<'a, R> {
-    robot: &'a mut R,
-    rolled: &'a mut Vec<Odometry>,
-}
-
-impl<R> Robot for Counting<'_, R>
-where
-    R: Robot<Sensing: Rolls>,
-{
-    type Command = R::Command;
-    type Sensing = R::Sensing;
-    type Error = R::Error;
-
-    fn sensing(&self) -> &R::Sensing {
-        self.robot.sensing()
-    }
-
-    fn step(&mut self, command: &R::Command) -> Result<(), R::Error> {
-        self.robot.step(command)?;
-        self.rolled.extend(self.robot.sensing().odometry());
-        Ok(())
-    }
-}
 
 impl Mapper for OnlineSlam {
     type Observation = SeenThere;
@@ -411,7 +547,13 @@ impl Mapper for OnlineSlam {
     }
 
     fn map(&self) -> MapView {
-        self.map.map()
+        let mut view = self.map.map();
+        for sighting in &self.sightings {
+            if let Some(place) = view.places.get_mut(sighting.place as usize) {
+                place.landmark = Some(sighting.landmark);
+            }
+        }
+        view
     }
 
     fn belief(&self) -> Vec<Guess> {
@@ -433,31 +575,53 @@ where
             return Ok(Standing::Done);
         }
         let here = self.map.here().filter(|_| self.map.is_localized());
+        if here.is_none() {
+            // Whatever way it was on, it was not there.
+            self.route = None;
+        }
         let goal = match task {
-            Task::Reach(goal) => self.place_of(goal),
+            Task::Reach(goal) => Some(goal),
             Task::Explore | Task::Localize => None,
         };
-        let standing = match (here, goal) {
-            (Some(here), Some(goal)) => {
+        let target = goal.and_then(|goal| Some((goal, self.target(goal)?)));
+        if let (Some(_), None, Some(Goal::Place(place))) = (here, target, goal) {
+            return Ok(Standing::gave_up(format!(
+                "there is no place {place} on the map"
+            )));
+        }
+        let standing = match (here, target) {
+            (Some(here), Some((goal, target))) => {
                 let standing = self
-                    .approach(robot, here, goal)
+                    .approach(robot, here, target)
                     .map_err(OnlineSlamError::Robot)?;
-                if standing != Standing::UnderWay {
-                    return Ok(standing);
+                match (standing, goal) {
+                    (Standing::UnderWay, _) => {}
+                    (Standing::Done, Goal::Landmark(_)) => self.miss(goal, target.place),
+                    (standing, _) => return Ok(standing),
                 }
-                standing
+                Standing::UnderWay
             }
             // The first look comes before the first step.
             _ if self.map.here().is_none() => Standing::UnderWay,
+            (Some(here), None) if self.goes_beyond() => {
+                let went = self
+                    .go_beyond(robot, here)
+                    .map_err(OnlineSlamError::Robot)?;
+                if !went {
+                    self.wander(robot).map_err(OnlineSlamError::Robot)?;
+                }
+                Standing::UnderWay
+            }
             _ => {
                 self.wander(robot).map_err(OnlineSlamError::Robot)?;
                 Standing::UnderWay
             }
         };
         self.look(robot)?;
+        let is_localized = self.map.is_localized();
         Ok(match task {
-            Task::Explore if self.quiet >= self.config.quiet_looks => Standing::Done,
-            Task::Localize if self.map.is_localized() => Standing::Done,
+            Task::Explore if is_localized && self.has_explored() => Standing::Done,
+            Task::Localize if is_localized => Standing::Done,
             _ => standing,
         })
     }

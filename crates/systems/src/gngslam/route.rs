@@ -1,38 +1,117 @@
+use alloc::collections::BTreeMap;
+
 use tolman_geom::Point;
 use tolman_maps::place_graph::PlaceGraph;
-use tolman_planners::{Arcs, path_to};
+use tolman_planners::{Arcs, a_star, costs_from};
 use tolman_robot::Mapper;
+
+/// Where a way leads: a point, and the place beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Target {
+    pub(super) place: u32,
+    pub(super) point: Point,
+}
 
 /// A way over the places of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Route {
-    /// The place it leads to.
-    pub(super) goal: u32,
-    /// Points still to come to, the next one last.
-    points: Vec<Point>,
+    /// Where it leads.
+    pub(super) target: Target,
+    /// Places and points still to come to, the next one last.
+    ahead: Vec<(u32, Point)>,
+    /// The place that was passed last.
+    passed: u32,
+}
+
+/// How often something was in the way between two places, the lower one first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Obstacles(BTreeMap<(u32, u32), u32>);
+
+impl Obstacles {
+    /// A link is this much longer each time that something was in the way.
+    const DETOUR: f64 = 4.0;
+
+    /// Notes that something was in the way.
+    pub(super) fn note(&mut self, (a, b): (u32, u32)) {
+        *self.0.entry((a.min(b), a.max(b))).or_default() += 1;
+    }
+
+    fn factor(&self, a: u32, b: u32) -> f64 {
+        let times = self.0.get(&(a.min(b), a.max(b)));
+        1.0 + Self::DETOUR * f64::from(times.copied().unwrap_or_default())
+    }
+
+    /// The links of a map, each as long as its places lie apart, mm, and longer where something was in the way. O(links).
+    fn links(&self, map: &PlaceGraph) -> Arcs {
+        let poses = map.poses().poses();
+        let position = |place: u32| poses.get(place as usize).map(|pose| pose.position);
+        let cost = |a, b| {
+            let metres = (position(a)? - position(b)?).norm() * self.factor(a, b);
+            Some(1 + (1000.0 * metres) as u32)
+        };
+        let links = map.map().links.into_iter();
+        let links = links.filter_map(|link| Some((link.from, link.to, cost(link.from, link.to)?)));
+        Arcs::new(poses.len(), &links.collect::<Vec<_>>())
+    }
+
+    /// Returns the one of `targets` with the shortest way to its place from the place nearest to `here`, the first of several; `None`
+    /// if no way leads to any. O(links log places).
+    pub(super) fn nearest(
+        &self,
+        map: &PlaceGraph,
+        here: Point,
+        targets: Vec<Target>,
+    ) -> Option<Target> {
+        let costs = costs_from(&self.links(map), [map.nearest(here)]);
+        let cost = |target: &Target| costs.get(target.place as usize).copied().flatten();
+        let reached = targets.into_iter().filter(|target| cost(target).is_some());
+        reached.min_by_key(cost)
+    }
 }
 
 impl Route {
-    /// Returns the way of fewest places from the place nearest to `here`; `None` if none is known. O(places + links).
-    pub(super) fn find(map: &PlaceGraph, here: Point, goal: u32) -> Option<Self> {
-        let view = map.map();
-        let links: Vec<(u32, u32, u32)> = (view.links.iter())
-            .map(|link| (link.from, link.to, 1))
-            .collect();
-        let graph = Arcs::new(view.places.len(), &links);
-        let path = path_to(&graph, map.nearest(here), |place| place == goal)?;
-        let position = |place: &u32| view.places.get(*place as usize)?.position;
-        let points = path.iter().rev().filter_map(position).collect();
-        Some(Self { goal, points })
+    /// Returns the shortest way from the place nearest to `here`, as far as nothing was in the way of it; `None` if none is known.
+    /// O(links log places).
+    pub(super) fn find(
+        map: &PlaceGraph,
+        here: Point,
+        target: Target,
+        obstacles: &Obstacles,
+    ) -> Option<Self> {
+        let poses = map.poses().poses();
+        let position = |place: u32| poses.get(place as usize).map(|pose| pose.position);
+        let graph = obstacles.links(map);
+        let passed = map.nearest(here);
+        let found = a_star(&graph, passed, |place| place == target.place, |_| 0)?;
+        let places = found.path.iter().rev();
+        let mut ahead = vec![(target.place, target.point)];
+        ahead.extend(places.filter_map(|place| Some((*place, position(*place)?))));
+        Some(Self {
+            target,
+            ahead,
+            passed,
+        })
+    }
+
+    /// Returns the places that it leads over.
+    pub(super) fn places(&self) -> impl Iterator<Item = u32> + '_ {
+        self.ahead.iter().skip(1).rev().map(|(place, _)| *place)
     }
 
     /// Returns the next point to go to, from `here`; `None` at the end. A point is passed within `arrival` m.
     pub(super) fn next(&mut self, here: Point, arrival: f64) -> Option<Point> {
         // Whatever lies behind a point that is near has been passed.
-        let near = |point: &Point| (point - here).norm() <= arrival;
-        if let Some(passed) = self.points.iter().position(near) {
-            self.points.truncate(passed);
+        let near = |(_, point): &(u32, Point)| (point - here).norm() <= arrival;
+        if let Some(index) = self.ahead.iter().position(near) {
+            self.passed = self.ahead[index].0;
+            self.ahead.truncate(index);
         }
-        self.points.last().copied()
+        self.ahead.last().map(|(_, point)| *point)
+    }
+
+    /// Returns the link under way: the place that was passed last, and the next one.
+    pub(super) fn link(&self) -> Option<(u32, u32)> {
+        let (next, _) = self.ahead.last()?;
+        Some((self.passed, *next))
     }
 }

@@ -6,9 +6,8 @@ use thiserror::Error;
 use tolman_control::wander::{TurnEnd, UntilNear, UntilNearConfig};
 use tolman_geom::Pose;
 use tolman_maps::place_map::PlaceRecord;
-use tolman_robot::{Bumps, Robot, Rolls, TakesSnapshots, TurnTranslate};
+use tolman_robot::{Bumps, Odometry, Reckoned, Robot, Rolls, TakesSnapshots, TurnTranslate};
 
-use super::DeadReckoned;
 use crate::stream;
 
 /// How a [`Wanderer`] wanders.
@@ -148,10 +147,7 @@ impl Wanderer {
         R::Sensing: TakesSnapshots + Rolls + Bumps,
     {
         let angle = self.rng.random_range(-PI..PI);
-        let mut robot = DeadReckoned {
-            robot,
-            pose: &mut self.odometry,
-        };
+        let mut robot = Reckoned::new(robot, adding_to(&mut self.odometry));
         let end = self.driver.turn(&mut robot, angle)?;
         match end {
             TurnEnd::Clear => {
@@ -163,6 +159,14 @@ impl Wanderer {
         Ok(end)
     }
 
+    /// Returns a robot whose every step is added to where the wheels have it.
+    pub(super) fn reckoned<'a, R>(&'a mut self, robot: R) -> Reckoned<R, impl FnMut(Odometry) + 'a>
+    where
+        R: Robot<Sensing: Rolls> + 'a,
+    {
+        Reckoned::new(robot, adding_to(&mut self.odometry))
+    }
+
     /// Stands still until a snapshot comes, and returns the record of this place.
     ///
     /// # Errors
@@ -172,20 +176,21 @@ impl Wanderer {
         R: Robot<Command = TurnTranslate>,
         R::Sensing: TakesSnapshots + Rolls,
     {
-        let mut robot = DeadReckoned {
-            robot,
-            pose: &mut self.odometry,
-        };
         for _ in 0..self.config.patience {
-            robot.stop()?;
+            Reckoned::new(&mut *robot, adding_to(&mut self.odometry)).stop()?;
             if let Some(snapshot) = robot.sensing().snapshot() {
-                let odometry = *robot.pose;
+                let odometry = self.odometry;
                 return Ok(PlaceRecord { odometry, snapshot });
             }
         }
         let steps = self.config.patience;
         Err(WandererError::NoSnapshot { steps })
     }
+}
+
+/// Dead reckoning: adds every step to where the wheels have the robot.
+fn adding_to(pose: &mut Pose) -> impl FnMut(Odometry) {
+    move |rolled| *pose = rolled.applied_to(*pose)
 }
 
 #[cfg(test)]

@@ -27,7 +27,9 @@ Examples:
   tolman learn --system cpm --maze mazes/cpm-2.maze --out other.json
   tolman drive --map map.json --map other.json --maze mazes/cpm-3.maze
   tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json
-  tolman drive --map corridors-map.json --world mazes/worlds/corridors.json --seed 2")]
+  tolman drive --map corridors-map.json --world mazes/worlds/corridors.json --seed 2
+  tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
+  tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html")]
 pub(super) struct Arguments {
     /// The map, made by `tolman learn`; may be given several times, if the system can tell maps apart
     #[arg(long, value_name = "FILE", required = true)]

@@ -3,6 +3,7 @@
 //! Results go to stdout, everything else to stderr. A verb writes to the `out` it is given and
 //! returns a [`Failure`] if there is something to complain about.
 
+mod pitch;
 mod bar;
 mod called;
 mod completions;
@@ -82,6 +83,8 @@ enum Verb {
     Demo(demo::Arguments),
     #[command(subcommand)]
     Maze(maze::Verb),
+    #[command(subcommand)]
+    Pitch(pitch::Verb),
     Mouse(mouse::Arguments),
     MmsHost(mms_host::Arguments),
     Experiment(experiment::Arguments),
@@ -191,6 +194,7 @@ impl Verb {
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),
             Self::Maze(verb) => verb.carry_out(app, out),
+            Self::Pitch(verb) => verb.carry_out(out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use serde_json::Value;
 use tolman_replay::{Portrait, Replay, Trace, TraceComparison};
-use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer};
+use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 
 use super::replay_file::{self, Overwrite};
 use super::{Failure, OrBadInput, maze};
@@ -56,6 +56,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let (replay, verdicts) = if has("response") {
         of::<Epuck>(arguments, &texts)?
+    } else if has("sonar") {
+        of::<Pioneer2dx>(arguments, &texts)?
     } else if has("pioneer") {
         of::<CameraPioneer>(arguments, &texts)?
     } else {

@@ -2,9 +2,11 @@
 
 mod cpm;
 mod diktiometry;
+mod gngslam;
 mod mslst;
 
 pub use cpm::CpmEntry;
 pub(crate) use cpm::patterns_of_epuck;
 pub use diktiometry::DiktiometryEntry;
+pub use gngslam::GngSlamEntry;
 pub use mslst::MslstEntry;

@@ -7,6 +7,7 @@
 
 mod cpm;
 mod experiment;
+mod gngslam;
 mod help;
 mod learn;
 mod maze;

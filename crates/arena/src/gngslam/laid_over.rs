@@ -1,0 +1,52 @@
+use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maps::place_graph::PlaceGraph;
+
+/// A place graph laid over the world by where the robot truly was when each place was made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaidOver {
+    /// Where the origin of the map lies in the world.
+    pub world_from_map: Pose,
+    /// Root-mean-square distance of the places from where they truly are, m.
+    pub error_m: f64,
+}
+
+impl LaidOver {
+    /// Lays a map over the world so that the squared distances of its places from `sites`, where they truly are, are least. `None`
+    /// of an empty map, or if there are not as many sites as places. O(places).
+    #[must_use]
+    pub fn of(map: &PlaceGraph, sites: &[Point]) -> Option<Self> {
+        let places = map.poses().poses();
+        if places.is_empty() || places.len() != sites.len() {
+            return None;
+        }
+        let places = places.iter().map(|pose| pose.position);
+        let pairs: Vec<(Point, Point)> = places.zip(sites.iter().copied()).collect();
+        let world_from_map = rigid_motion(&pairs);
+        let off = |(place, site): &(Point, Point)| {
+            (world_from_map.transform(*place) - site).norm_squared()
+        };
+        let sum: f64 = pairs.iter().map(off).sum();
+        Some(Self {
+            world_from_map,
+            error_m: libm::sqrt(sum / pairs.len() as f64),
+        })
+    }
+}
+
+/// The rigid motion that brings the first points of all pairs nearest to the second.
+pub(super) fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
+    let count = pairs.len().max(1) as f64;
+    let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {
+        (sum.0 + from.coords, sum.1 + to.coords)
+    };
+    let (from, to) = pairs.iter().fold((Vector::zeros(), Vector::zeros()), sum);
+    let (from, to) = (from / count, to / count);
+    let (mut along, mut across) = (0.0, 0.0);
+    for (a, b) in pairs {
+        let (a, b) = (a.coords - from, b.coords - to);
+        along += a.dot(&b);
+        across += a.perp(&b);
+    }
+    let heading = Heading::from_radians(libm::atan2(across, along));
+    Pose::new(Point::from(to - heading.rotate(from)), heading)
+}

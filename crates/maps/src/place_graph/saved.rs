@@ -1,0 +1,182 @@
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use thiserror::Error;
+use tolman_geom::Pose;
+
+use super::{Outline, OutlinePoint, PlaceGraph, PlaceGraphConfig};
+use crate::pose_graph::{PoseEdge, PoseGraph, PoseGraphError};
+
+const FORMAT: &str = "tolman-place-graph";
+const VERSION: u32 = 1;
+
+/// A place graph as it lies in a file; any format of serde's will do. What is known of the robot in it is left out: the map comes
+/// back as one on which a robot was [put down](PlaceGraph::put_down) anywhere, and grows.
+///
+/// [`PlaceGraph`] itself is serialized as this, and refuses to be made of what is invalid.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedPlaceGraph {
+    format: String,
+    version: u32,
+    config: PlaceGraphConfig,
+    places: Vec<SavedPlace>,
+    edges: Vec<PoseEdge>,
+    /// Places that the robot went between, the lower one first.
+    links: Vec<(u32, u32)>,
+}
+
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedPlace {
+    pose: Pose,
+    outline: Outline,
+}
+
+/// Why a file holds no place graph.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SavedPlaceGraphError {
+    /// It is of another format or version.
+    #[error(
+        "the format is {format:?}, version {version}; expected {FORMAT:?}, version {VERSION}: learn the map anew"
+    )]
+    WrongFormat {
+        /// Format that it names.
+        format: String,
+        /// Version that it names.
+        version: u32,
+    },
+    /// A number of the configuration has no sense.
+    #[error("`{field}` is {value}; give a positive number")]
+    Config {
+        /// Which field.
+        field: &'static str,
+        /// What it says.
+        value: f64,
+    },
+    /// A number of a place is none.
+    #[error(
+        "place {place} has a number that is not finite, or a deviation that is not positive: learn the map anew"
+    )]
+    NotFinite {
+        /// Its id.
+        place: usize,
+    },
+    /// A link joins a place that is not there.
+    #[error("places {from} and {to} are linked, and there are {places}: learn the map anew")]
+    Link {
+        /// One end.
+        from: u32,
+        /// The other end.
+        to: u32,
+        /// The number of places.
+        places: usize,
+    },
+    /// An edge is none.
+    #[error(transparent)]
+    Edge(#[from] PoseGraphError),
+}
+
+impl From<PlaceGraph> for SavedPlaceGraph {
+    fn from(map: PlaceGraph) -> Self {
+        let edges = map.graph.edges().to_vec();
+        let places = map.graph.poses().iter().zip(map.places);
+        let places = places.map(|(pose, outline)| SavedPlace {
+            pose: *pose,
+            outline,
+        });
+        Self {
+            format: FORMAT.into(),
+            version: VERSION,
+            config: map.config,
+            places: places.collect(),
+            edges,
+            links: map.links.into_iter().collect(),
+        }
+    }
+}
+
+impl TryFrom<SavedPlaceGraph> for PlaceGraph {
+    type Error = SavedPlaceGraphError;
+
+    fn try_from(saved: SavedPlaceGraph) -> Result<Self, SavedPlaceGraphError> {
+        saved.check()?;
+        let mut graph = PoseGraph::new();
+        for place in &saved.places {
+            graph.add_pose(place.pose);
+        }
+        for edge in saved.edges {
+            graph.add_edge(edge)?;
+        }
+        let places = saved.places.into_iter().map(|place| place.outline);
+        let links = saved.links.into_iter().collect();
+        Ok(Self::restored(saved.config, places.collect(), graph, links))
+    }
+}
+
+impl SavedPlaceGraph {
+    fn check(&self) -> Result<(), SavedPlaceGraphError> {
+        if self.format != FORMAT || self.version != VERSION {
+            return Err(SavedPlaceGraphError::WrongFormat {
+                format: self.format.clone(),
+                version: self.version,
+            });
+        }
+        let PlaceGraphConfig {
+            place_distance,
+            place_turn,
+            scale_deviation,
+            curvature_deviation,
+            most_doubt,
+            ..
+        } = self.config;
+        let positive = [
+            ("place_distance", place_distance),
+            ("place_turn", place_turn),
+            ("scale_deviation", scale_deviation),
+            ("curvature_deviation", curvature_deviation),
+            ("most_doubt", most_doubt),
+        ];
+        let bad = |(_, value): &(&str, f64)| !(value.is_finite() && *value > 0.0);
+        if let Some((field, value)) = positive.into_iter().find(bad) {
+            return Err(SavedPlaceGraphError::Config { field, value });
+        }
+        let is_sound =
+            |place: &SavedPlace| place.pose.is_finite() && is_outline_sound(&place.outline);
+        if let Some(place) = self.places.iter().position(|place| !is_sound(place)) {
+            return Err(SavedPlaceGraphError::NotFinite { place });
+        }
+        let places = self.places.len();
+        let lost = |(from, to): &&(u32, u32)| (*from).max(*to) as usize >= places;
+        match self.links.iter().find(lost) {
+            Some((from, to)) => Err(SavedPlaceGraphError::Link {
+                from: *from,
+                to: *to,
+                places,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn is_outline_sound(outline: &Outline) -> bool {
+    let is_point_sound = |point: &OutlinePoint| {
+        let normal = point.normal.unwrap_or_default();
+        let colour = point.colour.unwrap_or_default();
+        let position = point.position;
+        let all = [
+            position.x, position.y, normal.x, normal.y, colour[0], colour[1],
+        ];
+        all.iter().all(|number| number.is_finite())
+            && point.deviation.is_finite()
+            && point.deviation > 0.0
+    };
+    let mut points = outline.points.iter().chain(&outline.faced);
+    let mut arcs = outline.arcs.iter();
+    points.all(is_point_sound)
+        && arcs.all(|arc| {
+            let numbers = [arc.half_width, arc.range, arc.max_range];
+            arc.mount.is_finite() && numbers.iter().all(|number| number.is_finite())
+        })
+}

@@ -1,0 +1,16 @@
+//! Differences of poses as vectors: ahead and to the left, m, and the heading, rad.
+
+use tolman_geom::nalgebra::Vector3;
+use tolman_geom::{Point, Pose};
+
+/// Returns where `pose` comes to that moves by `step` in its own frame.
+pub(crate) fn moved(pose: Pose, step: &Vector3<f64>) -> Pose {
+    let position = pose.transform(Point::new(step.x, step.y));
+    Pose::new(position, pose.heading.turned(step.z))
+}
+
+/// Returns where `other` lies as seen from `pose`.
+pub(crate) fn difference(pose: Pose, other: Pose) -> Vector3<f64> {
+    let off = pose.between(other);
+    Vector3::new(off.position.x, off.position.y, off.heading.radians())
+}

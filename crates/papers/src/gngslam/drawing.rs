@@ -1,0 +1,38 @@
+//! Pictures of what was learned, for reports and the command.
+
+use alloc::collections::BTreeMap;
+
+use tolman_arena::course::Course;
+use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, NodeMark, Series};
+use tolman_robot::{Landmark, MapView};
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 420.0;
+
+/// The places of a map over the world, where the map has them, with the ways between them; those where the goal was sensed are
+/// filled. Places that lie nowhere are left out.
+#[must_use]
+pub fn places_over_world(course: &Course, map: &MapView) -> Drawing {
+    let mut graph = GraphPicture::new().radius(2.0);
+    let mut drawn = BTreeMap::new();
+    for place in &map.places {
+        let Some(at) = place.position else {
+            continue;
+        };
+        let mark = match place.landmark {
+            Some(Landmark::Goal) => NodeMark::Disc,
+            _ => NodeMark::Ring,
+        };
+        let node = graph.node(GraphNode::at(at).mark(mark).series(Series(0)));
+        drawn.insert(place.id, node);
+    }
+    // Every way leads back, too; once is enough to draw.
+    for link in map.links.iter().filter(|link| link.from < link.to) {
+        if let (Some(from), Some(to)) = (drawn.get(&link.from), drawn.get(&link.to)) {
+            graph.edge(GraphEdge::between(*from, *to));
+        }
+    }
+    let mut plan = crate::plan_of_course(course, WIDTH);
+    plan.graph(&graph);
+    plan.drawing(format!("The places of a map over {}.", course.name))
+}

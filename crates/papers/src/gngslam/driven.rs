@@ -1,0 +1,154 @@
+//! The paper's map driven by: section 3.4, "find a path".
+
+use tolman_arena::gngslam::{DrivenMap, Pitch, PlaceDrive, drive_place_map};
+use tolman_draw::{Figure, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series};
+use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Run, Table, record};
+use tolman_maps::place_map::PlaceMapConfig;
+use tolman_robot::Standing;
+
+use super::ENTRY;
+
+/// The name of the table.
+const DRIVEN: &str = "driven";
+
+/// The rows, with λ: the middle of the paper's range, and as many nodes as our best maps have.
+const ROWS: [(&str, u32); 2] = [("λ 575, as in Table 3.1", 575), ("λ 60", 60)];
+
+/// Runs of a row at most, and in a quick look.
+const MOST_RUNS: u32 = 40;
+const QUICK_RUNS: u32 = 2;
+
+/// The paper's number of records, and the drives by each map.
+const RECORDS: usize = 1006;
+const DRIVES: u32 = 10;
+
+/// A drive ends near its goal within this distance, m.
+const NEAR: f64 = 1.0;
+
+record! {
+    /// Drives by one map.
+    struct DrivenFields {
+        /// Mean distance from where the record was truly taken to where the robot truly was at the end of a drive.
+        error_m: f64 => lower("error at the goal").unit("m").decimals(2),
+        /// The same at the beginning of a drive.
+        start_m: f64 => neither("distance at the start").unit("m").decimals(2),
+        /// Drives that ended truly within 1 m of where the record was taken.
+        near_percent: f64 => higher("within 1 m").percent(),
+        /// Drives that began within 1 m of it.
+        near_at_start_percent: f64 => neither("within 1 m at the start").percent(),
+        /// Drives at whose end the wheels had the robot at the goal's node.
+        done_percent: f64 => higher("arrived, by its wheels").percent(),
+        /// Pieces of the way of a drive, each a turn and a leg of 0.4 m at most.
+        pieces: f64 => lower("pieces of the way").decimals(1),
+        /// Nodes of the map.
+        nodes: usize => neither("nodes"),
+    }
+}
+
+/// Whether a table is this one.
+pub(super) fn has(table: &str) -> bool {
+    table == DRIVEN
+}
+
+pub(super) fn table(options: &Options) -> Table {
+    let runs = match (options.runs, options.quick) {
+        (None, true) => QUICK_RUNS,
+        _ => options.runs_of(&ENTRY).min(MOST_RUNS),
+    };
+    Table::of::<DrivenFields>(DRIVEN, "Ways planned on the paper's map, and driven")
+        .metric(Metric::mean(DrivenFields::error_m))
+        .metric(Metric::mean(DrivenFields::start_m))
+        .metric(Metric::mean(DrivenFields::near_percent))
+        .metric(Metric::mean(DrivenFields::near_at_start_percent))
+        .metric(Metric::mean(DrivenFields::done_percent))
+        .metric(Metric::mean(DrivenFields::pieces))
+        .metric(Metric::mean(DrivenFields::nodes))
+        .rows(ROWS.map(|(row, _)| Row::new(row).runs(runs)))
+        .note(format!(
+            "Each run gathers {RECORDS} records, learns a map of image (40 × 30, hsv) and odometry, and drives by it to where {DRIVES} of the \
+             records were taken, drawn at random, each time from where it is. Wheels slip and count rightly but for that. Not in the \
+             paper, which plans ways and drives none."
+        ))
+}
+
+fn driven(row: &str, seed: u64) -> Result<DrivenMap, BoxError> {
+    let period = ROWS.iter().find(|(name, _)| *name == row);
+    let (_, period) = period.ok_or_else(|| format!("there is no row {row:?} of {DRIVEN}"))?;
+    let mut config = PlaceMapConfig::paper();
+    config.gng.growth_period = *period;
+    Ok(drive_place_map(
+        &Pitch::paper()?,
+        config,
+        seed,
+        RECORDS,
+        DRIVES,
+    )?)
+}
+
+pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
+    let DrivenMap { map, drives, .. } = driven(job.row, job.seed)?;
+    let count = drives.len().max(1) as f64;
+    let percent = |is: &dyn Fn(usize) -> bool| {
+        100.0 * (0..drives.len()).filter(|drive| is(*drive)).count() as f64 / count
+    };
+    let fields = DrivenFields {
+        error_m: drives.iter().map(PlaceDrive::error_m).sum::<f64>() / count,
+        start_m: drives.iter().map(PlaceDrive::start_m).sum::<f64>() / count,
+        near_percent: percent(&|drive| drives[drive].error_m() < NEAR),
+        near_at_start_percent: percent(&|drive| drives[drive].start_m() < NEAR),
+        done_percent: percent(&|drive| drives[drive].standing == Standing::Done),
+        pieces: drives
+            .iter()
+            .map(|drive| (drive.path.len() - 1) as f64)
+            .sum::<f64>()
+            / count,
+        nodes: map.network().ids().count(),
+    };
+    Ok(fields.fields()?)
+}
+
+/// Width of a plan, user units.
+const WIDTH: f64 = 460.0;
+
+/// The drives that the picture shows.
+const SHOWN: usize = 3;
+
+/// The map of the first run of the last row over the pitch, with the first drives by it.
+pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    let (row, _) = ROWS[1];
+    let mut of_row = runs
+        .iter()
+        .filter(|run| run.table == DRIVEN && run.row == row);
+    let Some(run) = of_row.next() else {
+        return Ok(Vec::new());
+    };
+    let DrivenMap {
+        map,
+        world_from_map,
+        drives,
+    } = driven(row, run.seed)?;
+    let mut plan = FloorPlan::of_world(&Pitch::paper()?.world, WIDTH);
+    let mut graph = GraphPicture::new().radius(2.0);
+    let positions: Vec<_> = map.positions().collect();
+    for (_, position) in &positions {
+        let node = GraphNode::at(world_from_map.transform(*position)).mark(NodeMark::Ring);
+        graph.node(node.series(Series(0)));
+    }
+    let place = |node| positions.iter().position(|(id, _)| *id == node);
+    for edge in map.network().edges() {
+        if let (Some(a), Some(b)) = (place(edge.ends.0), place(edge.ends.1)) {
+            graph.edge(GraphEdge::between(a, b));
+        }
+    }
+    plan.graph(&graph);
+    for (series, drive) in (1..).zip(drives.iter().take(SHOWN)) {
+        plan.trajectory(&drive.path, Series(series));
+        plan.label(drive.goal, "goal");
+    }
+    let drawing = plan.drawing("A place map over the pitch, and drives by it.");
+    Ok(vec![
+        Figure::new("driven", "Driving by the paper's map", drawing)
+            .caption("Nodes lie where the odometry had them, and the robot where it truly was. Each drive begins where the one before ended.")
+            .table(DRIVEN),
+    ])
+}

@@ -1,0 +1,86 @@
+use crate::{Landmark, Odometry, Robot, Rolls, SensesLandmarks};
+
+/// A robot whose odometry is handed to somebody who reckons with it, step by step.
+///
+/// ```
+/// use tolman_robot::geom::Pose;
+/// use tolman_robot::{Odometry, Reckoned, Robot, Rolls};
+///
+/// /// A robot that rolls 0.1 m a step.
+/// struct Roller;
+///
+/// impl Rolls for Roller {
+///     fn odometry(&self) -> Option<Odometry> {
+///         Some(Odometry { distance: 0.1, turn: 0.0 })
+///     }
+/// }
+///
+/// impl Robot for Roller {
+///     type Command = ();
+///     type Sensing = Self;
+///     type Error = core::convert::Infallible;
+///
+///     fn sensing(&self) -> &Self {
+///         self
+///     }
+///
+///     fn step(&mut self, _command: &()) -> Result<(), Self::Error> {
+///         Ok(())
+///     }
+/// }
+///
+/// let mut pose = Pose::IDENTITY;
+/// let mut robot = Reckoned::new(Roller, |rolled| pose = rolled.applied_to(pose));
+/// robot.step(&()).unwrap();
+/// robot.step(&()).unwrap();
+/// assert!((pose.position.x - 0.2).abs() < 1e-12);
+/// ```
+#[derive(Debug)]
+pub struct Reckoned<R, F> {
+    robot: R,
+    take: F,
+}
+
+impl<R, F> Reckoned<R, F>
+where
+    R: Robot<Sensing: Rolls>,
+    F: FnMut(Odometry),
+{
+    /// Hands what the wheels of `robot`, which may be a mutable reference, rolled in each step to `take`. A step whose odometry
+    /// dropped out is left out.
+    pub const fn new(robot: R, take: F) -> Self {
+        Self { robot, take }
+    }
+}
+
+impl<R, F> Robot for Reckoned<R, F>
+where
+    R: Robot<Sensing: Rolls>,
+    F: FnMut(Odometry),
+{
+    type Command = R::Command;
+    type Sensing = R::Sensing;
+    type Error = R::Error;
+
+    fn sensing(&self) -> &R::Sensing {
+        self.robot.sensing()
+    }
+
+    fn step(&mut self, command: &R::Command) -> Result<(), R::Error> {
+        self.robot.step(command)?;
+        if let Some(rolled) = self.robot.sensing().odometry() {
+            (self.take)(rolled);
+        }
+        Ok(())
+    }
+}
+
+impl<R, F> SensesLandmarks for Reckoned<R, F>
+where
+    R: SensesLandmarks<Sensing: Rolls>,
+    F: FnMut(Odometry),
+{
+    fn landmark(&self) -> Option<Landmark> {
+        self.robot.landmark()
+    }
+}

@@ -1,0 +1,158 @@
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use tolman_geom::Point;
+use tolman_maps::place_graph::PlaceGraph;
+
+use super::{LandmarkSighting, OnlineSlamConfig};
+use crate::{FileError, MapFiles, Origin};
+
+const FILES: MapFiles = MapFiles { system: "gngslam" };
+
+/// A learned map as it lies in a file: JSON, read back to the bit, but for what was known of the robot in it.
+#[derive(Clone, Debug)]
+pub struct MapFile {
+    /// Where it was learned, by which robot and from which seed.
+    pub origin: Origin,
+    /// How it was learned.
+    pub config: OnlineSlamConfig,
+    /// The map, on which a robot may stand anywhere.
+    pub graph: PlaceGraph,
+    /// Where landmarks were sensed.
+    pub sightings: Vec<LandmarkSighting>,
+    /// Where the robot truly was when each place was made, m, for pictures and for whoever checks the map alone; none if nobody
+    /// watched.
+    pub sites: Vec<Point>,
+}
+
+/// Why a file holds no map.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MapFileError {
+    /// The header or the JSON is not sound, or names another system; or the map has no JSON form.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A landmark was sensed at a place that is not there.
+    #[error("a landmark was sensed at place {place}, and there are {places}: learn the map anew")]
+    Sighting {
+        /// The place.
+        place: u32,
+        /// How many there are.
+        places: usize,
+    },
+    /// Not as many places were watched as there are.
+    #[error("{found} places were watched, and there are {places}: learn the map anew")]
+    Sites {
+        /// How many were watched.
+        found: usize,
+        /// How many there are.
+        places: usize,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+struct Body {
+    config: OnlineSlamConfig,
+    graph: PlaceGraph,
+    sightings: Vec<LandmarkSighting>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    sites: Vec<Point>,
+}
+
+impl MapFile {
+    /// The text of the file, with a line end.
+    ///
+    /// # Errors
+    /// [`MapFileError::File`] if it cannot be written.
+    pub fn to_json(&self) -> Result<String, MapFileError> {
+        let body = Body {
+            config: self.config,
+            graph: self.graph.clone(),
+            sightings: self.sightings.clone(),
+            sites: self.sites.clone(),
+        };
+        Ok(FILES.write(&self.origin, &body)?)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// [`MapFileError`] with the place and what to do about it.
+    pub fn from_json(text: &str) -> Result<Self, MapFileError> {
+        let (origin, body): (_, Body) = FILES.read(text)?;
+        let places = body.graph.places().len();
+        let lost = |sighting: &&LandmarkSighting| sighting.place as usize >= places;
+        if let Some(LandmarkSighting { place, .. }) = body.sightings.iter().find(lost) {
+            let place = *place;
+            return Err(MapFileError::Sighting { place, places });
+        }
+        let found = body.sites.len();
+        if found != 0 && found != places {
+            return Err(MapFileError::Sites { found, places });
+        }
+        Ok(Self {
+            origin,
+            config: body.config,
+            graph: body.graph,
+            sightings: body.sightings,
+            sites: body.sites,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tolman_maps::place_graph::SeenThere;
+    use tolman_robot::{Landmark, Mapper};
+
+    use super::*;
+
+    fn file(place: u32, sites: usize) -> MapFile {
+        let config = OnlineSlamConfig::pioneer_2dx();
+        let mut graph = PlaceGraph::new(config.map);
+        graph.observe(&SeenThere::default()).unwrap();
+        let sighting = LandmarkSighting {
+            landmark: Landmark::Goal,
+            place,
+            at: Point::new(0.1, 0.2),
+        };
+        MapFile {
+            origin: Origin {
+                world: "room".to_owned(),
+                drawing: None,
+                robot: "Pioneer 2-DX".to_owned(),
+                seed: 3,
+            },
+            config,
+            graph,
+            sightings: vec![sighting],
+            sites: vec![Point::new(1.0, 2.0); sites],
+        }
+    }
+
+    #[test]
+    fn a_file_comes_back() {
+        for sites in [0, 1] {
+            let file = file(0, sites);
+            let text = file.to_json().unwrap();
+            let read = MapFile::from_json(&text).unwrap();
+            assert_eq!(read.origin, file.origin);
+            assert_eq!(read.config, file.config);
+            assert_eq!(read.sightings, file.sightings);
+            assert_eq!(read.sites, file.sites);
+            assert_eq!(read.graph.poses(), file.graph.poses());
+            assert_eq!(read.to_json().unwrap(), text);
+        }
+    }
+
+    #[test]
+    fn places_that_are_not_there_are_refused() {
+        for (file, expect) in [
+            (file(7, 1), "sensed at place 7, and there are 1"),
+            (file(0, 2), "2 places were watched, and there are 1"),
+        ] {
+            let text = file.to_json().unwrap();
+            let told = MapFile::from_json(&text).unwrap_err().to_string();
+            assert!(told.contains(expect), "{told}");
+        }
+    }
+}

@@ -1,0 +1,153 @@
+use core::f64::consts::PI;
+
+use thiserror::Error;
+use tolman_control::wander::{LegEnd, UntilNear, UntilNearConfig};
+use tolman_geom::{Point, Pose};
+use tolman_maps::place_map::{PlaceMap, PlaceMapError};
+use tolman_quantizers::UnitId;
+use tolman_robot::{Bumps, Robot, Rolls, Standing, TakesSnapshots, TurnTranslate};
+
+use super::{Wanderer, WandererError};
+
+/// How a [`PlacePilot`] follows a way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PlacePilotConfig {
+    /// How it drives between two looks.
+    pub drive: UntilNearConfig,
+    /// It has come to a node when its wheels have it this near, m.
+    pub arrival: f64,
+    /// It goes round what is in the way by this angle, rad.
+    pub round: f64,
+}
+
+impl PlacePilotConfig {
+    /// Returns our values for the Pioneer 2-DX; the paper plans ways on the map and does not drive them.
+    #[must_use]
+    pub const fn pioneer_2dx() -> Self {
+        let mut drive = UntilNearConfig::paper();
+        drive.longest_leg = 10;
+        drive.limits.ahead = 0.4;
+        Self {
+            drive,
+            arrival: 0.3,
+            round: 0.35 * PI,
+        }
+    }
+}
+
+/// Why a [`PlacePilot`] cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlacePilotError<E> {
+    /// No record came, or the robot failed.
+    #[error(transparent)]
+    Robot(#[from] WandererError<E>),
+    /// The record is none that the map knows.
+    #[error("the map cannot tell where the robot is")]
+    Map(#[from] PlaceMapError),
+}
+
+/// Drives a robot to a node of a [`PlaceMap`]: it takes a record, asks the map which node is nearest, plans from there along the links
+/// (section 3.4: "find a path"), and goes towards the next node by its wheels.
+///
+/// The robot has to be the one that gathered the records, or to know where it is in the frame of their odometry: nodes lie where
+/// that had them.
+#[derive(Clone, Debug)]
+pub struct PlacePilot<'a> {
+    map: &'a PlaceMap,
+    config: PlacePilotConfig,
+    driver: UntilNear,
+    goal: UnitId,
+    /// Which way it goes round what is in the way next: 1 to the left.
+    side: f64,
+    /// Nodes that it came near to since it was sent out.
+    passed: Vec<UnitId>,
+}
+
+impl<'a> PlacePilot<'a> {
+    /// Returns a pilot to a node.
+    #[must_use]
+    pub fn new(map: &'a PlaceMap, config: PlacePilotConfig, goal: UnitId) -> Self {
+        Self {
+            map,
+            driver: UntilNear::new(config.drive),
+            config,
+            goal,
+            side: 1.0,
+            passed: Vec::new(),
+        }
+    }
+
+    /// Makes a piece of the way with a robot whose dead reckoning `wanderer` keeps, and returns how it stands: done when its wheels
+    /// have it at the goal.
+    ///
+    /// # Errors
+    /// [`PlacePilotError`] if the robot fails or takes no snapshot, or the map is of another robot.
+    pub fn act<R>(
+        &mut self,
+        robot: &mut R,
+        wanderer: &mut Wanderer,
+    ) -> Result<Standing, PlacePilotError<R::Error>>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
+    {
+        let record = wanderer.record(robot)?;
+        let here = self.map.nearest(&record)?;
+        let at = record.odometry;
+        let Some(way) = self.map.way(here, self.goal) else {
+            return Ok(Standing::gave_up(format!(
+                "no links lead from node {} to node {}",
+                here.0, self.goal.0
+            )));
+        };
+        let near = way.iter().filter(|node| self.is_near(at, **node));
+        let near: Vec<UnitId> = near.copied().collect();
+        self.passed.extend(near);
+        if self.is_near(at, self.goal) {
+            return Ok(Standing::Done);
+        }
+        // On from the last node of the way that it has been near to, so that it does not turn back to the first.
+        let last = way.iter().rposition(|node| self.passed.contains(node));
+        let next = way
+            .get(last.map_or(0, |last| last + 1))
+            .unwrap_or(&self.goal);
+        let Some(to) = self.map.position(*next) else {
+            return Ok(Standing::gave_up("the map does not say where nodes lie"));
+        };
+        self.go_towards(robot, wanderer, at, to)
+            .map_err(WandererError::Robot)?;
+        Ok(Standing::UnderWay)
+    }
+
+    fn is_near(&self, at: Pose, node: UnitId) -> bool {
+        let position = self.map.position(node);
+        position.is_some_and(|position| (position - at.position).norm() <= self.config.arrival)
+    }
+
+    /// Turns towards a point and drives a leg; where something is in the way it goes round that.
+    fn go_towards<R>(
+        &mut self,
+        robot: &mut R,
+        wanderer: &mut Wanderer,
+        at: Pose,
+        to: Point,
+    ) -> Result<(), R::Error>
+    where
+        R: Robot<Command = TurnTranslate>,
+        R::Sensing: TakesSnapshots + Rolls + Bumps,
+    {
+        let towards = at.inverse().transform(to);
+        let mut robot = wanderer.reckoned(robot);
+        let bearing = libm::atan2(towards.y, towards.x);
+        self.driver.turn_by(&mut robot, bearing)?;
+        if self.driver.drive(&mut robot)? != LegEnd::TooLong {
+            self.driver
+                .turn_by(&mut robot, self.side * self.config.round)?;
+            self.driver.drive(&mut robot)?;
+            self.side = -self.side;
+        }
+        Ok(())
+    }
+}

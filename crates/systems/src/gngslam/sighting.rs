@@ -1,0 +1,48 @@
+use tolman_geom::{Point, Vector};
+use tolman_maps::place_graph::PlaceGraph;
+use tolman_robot::Landmark;
+
+use super::route::Target;
+
+/// Where a landmark was sensed, beside a place of a map.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LandmarkSighting {
+    /// Which.
+    pub landmark: Landmark,
+    /// The place nearest to where it was sensed.
+    pub place: u32,
+    /// Where it was sensed, in the place's frame, m.
+    pub at: Point,
+}
+
+impl LandmarkSighting {
+    /// Returns where it was sensed, in the map's frame; `None` if the map has no such place.
+    fn target(&self, map: &PlaceGraph) -> Option<Target> {
+        let place = map.poses().poses().get(self.place as usize)?;
+        Some(Target {
+            place: self.place,
+            point: place.transform(self.at),
+        })
+    }
+}
+
+/// Returns where to go to sense a landmark again: amid all points where it was sensed but those in `tried`, the places that it was
+/// not sensed at when the robot came back. `None` if there are none. O(sightings).
+pub(super) fn amid(
+    sightings: &[LandmarkSighting],
+    wanted: Landmark,
+    tried: &[u32],
+    map: &PlaceGraph,
+) -> Option<Target> {
+    let of_wanted = sightings
+        .iter()
+        .filter(|sighting| sighting.landmark == wanted && !tried.contains(&sighting.place));
+    let targets: Vec<Target> = of_wanted
+        .filter_map(|sighting| sighting.target(map))
+        .collect();
+    let sum = |sum: Vector, target: &Target| sum + target.point.coords;
+    let middle = targets.iter().fold(Vector::zeros(), sum) / targets.len().max(1) as f64;
+    let off = |target: &Target| (target.point.coords - middle).norm_squared();
+    targets.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))
+}

@@ -1,0 +1,273 @@
+//! `tolman pitch`: the arenas of the place map, and the data that is gathered in them.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, anyhow};
+use clap::Subcommand;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde_json::json;
+use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
+use tolman_draw::{Figure, FloorPlan, GraphNode, GraphPicture, NodeMark, Series};
+use tolman_maps::place_map::{
+    ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
+    PlaceRecord,
+};
+
+use super::share::share;
+use super::{Failure, OrBadInput, file};
+
+/// Arenas of the place map of GNG-SLAM, and data sets gathered in them
+///
+/// An arena is `pitch`, the paper's, `hall`, `l-room`, or `random-` with a number, such as `random-7`.
+#[derive(Subcommand)]
+pub(super) enum Verb {
+    World(World),
+    Gather(Gather),
+    Show(Show),
+    Score(Score),
+}
+
+/// Writes an arena as a tolman-world, for --world: the destination lies before the blue goal, the start before the yellow one
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman pitch world random-7 --out arena.json
+  tolman learn --system gngslam --world arena.json --out map.json")]
+pub(super) struct World {
+    /// The arena
+    #[arg(value_name = "ARENA")]
+    name: String,
+    /// The file to write, instead of standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// Lets a Pioneer 2-DX wander in an arena and writes down the records of places that it takes, with the truth beside them
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman pitch gather pitch --seed 1 --out records.jsonl")]
+pub(super) struct Gather {
+    /// The arena
+    #[arg(value_name = "ARENA")]
+    name: String,
+    /// How many records; the paper has 1006
+    #[arg(long, value_name = "N", default_value_t = 1006)]
+    records: usize,
+    /// What all chance follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// By which share each wheel may count wrongly at most
+    #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
+    calibration: f64,
+    /// The file to write: a line of JSON for all, then one a record
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+/// Tells what a data set holds, and draws where its records were taken
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman pitch gather pitch --records 50 --out records.jsonl
+  tolman pitch show records.jsonl --svg records.svg")]
+pub(super) struct Show {
+    /// The data set, made by `tolman pitch gather`
+    file: PathBuf,
+    /// Draw where the records were taken
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write the figures as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Learns the paper's place map of a data set (40 × 30 pixels hsv and odometry, Table 3.1) and scores it
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  tolman pitch gather pitch --records 300 --out records.jsonl
+  tolman pitch score records.jsonl --growth-period 60")]
+pub(super) struct Score {
+    /// The data set, made by `tolman pitch gather`
+    file: PathBuf,
+    /// What all chance follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// λ: a node for so many records; if not given, the middle of the paper's range
+    #[arg(long, value_name = "RECORDS", value_parser = clap::value_parser!(u32).range(1..))]
+    growth_period: Option<u32>,
+    /// Write the figures as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Verb {
+    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+        match self {
+            Self::World(arguments) => world(&arguments, out),
+            Self::Gather(arguments) => gathered(&arguments, out),
+            Self::Show(arguments) => show(&arguments, out),
+            Self::Score(arguments) => score(&arguments, out),
+        }
+    }
+}
+
+fn world(arguments: &World, out: &mut dyn Write) -> Result<(), Failure> {
+    let pitch = Pitch::named(&arguments.name).or_bad_input()?;
+    let text = pitch.world_to_goal()?.to_json()? + "\n";
+    match &arguments.out {
+        Some(path) => file::write(path, text),
+        None => Ok(out.write_all(text.as_bytes())?),
+    }
+}
+
+fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result<(), Failure> {
+    let seed = arguments.seed;
+    let pitch = Pitch::named(&arguments.name).or_bad_input()?;
+    let robot = pitch.robot(seed, arguments.calibration).or_bad_input()?;
+    let data = gather(&pitch, robot, seed, arguments.records).or_bad_input()?;
+    file::write(&arguments.out, data.to_text()?)?;
+    for line in lines(&data) {
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+/// Reads a data set.
+///
+/// # Errors
+/// Bad input with the file's name.
+fn read(path: &Path) -> Result<DataSet, Failure> {
+    let name = path.display();
+    let text = fs::read_to_string(path)
+        .with_context(|| {
+            format!("cannot read {name}; give a file that `tolman pitch gather` wrote")
+        })
+        .or_bad_input()?;
+    DataSet::from_text(&text)
+        .with_context(|| name.to_string())
+        .or_bad_input()
+}
+
+/// The number of records whose cell was written down wrongly.
+fn mislabelled(data: &DataSet) -> usize {
+    let records = data.records.iter();
+    records.filter(|record| record.label != record.cell).count()
+}
+
+/// How far the odometry is from the truth at the last record, m: both begin at the first.
+fn drift(data: &DataSet) -> f64 {
+    let (Some(first), Some(last)) = (data.records.first(), data.records.last()) else {
+        return 0.0;
+    };
+    let rolled = first.record.odometry.between(last.record.odometry);
+    (first.truth.compose(rolled).position - last.truth.position).norm()
+}
+
+fn lines(data: &DataSet) -> Vec<String> {
+    vec![
+        format!(
+            "{}, seed {}: {} records",
+            data.arena,
+            data.seed,
+            data.records.len()
+        ),
+        format!("{} of them with a wrong cell", mislabelled(data)),
+        format!(
+            "record {} shows the blue goal, record {} the yellow one",
+            data.goals.blue, data.goals.yellow
+        ),
+        format!("the odometry ends {:.2} m from the truth", drift(data)),
+    ]
+}
+
+fn show(arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
+    let data = read(&arguments.file)?;
+    if let Some(path) = &arguments.svg {
+        file::write(path, picture(&data)?)?;
+    }
+    if arguments.json {
+        let json = json!({
+            "arena": data.arena,
+            "seed": data.seed,
+            "records": data.records.len(),
+            "wrong_cells": mislabelled(&data),
+            "goals": data.goals,
+            "odometry_error_m": drift(&data),
+        });
+        return Ok(writeln!(out, "{json:#}")?);
+    }
+    for line in lines(&data) {
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+/// Width of the picture, user units.
+const WIDTH: f64 = 640.0;
+
+/// The places of the records in their arena; those that show the goals are filled.
+fn picture(data: &DataSet) -> Result<String, Failure> {
+    let pitch = Pitch::named(&data.arena).or_bad_input()?;
+    let mut plan = FloorPlan::of_world(&pitch.world, WIDTH);
+    let mut graph = GraphPicture::new().radius(2.0);
+    for (index, record) in data.records.iter().enumerate() {
+        let shows_goal = [data.goals.blue, data.goals.yellow].contains(&index);
+        let mark = match shows_goal {
+            true => NodeMark::Disc,
+            false => NodeMark::Ring,
+        };
+        let node = GraphNode::at(record.truth.position).mark(mark);
+        graph.node(node.series(Series(0)));
+    }
+    plan.graph(&graph);
+    let drawing = plan
+        .drawing("Where the records were taken; from those that are filled a goal is seen best.");
+    Ok(Figure::new("records", &data.arena, drawing).standalone())
+}
+
+fn score(arguments: &Score, out: &mut dyn Write) -> Result<(), Failure> {
+    let data = read(&arguments.file)?;
+    let pitch = Pitch::named(&data.arena).or_bad_input()?;
+    let records = data.records.iter().map(|record| record.record.clone());
+    let records: Vec<PlaceRecord> = records.collect();
+    let choice = FeatureChoice::paper(ImageFeature::small(ColourSpace::Hsv));
+    let form = ImageForm::Span { left_out: 0.0 };
+    let table = FeatureTable::of(&records, &choice, form).or_bad_input()?;
+    let mut config = PlaceMapConfig::paper();
+    if let Some(period) = arguments.growth_period {
+        config.gng.growth_period = period;
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(arguments.seed);
+    let map = PlaceMap::learn(&table, 0..records.len(), config, &mut rng).or_bad_input()?;
+    let scored = PlaceScorer::paper(&data, &pitch).score(&map, &table, &mut rng)?;
+    let nodes = map.network().ids().count();
+    if arguments.json {
+        let json = json!({
+            "nodes": nodes,
+            "score": scored.map(|score| score.mean.by_centre),
+            "score_to_the_border": scored.map(|score| score.mean.by_border),
+            "mirrored": scored.map(|score| score.mirrored),
+        });
+        writeln!(out, "{json:#}")?;
+    }
+    let Some(score) = scored else {
+        return Err(Failure::Failed(anyhow!(
+            "a map of {nodes} nodes has one for both goals, so that it cannot be turned and has no score; give another --seed, or a smaller \
+             --growth-period"
+        )));
+    };
+    if !arguments.json {
+        let mirrored = if score.mirrored { ", mirrored" } else { "" };
+        writeln!(
+            out,
+            "a map of {nodes} nodes{mirrored}: score {:.3}, to the border {:.3}; guesses have 0.175 and 0.184",
+            score.mean.by_centre, score.mean.by_border
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,419 @@
+use anyhow::{Context, Error, anyhow};
+use serde_json::{Value, json};
+use tolman_arena::course::{Course, Terrain};
+use tolman_arena::gngslam::{LaidOver, PIONEER_2DX, paper_robot};
+use tolman_arena::pioneer::{LASER_PIONEER, body, calibrated};
+use tolman_arena::{Depicted, Outing, Sent, Simulated, Site};
+use tolman_draw::Drawing;
+use tolman_geom::{Point, Pose};
+use tolman_maps::place_graph::PlaceGraph;
+use tolman_papers::gngslam::drawing::places_over_world;
+use tolman_robot::{
+    Body, Bumps, Landmark, MapView, Mapper, Rolls, TakesSnapshots, TurnTranslate, pioneer_2dx,
+};
+use tolman_sim::Model;
+use tolman_sim::robots::{LaserPioneer, Pioneer2dx};
+use tolman_systems::Origin;
+use tolman_systems::gngslam::{
+    ExplorationPolicy, LandmarkSighting, MapFile, OnlineSlam, OnlineSlamConfig,
+};
+
+use crate::system::{LearnedMap, MapText, Setup, SystemEntry, start_anywhere};
+
+/// The [online system of GNG-SLAM](OnlineSlam) on a robot with sonars and a camera, or with a laser.
+#[derive(Clone, Copy, Debug)]
+pub struct GngSlamEntry;
+
+const PRESETS: [(&str, &str); 2] = [
+    (
+        "to-the-unknown",
+        "Goes where the floor goes on beyond its map, then by chance",
+    ),
+    (
+        "by-chance",
+        "Straight on until something is near, then elsewhere, as in the tables",
+    ),
+];
+
+const ROBOTS: [&str; 2] = [PIONEER_2DX, LASER_PIONEER];
+
+/// The wheels of the Pioneer 2-DX count wrongly by up to this share, each its own, by the seed.
+const CALIBRATION: f64 = 0.03;
+
+/// Time steps after which a robot that learns, or drives, has failed where nothing else is said.
+const LEARNING_STEPS: u32 = 60_000;
+const DRIVING_STEPS: u32 = 20_000;
+
+impl SystemEntry for GngSlamEntry {
+    fn name(&self) -> &'static str {
+        "gngslam"
+    }
+
+    fn about(&self) -> &'static str {
+        "Maps places by image, sonar or laser, and corrects its pose by them while it learns"
+    }
+
+    fn presets(&self) -> &'static [(&'static str, &'static str)] {
+        &PRESETS
+    }
+
+    fn robots(&self) -> &'static [&'static str] {
+        &ROBOTS
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        let names = PRESETS.map(|(name, _)| name);
+        let ways = [ExplorationPolicy::ToTheUnknown, ExplorationPolicy::ByChance];
+        let explore = setup.settings.preset(names.into_iter().zip(ways))?;
+        let before = setup.from.map(read).transpose()?;
+        let mut preset = match &before {
+            Some(before) => before.config,
+            None => usual(setup.robot(&ROBOTS)?),
+        };
+        preset.explore = explore;
+        let config: OnlineSlamConfig = setup.settings.over(&preset)?;
+        send(setup, |ground| {
+            let (system, sites, world_from_map) = match before {
+                None => (
+                    OnlineSlam::new(config, setup.seed),
+                    Vec::new(),
+                    ground.start,
+                ),
+                Some(before) => {
+                    let laid = LaidOver::of(&before.graph, &before.sites);
+                    let system = OnlineSlam::on(before.graph, config, setup.seed);
+                    let system = system.with_sightings(before.sightings);
+                    let world_from_map = laid.map_or(Pose::IDENTITY, |laid| laid.world_from_map);
+                    (system, before.sites, world_from_map)
+                }
+            };
+            Mission {
+                system,
+                sites,
+                world_from_map,
+                config,
+                steps: LEARNING_STEPS,
+            }
+        })
+    }
+
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+        let [map] = maps else {
+            return Err(anyhow!("gngslam drives by one map: give --map once"));
+        };
+        let file = read(map)?;
+        let config: OnlineSlamConfig = setup.settings.over(&file.config)?;
+        send(setup, |_| {
+            let laid = LaidOver::of(&file.graph, &file.sites);
+            let system = OnlineSlam::on(file.graph.put_down(false), config, setup.seed);
+            Mission {
+                system: system.with_sightings(file.sightings),
+                sites: file.sites,
+                world_from_map: laid.map_or(Pose::IDENTITY, |laid| laid.world_from_map),
+                config,
+                steps: DRIVING_STEPS,
+            }
+        })
+    }
+
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+        Ok(Box::new(read(map)?))
+    }
+}
+
+fn read(map: &MapText) -> Result<MapFile, Error> {
+    MapFile::from_json(&map.text).with_context(|| map.name.clone())
+}
+
+/// Our values for a robot.
+fn usual(robot: &str) -> OnlineSlamConfig {
+    match robot {
+        LASER_PIONEER => {
+            let laser = calibrated();
+            let rate = |step: f64, per_step: f64| (step / per_step).min(1.0);
+            OnlineSlamConfig::all_round(
+                laser.radius,
+                rate(0.04, laser.translate_per_step),
+                rate(0.15, laser.turn_per_step),
+            )
+        }
+        _ => OnlineSlamConfig::pioneer_2dx(),
+    }
+}
+
+fn body_of(robot: &str) -> Body {
+    match robot {
+        LASER_PIONEER => body(),
+        _ => pioneer_2dx::body(),
+    }
+}
+
+/// Where a robot is sent out.
+struct Ground {
+    robot: &'static str,
+    course: Course,
+    start: Pose,
+}
+
+/// What it is sent out with.
+struct Mission {
+    system: OnlineSlam,
+    /// Where the robot truly was when each place that it already knows was made.
+    sites: Vec<Point>,
+    /// Where the origin of its map truly lies.
+    world_from_map: Pose,
+    config: OnlineSlamConfig,
+    /// Time steps that it has, if nothing else is said.
+    steps: u32,
+}
+
+/// Puts the robot down and sends it out with what `mission` gives it.
+fn send(
+    setup: &Setup<'_>,
+    mission: impl FnOnce(&Ground) -> Mission,
+) -> Result<Box<dyn Outing>, Error> {
+    let robot = setup.robot(&ROBOTS)?;
+    let body = body_of(robot);
+    let course = setup.terrain.course(setup.world, &body)?;
+    let start = start_anywhere(setup, &course, &body)?;
+    let ground = Ground {
+        robot,
+        course,
+        start,
+    };
+    let mission = mission(&ground);
+    match robot {
+        LASER_PIONEER => ground.send(setup, mission, LaserPioneer::new(calibrated())?),
+        _ => {
+            let model = Pioneer2dx::new(paper_robot(setup.seed, CALIBRATION)?)?;
+            ground.send(setup, mission, model)
+        }
+    }
+}
+
+impl Ground {
+    fn send<M>(
+        self,
+        setup: &Setup<'_>,
+        mission: Mission,
+        model: M,
+    ) -> Result<Box<dyn Outing>, Error>
+    where
+        M: Depicted
+            + Model<Command = TurnTranslate, Sensing: TakesSnapshots + Rolls + Bumps>
+            + 'static,
+        Simulated<M>: tolman_arena::HasSimulated,
+    {
+        let origin = setup.origin(&self.course, self.robot);
+        let robot = self.course.robot_at(self.start, model, setup.seed)?;
+        let Mission {
+            system,
+            sites,
+            world_from_map,
+            config,
+            steps,
+        } = mission;
+        let (course, judged_on) = (self.course.clone(), self.course);
+        let known = sites.clone();
+        let sent = Sent::new(course, robot, setup.steps.unwrap_or(steps), system)
+            .laid_at(world_from_map)
+            .counting(|system| system.graph().places().len())
+            .keeping(move |system, made| {
+                let file = MapFile {
+                    origin: origin.clone(),
+                    config,
+                    graph: system.graph().clone(),
+                    sightings: system.sightings().to_vec(),
+                    sites: with(&known, made),
+                };
+                Ok(Some(file.to_json()?))
+            })
+            .judging(move |system, made, _task| {
+                let graph = system.graph();
+                if !graph.is_localized() {
+                    let why = "the robot does not know where it is on it: give it more --steps, or another --seed";
+                    return Some(why.to_owned());
+                }
+                complaint(graph, system.sightings(), &with(&sites, made), &judged_on)
+            });
+        Ok(Box::new(sent))
+    }
+}
+
+/// Where the robot truly was when each place was made: those of before, and the new ones.
+fn with(before: &[Point], made: &[Site]) -> Vec<Point> {
+    let new = made.iter().skip(before.len()).map(|site| site.position);
+    before.iter().copied().chain(new).collect()
+}
+
+/// Places of a right map are off by less than this, as the root of the mean square, m.
+const MOST_ERROR: f64 = 0.5;
+
+/// A place shows what is this near: in a maze as a share of the corridors' width, in a free world m.
+const NEAR_IN_MAZE: f64 = 0.8;
+const NEAR: f64 = 1.5;
+
+/// The share of the floor that a finished map has places near.
+const MOST_COVERED: f64 = 0.9;
+
+/// Why a map is wrong or unfinished as one of this course, of which it is known where the robot truly was when each place was made;
+/// `None` if it is right.
+fn complaint(
+    graph: &PlaceGraph,
+    sightings: &[LandmarkSighting],
+    sites: &[Point],
+    course: &Course,
+) -> Option<String> {
+    let mut sensed = sightings.iter();
+    if !sensed.any(|sighting| sighting.landmark == Landmark::Goal) {
+        let why = "the robot never sensed the goal: learn longer, --set quiet_looks=600";
+        return Some(why.to_owned());
+    }
+    let laid = LaidOver::of(graph, sites)?;
+    if laid.error_m > MOST_ERROR {
+        return Some(format!(
+            "its places lie {:.1} m from where they truly are: try another --seed",
+            laid.error_m
+        ));
+    }
+    let near = match course.is_free() {
+        true => NEAR,
+        false => NEAR_IN_MAZE * course.corridor_width,
+    };
+    let cells: Vec<Point> = course
+        .starts()
+        .map(|cell| course.cell_centre(cell))
+        .collect();
+    let is_seen = |cell: &&Point| sites.iter().any(|site| (site - **cell).norm() <= near);
+    let seen = cells.iter().filter(is_seen).count();
+    let share = seen as f64 / cells.len().max(1) as f64;
+    (share < MOST_COVERED).then(|| {
+        format!(
+            "it has places near {:.0} % of the floor alone: learn longer, --set quiet_looks=600",
+            100.0 * share
+        )
+    })
+}
+
+impl LearnedMap for MapFile {
+    fn lines(&self) -> Vec<String> {
+        let Origin { world, seed, .. } = &self.origin;
+        let goal = match goal_of(self) {
+            Some(place) => format!(
+                "the goal was sensed at {} places, amid them place {place}",
+                goals(self)
+            ),
+            None => "the goal was never sensed: learn longer".to_owned(),
+        };
+        vec![
+            format!("{world}, seed {seed}"),
+            format!(
+                "{} places, {} ways between them, {} edges of the pose graph",
+                self.graph.places().len(),
+                self.graph.map().links.len() / 2,
+                self.graph.poses().edges().len()
+            ),
+            goal,
+        ]
+    }
+
+    fn json(&self) -> Value {
+        let Origin { world, seed, .. } = &self.origin;
+        let laid = LaidOver::of(&self.graph, &self.sites);
+        json!({
+            "system": GngSlamEntry.name(),
+            "maze": world,
+            "seed": seed,
+            "config": self.config,
+            "places": self.graph.places().len(),
+            "links": self.graph.map().links.len() / 2,
+            "edges": self.graph.poses().edges().len(),
+            "goal_places": goals(self),
+            "error_m": laid.map(|laid| laid.error_m),
+        })
+    }
+
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+        let course = course_of(self, terrain)?;
+        let laid = LaidOver::of(&self.graph, &self.sites).ok_or_else(|| {
+            anyhow!("nobody watched where its places truly lie, so it cannot be laid over a world: leave --svg out")
+        })?;
+        let mut map: MapView = self.graph.map();
+        for place in &mut map.places {
+            place.position = place.position.map(|at| laid.world_from_map.transform(at));
+        }
+        for sighting in &self.sightings {
+            if let Some(place) = map.places.get_mut(sighting.place as usize) {
+                place.landmark = Some(sighting.landmark);
+            }
+        }
+        Ok(places_over_world(&course, &map))
+    }
+
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+        let count = self.graph.places().len();
+        let known = |place: u32| match (place as usize) < count {
+            true => Ok(place),
+            false => Err(anyhow!(
+                "there is no place {place}: they are numbered from 0 to {}",
+                count.saturating_sub(1)
+            )),
+        };
+        let from = known(from.unwrap_or(0))?;
+        let to = match to {
+            Some(to) => known(to)?,
+            None => goal_of(self)
+                .ok_or_else(|| anyhow!("the goal is not on this map: give --to PLACE"))?,
+        };
+        let system = OnlineSlam::on(self.graph.clone(), self.config, 0);
+        let poses = self.graph.poses().poses();
+        let way = system.plan(from, to).map(|places| {
+            let steps = places.windows(2).map(|step| {
+                let [a, b] = [step[0], step[1]].map(|place| poses[place as usize].position);
+                format!("{:.2} m to place {}", (b - a).norm(), step[1])
+            });
+            steps.collect()
+        });
+        Ok(way)
+    }
+
+    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
+        let course = course_of(self, terrain)?;
+        let drawn = self.origin.drawing.as_ref();
+        if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
+            let why = "it was learned in another world, or this one has been drawn anew since";
+            return Ok(Some(why.to_owned()));
+        }
+        if self.sites.is_empty() {
+            return Err(anyhow!("nobody watched where its places truly lie"));
+        }
+        Ok(complaint(
+            &self.graph,
+            &self.sightings,
+            &self.sites,
+            &course,
+        ))
+    }
+}
+
+/// The number of places where the goal was sensed.
+fn goals(file: &MapFile) -> usize {
+    let sightings = file.sightings.iter();
+    sightings
+        .filter(|sighting| sighting.landmark == Landmark::Goal)
+        .count()
+}
+
+/// The place amid those where the goal was sensed.
+fn goal_of(file: &MapFile) -> Option<u32> {
+    let system = OnlineSlam::on(file.graph.clone(), file.config, 0);
+    system
+        .with_sightings(file.sightings.clone())
+        .place_with(Landmark::Goal)
+}
+
+/// The maze or world that a map was learned in, for the robot that learned it.
+fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
+    let body = body_of(&file.origin.robot);
+    Ok(terrain.course(&file.origin.world, &body)?)
+}
