@@ -19,6 +19,7 @@ pub mod cpm;
 pub mod diktiometry;
 pub mod episode;
 mod episode_error;
+pub mod family;
 pub mod gngslam;
 pub mod micromouse;
 mod mind;

@@ -83,6 +83,6 @@ pub use {
         Format, MazeError, MazeFault, MazeFile, UnknownFormat, WriteError, parse, parse_as, read,
         read_as, write,
     },
-    generators::{Braided, GenerateError, Perfect, Rooms},
+    generators::{Braided, GenerateError, Perfect, Rooms, drawings},
     maze::Maze,
 };

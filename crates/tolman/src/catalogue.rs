@@ -25,7 +25,7 @@ impl Catalogue {
         Self {
             program: "tolman",
             systems: vec![&MslstEntry, &CpmEntry, &DiktiometryEntry],
-            families: Family::ALL.to_vec(),
+            families: Family::all(),
             experiments: tolman_papers::catalogue().to_vec(),
         }
     }

@@ -2,6 +2,7 @@
 
 mod braided;
 mod chance;
+pub mod drawings;
 mod error;
 mod perfect;
 mod rooms;

@@ -129,8 +129,7 @@ impl App<'_> {
     /// Bad input if there is none.
     fn family(&self, name: &str) -> Result<&Family, Failure> {
         let families = &self.catalogue.families;
-        let mut named = families.iter();
-        named.find(|family| family.name == name).ok_or_else(|| {
+        Family::named(families, name).ok_or_else(|| {
             let names: Vec<&str> = families.iter().map(|family| family.name).collect();
             Failure::BadInput(anyhow!(
                 "there is no family {name}; choose one of: {}",
