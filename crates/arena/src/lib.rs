@@ -14,6 +14,7 @@ pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
 pub mod cast;
 pub mod competition;
+pub mod contest;
 pub mod course;
 pub mod cpm;
 pub mod diktiometry;
