@@ -36,7 +36,7 @@ fn main() -> Result<(), tolman_arena::BoxError> {
                     seed,
                 };
                 let began = Instant::now();
-                let record = contest.play(&schooling, |_| {})?;
+                let record = contest.play(&schooling, |_, _| {})?;
                 let homes: Vec<String> = (record.homes.iter())
                     .map(|home| format!("{:?} {}", home.over_shortest, home.gave_up))
                     .collect();

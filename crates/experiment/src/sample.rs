@@ -21,6 +21,8 @@ pub(super) enum Sample<'a> {
     Numbers { numbers: Vec<f64>, centre: Centre },
     /// A numerator and a denominator for each run.
     Pairs(Vec<(f64, f64)>),
+    /// The squared error of each run's forecast, and what came about, 1 or 0: both did in some run.
+    Forecasts(Vec<(f64, f64)>),
     /// A curve for each run, and the limit that their mean is to stay below.
     Curves {
         curves: Vec<&'a [f64]>,
@@ -36,6 +38,16 @@ pub(super) enum Centre {
     Median,
     Least,
     Greatest,
+}
+
+/// 1 − the mean squared error over the variance of what came about.
+fn skill(forecasts: &[(f64, f64)]) -> f64 {
+    let count = forecasts.len() as f64;
+    let (errors, came) = forecasts.iter().fold((0.0, 0.0), |(errors, came), one| {
+        (errors + one.0, came + one.1)
+    });
+    let rate = came / count;
+    1.0 - errors / (count * rate * (1.0 - rate))
 }
 
 impl<'a> Sample<'a> {
@@ -76,6 +88,19 @@ impl<'a> Sample<'a> {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
                 Self::Pairs(pairs.collect())
             }
+            Statistic::Skill { error, outcome } => {
+                let forecasts: Vec<(f64, f64)> = runs
+                    .filter_map(|run| {
+                        let outcome = f64::from(u8::from(run.fields.flag(outcome)?));
+                        Some((run.fields.number(error)?, outcome))
+                    })
+                    .collect();
+                let came = forecasts.iter().filter(|(_, came)| *came > 0.5).count();
+                if came == 0 || came == forecasts.len() {
+                    return None;
+                }
+                Self::Forecasts(forecasts)
+            }
             Statistic::Multiple { field, .. } => {
                 let pairs = runs.filter_map(|run| {
                     let place = others.binary_search_by_key(&run.run, |other| other.run);
@@ -102,7 +127,7 @@ impl<'a> Sample<'a> {
         match self {
             Self::Flags { flags, .. } => flags.len(),
             Self::Numbers { numbers, .. } => numbers.len(),
-            Self::Pairs(pairs) => pairs.len(),
+            Self::Pairs(pairs) | Self::Forecasts(pairs) => pairs.len(),
             Self::Curves { curves, .. } => curves.len(),
         }
     }
@@ -120,6 +145,7 @@ impl<'a> Sample<'a> {
                 Centre::Greatest => numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             },
             Self::Pairs(pairs) => ratio_of_sums(pairs),
+            Self::Forecasts(forecasts) => skill(forecasts),
             Self::Curves {
                 curves,
                 step,
@@ -152,7 +178,7 @@ impl<'a> Sample<'a> {
                 ..
             } => None,
             Self::Numbers { numbers, .. } => Some(numbers),
-            Self::Flags { .. } | Self::Pairs(_) | Self::Curves { .. } => None,
+            Self::Flags { .. } | Self::Pairs(_) | Self::Forecasts(_) | Self::Curves { .. } => None,
         }
     }
 
@@ -173,6 +199,9 @@ impl<'a> Sample<'a> {
             },
             Self::Pairs(pairs) => {
                 tolman_stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng)
+            }
+            Self::Forecasts(_) => {
+                return None;
             }
             Self::Curves {
                 curves,
@@ -197,8 +226,8 @@ impl<'a> Sample<'a> {
                 .filter(|(_, under)| *under > 0.0)
                 .map(|(over, under)| over / under)
                 .collect(),
-            // A mean curve settles, one run's does not.
-            Self::Curves { .. } => Vec::new(),
+            // A mean curve settles, one run's does not; nor has one forecast a skill.
+            Self::Curves { .. } | Self::Forecasts(_) => Vec::new(),
         }
     }
 }

@@ -45,6 +45,7 @@ impl Verdict {
                 Statistic::Median(_)
                 | Statistic::Least(_)
                 | Statistic::Greatest(_)
+                | Statistic::Skill { .. }
                 | Statistic::Settling(_),
             ) => {
                 return None;

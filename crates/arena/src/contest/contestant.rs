@@ -14,6 +14,7 @@ use tolman_systems::micromouse::SIDE;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::{Mslst, MslstConfig};
 
+use super::true_graph::PlaceRule;
 use crate::cast::Agent;
 use crate::course::Course;
 use crate::cpm::{self, epuck, epuck_course, patience, ring_measures, walker_config};
@@ -79,7 +80,7 @@ const LESSON: usize = 300;
 const COLOURS: u32 = 8;
 
 /// Time steps of a run at most, whatever becomes of it.
-const STEP_LIMIT: u32 = 5_000_000;
+const STEP_LIMIT: u32 = 100_000_000;
 
 /// MSLST records scans for so many time steps for each cell, and maps so many actions: both together take the most of what it
 /// may drive.
@@ -132,6 +133,25 @@ impl Contestant {
             (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => CAMERA_PIONEER,
             _ => LASER_PIONEER,
         }
+    }
+
+    /// Returns which cells are its places. What it takes for a place beside, with two ways, is a part of a way.
+    #[must_use]
+    pub const fn places(self) -> PlaceRule {
+        match self {
+            Self::Diktiometry | Self::DiktiometryBetter => PlaceRule::Corners,
+            _ => PlaceRule::Landmarks,
+        }
+    }
+
+    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions,
+    /// and the micromouse has proven a shortest run.
+    #[must_use]
+    pub const fn claims(self) -> bool {
+        matches!(
+            self,
+            Self::Cpm | Self::CpmBetter | Self::Diktiometry | Self::DiktiometryBetter
+        )
     }
 
     /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features alone say; `None` where it

@@ -12,6 +12,6 @@ mod whereabouts;
 
 pub use contestant::{ContestRobot, Contestant, Schooling};
 pub use judgement::{MapJudgement, judge};
-pub use play::{Contest, ContestError, ContestRecord, Found, Home, Learned};
-pub use true_graph::{TrueGraph, TrueWay};
+pub use play::{Claim, Contest, ContestError, ContestRecord, Found, Home, Learned, Moment};
+pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;

@@ -61,6 +61,17 @@ pub enum ContestError {
     },
 }
 
+/// When a contest is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    /// The contestant stands at the start.
+    Begun,
+    /// It has made an action.
+    Acted,
+    /// All is over.
+    Over,
+}
+
 /// What came of a contest.
 #[derive(Clone, Debug, Default)]
 pub struct ContestRecord {
@@ -79,6 +90,8 @@ pub struct ContestRecord {
 pub struct Learned {
     /// How that ended.
     pub end: TaskEnd,
+    /// What the system makes of its own map.
+    pub claim: Claim,
     /// How good its map is.
     pub judgement: MapJudgement,
     /// Metres driven over the length of all corridors.
@@ -91,15 +104,33 @@ pub struct Learned {
     pub places: usize,
 }
 
-impl Learned {
-    /// Returns how likely the system takes its map to be right, 0 to 1: who says that it is done takes it for right, who gives
-    /// up for wrong, and who is out of time does not say.
+/// What a system makes of its own map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Claim {
+    /// It is right and whole: the system says that it is done.
+    Right,
+    /// It is wrong or unfinished: the system gave up.
+    Wrong,
+    /// The system does not say: its time was up, or being done says nothing of its map.
+    Undecided,
+}
+
+impl Claim {
+    const fn of(end: &TaskEnd, claims: bool) -> Self {
+        match end {
+            TaskEnd::Done if claims => Self::Right,
+            TaskEnd::GaveUp { .. } => Self::Wrong,
+            TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
+        }
+    }
+
+    /// Returns how likely the map is right by that, 0 to 1; a half where the system does not say.
     #[must_use]
-    pub const fn belief(&self) -> Option<f64> {
-        match self.end {
-            TaskEnd::Done => Some(1.0),
-            TaskEnd::GaveUp { .. } => Some(0.0),
-            TaskEnd::OutOfTime => None,
+    pub const fn likelihood(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Wrong => 0.0,
+            Self::Undecided => 0.5,
         }
     }
 }
@@ -135,14 +166,14 @@ impl Contest<'_> {
     /// A task ends when so many times the length of all corridors was driven, or of the shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
 
-    /// Holds it. `watch` is shown the contestant after every action; nothing depends on it.
+    /// Holds it. `watch` is shown the contestant at every [`Moment`]; nothing depends on it.
     ///
     /// # Errors
     /// [`ContestError`].
     pub fn play(
         &self,
         schooling: &Schooling,
-        mut watch: impl FnMut(&dyn Outing),
+        mut watch: impl FnMut(&dyn Outing, Moment),
     ) -> Result<ContestRecord, ContestError> {
         if let Some(why) = self.contestant.abstains(self.maze, self.robot) {
             return Ok(ContestRecord {
@@ -161,7 +192,7 @@ impl Contest<'_> {
         let entered = contestant.enter(self.maze, self.name, self.robot, schooling, self.seed);
         let entered = entered.map_err(|source| self.enter_error(source))?;
         let mut bout = Bout::new(self, entered);
-        watch(&*bout.outing);
+        watch(&*bout.outing, Moment::Begun);
         let learned = bout.learn(&mut watch);
         let (mut found, mut homes) = (Vec::new(), Vec::new());
         for [here, there] in self.put_downs() {
@@ -174,6 +205,7 @@ impl Contest<'_> {
                 .map_err(|e| self.put_error(e))?;
             homes.push(home);
         }
+        watch(&*bout.outing, Moment::Over);
         Ok(ContestRecord {
             abstained: None,
             learned: Some(learned),
@@ -224,6 +256,7 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 struct Bout<'a> {
     maze: &'a Maze,
     truth: TrueGraph,
+    claims: bool,
     squares: Squares,
     outing: Box<dyn Outing>,
     /// Whether it was lifted, and has made no step since.
@@ -249,7 +282,8 @@ impl<'a> Bout<'a> {
         let grid = maze.grid();
         Self {
             maze,
-            truth: TrueGraph::of(maze),
+            truth: TrueGraph::of(maze, contest.contestant.places()),
+            claims: contest.contestant.claims(),
             squares: Squares { grid, pitch },
             outing,
             is_lifted: false,
@@ -269,7 +303,7 @@ impl<'a> Bout<'a> {
         task: Task,
         most: f64,
         mut see: impl FnMut(&dyn Outing, Point),
-        watch: &mut impl FnMut(&dyn Outing),
+        watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Driven {
         // The path does not know that the robot was lifted: its last pose is where that was.
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
@@ -282,7 +316,7 @@ impl<'a> Bout<'a> {
             let before = self.here();
             let standing = self.outing.act(task);
             see(&*self.outing, before);
-            watch(&*self.outing);
+            watch(&*self.outing, Moment::Acted);
             let path = self.outing.path();
             let last = path.len() - 1;
             idle = if last > until { 0 } else { idle + 1 };
@@ -321,7 +355,7 @@ impl<'a> Bout<'a> {
         self.maze.opening_count_reached() as f64 * self.squares.pitch
     }
 
-    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing)) -> Learned {
+    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> Learned {
         let squares = self.squares;
         let most = Contest::LIMIT * self.corridors();
         // Where it was when it came to each of its places, and what it believed after each action.
@@ -362,6 +396,7 @@ impl<'a> Bout<'a> {
         let judgement = judge(&map, &visits, &self.truth, &gone, scale);
         (self.stands_for, _) = stands_for(&map, &visits, squares);
         Learned {
+            claim: Claim::of(&driven.end, self.claims),
             end: driven.end,
             judgement,
             driven: length(path) / self.corridors().max(squares.pitch),
@@ -381,7 +416,7 @@ impl<'a> Bout<'a> {
     fn locate(
         &mut self,
         start: (Cell, Direction),
-        watch: &mut impl FnMut(&dyn Outing),
+        watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Found, BoxError> {
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Found::Abstained { why });
@@ -409,7 +444,7 @@ impl<'a> Bout<'a> {
     fn home(
         &mut self,
         start: (Cell, Direction),
-        watch: &mut impl FnMut(&dyn Outing),
+        watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
         let shortest = self.maze.metres_to_goal(start.0, self.squares.pitch);
         if let Standing::GaveUp { why } = self.put_down(start)? {

@@ -3,10 +3,18 @@ use alloc::collections::BTreeSet;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
+/// Which cells of a drawing are places, as a system has it that can know no others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceRule {
+    /// Junctions, dead ends, the start and the goals; a bend is a part of a way.
+    Landmarks,
+    /// Junctions, dead ends and bends: all but where a corridor leads straight on, also where a landmark stands there.
+    Corners,
+}
+
 /// The places of a drawing and the ways between them, as they truly are.
 ///
-/// A place is a cell that is reached and is a junction, a dead end, the start or a goal; every cell of an open square is a
-/// junction. A bend is a part of a way, whatever a system takes it for.
+/// A place is a cell that is reached and that the [`PlaceRule`] names; every cell of an open square is a junction or a bend.
 #[derive(Clone, Debug)]
 pub struct TrueGraph {
     places: BTreeSet<Cell>,
@@ -34,13 +42,16 @@ impl TrueWay {
 impl TrueGraph {
     /// Returns the graph of a drawing. O(cells).
     #[must_use]
-    pub fn of(maze: &Maze) -> Self {
+    pub fn of(maze: &Maze, rule: PlaceRule) -> Self {
         let start = maze.start().map(|(cell, _)| (cell, Landmark::Start));
         let goals = maze.goals().iter().map(|cell| (*cell, Landmark::Goal));
         let landmarks: Vec<(Cell, Landmark)> = start.into_iter().chain(goals).collect();
         let is_marked = |cell: Cell| landmarks.iter().any(|(marked, _)| *marked == cell);
         let places = maze.reachable();
-        let places = places.filter(|cell| maze.degree(*cell) != 2 || is_marked(*cell));
+        let places = places.filter(|cell| match rule {
+            PlaceRule::Landmarks => maze.degree(*cell) != 2 || is_marked(*cell),
+            PlaceRule::Corners => !is_straight(maze, *cell),
+        });
         let places: BTreeSet<Cell> = places.collect();
         let mut ways: Vec<TrueWay> = Vec::new();
         let mut left: BTreeSet<(Cell, usize)> = BTreeSet::new();
@@ -112,6 +123,12 @@ impl TrueGraph {
     }
 }
 
+/// Whether a corridor leads straight on through a cell.
+fn is_straight(maze: &Maze, cell: Cell) -> bool {
+    let ways = Direction::ALL.map(|way| maze.is_open(cell, way));
+    ways == [true, false, true, false] || ways == [false, true, false, true]
+}
+
 /// Who turns back is where he was before.
 fn turn_back_or_on(between: &mut Vec<Cell>, cell: Cell) {
     match between[..] {
@@ -180,7 +197,7 @@ o---o---o---o---o
 
     #[test]
     fn a_loop_is_a_way_from_a_place_to_itself() {
-        let graph = TrueGraph::of(&tolman_maze::read(LOOP).unwrap().maze);
+        let graph = TrueGraph::of(&tolman_maze::read(LOOP).unwrap().maze, PlaceRule::Landmarks);
         assert_eq!((graph.places().len(), graph.ways().len()), (3, 3));
         let crossing = Cell::new(1, 1);
         let round = graph
@@ -206,7 +223,7 @@ o---o---o---o---o
             for seed in 0..10 {
                 let rng = &mut ChaCha8Rng::seed_from_u64(seed);
                 let maze = (family.draw)(family.sizes[1], rng).unwrap();
-                let graph = TrueGraph::of(&maze);
+                let graph = TrueGraph::of(&maze, PlaceRule::Landmarks);
                 let fragments = TrueFragments::of(&maze).count() as usize;
                 assert_eq!(graph.ways().len(), fragments, "{}\n{maze}", family.name);
                 // Whoever is everywhere has gone all ways.

@@ -32,6 +32,7 @@ fn every_verb_explains_itself() {
         &["maze", "convert"],
         &["maze", "generate"],
         &["learn"],
+        &["arena"],
         &["drive"],
         &["systems"],
         &["maze", "distinct"],
