@@ -5,7 +5,7 @@ use tolman_geom::{Point, Pose};
 use tolman_robot::{
     Body, Guess, Landmark, MapView, Ring, Robot, Scan, SensesLandmarks, Standing, System, Task,
 };
-use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer};
+use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 use tolman_sim::trace::Recordable;
 use tolman_systems::cpm::RingAsEpuck;
 
@@ -190,6 +190,10 @@ impl Depicted for CameraPioneer {
     fn scan(sensing: &Self::Sensing) -> Option<&Scan> {
         sensing.laser.scan.as_ref()
     }
+}
+
+impl Depicted for Pioneer2dx {
+    const NAME: &'static str = "Pioneer 2-DX";
 }
 
 impl Depicted for Epuck {

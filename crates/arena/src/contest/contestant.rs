@@ -4,12 +4,14 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{JournalLength, Use};
 use tolman_maze::{Maze, MazeFile};
-use tolman_sim::robots::{Epuck, LaserPioneer};
+use tolman_robot::Ring;
+use tolman_sim::robots::{Epuck, LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Actor;
 use tolman_systems::cpm::{
     CommonPatterns, Cpm, CpmConfig, Lesson, Mode, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
 };
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
+use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::{Mslst, MslstConfig};
@@ -22,7 +24,7 @@ use crate::diktiometry::{Office, OfficeConfig, PlaceCue, SurveyorConfig, mapper,
 use crate::episode::layers;
 use crate::micromouse::brief;
 use crate::pioneer::{CAMERA_PIONEER, CORRIDOR_WIDTH, LASER_PIONEER, body, calibrated};
-use crate::{BoxError, HasSimulated, Outing, Sent};
+use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
 
 /// Who is sent into a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +39,8 @@ pub enum Contestant {
     Diktiometry,
     /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look like.
     DiktiometryBetter,
+    /// [`OnlineSlam`], whose places are points of the floor.
+    GngSlamBetter,
     /// [`MazeMouse`], which is told the grid, its start and the goal.
     Micromouse,
     /// A baseline, which learns no map.
@@ -82,6 +86,9 @@ const COLOURS: u32 = 8;
 /// Time steps of a run at most, whatever becomes of it.
 const STEP_LIMIT: u32 = 100_000_000;
 
+/// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
+const WIDE: f64 = 1.5;
+
 /// MSLST records scans for so many time steps for each cell, and maps so many actions: both together take the most of what it
 /// may drive.
 const SCANS_A_CELL: u32 = 10;
@@ -89,12 +96,13 @@ const ACTIONS_A_CELL: u32 = 6;
 
 impl Contestant {
     /// All of them, systems first.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Mslst,
         Self::Cpm,
         Self::CpmBetter,
         Self::Diktiometry,
         Self::DiktiometryBetter,
+        Self::GngSlamBetter,
         Self::Micromouse,
         Self::Baseline(Agent::Random),
         Self::Baseline(Agent::Avoid),
@@ -112,6 +120,7 @@ impl Contestant {
             Self::CpmBetter => "CPM Better",
             Self::Diktiometry => "Diktiometry",
             Self::DiktiometryBetter => "Diktiometry Better",
+            Self::GngSlamBetter => "GNG-SLAM Better",
             Self::Micromouse => "Micromouse",
             Self::Baseline(agent) => agent.name(),
         }
@@ -131,6 +140,7 @@ impl Contestant {
         match (self, robot) {
             (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => "e-puck",
             (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => CAMERA_PIONEER,
+            (Self::GngSlamBetter, ContestRobot::Own) => Pioneer2dx::NAME,
             _ => LASER_PIONEER,
         }
     }
@@ -227,6 +237,27 @@ impl Contestant {
                 let mouse = MazeMouse::certify(brief(maze)?, config)?;
                 let body = laser_pioneer(&course, seed)?;
                 Ok(sent(course, body, mouse))
+            }
+            (Self::GngSlamBetter, ContestRobot::Own) => {
+                let course = Course::new(name, maze.clone(), WIDE)?;
+                let robot = Pioneer2dx::new(Pioneer2dxConfig::paper())?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
+                let config = OnlineSlamConfig::pioneer_2dx();
+                Ok(sent(course, body, OnlineSlam::new(config, seed)))
+            }
+            (Self::GngSlamBetter, ContestRobot::Pioneer) => {
+                let course = Course::new(name, maze.clone(), WIDE)?;
+                let robot = LaserPioneerConfig {
+                    ring: Ring::full(90, 4.0),
+                    ..calibrated()
+                };
+                let mut config = OnlineSlamConfig::pioneer_2dx();
+                // As far and as much a time step as the Pioneer 2-DX.
+                let rates = (0.04 / robot.translate_per_step, 0.1);
+                config.drive = config.drive.with_rates(rates.0, rates.1);
+                let body = LaserPioneer::new(robot)?;
+                let body = course.robot_at(course.start()?, body, seed)?;
+                Ok(sent(course, body, OnlineSlam::new(config, seed)))
             }
             (Self::Baseline(agent), _) => Err(format!("{} learns no map", agent.name()).into()),
         }

@@ -280,3 +280,185 @@ fn share(part: usize, whole: usize) -> f64 {
         part as f64 / whole as f64
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use tolman_maze::Maze;
+    use tolman_robot::MapLink;
+
+    use super::super::true_graph::PlaceRule;
+    use super::*;
+    use crate::family::Family;
+
+    fn drawn(family: usize, seed: u64) -> Maze {
+        let family = Family::ARENA[family];
+        (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
+    }
+
+    /// The map that has each of these cells as a place, by its index, with the openings between neighbours as links.
+    fn of_cells(maze: &Maze) -> (MapView, Vec<PlaceVisit>) {
+        let id = |cell: Cell| maze.grid().index(cell) as u32;
+        let mut map = MapView::default();
+        let mut visits = Vec::new();
+        for cell in maze.reachable() {
+            map.places.push(place(id(cell)));
+            visits.push(PlaceVisit {
+                place: id(cell),
+                cell,
+            });
+            let links = maze.neighbours(cell).map(|(_, next)| MapLink {
+                from: id(cell),
+                to: id(next),
+            });
+            map.links.extend(links);
+        }
+        (map, visits)
+    }
+
+    /// The map that has the true places alone.
+    fn of_places(maze: &Maze, truth: &TrueGraph) -> (MapView, Vec<PlaceVisit>) {
+        let id = |cell: Cell| maze.grid().index(cell) as u32;
+        let mut map = MapView::default();
+        let mut visits = Vec::new();
+        for cell in truth.places() {
+            map.places.push(place(id(*cell)));
+            visits.push(PlaceVisit {
+                place: id(*cell),
+                cell: *cell,
+            });
+        }
+        for way in truth.ways() {
+            let [from, to] = way.ends.map(id);
+            map.links
+                .extend([MapLink { from, to }, MapLink { from: to, to: from }]);
+        }
+        (map, visits)
+    }
+
+    const fn place(id: u32) -> MapPlace {
+        MapPlace {
+            id,
+            position: None,
+            landmark: None,
+        }
+    }
+
+    fn judged(maze: &Maze, truth: &TrueGraph, map: &(MapView, Vec<PlaceVisit>)) -> MapJudgement {
+        let gone = (0..truth.ways().len()).collect();
+        judge(&map.0, &map.1, truth, &gone, (maze.grid(), 1.0))
+    }
+
+    fn rules() -> impl Strategy<Value = PlaceRule> {
+        prop_oneof![Just(PlaceRule::Landmarks), Just(PlaceRule::Corners)]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        #[test]
+        fn the_true_map_is_right_with_bends_or_without(family in 0..Family::ARENA.len(), seed: u64, rule in rules()) {
+            let maze = drawn(family, seed);
+            let truth = TrueGraph::of(&maze, rule);
+            for map in [of_places(&maze, &truth), of_cells(&maze)] {
+                let judged = judged(&maze, &truth, &map);
+                prop_assert!(judged.is_right && judged.is_right_of_visited, "{judged:?}\n{maze}");
+                prop_assert_eq!((judged.purity, judged.link_precision, judged.link_recall), (Some(1.0), Some(1.0), 1.0));
+                prop_assert!((judged.places - 1.0).abs() < 1e-9);
+            }
+        }
+
+        #[test]
+        fn a_map_with_one_fault_is_not_right(family in 0..Family::ARENA.len(), seed: u64, fault in 0..4_usize, which: prop::sample::Index) {
+            let maze = drawn(family, seed);
+            let truth = TrueGraph::of(&maze, PlaceRule::Landmarks);
+            let (mut map, mut visits) = of_places(&maze, &truth);
+            let link = map.links[which.index(map.links.len())];
+            match fault {
+                // A way that was gone is missing.
+                0 => {
+                    let back = MapLink { from: link.to, to: link.from };
+                    let kept = map.links.iter().position(|one| *one == link).unwrap();
+                    map.links.remove(kept);
+                    let kept = map.links.iter().position(|one| *one == back).unwrap();
+                    map.links.remove(kept);
+                }
+                // One way is there twice.
+                1 => map.links.extend([link, MapLink { from: link.to, to: link.from }]),
+                // A place is there twice.
+                2 => {
+                    map.places.push(place(10_000));
+                    visits.push(PlaceVisit { place: 10_000, cell: maze.start().unwrap().0 });
+                }
+                // Two places are one.
+                _ => {
+                    let [kept, lost] = [map.places[0].id, map.places[map.places.len() - 1].id];
+                    map.places.pop();
+                    let rename = |id: &mut u32| if *id == lost { *id = kept };
+                    for link in &mut map.links {
+                        rename(&mut link.from);
+                        rename(&mut link.to);
+                    }
+                    visits.iter_mut().for_each(|visit| rename(&mut visit.place));
+                }
+            }
+            let judged = judged(&maze, &truth, &(map, visits));
+            prop_assert!(!judged.is_right && !judged.is_right_of_visited, "{judged:?}\n{maze}");
+        }
+    }
+
+    #[test]
+    fn who_never_leaves_home_is_right_of_what_it_visited_and_not_right() {
+        let maze = drawn(0, 1);
+        let truth = TrueGraph::of(&maze, PlaceRule::Landmarks);
+        let (start, _) = maze.start().unwrap();
+        let map = MapView {
+            places: vec![place(0)],
+            links: Vec::new(),
+        };
+        let visits = [PlaceVisit {
+            place: 0,
+            cell: start,
+        }];
+        let judged = judge(&map, &visits, &truth, &BTreeSet::new(), (maze.grid(), 1.0));
+        assert!(judged.is_right_of_visited && !judged.is_right);
+        let empty = judge(
+            &MapView::default(),
+            &[],
+            &truth,
+            &BTreeSet::new(),
+            (maze.grid(), 1.0),
+        );
+        assert!(!empty.is_right_of_visited && !empty.is_right);
+    }
+
+    #[test]
+    fn purity_is_the_share_of_visits_in_the_majority_s_cell() {
+        let maze = drawn(0, 1);
+        let cells: Vec<Cell> = maze.reachable().take(2).collect();
+        let visit = |place, cell: usize| PlaceVisit {
+            place,
+            cell: cells[cell],
+        };
+        let map = MapView {
+            places: vec![place(0), place(1)],
+            links: Vec::new(),
+        };
+        let visits = [
+            visit(0, 0),
+            visit(0, 0),
+            visit(0, 1),
+            visit(1, 1),
+            visit(7, 1),
+        ];
+        let squares = Squares {
+            grid: maze.grid(),
+            pitch: 1.0,
+        };
+        let (stands_for, purity) = stands_for(&map, &visits, squares);
+        assert_eq!(purity, Some(0.75));
+        assert_eq!(stands_for, BTreeMap::from([(0, cells[0]), (1, cells[1])]));
+    }
+}

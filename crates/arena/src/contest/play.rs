@@ -505,3 +505,99 @@ impl Measured for Maze {
         f64::from(steps.unwrap_or(0)) * pitch
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::cast::Agent;
+    use crate::family::Family;
+
+    fn drawn(name: &str) -> Maze {
+        let family = Family::named(&Family::ARENA, name).unwrap();
+        (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(3)).unwrap()
+    }
+
+    fn play(contestant: Contestant, world: &str, robot: ContestRobot) -> ContestRecord {
+        taught(contestant, world, robot, &Schooling::default())
+    }
+
+    fn taught(
+        contestant: Contestant,
+        world: &str,
+        robot: ContestRobot,
+        schooling: &Schooling,
+    ) -> ContestRecord {
+        let maze = drawn(world);
+        let contest = Contest {
+            contestant,
+            robot,
+            maze: &maze,
+            name: world,
+            starts: 1,
+            seed: 3,
+        };
+        contest.play(schooling, |_, _| {}).unwrap()
+    }
+
+    #[test]
+    fn systems_learn_a_star_and_the_same_contest_comes_to_the_same() {
+        let schooling = Schooling::default();
+        for robot in [ContestRobot::Own, ContestRobot::Pioneer] {
+            for contestant in [Contestant::CpmBetter, Contestant::DiktiometryBetter] {
+                let record = taught(contestant, "star", robot, &schooling);
+                let learned = record.learned.as_ref().unwrap();
+                assert!(learned.judgement.is_right, "{contestant:?}: {learned:?}");
+                assert_eq!(learned.claim, Claim::Right);
+                assert!(learned.driven < Contest::LIMIT);
+                let again = taught(contestant, "star", robot, &schooling);
+                assert_eq!(format!("{record:?}"), format!("{again:?}"));
+            }
+        }
+    }
+
+    #[test]
+    fn who_cannot_work_somewhere_abstains_before_it_drives() {
+        let record = play(Contestant::Cpm, "pillars", ContestRobot::Own);
+        assert!(record.abstained.unwrap().contains("open square"));
+        assert!(record.learned.is_none() && record.homes.is_empty());
+    }
+
+    #[test]
+    fn an_oracle_comes_home_and_learns_nothing() {
+        let oracle = Contestant::Baseline(Agent::Oracle);
+        let record = play(oracle, "office", ContestRobot::Own);
+        assert!(record.learned.is_none());
+        let over = record.homes[0].over_shortest.unwrap();
+        assert!(over < 2.0, "{over}");
+    }
+
+    #[test]
+    fn all_contestants_meet_the_same_starts() {
+        let maze = drawn("blocks");
+        let contest = |contestant| Contest {
+            contestant,
+            robot: ContestRobot::Own,
+            maze: &maze,
+            name: "",
+            starts: 20,
+            seed: 5,
+        };
+        let starts = contest(Contestant::Mslst).put_downs();
+        assert_eq!(starts, contest(Contestant::CpmBetter).put_downs());
+        assert_eq!(starts.len(), 20);
+        for (cell, way) in starts.into_iter().flatten() {
+            assert!(maze.is_open(cell, way) && !maze.goals().contains(&cell));
+        }
+    }
+
+    #[test]
+    fn a_system_in_its_cage_drives_no_more_than_ten_times_the_corridors() {
+        let record = play(Contestant::Diktiometry, "spiral", ContestRobot::Own);
+        let learned = record.learned.unwrap();
+        // The last action may lead on a little.
+        assert!(learned.driven < 1.2 * Contest::LIMIT, "{learned:?}");
+    }
+}

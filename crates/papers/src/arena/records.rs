@@ -67,6 +67,8 @@ record! {
         wrong: bool => lower("wrong"),
         /// Whether it did not say.
         abstained: bool => neither("abstained"),
+        /// On a map that is right: whether it said where it is, and was there.
+        right_on_right_map: Option<bool> => higher("right on right maps"),
         /// Why it did not say.
         why: String => neither("why not"),
     }
@@ -146,8 +148,11 @@ impl HomeRun {
 
 impl LocateRun {
     pub(super) fn of(record: &ContestRecord) -> Self {
+        let learned = record.learned.as_ref();
+        let is_known = learned.is_some_and(|learned| learned.judgement.is_right);
         let abstained = |why: &str| Self {
             abstained: true,
+            right_on_right_map: is_known.then_some(false),
             why: why.to_owned(),
             ..Self::default()
         };
@@ -157,6 +162,7 @@ impl LocateRun {
             Some(found) => Self {
                 right: *found == Found::Right,
                 wrong: *found == Found::Wrong,
+                right_on_right_map: is_known.then_some(*found == Found::Right),
                 ..Self::default()
             },
         }
@@ -222,6 +228,10 @@ pub(super) fn locate(name: &str) -> Table {
         .metric(Metric::percent("right_percent", LocateRun::right))
         .metric(Metric::percent("wrong_percent", LocateRun::wrong))
         .metric(Metric::percent("abstained_percent", LocateRun::abstained))
+        .metric(Metric::percent(
+            "right_on_right_map_percent",
+            LocateRun::right_on_right_map,
+        ))
 }
 
 pub(super) fn sizes(name: &str) -> Table {

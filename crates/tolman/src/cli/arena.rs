@@ -17,7 +17,7 @@ use super::{App, Failure, OrBadInput};
 /// Sends systems into worlds of every kind, and judges what they learn and whether they find home
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, cpm, cpm-better, diktiometry, diktiometry-better, micromouse; random, avoid, wall-follow, oracle and
+Systems: mslst, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam-better, micromouse; random, avoid, wall-follow, oracle and
 unlocalized-oracle go home alone. `tolman maze generate --list` names the families. The same in tables: tolman experiment arena
 
 Example:
