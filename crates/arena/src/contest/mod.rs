@@ -12,6 +12,8 @@ mod whereabouts;
 
 pub use contestant::{ContestRobot, Contestant, Schooling};
 pub use judgement::{MapJudgement, judge};
-pub use play::{Claim, Contest, ContestError, ContestRecord, Found, Home, Learned, Moment};
+pub use play::{
+    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Moment,
+};
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;

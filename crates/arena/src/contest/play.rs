@@ -78,16 +78,16 @@ pub struct ContestRecord {
     /// Why the contestant did not drive at all, which it said before.
     pub abstained: Option<String>,
     /// What it learned; `None` of who abstained, or learns no map.
-    pub learned: Option<Learned>,
+    pub learned: Option<LearnRecord>,
     /// What it made of each place where it was to find out where it is.
-    pub found: Vec<Found>,
+    pub found: Vec<LocateOutcome>,
     /// How it went from each place where it was to go to the goal.
     pub homes: Vec<Home>,
 }
 
 /// What a system learned of a world.
 #[derive(Clone, Debug)]
-pub struct Learned {
+pub struct LearnRecord {
     /// How that ended.
     pub end: TaskEnd,
     /// What the system makes of its own map.
@@ -137,7 +137,7 @@ impl Claim {
 
 /// What a system says of where it was put down.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Found {
+pub enum LocateOutcome {
     /// It says where it is, and is there.
     Right,
     /// It says where it is, and is elsewhere.
@@ -355,7 +355,7 @@ impl<'a> Bout<'a> {
         self.maze.opening_count_reached() as f64 * self.squares.pitch
     }
 
-    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> Learned {
+    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> LearnRecord {
         let squares = self.squares;
         let most = Contest::LIMIT * self.corridors();
         // Where it was when it came to each of its places, and what it believed after each action.
@@ -395,7 +395,7 @@ impl<'a> Bout<'a> {
         let scale = (squares.grid, squares.pitch);
         let judgement = judge(&map, &visits, &self.truth, &gone, scale);
         (self.stands_for, _) = stands_for(&map, &visits, squares);
-        Learned {
+        LearnRecord {
             claim: Claim::of(&driven.end, self.claims),
             end: driven.end,
             judgement,
@@ -417,17 +417,17 @@ impl<'a> Bout<'a> {
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
-    ) -> Result<Found, BoxError> {
+    ) -> Result<LocateOutcome, BoxError> {
         if let Standing::GaveUp { why } = self.put_down(start)? {
-            return Ok(Found::Abstained { why });
+            return Ok(LocateOutcome::Abstained { why });
         }
         let most = Contest::LIMIT * self.corridors();
         let driven = self.pursue(Task::Localize, most, |_, _| {}, watch);
         match driven.end {
-            TaskEnd::GaveUp { why } => return Ok(Found::Abstained { why }),
+            TaskEnd::GaveUp { why } => return Ok(LocateOutcome::Abstained { why }),
             TaskEnd::OutOfTime => {
                 let why = "it was still looking when its time was up".to_owned();
-                return Ok(Found::Abstained { why });
+                return Ok(LocateOutcome::Abstained { why });
             }
             TaskEnd::Done => {}
         }
@@ -436,8 +436,8 @@ impl<'a> Bout<'a> {
         let cell = place.and_then(|place| self.stands_for.get(&place));
         let off = cell.map(|cell| (self.squares.middle(*cell) - self.here()).norm());
         Ok(match off {
-            Some(off) if off < NEAR * self.squares.pitch => Found::Right,
-            _ => Found::Wrong,
+            Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
+            _ => LocateOutcome::Wrong,
         })
     }
 

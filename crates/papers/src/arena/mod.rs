@@ -26,7 +26,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "arena",
     title: "Arena: every system in every kind of world",
     source: "",
-    runs: 8,
+    runs: 6,
     quick_runs: 1,
     open,
 };

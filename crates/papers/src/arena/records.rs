@@ -1,4 +1,4 @@
-use tolman_arena::contest::{Claim, ContestRecord, ContestRobot, Found};
+use tolman_arena::contest::{Claim, ContestRecord, ContestRobot, LocateOutcome};
 use tolman_arena::run::TaskEnd;
 use tolman_experiment::{BoxError, Metric, Run, Table, record};
 use tolman_maze::Maze;
@@ -157,12 +157,12 @@ impl LocateRun {
             ..Self::default()
         };
         match record.found.first() {
-            Some(Found::Abstained { why }) => abstained(why),
+            Some(LocateOutcome::Abstained { why }) => abstained(why),
             None => abstained(record.abstained.as_deref().unwrap_or_default()),
             Some(found) => Self {
-                right: *found == Found::Right,
-                wrong: *found == Found::Wrong,
-                right_on_right_map: is_known.then_some(*found == Found::Right),
+                right: *found == LocateOutcome::Right,
+                wrong: *found == LocateOutcome::Wrong,
+                right_on_right_map: is_known.then_some(*found == LocateOutcome::Right),
                 ..Self::default()
             },
         }
@@ -242,7 +242,7 @@ pub(super) fn sizes(name: &str) -> Table {
 
 /// What a reader must know.
 pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
-    let worlds = "Small and middle worlds in turns, the same for all rows; who abstained stays in the denominator.";
+    let worlds = "Small and middle worlds in turns, the same for all rows; of GNG-SLAM one of each kind, since it takes seconds in each; who abstained stays in the denominator.";
     let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST and the micromouse do not claim that a map is whole, and count as undecided. A micromouse is told the grid, its start and the goal.";
     let robots = match robot {
         ContestRobot::Own => {

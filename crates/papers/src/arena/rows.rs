@@ -15,6 +15,9 @@ use super::{Arena, ArenaTask, ENTRY};
 /// The world of the rows of all worlds together.
 pub(super) const ALL: &str = "all";
 
+/// Worlds of each kind at most for a system that looks for a world's place in all it has seen at every step.
+const SLOW_RUNS: u32 = 1;
+
 /// Between the system and the world in the name of a row.
 const BETWEEN: &str = " · ";
 
@@ -48,8 +51,12 @@ pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
 pub(super) fn of(task: ArenaTask, worlds: &[ArenaWorld], runs: u32) -> Vec<Row> {
     let mut rows = Vec::new();
     for contestant in contestants(task) {
+        let runs = match contestant {
+            Contestant::GngSlamBetter => runs.min(SLOW_RUNS),
+            _ => runs,
+        };
         let each = worlds.iter();
-        rows.extend(each.map(|world| Row::new(row_name(contestant, world.name()))));
+        rows.extend(each.map(|world| Row::new(row_name(contestant, world.name())).runs(runs)));
         let all = runs.saturating_mul(worlds.len() as u32);
         rows.push(Row::new(row_name(contestant, ALL)).runs(all));
     }

@@ -8,7 +8,7 @@ use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    ContestError, ContestRecord, ContestRobot, Contestant, Found, Schooling,
+    ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome, Schooling,
 };
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
@@ -175,9 +175,9 @@ fn line<'a>(
     let learned = record.learned.as_ref();
     let judged = learned.map(|learned| learned.judgement);
     let found = record.found.iter().map(|found| match found {
-        Found::Right => "right",
-        Found::Wrong => "wrong",
-        Found::Abstained { .. } => "abstained",
+        LocateOutcome::Right => "right",
+        LocateOutcome::Wrong => "wrong",
+        LocateOutcome::Abstained { .. } => "abstained",
     });
     Line {
         system: contestant.name(),
@@ -229,10 +229,10 @@ fn table(
             .filter_map(judged)
             .map(|j| j.link_recall)
             .sum();
-        let found: Vec<&Found> = records.iter().flat_map(|r| &r.found).collect();
+        let found: Vec<&LocateOutcome> = records.iter().flat_map(|r| &r.found).collect();
         let located = found
             .iter()
-            .filter(|found| ***found == Found::Right)
+            .filter(|found| ***found == LocateOutcome::Right)
             .count();
         let homes: Vec<_> = records.iter().flat_map(|r| &r.homes).collect();
         let came = homes
