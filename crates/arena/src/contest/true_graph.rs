@@ -149,10 +149,7 @@ fn follow(
 ) -> (TrueWay, Direction) {
     let (mut at, mut came) = (from, out);
     let mut between = Vec::new();
-    loop {
-        let Some(next) = maze.beside(at, came) else {
-            break;
-        };
+    while let Some(next) = maze.beside(at, came) {
         at = next;
         if places.contains(&at) {
             break;
