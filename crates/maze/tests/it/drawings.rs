@@ -64,28 +64,28 @@ proptest! {
     #[test]
     fn each_is_as_its_name_says(size in sizes(), seed: u64) {
         let of = |draw| drawn(draw, size, seed);
-        let spiral = of(|size, rng| spiral(size, rng));
+        let spiral = of(spiral);
         prop_assert_eq!((loops(&spiral), degrees(&spiral, 1), spiral.junctions().count()), (0, 2, 0));
-        let star = of(|size, rng| star(size, rng));
+        let star = of(star);
         prop_assert_eq!((loops(&star), degrees(&star, 1), degrees(&star, 4)), (0, 4, 1), "\n{}", star);
-        let comb = of(|size, rng| comb(size, rng));
+        let comb = of(comb);
         let teeth = usize::from((size.0 - 1) / 2);
         prop_assert_eq!((loops(&comb), degrees(&comb, 1)), (0, teeth + 1));
-        let ring = of(|size, rng| ring(size, rng));
+        let ring = of(ring);
         prop_assert_eq!((loops(&ring), degrees(&ring, 2)), (1, ring.reachable().count()));
-        let eight = of(|size, rng| eight(size, rng));
+        let eight = of(eight);
         prop_assert_eq!((loops(&eight), degrees(&eight, 4), eight.junctions().count()), (2, 1, 1), "\n{}", eight);
-        let ladder = of(|size, rng| ladder(size, rng));
+        let ladder = of(ladder);
         prop_assert_eq!((loops(&ladder), degrees(&ladder, 3), ladder.junctions().count()), (2, 2, 2), "\n{}", ladder);
-        let wings = of(|size, rng| wings(size, rng));
+        let wings = of(wings);
         prop_assert_eq!(loops(&wings), 0, "\n{}", wings);
-        let office = of(|size, rng| office(size, rng));
+        let office = of(office);
         prop_assert_eq!(loops(&office), usize::from(size.1 / 3) - 1, "\n{}", office);
     }
 
     #[test]
     fn a_quarter_of_the_city_is_walled_up(size in sizes(), seed: u64) {
-        let maze = drawn(|size, rng| blocks(size, rng), size, seed);
+        let maze = drawn(blocks, size, seed);
         let (columns, rows) = (usize::from(size.0.div_ceil(2)), usize::from(size.1.div_ceil(2)));
         let all = (columns - 1) * rows + columns * (rows - 1);
         let walled = all / 4;
@@ -96,7 +96,7 @@ proptest! {
 
     #[test]
     fn the_wings_are_the_same(size in sizes(), seed: u64) {
-        let maze = drawn(|size, rng| wings(size, rng), size, seed);
+        let maze = drawn(wings, size, seed);
         let (width, height) = ((size.0 - 1) / 2, (size.1 - 1) / 2);
         for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
             let [west, east] = [1, 1 + width].map(|wing| Cell::new(wing + x, height + 1 + y));
