@@ -18,7 +18,6 @@ const PINNED: &[(&str, u32)] = &[
     ("diktiometry", 1),
     ("cpm", 1),
     ("gngslam", 1),
-    ("arena", 1),
 ];
 
 /// Plays the runs and compares them with those in `tests/golden`; `bless` puts them there instead.
