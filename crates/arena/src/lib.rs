@@ -14,11 +14,13 @@ pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
 pub mod cast;
 pub mod competition;
+pub mod contest;
 pub mod course;
 pub mod cpm;
 pub mod diktiometry;
 pub mod episode;
 mod episode_error;
+pub mod family;
 pub mod gngslam;
 mod lingerer;
 pub mod micromouse;

@@ -49,6 +49,15 @@ pub trait Outing: InRun {
     /// Returns where the system believes to be.
     fn belief(&self) -> Vec<Guess>;
 
+    /// Returns the places that the system came to, in order, as it understands them now; empty if its places keep their names.
+    fn visits(&self) -> Vec<Option<u32>>;
+
+    /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes on.
+    ///
+    /// # Errors
+    /// If the robot cannot stand there.
+    fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError>;
+
     /// Returns where the places of the map truly lie, as far as that is known, for pictures. O(map).
     fn sites(&self) -> BTreeMap<u32, Point>;
 
@@ -115,12 +124,19 @@ pub trait HasSimulated {
 
     /// Returns the simulated robot.
     fn simulated(&self) -> &Simulated<Self::Model>;
+
+    /// Returns the simulated robot, to be lifted.
+    fn simulated_mut(&mut self) -> &mut Simulated<Self::Model>;
 }
 
 impl<M: Depicted> HasSimulated for Simulated<M> {
     type Model = M;
 
     fn simulated(&self) -> &Self {
+        self
+    }
+
+    fn simulated_mut(&mut self) -> &mut Self {
         self
     }
 }
@@ -130,6 +146,10 @@ impl HasSimulated for RingAsEpuck<Simulated<LaserPioneer>> {
 
     fn simulated(&self) -> &Simulated<LaserPioneer> {
         self.robot()
+    }
+
+    fn simulated_mut(&mut self) -> &mut Simulated<LaserPioneer> {
+        self.robot_mut()
     }
 }
 
@@ -173,12 +193,12 @@ impl Depicted for CameraPioneer {
     }
 }
 
-impl Depicted for Epuck {
-    const NAME: &'static str = "e-puck";
-}
-
 impl Depicted for Pioneer2dx {
     const NAME: &'static str = crate::gngslam::PIONEER_2DX;
+}
+
+impl Depicted for Epuck {
+    const NAME: &'static str = "e-puck";
 }
 
 /// Any [`System`] with any simulated robot, as an [`Outing`].
@@ -376,6 +396,15 @@ where
             }
         }
         belief
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        self.system.visits()
+    }
+
+    fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError> {
+        self.robot.robot_mut().simulated_mut().place(pose)?;
+        Ok(self.system.put_down())
     }
 
     fn sites(&self) -> BTreeMap<u32, Point> {

@@ -40,6 +40,11 @@ impl<R: Robot> Limited<R> {
         &self.robot
     }
 
+    /// Returns the robot, to be lifted.
+    pub const fn robot_mut(&mut self) -> &mut R {
+        self.robot.robot_mut()
+    }
+
     /// Returns the most time steps that it may make.
     pub const fn step_limit(&self) -> u32 {
         self.step_limit

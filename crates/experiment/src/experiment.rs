@@ -85,6 +85,16 @@ pub trait Procedure: Sync + core::fmt::Debug {
         Ok(Vec::new())
     }
 
+    /// Returns the runs that the report carries replays of, as many as fit, the most important first; `None`, the default, for
+    /// the first of each row. `runs` is complete and sorted by table, row and index.
+    ///
+    /// # Errors
+    /// If a run cannot be read.
+    fn shown(&self, runs: &[Run]) -> Result<Option<Vec<Run>>, BoxError> {
+        let _ = runs;
+        Ok(None)
+    }
+
     /// Plays a run again and records it, so that its dots in the report can be opened. The report
     /// carries the first runs of each row, as many as fit; [`write_replay`](super::write_replay)
     /// writes any.

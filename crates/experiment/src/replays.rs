@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::{Error, Experiment, Job, Progress};
+use super::{Error, Experiment, Job, Progress, Run};
 
 /// The most runs of each row that are recorded: as many as MSLST made of each. With more runs a row, the
 /// others are a small part of the time and would be most of the page.
@@ -44,6 +44,7 @@ pub struct Recorded {
 /// asked to stop.
 pub(super) fn record(
     experiment: &Experiment,
+    runs: &[Run],
     master_seed: u64,
     runs_per_row: u32,
     progress: &dyn Progress,
@@ -52,6 +53,16 @@ pub(super) fn record(
         budget: BUDGET,
         ..Replays::default()
     };
+    let shown = experiment
+        .procedure
+        .shown(runs)
+        .map_err(|source| Error::Figures {
+            name: experiment.entry.name.to_owned(),
+            source,
+        })?;
+    if let Some(shown) = shown {
+        return record_shown(experiment, &shown, replays, progress);
+    }
     let most = runs_per_row.min(FIRST);
     let (mut done, mut bytes) = (0, 0);
     while done < most {
@@ -87,6 +98,34 @@ pub(super) fn record(
             replays.of_each_row = run + 1;
         }
         done = replays.of_each_row;
+    }
+    Ok(Some(replays))
+}
+
+/// Records these runs one after the other, as long as their replays fit the budget.
+fn record_shown(
+    experiment: &Experiment,
+    shown: &[Run],
+    mut replays: Replays,
+    progress: &dyn Progress,
+) -> Result<Option<Replays>, Error> {
+    let recorded: Result<Vec<Option<Recorded>>, Error> = shown
+        .par_iter()
+        .with_max_len(1)
+        .filter(|_| !progress.stop_requested())
+        .map(|run| record_one(experiment, &run.job()))
+        .collect();
+    let recorded = recorded?;
+    if recorded.len() < shown.len() {
+        return Ok(None);
+    }
+    let mut bytes = 0;
+    for one in recorded.into_iter().flatten() {
+        replays.tables.insert(one.table.clone());
+        if bytes + one.json.len() <= BUDGET {
+            bytes += one.json.len();
+            replays.recorded.push(one);
+        }
     }
     Ok(Some(replays))
 }

@@ -128,7 +128,7 @@ pub fn execute(
     check::figures(experiment, &figures)?;
     folder.write_figures(&figures)?;
     progress.event(&ProgressEvent::Recording);
-    let record = || replays::record(experiment, options.seed, runs_per_row, progress);
+    let record = || replays::record(experiment, &runs, options.seed, runs_per_row, progress);
     let replays = threads.install(record)?.ok_or_else(|| interrupted(total))?;
     let outcome = ExperimentOutcome {
         entry: experiment.entry,

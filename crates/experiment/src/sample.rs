@@ -23,6 +23,8 @@ pub(super) enum Sample<'a> {
     Pairs(Vec<(f64, f64)>),
     /// Two numbers for each run, whose spreads are compared.
     Spreads(Vec<(f64, f64)>),
+    /// The squared error of each run's forecast, and what came about, 1 or 0: both did in some run.
+    Forecasts(Vec<(f64, f64)>),
     /// A curve for each run, and the limit that their mean is to stay below.
     Curves {
         curves: Vec<&'a [f64]>,
@@ -39,6 +41,16 @@ pub(super) enum Centre {
     Quantile(f64),
     Least,
     Greatest,
+}
+
+/// 1 − the mean squared error over the variance of what came about.
+fn skill(forecasts: &[(f64, f64)]) -> f64 {
+    let count = forecasts.len() as f64;
+    let (errors, came) = forecasts.iter().fold((0.0, 0.0), |(errors, came), one| {
+        (errors + one.0, came + one.1)
+    });
+    let rate = came / count;
+    1.0 - errors / (count * rate * (1.0 - rate))
 }
 
 impl<'a> Sample<'a> {
@@ -86,6 +98,19 @@ impl<'a> Sample<'a> {
                 ratio_of_spreads(&pairs)
                     .map_or_else(|| Self::Spreads(Vec::new()), |_| Self::Spreads(pairs))
             }
+            Statistic::Skill { error, outcome } => {
+                let forecasts: Vec<(f64, f64)> = runs
+                    .filter_map(|run| {
+                        let outcome = f64::from(u8::from(run.fields.flag(outcome)?));
+                        Some((run.fields.number(error)?, outcome))
+                    })
+                    .collect();
+                let came = forecasts.iter().filter(|(_, came)| *came > 0.5).count();
+                if came == 0 || came == forecasts.len() {
+                    return None;
+                }
+                Self::Forecasts(forecasts)
+            }
             Statistic::Multiple { field, .. } => {
                 let pairs = runs.filter_map(|run| {
                     let place = others.binary_search_by_key(&run.run, |other| other.run);
@@ -112,7 +137,7 @@ impl<'a> Sample<'a> {
         match self {
             Self::Flags { flags, .. } => flags.len(),
             Self::Numbers { numbers, .. } => numbers.len(),
-            Self::Pairs(pairs) | Self::Spreads(pairs) => pairs.len(),
+            Self::Pairs(pairs) | Self::Spreads(pairs) | Self::Forecasts(pairs) => pairs.len(),
             Self::Curves { curves, .. } => curves.len(),
         }
     }
@@ -135,6 +160,7 @@ impl<'a> Sample<'a> {
             Self::Pairs(pairs) => ratio_of_sums(pairs),
             // Without a spread to divide by there is no sample.
             Self::Spreads(pairs) => ratio_of_spreads(pairs).unwrap_or(f64::NAN),
+            Self::Forecasts(forecasts) => skill(forecasts),
             Self::Curves {
                 curves,
                 step,
@@ -167,7 +193,11 @@ impl<'a> Sample<'a> {
                 ..
             } => None,
             Self::Numbers { numbers, .. } => Some(numbers),
-            Self::Flags { .. } | Self::Pairs(_) | Self::Spreads(_) | Self::Curves { .. } => None,
+            Self::Flags { .. }
+            | Self::Pairs(_)
+            | Self::Spreads(_)
+            | Self::Forecasts(_)
+            | Self::Curves { .. } => None,
         }
     }
 
@@ -186,7 +216,7 @@ impl<'a> Sample<'a> {
                 Centre::Median => tolman_stats::median_interval(numbers, LEVEL),
                 Centre::Quantile(_) | Centre::Least | Centre::Greatest => return None,
             },
-            Self::Spreads(_) => return None,
+            Self::Spreads(_) | Self::Forecasts(_) => return None,
             Self::Pairs(pairs) => {
                 tolman_stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng)
             }
@@ -233,6 +263,7 @@ impl<'a> Sample<'a> {
             },
             Self::Pairs(pairs) => Self::Pairs(drawn(pairs, count, rng)),
             Self::Spreads(pairs) => Self::Spreads(drawn(pairs, count, rng)),
+            Self::Forecasts(pairs) => Self::Forecasts(drawn(pairs, count, rng)),
             Self::Curves {
                 curves,
                 step,
@@ -257,8 +288,8 @@ impl<'a> Sample<'a> {
                 .filter(|(_, under)| *under > 0.0)
                 .map(|(over, under)| over / under)
                 .collect(),
-            // A mean curve settles and many runs have a spread; one run's does not and has none.
-            Self::Curves { .. } | Self::Spreads(_) => Vec::new(),
+            // A mean curve settles, many runs have a spread or a skill; one run has none.
+            Self::Curves { .. } | Self::Spreads(_) | Self::Forecasts(_) => Vec::new(),
         }
     }
 }

@@ -510,6 +510,18 @@ impl Metric {
         Self::new(name, Statistic::Multiple { field, of })
     }
 
+    /// How much better forecasts are than always telling how often the flag named `outcome` is set (Brier 1950): 1 − the mean of the
+    /// field named `error`, which is the squared error of each forecast, over the variance of the flag. 1 is never wrong, 0 as good
+    /// as that, below it worse. No value of a row in which the flag is always the same.
+    pub fn skill(
+        name: impl Into<String>,
+        error: impl Into<String>,
+        outcome: impl Into<String>,
+    ) -> Self {
+        let (error, outcome) = (error.into(), outcome.into());
+        Self::new(name, Statistic::Skill { error, outcome }).better(Better::Higher)
+    }
+
     /// When the mean of the runs' curves settles.
     pub fn settling(name: impl Into<String>, settling: Settling) -> Self {
         let metric = Self::new(name, Statistic::Settling(settling));
@@ -615,6 +627,13 @@ pub enum Statistic {
         /// The name of the other row.
         of: String,
     },
+    /// How much better forecasts are than the base rate; see [`Metric::skill`]. No interval is told.
+    Skill {
+        /// The numeric field of the squared errors.
+        error: String,
+        /// The flag that was forecast.
+        outcome: String,
+    },
     /// When the mean of curves settles; see [`Settling`].
     Settling(Settling),
 }
@@ -635,6 +654,7 @@ impl Statistic {
             Self::Ratio { over, under } | Self::RatioOfSpreads { over, under } => {
                 vec![(over, NUMERIC), (under, NUMERIC)]
             }
+            Self::Skill { error, outcome } => vec![(error, NUMERIC), (outcome, FLAG)],
             Self::Settling(Settling {
                 curve,
                 level,

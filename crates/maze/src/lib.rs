@@ -83,6 +83,6 @@ pub use {
         Format, MazeError, MazeFault, MazeFile, UnknownFormat, WriteError, parse, parse_as, read,
         read_as, write,
     },
-    generators::{Braided, GenerateError, Hook, OneLoop, Perfect, Rooms},
+    generators::{Braided, GenerateError, Hook, OneLoop, Perfect, Rooms, drawings},
     maze::Maze,
 };

@@ -2,15 +2,17 @@
 //!
 //! [`catalogue`] lists them as the experiments that `tolman experiment` knows. What a map or a run looks
 //! like is drawn in the folder of its paper: [`mslst::drawing`], [`cpm::drawing`],
-//! [`diktiometry::drawing`]; [`Recorder`] makes the replay of a run, [`plan_of_course`] the plan it is drawn over.
+//! [`diktiometry::drawing`]; [`Recorder`] makes the replay of a run, [`Film`] that of any outing, [`plan_of_course`] the plan it is drawn over.
 //! [`data`] finds what other people measured.
 
 extern crate alloc;
 
+pub mod arena;
 mod baselines;
 pub mod cpm;
 pub mod data;
 pub mod diktiometry;
+mod film;
 pub mod gngslam;
 mod maze_file;
 mod micromouse;
@@ -25,6 +27,7 @@ mod venue;
 
 use tolman_experiment::Entry;
 
+pub use film::Film;
 pub use plan::plan_of_course;
 pub use recorder::Recorder;
 
@@ -41,6 +44,7 @@ pub const fn catalogue() -> &'static [Entry] {
         diktiometry::ENTRY,
         cpm::ENTRY,
         gngslam::ENTRY,
+        arena::ENTRY,
     ]
 }
 

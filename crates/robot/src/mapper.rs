@@ -33,6 +33,12 @@ pub trait Mapper {
     fn belief(&self) -> Vec<Guess> {
         Vec::new()
     }
+
+    /// Returns the places that it came to, in order, as it understands them by all that it has seen since; `None` of one that
+    /// is not on its map. Empty if its places keep their names, so that its beliefs of old still hold. O(visits · log map).
+    fn visits(&self) -> Vec<Option<u32>> {
+        Vec::new()
+    }
 }
 
 impl<M: Mapper + ?Sized> Mapper for &mut M {
@@ -49,6 +55,10 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
 
     fn belief(&self) -> Vec<Guess> {
         (**self).belief()
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        (**self).visits()
     }
 }
 

@@ -192,6 +192,11 @@ where
         self.act_seen(robot, task, |_, _| {})
     }
 
+    fn put_down(&mut self) -> Standing {
+        self.before = Before::PutDown;
+        Standing::UnderWay
+    }
+
     fn words(&self) -> String {
         self.brain.words()
     }

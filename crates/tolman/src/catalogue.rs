@@ -25,7 +25,7 @@ impl Catalogue {
         Self {
             program: "tolman",
             systems: vec![&MslstEntry, &CpmEntry, &DiktiometryEntry, &GngSlamEntry],
-            families: Family::ALL.to_vec(),
+            families: Family::all(),
             experiments: tolman_papers::catalogue().to_vec(),
         }
     }

@@ -17,13 +17,12 @@ extern crate alloc;
 
 mod catalogue;
 mod cli;
-mod family;
 mod start;
 pub mod system;
 pub mod systems;
 
 pub use catalogue::Catalogue;
 pub use cli::run;
-pub use family::Family;
 pub use start::Start;
+pub use tolman_arena::family::Family;
 pub use tolman_experiment::Build;

@@ -1,4 +1,4 @@
-//! An experiment: how long a wanderer takes to the goal of a comb.
+//! An experiment: how long a wanderer takes to the goal of a maze of teeth.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -10,7 +10,7 @@ use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Table, record,
 };
 
-use crate::world::COMB;
+use crate::world::TEETH;
 
 pub const ENTRY: Entry = Entry {
     name: "combs",
@@ -22,7 +22,7 @@ pub const ENTRY: Entry = Entry {
 };
 
 record! {
-    /// A run in a comb of its own.
+    /// A run among teeth of its own.
     struct CombRun {
         /// Whether the robot came to the goal.
         reached: bool => higher("success"),
@@ -42,8 +42,8 @@ fn open(_options: &Options) -> Result<Experiment, BoxError> {
 
 impl Procedure for Combs {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let maze = (COMB.draw)((5, 3), &mut ChaCha8Rng::seed_from_u64(job.seed))?;
-        let course = Course::for_body("comb", &maze.into(), &body())?;
+        let maze = (TEETH.draw)((5, 3), &mut ChaCha8Rng::seed_from_u64(job.seed))?;
+        let course = Course::for_body("teeth", &maze.into(), &body())?;
         let start = random_start(&course, &body(), job.seed);
         let trial = Trial {
             course: &course,

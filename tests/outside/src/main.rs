@@ -15,7 +15,7 @@ fn main() -> ExitCode {
         .program("outside")
         .system(&system::PacesEntry)
         .system(&tank_entry::TankEntry)
-        .family(world::COMB)
+        .family(world::TEETH)
         .experiment(experiment::ENTRY);
     let commit = option_env!("OUTSIDE_COMMIT").unwrap_or("unknown");
     tolman::run(&catalogue, &Build::current(commit, "rustc"))

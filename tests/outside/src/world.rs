@@ -6,15 +6,11 @@ use tolman::Family;
 use tolman_arena::BoxError;
 use tolman_maze::{Cell, Direction, Grid, Maze};
 
-pub const COMB: Family = Family {
-    name: "comb",
-    about: "A spine with teeth of any length",
-    draw,
-};
+pub const TEETH: Family = Family::new("teeth", "A spine with a tooth at every cell", draw);
 
 fn draw((width, height): (u16, u16), rng: &mut ChaCha8Rng) -> Result<Maze, BoxError> {
     if width < 2 || height < 2 {
-        return Err("a comb has 2x2 cells or more".into());
+        return Err("teeth need 2x2 cells or more".into());
     }
     let grid = Grid::new(width, height);
     let mut maze = Maze::open(grid);

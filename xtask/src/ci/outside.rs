@@ -46,10 +46,10 @@ pub(crate) fn check() -> Result<()> {
     }
     fs::create_dir_all(&work)?;
     for line in [
-        "maze generate family comb --size 5x4 --seed 2 --out comb.maze",
-        "learn --system paces --maze comb.maze --out paces.json",
+        "maze generate teeth --size 5x4 --seed 2 --out teeth.maze",
+        "learn --system paces --maze teeth.maze --out paces.json",
         "map show paces.json",
-        "learn --system paces-of-a-tank --maze comb.maze --out tank.json --trace tank.jsonl --replay tank.html",
+        "learn --system paces-of-a-tank --maze teeth.maze --out tank.json --trace tank.jsonl --replay tank.html",
         "experiment combs --quick --out combs",
     ] {
         let mut command = Command::new(target.join("debug/outside"));

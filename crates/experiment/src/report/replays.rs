@@ -36,6 +36,9 @@ pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
     let megabytes = replays.budget / 1_000_000;
     match replays.of_each_row {
         _ if replays.tables.is_empty() => String::new(),
+        0 if !replays.recorded.is_empty() => {
+            "This page carries the replays of the runs that say most.".to_owned()
+        }
         0 => format!(
             "This page carries no replays: the first of each row alone would take more than {megabytes} MB."
         ),

@@ -36,6 +36,36 @@ impl Braided {
     /// assert_eq!(maze.dead_ends().count(), 1);
     /// ```
     pub fn generate(&self, rng: &mut impl Rng) -> Result<Maze, GenerateError> {
+        self.generate_where(rng, |_, _| true)
+    }
+
+    /// Generates a maze of corridors alone: no four cells make an open square. A dead end that could be
+    /// opened to such a square only stays. O(cells).
+    ///
+    /// # Errors
+    /// As [`generate`](Self::generate).
+    ///
+    /// ```
+    /// use rand::SeedableRng;
+    /// use tolman_maze::Braided;
+    ///
+    /// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(7);
+    /// let braided = Braided { width: 8, height: 8, share: 1.0 };
+    /// let maze = braided.generate_corridors(&mut rng).unwrap();
+    /// assert!(!maze.grid().cells().any(|cell| maze.is_room(cell)));
+    /// ```
+    pub fn generate_corridors(&self, rng: &mut impl Rng) -> Result<Maze, GenerateError> {
+        self.generate_where(rng, |maze, (cell, direction)| {
+            !opens_room(maze, cell, direction)
+        })
+    }
+
+    /// Generates a maze in which only walls are removed that `may_open`.
+    fn generate_where(
+        &self,
+        rng: &mut impl Rng,
+        may_open: impl Fn(&Maze, (Cell, Direction)) -> bool,
+    ) -> Result<Maze, GenerateError> {
         if !(0.0..=1.0).contains(&self.share) {
             return Err(GenerateError::Share { share: self.share });
         }
@@ -59,7 +89,7 @@ impl Braided {
                 break;
             }
             if maze.degree(cell) == 1 {
-                remaining -= open(&mut maze, cell, start, rng);
+                remaining -= open(&mut maze, cell, start, &may_open, rng);
             }
         }
         Ok(maze)
@@ -67,11 +97,18 @@ impl Braided {
 }
 
 /// Opens the dead end `cell`; how many dead ends that makes fewer.
-fn open(maze: &mut Maze, cell: Cell, start: Option<Cell>, rng: &mut impl Rng) -> usize {
+fn open(
+    maze: &mut Maze,
+    cell: Cell,
+    start: Option<Cell>,
+    may_open: impl Fn(&Maze, (Cell, Direction)) -> bool,
+    rng: &mut impl Rng,
+) -> usize {
     let grid = maze.grid();
     let walled = |direction| {
         let beyond = grid.neighbour(cell, direction)?;
         let closed = !maze.is_open(cell, direction) && Some(beyond) != start;
+        let closed = closed && may_open(maze, (cell, direction));
         closed.then(|| (direction, maze.degree(beyond) == 1))
     };
     let mut walls: Vec<(Direction, bool)> = Direction::ALL.into_iter().filter_map(walled).collect();
@@ -84,4 +121,13 @@ fn open(maze: &mut Maze, cell: Cell, start: Option<Cell>, rng: &mut impl Rng) ->
     let (direction, dead_end) = walls[chance::position(walls.len(), rng)];
     maze.set_wall(cell, direction, false);
     1 + usize::from(dead_end)
+}
+
+/// Whether an open square of four cells would come about without the wall on that side of `cell`.
+fn opens_room(maze: &Maze, cell: Cell, direction: Direction) -> bool {
+    let mut opened = maze.clone();
+    opened.set_wall(cell, direction, false);
+    let around = |at: u16| at.saturating_sub(1)..=at;
+    let mut corners = around(cell.x).flat_map(|x| around(cell.y).map(move |y| Cell::new(x, y)));
+    corners.any(|corner| opened.is_room(corner))
 }

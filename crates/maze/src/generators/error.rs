@@ -45,4 +45,19 @@ pub enum GenerateError {
         /// Drawings tried.
         tries: u32,
     },
+    /// A drawing does not fit so few cells.
+    #[error(
+        "{drawing}: {width} × {height} cells are too few: it needs at least {} × {}",
+        least.0, least.1
+    )]
+    Small {
+        /// The name of the drawing.
+        drawing: &'static str,
+        /// Columns asked for.
+        width: u16,
+        /// Rows asked for.
+        height: u16,
+        /// The fewest columns and rows.
+        least: (u16, u16),
+    },
 }

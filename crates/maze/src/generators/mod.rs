@@ -2,6 +2,7 @@
 
 mod braided;
 mod chance;
+pub mod drawings;
 mod error;
 mod hook;
 mod one_loop;

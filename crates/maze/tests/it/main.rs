@@ -4,6 +4,8 @@
 #[cfg(test)]
 mod documentation;
 #[cfg(test)]
+mod drawings;
+#[cfg(test)]
 mod faults;
 #[cfg(test)]
 mod formats;

@@ -81,6 +81,7 @@ mod relocalization;
 mod ring_as_epuck;
 mod robot;
 mod system;
+mod trail;
 mod walker;
 mod walker_config;
 mod whereabouts;

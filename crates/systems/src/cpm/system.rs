@@ -17,6 +17,7 @@ use super::layer3::{CpmObservation, Layer3};
 use super::mode::Mode;
 use super::relocalization::Relocalization;
 use super::robot::CpmRobot;
+use super::trail::Trail;
 use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
 use super::whereabouts::Approach;
@@ -41,6 +42,8 @@ pub struct Cpm {
     patterns: CommonPatterns,
     novelty: Option<f64>,
     layer: Option<Layer3>,
+    /// The walks on its map.
+    trail: Trail,
     standing: Stance,
     rng: ChaCha8Rng,
 }
@@ -77,6 +80,7 @@ impl Cpm {
             patterns,
             novelty: None,
             layer: None,
+            trail: Trail::default(),
             standing: Stance::Anywhere,
             rng: ChaCha8Rng::seed_from_u64(seed),
         }
@@ -163,6 +167,7 @@ impl Cpm {
         let mut walker = Walker::new(robot, self.walker.clone());
         let patterns = self.patterns.clone();
         let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
+        self.trail = Trail::from(layer.explorer().mapper.at());
         self.layer = Some(layer);
         self.standing = Stance::AtPlace(walker.rest());
         Ok(Standing::UnderWay)
@@ -240,8 +245,15 @@ impl Cpm {
         let mut walker = Walker::wake(robot, self.walker.clone(), resting);
         let flow = layer.advance(&mut walker, aim, &mut self.rng)?;
         self.standing = Stance::AtPlace(walker.rest());
-        let ControlFlow::Break(done) = flow else {
-            return Ok(Standing::UnderWay);
+        let done = match flow {
+            ControlFlow::Break(done) => done,
+            ControlFlow::Continue(step) => {
+                if let Some(arrival) = step.arrival {
+                    let at = layer.explorer().mapper.at();
+                    self.trail.walked(step.leg.turn, at, arrival);
+                }
+                return Ok(Standing::UnderWay);
+            }
         };
         layer.optimize()?;
         Ok(match done {
@@ -344,6 +356,11 @@ impl Mapper for Cpm {
         };
         believed.map(guess).into_iter().collect()
     }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        let layer = self.layer.as_ref();
+        layer.map_or_else(Vec::new, |layer| self.trail.places(layer.map()))
+    }
 }
 
 /// Returns a map as places and links; a fragment leads both ways.
@@ -387,6 +404,11 @@ impl<R: CpmRobot> System<R> for Cpm {
                 }
             }
         }
+    }
+
+    fn put_down(&mut self) -> Standing {
+        self.carried();
+        Standing::UnderWay
     }
 
     fn words(&self) -> String {

@@ -38,6 +38,8 @@ pub struct Diktiometer<E> {
     config: DiktiometerConfig,
     eye: E,
     guide: Guide,
+    /// The places it came to, by the names they had then.
+    visited: Vec<PlaceId>,
 }
 
 /// What a [`Diktiometer`] is made of.
@@ -95,7 +97,7 @@ impl<E> Diktiometer<E> {
     #[must_use]
     pub fn new(config: DiktiometerConfig, eye: E, seed: u64) -> Self {
         let guide = Guide::new(None, config.heed, seed);
-        Self { config, eye, guide }
+        Self::guided(config, eye, guide)
     }
 
     /// Returns a system that goes on with the map of `observer`, learned by another or read from a
@@ -104,7 +106,17 @@ impl<E> Diktiometer<E> {
     pub fn with_map(mut config: DiktiometerConfig, eye: E, observer: Observer, seed: u64) -> Self {
         config.mapper = observer.config().clone();
         let guide = Guide::new(Some(observer), config.heed, seed);
-        Self { config, eye, guide }
+        Self::guided(config, eye, guide)
+    }
+
+    const fn guided(config: DiktiometerConfig, eye: E, guide: Guide) -> Self {
+        let visited = Vec::new();
+        Self {
+            config,
+            eye,
+            guide,
+            visited,
+        }
     }
 
     /// Returns what it is made of.
@@ -156,6 +168,12 @@ impl<E> Mapper for Diktiometer<E> {
     fn belief(&self) -> Vec<Guess> {
         self.observer().map_or_else(Vec::new, Mapper::belief)
     }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        let paths = self.observer().map(|observer| &observer.map().paths);
+        let now = |place: &PlaceId| Some(paths?.resolve(*place)?.0);
+        self.visited.iter().map(now).collect()
+    }
 }
 
 impl<R, E> System<R> for Diktiometer<E>
@@ -175,7 +193,12 @@ where
             Next::Continue(direction) => direction,
             Next::Break(standing) => return Ok(standing),
         };
+        if let (true, Some(observer)) = (self.visited.is_empty(), self.guide.observer()) {
+            self.visited.push(observer.place());
+        }
         self.guide.go(&mut rover, direction)?;
+        self.visited
+            .extend(self.guide.observer().map(Observer::place));
         let here = rover.robot().landmark();
         self.guide.recognize(here);
         if self.guide.is_done(task, here) {

@@ -626,6 +626,11 @@ where
         })
     }
 
+    fn put_down(&mut self) -> Standing {
+        Self::put_down(self);
+        Standing::UnderWay
+    }
+
     fn words(&self) -> String {
         match self.map.is_localized() {
             true => String::new(),

@@ -3,7 +3,7 @@
 //! Results go to stdout, everything else to stderr. A verb writes to the `out` it is given and
 //! returns a [`Failure`] if there is something to complain about.
 
-mod pitch;
+mod arena;
 mod bar;
 mod called;
 mod completions;
@@ -12,7 +12,6 @@ mod drive;
 mod experiment;
 mod failure;
 mod file;
-mod film;
 mod former;
 mod ground;
 mod interrupt;
@@ -25,6 +24,7 @@ mod maze;
 mod mms_host;
 mod mouse;
 mod picture;
+mod pitch;
 mod replay;
 mod replay_file;
 mod run;
@@ -65,6 +65,7 @@ Examples:
   tolman learn --system diktiometry --maze mazes/j.maze --out j-survey.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid --worst 3
+  tolman arena --system cpm-better --family office
   tolman experiment baselines --quick
 
 Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, or an
@@ -78,6 +79,7 @@ enum Verb {
     #[command(subcommand)]
     Map(map::Verb),
     Systems(systems::Arguments),
+    Arena(arena::Arguments),
     Run(run::Arguments),
     Replay(replay::Arguments),
     Demo(demo::Arguments),
@@ -132,8 +134,7 @@ impl App<'_> {
     /// Bad input if there is none.
     fn family(&self, name: &str) -> Result<&Family, Failure> {
         let families = &self.catalogue.families;
-        let mut named = families.iter();
-        named.find(|family| family.name == name).ok_or_else(|| {
+        Family::named(families, name).ok_or_else(|| {
             let names: Vec<&str> = families.iter().map(|family| family.name).collect();
             Failure::BadInput(anyhow!(
                 "there is no family {name}; choose one of: {}",
@@ -190,6 +191,7 @@ impl Verb {
             Self::Drive(arguments) => drive::carry_out(app, &arguments, out),
             Self::Map(verb) => verb.carry_out(app, out),
             Self::Systems(_) => systems::carry_out(app, out),
+            Self::Arena(arguments) => arena::carry_out(app, &arguments, out),
             Self::Run(arguments) => run::carry_out(&arguments, out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
             Self::Demo(arguments) => demo::carry_out(&arguments, out),

@@ -8,11 +8,11 @@ use tolman_arena::Outing;
 use tolman_arena::run::{self, Ended, TaskEnd};
 use tolman_robot::{Standing, Task};
 
-use super::film::Film;
 use super::live::{Live, Now, Scene};
 use super::looks::Looks;
 use super::{Failure, file, interrupt, picture, replay_file};
 use crate::system::{MapText, Setup, slug};
+use tolman_papers::Film;
 
 /// What became of an outing.
 pub(super) struct Pursued {

@@ -292,6 +292,21 @@ impl Outing for Surveying {
         self.survey.observer().belief()
     }
 
+    fn visits(&self) -> Vec<Option<u32>> {
+        let survey = &self.survey;
+        let paths = &survey.observer().map().paths;
+        let visits = survey.visits().iter();
+        visits
+            .map(|visit| Some(paths.resolve(visit.place)?.0))
+            .collect()
+    }
+
+    fn put_down(&mut self, _pose: Pose) -> Result<Standing, BoxError> {
+        Ok(Standing::gave_up(
+            "a survey is made in one go: its robot is not lifted",
+        ))
+    }
+
     fn sites(&self) -> BTreeMap<u32, Point> {
         let drawn = self.survey.drawn().into_iter();
         let middle = |Bounds { min, max }| min + (max - min) * 0.5;

@@ -36,6 +36,7 @@ fn every_verb_explains_itself() {
         &["pitch", "show"],
         &["pitch", "score"],
         &["learn"],
+        &["arena"],
         &["drive"],
         &["systems"],
         &["maze", "distinct"],

@@ -5,6 +5,7 @@
     reason = "a test that cannot start its command has failed"
 )]
 
+mod arena;
 mod cpm;
 mod experiment;
 mod gngslam;

@@ -104,6 +104,22 @@ fn the_seed_and_the_kind_make_the_maze() {
 }
 
 #[test]
+fn every_family_that_is_listed_can_be_generated_and_is_sound() {
+    let listed = tolman(&["maze", "generate", "--list"]).done();
+    let names: Vec<&str> = listed.lines().map(|line| line[..14].trim()).collect();
+    assert_eq!(names.len(), 15, "{listed}");
+    for name in names {
+        let name = name.replace(' ', "-");
+        let maze = tolman(&["maze", "generate", &name, "--size", "small"]).done();
+        tolman_fed(&maze, &["maze", "check", "-"]).done();
+    }
+    // What CPM and the diktiometry follow are corridors.
+    let braided = tolman(&["maze", "generate", "braided", "--seed", "3"]).done();
+    let maze = tolman_maze::read(&braided).unwrap().maze;
+    assert!(!maze.grid().cells().any(|cell| maze.is_room(cell)));
+}
+
+#[test]
 fn what_cannot_be_generated_is_refused() {
     let refused = |size: &str, parts: &[&str]| {
         tolman(&["maze", "generate", "perfect", "--size", size]).refused(2, parts);
@@ -112,6 +128,10 @@ fn what_cannot_be_generated_is_refused() {
     refused("5", &["--size", "16x16"]);
     refused("70000x3", &["--size", "16x16"]);
     tolman(&["maze", "generate", "braided", "--share", "NaN"]).refused(2, &["NaN", "0 to 1"]);
+    tolman(&["maze", "generate", "comb", "--share", "1"]).refused(2, &["--share", "comb"]);
+    tolman(&["maze", "generate", "comb", "--attempts", "1"]).refused(2, &["--attempts", "rooms"]);
+    tolman(&["maze", "generate", "comb", "--size", "2x2"]).refused(2, &["comb", "at least 3 × 2"]);
+    tolman(&["maze", "generate", "cmb"]).refused(2, &["cmb", "choose one of", "spiral"]);
 }
 
 #[test]

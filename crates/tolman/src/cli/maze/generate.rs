@@ -2,10 +2,11 @@
 
 use std::io::Write;
 
-use clap::Subcommand;
+use anyhow::anyhow;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_maze::{Braided, Perfect, Rooms};
+use tolman_arena::family::{Family, FamilySize};
+use tolman_maze::{Braided, Maze, Rooms};
 
 use super::output::Output;
 use super::{Failure, OrBadInput};
@@ -14,65 +15,47 @@ use crate::cli::App;
 /// Makes a maze by chance; the same seed makes the same maze
 #[derive(clap::Args)]
 #[command(after_help = "\
+Families: perfect, braided, braided-rooms, office, blocks, ladder, eight, ring, wings, comb, spiral, star, pillars, papers, rooms
+
 Example:
   tolman maze generate braided --size 12x8 --share 0.5 --seed 3 --out mine.maze
-  tolman maze generate family rooms --size 12x8")]
+  tolman maze generate office --size large")]
 pub(crate) struct Arguments {
-    #[command(subcommand)]
-    kind: Kind,
-}
-
-#[derive(Subcommand)]
-enum Kind {
-    /// Exactly one way between any two cells
-    Perfect {
-        #[command(flatten)]
-        common: Common,
-    },
-    /// A perfect maze with some of its dead ends opened, which makes loops
-    Braided {
-        /// The share of dead ends to open, 0 to 1
-        #[arg(long, value_name = "SHARE", default_value_t = 1.0)]
-        share: f64,
-        #[command(flatten)]
-        common: Common,
-    },
-    /// Rooms with winding corridors between them
-    Rooms {
-        /// How often a room is tried
-        #[arg(long, value_name = "N", default_value_t = 20)]
-        attempts: u32,
-        /// Shortest side of a room, cells
-        #[arg(long, value_name = "CELLS", default_value_t = 2)]
-        smallest: u16,
-        /// Longest side of a room, cells
-        #[arg(long, value_name = "CELLS", default_value_t = 4)]
-        largest: u16,
-        /// Doors beyond those that join everything; each closes a loop
-        #[arg(long, value_name = "N", default_value_t = 2)]
-        extra_doors: u32,
-        #[command(flatten)]
-        common: Common,
-    },
-    /// One of a family of worlds, by its name
-    Family {
-        /// The family
-        name: String,
-        #[command(flatten)]
-        common: Common,
-    },
-}
-
-#[derive(clap::Args)]
-struct Common {
-    /// Columns and rows, as in 16x16
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "16x16", value_parser = size)]
-    size: (u16, u16),
+    /// The family of mazes; --list tells what each is
+    #[arg(required_unless_present = "list")]
+    family: Option<String>,
+    /// List the families, and what is hard about each
+    #[arg(long)]
+    list: bool,
+    /// Columns and rows, as in 16x16; or small, middle or large
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "large", value_parser = size)]
+    size: Size,
     /// What the chance starts from
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Of `braided`: the share of dead ends to open, 0 to 1 [default: 1]
+    #[arg(long, value_name = "SHARE")]
+    share: Option<f64>,
+    /// Of `rooms`: how often a room is tried [default: 20]
+    #[arg(long, value_name = "N")]
+    attempts: Option<u32>,
+    /// Of `rooms`: shortest side of a room, cells [default: 2]
+    #[arg(long, value_name = "CELLS")]
+    smallest: Option<u16>,
+    /// Of `rooms`: longest side of a room, cells [default: 4]
+    #[arg(long, value_name = "CELLS")]
+    largest: Option<u16>,
+    /// Of `rooms`: doors beyond those that join everything; each closes a loop [default: 2]
+    #[arg(long, value_name = "N")]
+    extra_doors: Option<u32>,
     #[command(flatten)]
     output: Output,
+}
+
+#[derive(Clone, Copy)]
+enum Size {
+    Named(FamilySize),
+    Cells(u16, u16),
 }
 
 pub(super) fn carry_out(
@@ -80,46 +63,90 @@ pub(super) fn carry_out(
     arguments: &Arguments,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let (Kind::Perfect { common }
-    | Kind::Braided { common, .. }
-    | Kind::Rooms { common, .. }
-    | Kind::Family { common, .. }) = &arguments.kind;
-    let (width, height) = common.size;
-    let rng = &mut ChaCha8Rng::seed_from_u64(common.seed);
-    let maze = match &arguments.kind {
-        Kind::Family { name, .. } => {
-            let drawn = (app.family(name)?.draw)(common.size, rng);
-            let maze = drawn.map_err(anyhow::Error::from_boxed).or_bad_input()?;
-            return common.output.write(&maze.into(), out);
-        }
-        Kind::Perfect { .. } => Perfect { width, height }.generate(rng),
-        &Kind::Braided { share, .. } => Braided {
-            width,
-            height,
-            share,
-        }
-        .generate(rng),
-        &Kind::Rooms {
-            attempts,
-            smallest,
-            largest,
-            extra_doors,
-            ..
-        } => Rooms {
-            width,
-            height,
-            attempts,
-            smallest,
-            largest,
-            extra_doors,
-        }
-        .generate(rng),
+    if arguments.list {
+        return list(app, out);
+    }
+    let family = app.family(arguments.family.as_deref().unwrap_or_default())?;
+    let size = match arguments.size {
+        Size::Named(size) => family.size(size),
+        Size::Cells(width, height) => (width, height),
     };
-    common.output.write(&maze.or_bad_input()?.into(), out)
+    let maze = arguments.draw(family, size)?;
+    arguments.output.write(&maze.into(), out)
 }
 
-fn size(text: &str) -> Result<(u16, u16), String> {
+fn list(app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+    for family in &app.catalogue.families {
+        let Family {
+            name, about, hard, ..
+        } = family;
+        write!(out, "{name:14} {about}")?;
+        match hard.is_empty() {
+            true => writeln!(out)?,
+            false => writeln!(out, "; hard: {hard}")?,
+        }
+    }
+    Ok(())
+}
+
+impl Arguments {
+    fn draw(&self, family: &Family, (width, height): (u16, u16)) -> Result<Maze, Failure> {
+        let rng = &mut ChaCha8Rng::seed_from_u64(self.seed);
+        self.check(family.name)?;
+        if let Some(share) = self.share {
+            let braided = Braided {
+                width,
+                height,
+                share,
+            };
+            return braided.generate_corridors(rng).or_bad_input();
+        }
+        if self.has_rooms() {
+            let rooms = Rooms {
+                width,
+                height,
+                attempts: self.attempts.unwrap_or(20),
+                smallest: self.smallest.unwrap_or(2),
+                largest: self.largest.unwrap_or(4),
+                extra_doors: self.extra_doors.unwrap_or(2),
+            };
+            return rooms.generate(rng).or_bad_input();
+        }
+        let drawn = (family.draw)((width, height), rng);
+        drawn.map_err(anyhow::Error::from_boxed).or_bad_input()
+    }
+
+    const fn has_rooms(&self) -> bool {
+        self.attempts.is_some()
+            || self.smallest.is_some()
+            || self.largest.is_some()
+            || self.extra_doors.is_some()
+    }
+
+    /// Refuses what a family has not.
+    fn check(&self, family: &str) -> Result<(), Failure> {
+        if self.share.is_some() && family != "braided" {
+            let why = anyhow!("--share is of the family braided, not of {family}: leave it out");
+            return Err(Failure::BadInput(why));
+        }
+        if self.has_rooms() && family != "rooms" {
+            let why = anyhow!(
+                "--attempts, --smallest, --largest and --extra-doors are of the family rooms, not of {family}: leave them out"
+            );
+            return Err(Failure::BadInput(why));
+        }
+        Ok(())
+    }
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    match text {
+        "small" => return Ok(Size::Named(FamilySize::Small)),
+        "middle" => return Ok(Size::Named(FamilySize::Middle)),
+        "large" => return Ok(Size::Named(FamilySize::Large)),
+        _ => {}
+    }
     text.split_once('x')
-        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)))
-        .ok_or_else(|| "expected columns x rows, as in 16x16".to_owned())
+        .and_then(|(width, height)| Some(Size::Cells(width.parse().ok()?, height.parse().ok()?)))
+        .ok_or_else(|| "expected columns x rows, as in 16x16, or small, middle or large".to_owned())
 }

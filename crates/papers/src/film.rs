@@ -18,7 +18,7 @@ const DENSE: u32 = 200;
 
 /// What was noted of an outing: after every action what the system thinks, where it believes to be, and its map.
 #[derive(Debug)]
-pub(super) struct Film {
+pub struct Film {
     actions: u32,
     thoughts: Notes,
     belief: Belief,
@@ -33,7 +33,8 @@ pub(super) struct Film {
 
 impl Film {
     /// Returns what is noted before the first action.
-    pub(super) fn new(outing: &dyn Outing) -> Self {
+    #[must_use]
+    pub fn new(outing: &dyn Outing) -> Self {
         let mut film = Self {
             actions: 0,
             thoughts: Notes::new("thinks"),
@@ -49,7 +50,7 @@ impl Film {
     }
 
     /// Sees what an action came to.
-    pub(super) fn see(&mut self, outing: &dyn Outing) {
+    pub fn see(&mut self, outing: &dyn Outing) {
         let step = outing.path().len().saturating_sub(1) as u32;
         self.actions += 1;
         self.meet(outing);
@@ -134,7 +135,8 @@ impl Film {
     }
 
     /// Returns the replay of the outing that was seen.
-    pub(super) fn replay(mut self, outing: &dyn Outing, title: String) -> Replay {
+    #[must_use]
+    pub fn replay(mut self, outing: &dyn Outing, title: String) -> Replay {
         let path = outing.path();
         let step = path.len().saturating_sub(1) as u32;
         self.map(outing, step);

@@ -1,0 +1,429 @@
+use std::sync::OnceLock;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::diktiometry::{JournalLength, Use};
+use tolman_maze::{Maze, MazeFile};
+use tolman_robot::Ring;
+use tolman_sim::robots::{Epuck, LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
+use tolman_systems::Actor;
+use tolman_systems::cpm::{
+    CommonPatterns, Cpm, CpmConfig, Lesson, Mode, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
+};
+use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
+use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig};
+use tolman_systems::micromouse::SIDE;
+use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
+use tolman_systems::mslst::{Mslst, MslstConfig};
+
+use super::true_graph::PlaceRule;
+use crate::cast::Agent;
+use crate::course::Course;
+use crate::cpm::{self, epuck, epuck_course, patience, ring_measures, walker_config};
+use crate::diktiometry::{Office, OfficeConfig, PlaceCue, SurveyorConfig, mapper, office_robot};
+use crate::episode::layers;
+use crate::micromouse::brief;
+use crate::pioneer::{CAMERA_PIONEER, CORRIDOR_WIDTH, LASER_PIONEER, body, calibrated};
+use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
+
+/// Who is sent into a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contestant {
+    /// [`Mslst`], which learns for as long as it may drive.
+    Mslst,
+    /// [`Cpm`] online, as the paper has it.
+    Cpm,
+    /// [`Cpm`] with dead reckoning and several hypotheses.
+    CpmBetter,
+    /// [`Diktiometer`] with the paper's rules.
+    Diktiometry,
+    /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look like.
+    DiktiometryBetter,
+    /// [`OnlineSlam`], whose places are points of the floor.
+    GngSlamBetter,
+    /// [`MazeMouse`], which is told the grid, its start and the goal.
+    Micromouse,
+    /// A baseline, which learns no map.
+    Baseline(Agent),
+}
+
+/// On which robot it is sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ContestRobot {
+    /// That of its paper.
+    Own,
+    /// The laser Pioneer with compass and encoders.
+    Pioneer,
+}
+
+/// A contestant at the start of a world, which has the scale of its robot.
+pub(super) struct Entered {
+    /// With its robot.
+    pub(super) outing: Box<dyn Outing>,
+    /// From the middle of a cell of the drawing to the next, m.
+    pub(super) pitch: f64,
+}
+
+/// What contestants have learned before they are sent out.
+#[derive(Debug, Default)]
+pub struct Schooling {
+    epuck: OnceLock<CommonPatterns>,
+    pioneer: OnceLock<CommonPatterns>,
+}
+
+/// Where common patterns are learned.
+const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
+
+/// The seed of what is learned before.
+const SCHOOL_SEED: u64 = 1;
+
+/// Observations of that lesson on the Pioneer.
+const LESSON: usize = 300;
+
+/// How many colours the walls have where a camera looks at them.
+const COLOURS: u32 = 8;
+
+/// Time steps of a run at most, whatever becomes of it.
+const STEP_LIMIT: u32 = 100_000_000;
+
+/// From wall to wall where a robot keeps away from what is near, as GNG-SLAM's does, m.
+const WIDE: f64 = 1.5;
+
+/// MSLST records scans for so many time steps for each cell, and maps so many actions: both together take the most of what it
+/// may drive.
+const SCANS_A_CELL: u32 = 10;
+const ACTIONS_A_CELL: u32 = 6;
+
+impl Contestant {
+    /// All of them, systems first.
+    pub const ALL: [Self; 12] = [
+        Self::Mslst,
+        Self::Cpm,
+        Self::CpmBetter,
+        Self::Diktiometry,
+        Self::DiktiometryBetter,
+        Self::GngSlamBetter,
+        Self::Micromouse,
+        Self::Baseline(Agent::Random),
+        Self::Baseline(Agent::Avoid),
+        Self::Baseline(Agent::WallFollow),
+        Self::Baseline(Agent::Oracle),
+        Self::Baseline(Agent::UnlocalizedOracle),
+    ];
+
+    /// Returns the name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Mslst => "MSLST",
+            Self::Cpm => "CPM",
+            Self::CpmBetter => "CPM Better",
+            Self::Diktiometry => "Diktiometry",
+            Self::DiktiometryBetter => "Diktiometry Better",
+            Self::GngSlamBetter => "GNG-SLAM Better",
+            Self::Micromouse => "Micromouse",
+            Self::Baseline(agent) => agent.name(),
+        }
+    }
+
+    /// Returns the one of a name, as it stands in tables or is typed: `cpm-better` is CPM Better.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let slug = |name: &str| name.to_lowercase().replace(' ', "-");
+        let mut all = Self::ALL.into_iter();
+        all.find(|contestant| slug(contestant.name()) == slug(name))
+    }
+
+    /// Returns the name of the robot that it drives.
+    #[must_use]
+    pub const fn robot(self, robot: ContestRobot) -> &'static str {
+        match (self, robot) {
+            (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => "e-puck",
+            (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => CAMERA_PIONEER,
+            (Self::GngSlamBetter, ContestRobot::Own) => Pioneer2dx::NAME,
+            _ => LASER_PIONEER,
+        }
+    }
+
+    /// Returns which cells are its places. What it takes for a place beside, with two ways, is a part of a way.
+    #[must_use]
+    pub const fn places(self) -> PlaceRule {
+        match self {
+            Self::Diktiometry | Self::DiktiometryBetter => PlaceRule::Corners,
+            _ => PlaceRule::Landmarks,
+        }
+    }
+
+    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions,
+    /// and the micromouse has proven a shortest run.
+    #[must_use]
+    pub const fn claims(self) -> bool {
+        matches!(
+            self,
+            Self::Cpm | Self::CpmBetter | Self::Diktiometry | Self::DiktiometryBetter
+        )
+    }
+
+    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features alone say; `None` where it
+    /// can. Who knows that abstains, and is not sent. O(cells).
+    #[must_use]
+    pub fn abstains(self, maze: &Maze, robot: ContestRobot) -> Option<String> {
+        let room = maze.reachable().find(|cell| maze.is_room(*cell));
+        let grid = maze.grid();
+        match (self, robot, room) {
+            (Self::Cpm | Self::CpmBetter, _, Some(cell)) => Some(format!(
+                "it follows corridors, and there is an open square of 2 × 2 cells at {cell}"
+            )),
+            (Self::Micromouse, ..) if grid.width().max(grid.height()) as usize > SIDE => {
+                Some(format!("it knows mazes of at most {SIDE} × {SIDE} cells"))
+            }
+            _ => None,
+        }
+    }
+
+    /// Puts it at the start of a drawing, in corridors as its robot is made for. The seed is that of all chance.
+    ///
+    /// # Errors
+    /// If it is a baseline, which is sent by other means, or robot and drawing do not go together.
+    pub(super) fn enter(
+        self,
+        maze: &Maze,
+        name: &str,
+        robot: ContestRobot,
+        schooling: &Schooling,
+        seed: u64,
+    ) -> Result<Entered, BoxError> {
+        match (self, robot) {
+            (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => {
+                let course = epuck_course(name, maze.clone().into())?;
+                let (start, width) = (course.start()?, course.corridor_width);
+                let body = course.robot_at(start, Epuck::new(epuck())?, seed)?;
+                let walker = walker_config(&epuck(), width)?;
+                let patterns = schooling.of_epuck()?;
+                Ok(self.sent_by_patterns(course, body, walker, patterns, maze, seed))
+            }
+            (Self::Cpm | Self::CpmBetter, ContestRobot::Pioneer) => {
+                let course = pioneer_course(name, maze)?;
+                let body = ring_as_epuck(&course, seed)?;
+                let measures = ring_measures(&calibrated(), course.corridor_width);
+                let (walker, patterns) = (measures.walker_config(), schooling.of_pioneer()?);
+                Ok(self.sent_by_patterns(course, body, walker, patterns, maze, seed))
+            }
+            (Self::Diktiometry | Self::DiktiometryBetter, _) => {
+                self.sent_through_office(maze, name, robot, seed)
+            }
+            (Self::Mslst, _) => {
+                let course = pioneer_course(name, maze)?;
+                let stack = layers(&course, &calibrated())?;
+                let cells = maze.reachable().count() as u32;
+                let config = MslstConfig {
+                    scan_steps: SCANS_A_CELL * cells,
+                    graph_actions: ACTIONS_A_CELL * cells,
+                    ..MslstConfig::large(50.0)
+                };
+                let actor = Actor::seeded(Mslst::new(config), stack, seed);
+                let body = laser_pioneer(&course, seed)?;
+                Ok(sent(course, body, actor))
+            }
+            (Self::Micromouse, _) => {
+                let course = pioneer_course(name, maze)?;
+                let robot = calibrated();
+                let config = MazeMouseConfig {
+                    pitch: course.corridor_width,
+                    wall_thickness: 0.0,
+                    turn_per_step: robot.turn_per_step,
+                    translate_per_step: robot.translate_per_step,
+                };
+                let mouse = MazeMouse::certify(brief(maze)?, config)?;
+                let body = laser_pioneer(&course, seed)?;
+                Ok(sent(course, body, mouse))
+            }
+            (Self::GngSlamBetter, ContestRobot::Own) => {
+                let course = Course::new(name, maze.clone(), WIDE)?;
+                let robot = Pioneer2dx::new(Pioneer2dxConfig::paper())?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
+                let config = OnlineSlamConfig::pioneer_2dx();
+                Ok(sent(course, body, OnlineSlam::new(config, seed)))
+            }
+            (Self::GngSlamBetter, ContestRobot::Pioneer) => {
+                let course = Course::new(name, maze.clone(), WIDE)?;
+                let robot = LaserPioneerConfig {
+                    ring: Ring::full(90, 4.0),
+                    ..calibrated()
+                };
+                let mut config = OnlineSlamConfig::pioneer_2dx();
+                // As far and as much a time step as the Pioneer 2-DX.
+                let rates = (0.04 / robot.translate_per_step, 0.1);
+                config.drive = config.drive.with_rates(rates.0, rates.1);
+                let body = LaserPioneer::new(robot)?;
+                let body = course.robot_at(course.start()?, body, seed)?;
+                Ok(sent(course, body, OnlineSlam::new(config, seed)))
+            }
+            (Self::Baseline(agent), _) => Err(format!("{} learns no map", agent.name()).into()),
+        }
+    }
+
+    fn sent_by_patterns<R>(
+        self,
+        course: Course,
+        robot: R,
+        walker: WalkerConfig,
+        patterns: CommonPatterns,
+        maze: &Maze,
+        seed: u64,
+    ) -> Entered
+    where
+        R: cpm_robot::Any + HasSimulated + 'static,
+    {
+        let mode = match self {
+            Self::Cpm => Mode::Paper(CpmConfig::online()),
+            _ => Mode::Reckoned(CpmConfig::robust()),
+        };
+        let config = CpmConfig {
+            most_traversals: patience(maze),
+            ..mode.config()
+        };
+        let walker = WalkerConfig {
+            heading: mode.heading(),
+            ..walker
+        };
+        let system = Cpm::new(walker, patterns, config, seed);
+        sent(course, robot, system)
+    }
+
+    fn sent_through_office(
+        self,
+        maze: &Maze,
+        name: &str,
+        robot: ContestRobot,
+        seed: u64,
+    ) -> Result<Entered, BoxError> {
+        let furniture = OfficeConfig {
+            colours: match robot {
+                ContestRobot::Own => COLOURS,
+                ContestRobot::Pioneer => 1,
+            },
+            seed,
+            ..OfficeConfig::bare()
+        };
+        let office = Office::new(maze, &furniture)?.named(name);
+        let (start, _) = maze.start().ok_or("the drawing marks no start")?;
+        let at = super::whereabouts::Squares {
+            grid: maze.grid(),
+            pitch: furniture.pitch(),
+        }
+        .middle(start);
+        let config = match robot {
+            ContestRobot::Own => SurveyorConfig::paper(),
+            ContestRobot::Pioneer => SurveyorConfig::mslst(),
+        };
+        let routines = config.routines(furniture.corridor_width);
+        let mut mapping = mapper(&office, &config);
+        if self == Self::DiktiometryBetter {
+            mapping.journal = JournalLength::All;
+            mapping.restructuring.look_merge = Use::On;
+        }
+        let paper = DiktiometerConfig::paper(routines, mapping);
+        let course = office.course.clone();
+        let pitch = furniture.pitch();
+        let pose = tolman_geom::Pose::new(at, tolman_geom::Heading::NORTH);
+        Ok(match (robot, config.sight) {
+            (ContestRobot::Pioneer, PlaceCue::Laser { columns }) => {
+                let body = LaserPioneer::new(config.laser_robot())?;
+                let body = course.robot_at(pose, body, seed)?;
+                sent_at(course, body, eyed(paper, LaserEye { columns }, seed), pitch)
+            }
+            _ => {
+                let body = office_robot(&office, &config, pose, seed)?;
+                sent_at(course, body, eyed(paper, config.sight, seed), pitch)
+            }
+        })
+    }
+}
+
+fn eyed<E>(config: DiktiometerConfig, eye: E, seed: u64) -> Diktiometer<E> {
+    Diktiometer::new(config, eye, seed)
+}
+
+/// What CPM can drive, whatever its errors are.
+mod cpm_robot {
+    use tolman_robot::Robot;
+    use tolman_systems::cpm::CpmRobot;
+
+    pub(super) trait Any:
+        CpmRobot + Robot<Error: core::error::Error + Send + Sync + 'static>
+    {
+    }
+
+    impl<R> Any for R where R: CpmRobot + Robot<Error: core::error::Error + Send + Sync + 'static> {}
+}
+
+fn sent<R, S>(course: Course, robot: R, system: S) -> Entered
+where
+    R: tolman_robot::SensesLandmarks + HasSimulated + 'static,
+    S: tolman_robot::System<crate::run::Limited<R>, Failure: Into<BoxError>> + 'static,
+{
+    let pitch = course.corridor_width;
+    sent_at(course, robot, system, pitch)
+}
+
+fn sent_at<R, S>(course: Course, robot: R, system: S, pitch: f64) -> Entered
+where
+    R: tolman_robot::SensesLandmarks + HasSimulated + 'static,
+    S: tolman_robot::System<crate::run::Limited<R>, Failure: Into<BoxError>> + 'static,
+{
+    let outing = Box::new(Sent::new(course, robot, STEP_LIMIT, system));
+    Entered { outing, pitch }
+}
+
+/// Returns a drawing in corridors as the laser Pioneer is made for.
+///
+/// # Errors
+/// If the drawing marks no goal that can be reached.
+pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError> {
+    let file = MazeFile::from(maze.clone());
+    Ok(Course::for_body(name, &file, &body())?)
+}
+
+fn laser_pioneer(course: &Course, seed: u64) -> Result<crate::Simulated<LaserPioneer>, BoxError> {
+    let robot = LaserPioneer::new(calibrated())?;
+    Ok(course.robot_at(course.start()?, robot, seed)?)
+}
+
+fn ring_as_epuck(
+    course: &Course,
+    seed: u64,
+) -> Result<RingAsEpuck<crate::Simulated<LaserPioneer>>, BoxError> {
+    let measures = ring_measures(&calibrated(), course.corridor_width);
+    Ok(RingAsEpuck::new(laser_pioneer(course, seed)?, measures)?)
+}
+
+impl Schooling {
+    /// The common patterns that the e-puck learns in the learning maze (section 4.1 of CPM's paper).
+    fn of_epuck(&self) -> Result<CommonPatterns, BoxError> {
+        let learned = self.epuck.get().cloned();
+        if let Some(learned) = learned {
+            return Ok(learned);
+        }
+        let course = epuck_course("learning", tolman_maze::read(LEARNING_MAZE)?)?;
+        let learned = cpm::learn(&course, SCHOOL_SEED)?;
+        Ok(self.epuck.get_or_init(|| learned).clone())
+    }
+
+    /// Those that the Pioneer learns there.
+    fn of_pioneer(&self) -> Result<CommonPatterns, BoxError> {
+        let learned = self.pioneer.get().cloned();
+        if let Some(learned) = learned {
+            return Ok(learned);
+        }
+        let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
+        let course = Course::new("learning", maze, CORRIDOR_WIDTH)?;
+        let robot = ring_as_epuck(&course, SCHOOL_SEED)?;
+        let config = ring_measures(&calibrated(), CORRIDOR_WIDTH).walker_config();
+        let mut walker = Walker::new(robot, config);
+        let mut rng = ChaCha8Rng::seed_from_u64(SCHOOL_SEED);
+        let seen = wander(&mut walker, Lesson::Observations(LESSON), &mut rng)?;
+        let learned = CommonPatterns::learn(&seen, soinn())?;
+        Ok(self.pioneer.get_or_init(|| learned).clone())
+    }
+}

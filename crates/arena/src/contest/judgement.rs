@@ -1,0 +1,464 @@
+use alloc::collections::{BTreeMap, BTreeSet};
+use core::cmp::Reverse;
+
+use tolman_maze::Cell;
+use tolman_robot::{MapPlace, MapView};
+
+use super::true_graph::TrueGraph;
+use super::whereabouts::{PlaceVisit, Squares, offset};
+
+/// How good a learned map is, by the truth. Shares are from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapJudgement {
+    /// Whether it is the map of what was visited, and at least [`ENOUGH`](Self::ENOUGH) of all places and ways are on it.
+    pub is_right: bool,
+    /// Whether each of its places is another true one and each of its links another true way, and all ways that were gone are
+    /// on it.
+    pub is_right_of_visited: bool,
+    /// Share of the visits that were to the cell which their place was most often; `None` if there were no visits.
+    pub purity: Option<f64>,
+    /// Places of the map over true places; what has two ways and no landmark counts as a part of a way in both.
+    pub places: f64,
+    /// Share of the links that are true ways, each once; `None` of a map without links.
+    pub link_precision: Option<f64>,
+    /// Share of the true ways that are on the map.
+    pub link_recall: f64,
+}
+
+impl MapJudgement {
+    /// The share of all places and ways that have to be on a right map.
+    pub const ENOUGH: f64 = 0.95;
+}
+
+/// Judges a map. `visits` are where the robot truly was when it took itself to be at places; `gone` are the numbers of the
+/// ways that it has truly gone; `pitch` is from the middle of a cell of the drawing to the next, m.
+///
+/// A place of the map stands for the cell where the robot most often was when it took itself to be there; one that was never
+/// visited for the cell where the map has it, if it says so. Places that stand for cells amid a way, as bends are, belong to
+/// the link between the places at its ends. O(visits + links · ways).
+#[must_use]
+pub fn judge(
+    map: &MapView,
+    visits: &[PlaceVisit],
+    truth: &TrueGraph,
+    gone: &BTreeSet<usize>,
+    squares: (tolman_maze::Grid, f64),
+) -> MapJudgement {
+    let (grid, pitch) = squares;
+    let squares = Squares { grid, pitch };
+    let (stands_for, purity) = stands_for(map, visits, squares);
+    let chart = Chart::of(map, &stands_for, truth);
+    let mut found: BTreeSet<usize> = BTreeSet::new();
+    let (mut links, mut right_links) = (0_usize, 0_usize);
+    for chain in chart.chains() {
+        let way = chart.way_of(&chain, &found, gone);
+        match way {
+            Matched::Way(way) => {
+                found.insert(way);
+                right_links += 1;
+            }
+            Matched::Nothing => {}
+            Matched::Stub => continue,
+        }
+        links += 1;
+    }
+    let nodes = chart.nodes();
+    let cells: BTreeSet<Cell> = nodes.iter().filter_map(|(_, cell)| *cell).collect();
+    let are_others = cells.len() == nodes.len();
+    let is_marked_rightly = map.places.iter().all(|place| {
+        let cell = stands_for.get(&place.id).copied();
+        place.landmark.is_none() || cell.is_some_and(|cell| truth.landmark(cell) == place.landmark)
+    });
+    let is_right_of_visited = !map.places.is_empty()
+        && are_others
+        && is_marked_rightly
+        && right_links == links
+        && gone.is_subset(&found);
+    let on_it = cells.intersection(truth.places()).count();
+    let is_enough = share(on_it, truth.places().len()) >= MapJudgement::ENOUGH
+        && share(found.len(), truth.ways().len()) >= MapJudgement::ENOUGH;
+    MapJudgement {
+        is_right: is_right_of_visited && is_enough,
+        is_right_of_visited,
+        purity,
+        places: nodes.len() as f64 / truth.places().len().max(1) as f64,
+        link_precision: (links > 0).then(|| share(right_links, links)),
+        link_recall: share(found.len(), truth.ways().len()),
+    }
+}
+
+/// Returns the cell that each place stands for, and the purity.
+pub(super) fn stands_for(
+    map: &MapView,
+    visits: &[PlaceVisit],
+    squares: Squares,
+) -> (BTreeMap<u32, Cell>, Option<f64>) {
+    let ids: BTreeSet<u32> = map.places.iter().map(|place| place.id).collect();
+    let mut taken: BTreeMap<u32, BTreeMap<Cell, usize>> = BTreeMap::new();
+    for visit in visits.iter().filter(|visit| ids.contains(&visit.place)) {
+        let cells = taken.entry(visit.place).or_default();
+        *cells.entry(visit.cell).or_default() += 1;
+    }
+    let all: usize = taken.values().flat_map(BTreeMap::values).sum();
+    let mut pure = 0;
+    let mut stands_for = BTreeMap::new();
+    for (place, cells) in taken {
+        // Of cells that are equally frequent the first.
+        let most = cells
+            .iter()
+            .max_by_key(|(cell, count)| (**count, Reverse(**cell)));
+        if let Some((cell, count)) = most {
+            pure += count;
+            stands_for.insert(place, *cell);
+        }
+    }
+    let visited = map.places.iter();
+    let visited = visited.filter_map(|place| Some((place, *stands_for.get(&place.id)?)));
+    if let Some(offset) = offset(visited, squares) {
+        for MapPlace { id, position, .. } in &map.places {
+            if let Some(position) = position {
+                let cell = squares.cell_at(position + offset);
+                stands_for.entry(*id).or_insert(cell);
+            }
+        }
+    }
+    (stands_for, (all > 0).then(|| share(pure, all)))
+}
+
+/// What became of a chain of links.
+enum Matched {
+    /// It is this true way.
+    Way(usize),
+    /// It ends amid a way that was not gone to its end.
+    Stub,
+    /// It is no true way, or one that is on the map already.
+    Nothing,
+}
+
+/// A chain of links between two places, over places that stand for cells amid a way.
+struct Chain {
+    ends: [u32; 2],
+    over: Vec<u32>,
+}
+
+/// A map with what its places stand for.
+struct Chart<'a> {
+    stands_for: &'a BTreeMap<u32, Cell>,
+    truth: &'a TrueGraph,
+    /// By place: the links there and where they lead; a link from a place to itself stands there twice.
+    links: BTreeMap<u32, Vec<(usize, u32)>>,
+}
+
+impl<'a> Chart<'a> {
+    fn of(map: &MapView, stands_for: &'a BTreeMap<u32, Cell>, truth: &'a TrueGraph) -> Self {
+        let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
+        for link in &map.links {
+            let pair = (link.from.min(link.to), link.from.max(link.to));
+            counts.entry(pair).or_default()[usize::from(link.from > link.to)] += 1;
+        }
+        let places = map.places.iter().map(|place| (place.id, Vec::new()));
+        let mut links: BTreeMap<u32, Vec<(usize, u32)>> = places.collect();
+        let mut number = 0;
+        for ((one, other), [there, back]) in counts {
+            // A way that can be gone both ways stands on the map twice.
+            let count = match one == other {
+                true => there.div_ceil(2),
+                false => there.max(back),
+            };
+            for _ in 0..count {
+                links.entry(one).or_default().push((number, other));
+                links.entry(other).or_default().push((number, one));
+                number += 1;
+            }
+        }
+        Self {
+            stands_for,
+            truth,
+            links,
+        }
+    }
+
+    fn cell(&self, place: u32) -> Option<Cell> {
+        self.stands_for.get(&place).copied()
+    }
+
+    fn is_true_place(&self, place: u32) -> bool {
+        let cell = self.cell(place);
+        cell.is_some_and(|cell| self.truth.places().contains(&cell))
+    }
+
+    fn degree(&self, place: u32) -> usize {
+        self.links.get(&place).map_or(0, Vec::len)
+    }
+
+    /// Whether it stands for a cell amid a way, and is a part of a chain.
+    fn is_amid(&self, place: u32) -> bool {
+        !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 2
+    }
+
+    /// Whether a link leads to a cell amid a way and no further.
+    fn is_stub(&self, place: u32) -> bool {
+        !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 1
+    }
+
+    /// The places that belong to no chain and end no stub, with their cells.
+    fn nodes(&self) -> Vec<(u32, Option<Cell>)> {
+        let places = self.links.keys().copied();
+        let nodes = places.filter(|place| !self.is_amid(*place) && !self.is_stub(*place));
+        nodes.map(|place| (place, self.cell(place))).collect()
+    }
+
+    /// All links, those over places amid a way joined.
+    fn chains(&self) -> Vec<Chain> {
+        let mut used: BTreeSet<usize> = BTreeSet::new();
+        let mut chains = Vec::new();
+        let ends = self.links.keys().filter(|place| !self.is_amid(**place));
+        // What is left then are rings without an end.
+        for from in ends.chain(self.links.keys()) {
+            for (link, to) in self.links.get(from).into_iter().flatten() {
+                if used.insert(*link) {
+                    chains.push(self.chain(*from, *to, &mut used));
+                }
+            }
+        }
+        chains
+    }
+
+    fn chain(&self, from: u32, to: u32, used: &mut BTreeSet<usize>) -> Chain {
+        let (mut at, mut over) = (to, Vec::new());
+        while at != from && self.is_amid(at) {
+            let mut on = self.links.get(&at).into_iter().flatten();
+            let Some((link, next)) = on.find(|(link, _)| !used.contains(link)) else {
+                break;
+            };
+            used.insert(*link);
+            over.push(at);
+            at = *next;
+        }
+        let ends = [from, at];
+        Chain { ends, over }
+    }
+
+    fn way_of(&self, chain: &Chain, found: &BTreeSet<usize>, gone: &BTreeSet<usize>) -> Matched {
+        let over: Option<Vec<Cell>> = chain.over.iter().map(|place| self.cell(*place)).collect();
+        let ([Some(one), Some(other)], Some(over)) = (chain.ends.map(|end| self.cell(end)), over)
+        else {
+            return Matched::Nothing;
+        };
+        let ways = || self.truth.ways().iter().enumerate();
+        let [a, b] = chain.ends;
+        if self.is_stub(a) || self.is_stub(b) {
+            let (root, tip) = if self.is_stub(a) {
+                (other, one)
+            } else {
+                (one, other)
+            };
+            let is_along = |way: &super::TrueWay| {
+                let mut cells = over.iter().chain([&tip]);
+                way.ends.contains(&root) && cells.all(|cell| way.between.contains(cell))
+            };
+            let mut along = ways().filter(|(number, way)| !gone.contains(number) && is_along(way));
+            return along.next().map_or(Matched::Nothing, |_| Matched::Stub);
+        }
+        let mut fitting = ways().filter(|(number, way)| {
+            way.joins(one, other)
+                && !found.contains(number)
+                && over.iter().all(|cell| way.between.contains(cell))
+        });
+        // Among ways that the map does not tell apart, those first that were gone.
+        let fitting: Vec<usize> = fitting.by_ref().map(|(number, _)| number).collect();
+        let walked = fitting.iter().find(|number| gone.contains(number));
+        let best = walked.or(fitting.first());
+        best.map_or(Matched::Nothing, |way| Matched::Way(*way))
+    }
+}
+
+fn share(part: usize, whole: usize) -> f64 {
+    if whole == 0 {
+        1.0
+    } else {
+        part as f64 / whole as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use tolman_maze::Maze;
+    use tolman_robot::MapLink;
+
+    use super::super::true_graph::PlaceRule;
+    use super::*;
+    use crate::family::Family;
+
+    fn drawn(family: usize, seed: u64) -> Maze {
+        let family = Family::ARENA[family];
+        (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
+    }
+
+    /// The map that has each of these cells as a place, by its index, with the openings between neighbours as links.
+    fn of_cells(maze: &Maze) -> (MapView, Vec<PlaceVisit>) {
+        let id = |cell: Cell| maze.grid().index(cell) as u32;
+        let mut map = MapView::default();
+        let mut visits = Vec::new();
+        for cell in maze.reachable() {
+            map.places.push(place(id(cell)));
+            visits.push(PlaceVisit {
+                place: id(cell),
+                cell,
+            });
+            let links = maze.neighbours(cell).map(|(_, next)| MapLink {
+                from: id(cell),
+                to: id(next),
+            });
+            map.links.extend(links);
+        }
+        (map, visits)
+    }
+
+    /// The map that has the true places alone.
+    fn of_places(maze: &Maze, truth: &TrueGraph) -> (MapView, Vec<PlaceVisit>) {
+        let id = |cell: Cell| maze.grid().index(cell) as u32;
+        let mut map = MapView::default();
+        let mut visits = Vec::new();
+        for cell in truth.places() {
+            map.places.push(place(id(*cell)));
+            visits.push(PlaceVisit {
+                place: id(*cell),
+                cell: *cell,
+            });
+        }
+        for way in truth.ways() {
+            let [from, to] = way.ends.map(id);
+            map.links
+                .extend([MapLink { from, to }, MapLink { from: to, to: from }]);
+        }
+        (map, visits)
+    }
+
+    const fn place(id: u32) -> MapPlace {
+        MapPlace {
+            id,
+            position: None,
+            landmark: None,
+        }
+    }
+
+    fn judged(maze: &Maze, truth: &TrueGraph, map: &(MapView, Vec<PlaceVisit>)) -> MapJudgement {
+        let gone = (0..truth.ways().len()).collect();
+        judge(&map.0, &map.1, truth, &gone, (maze.grid(), 1.0))
+    }
+
+    fn rules() -> impl Strategy<Value = PlaceRule> {
+        prop_oneof![Just(PlaceRule::Landmarks), Just(PlaceRule::Corners)]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        #[test]
+        fn the_true_map_is_right_with_bends_or_without(family in 0..Family::ARENA.len(), seed: u64, rule in rules()) {
+            let maze = drawn(family, seed);
+            let truth = TrueGraph::of(&maze, rule);
+            for map in [of_places(&maze, &truth), of_cells(&maze)] {
+                let judged = judged(&maze, &truth, &map);
+                prop_assert!(judged.is_right && judged.is_right_of_visited, "{judged:?}\n{maze}");
+                prop_assert_eq!((judged.purity, judged.link_precision, judged.link_recall), (Some(1.0), Some(1.0), 1.0));
+                prop_assert!((judged.places - 1.0).abs() < 1e-9);
+            }
+        }
+
+        #[test]
+        fn a_map_with_one_fault_is_not_right(family in 0..Family::ARENA.len(), seed: u64, fault in 0..4_usize, which: prop::sample::Index) {
+            let maze = drawn(family, seed);
+            let truth = TrueGraph::of(&maze, PlaceRule::Landmarks);
+            let (mut map, mut visits) = of_places(&maze, &truth);
+            let link = map.links[which.index(map.links.len())];
+            match fault {
+                // A way that was gone is missing.
+                0 => {
+                    let back = MapLink { from: link.to, to: link.from };
+                    let kept = map.links.iter().position(|one| *one == link).unwrap();
+                    map.links.remove(kept);
+                    let kept = map.links.iter().position(|one| *one == back).unwrap();
+                    map.links.remove(kept);
+                }
+                // One way is there twice.
+                1 => map.links.extend([link, MapLink { from: link.to, to: link.from }]),
+                // A place is there twice.
+                2 => {
+                    map.places.push(place(10_000));
+                    visits.push(PlaceVisit { place: 10_000, cell: maze.start().unwrap().0 });
+                }
+                // Two places are one.
+                _ => {
+                    let [kept, lost] = [map.places[0].id, map.places[map.places.len() - 1].id];
+                    map.places.pop();
+                    let rename = |id: &mut u32| if *id == lost { *id = kept };
+                    for link in &mut map.links {
+                        rename(&mut link.from);
+                        rename(&mut link.to);
+                    }
+                    visits.iter_mut().for_each(|visit| rename(&mut visit.place));
+                }
+            }
+            let judged = judged(&maze, &truth, &(map, visits));
+            prop_assert!(!judged.is_right && !judged.is_right_of_visited, "{judged:?}\n{maze}");
+        }
+    }
+
+    #[test]
+    fn who_never_leaves_home_is_right_of_what_it_visited_and_not_right() {
+        let maze = drawn(0, 1);
+        let truth = TrueGraph::of(&maze, PlaceRule::Landmarks);
+        let (start, _) = maze.start().unwrap();
+        let map = MapView {
+            places: vec![place(0)],
+            links: Vec::new(),
+        };
+        let visits = [PlaceVisit {
+            place: 0,
+            cell: start,
+        }];
+        let judged = judge(&map, &visits, &truth, &BTreeSet::new(), (maze.grid(), 1.0));
+        assert!(judged.is_right_of_visited && !judged.is_right);
+        let empty = judge(
+            &MapView::default(),
+            &[],
+            &truth,
+            &BTreeSet::new(),
+            (maze.grid(), 1.0),
+        );
+        assert!(!empty.is_right_of_visited && !empty.is_right);
+    }
+
+    #[test]
+    fn purity_is_the_share_of_visits_in_the_majority_s_cell() {
+        let maze = drawn(0, 1);
+        let cells: Vec<Cell> = maze.reachable().take(2).collect();
+        let visit = |place, cell: usize| PlaceVisit {
+            place,
+            cell: cells[cell],
+        };
+        let map = MapView {
+            places: vec![place(0), place(1)],
+            links: Vec::new(),
+        };
+        let visits = [
+            visit(0, 0),
+            visit(0, 0),
+            visit(0, 1),
+            visit(1, 1),
+            visit(7, 1),
+        ];
+        let squares = Squares {
+            grid: maze.grid(),
+            pitch: 1.0,
+        };
+        let (stands_for, purity) = stands_for(&map, &visits, squares);
+        assert_eq!(purity, Some(0.75));
+        assert_eq!(stands_for, BTreeMap::from([(0, cells[0]), (1, cells[1])]));
+    }
+}

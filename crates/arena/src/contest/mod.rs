@@ -1,0 +1,19 @@
+//! Every system in every kind of world, judged by one truth.
+//!
+//! A [`Contest`] sends one [`Contestant`] into one drawing: it learns, is put down somewhere and finds out where, is put down
+//! somewhere else and goes to the goal. What it learned is judged by the drawing's [`TrueGraph`]; it never sees it.
+
+mod contestant;
+mod judgement;
+mod play;
+mod true_graph;
+mod wanderers;
+mod whereabouts;
+
+pub use contestant::{ContestRobot, Contestant, Schooling};
+pub use judgement::{MapJudgement, judge};
+pub use play::{
+    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Moment,
+};
+pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
+pub use whereabouts::PlaceVisit;

@@ -1,0 +1,603 @@
+use alloc::collections::{BTreeMap, BTreeSet};
+
+use rand::{Rng, RngExt};
+use thiserror::Error;
+use tolman_control::heading_of;
+use tolman_geom::{Point, Pose};
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::{Goal, Landmark, Standing, Task};
+use tolman_systems::stream;
+
+use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
+use super::judgement::{MapJudgement, judge, stands_for};
+use super::true_graph::TrueGraph;
+use super::wanderers;
+use super::whereabouts::{PlaceVisit, Squares, believed};
+use crate::run::TaskEnd;
+use crate::{BoxError, Outing};
+
+/// A contestant in a world.
+#[derive(Clone, Copy, Debug)]
+pub struct Contest<'a> {
+    /// Who.
+    pub contestant: Contestant,
+    /// On which robot.
+    pub robot: ContestRobot,
+    /// The drawing, which marks start and goal.
+    pub maze: &'a Maze,
+    /// What it is called.
+    pub name: &'a str,
+    /// How often it is put down to find out where it is, and as often to go to the goal.
+    pub starts: u32,
+    /// The seed of all chance.
+    pub seed: u64,
+}
+
+/// Why a contest cannot be held. That a system fails is a result, and no error.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ContestError {
+    /// Robot, system and drawing do not go together.
+    #[error("{contestant} cannot be sent into {world}")]
+    Enter {
+        /// Who.
+        contestant: &'static str,
+        /// The world's name.
+        world: String,
+        /// Why.
+        #[source]
+        source: BoxError,
+    },
+    /// The robot cannot stand where it is put down.
+    #[error("{contestant} cannot be put down in {world}")]
+    PutDown {
+        /// Who.
+        contestant: &'static str,
+        /// The world's name.
+        world: String,
+        /// Why.
+        #[source]
+        source: BoxError,
+    },
+}
+
+/// When a contest is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    /// The contestant stands at the start.
+    Begun,
+    /// It has made an action.
+    Acted,
+    /// All is over.
+    Over,
+}
+
+/// What came of a contest.
+#[derive(Clone, Debug, Default)]
+pub struct ContestRecord {
+    /// Why the contestant did not drive at all, which it said before.
+    pub abstained: Option<String>,
+    /// What it learned; `None` of who abstained, or learns no map.
+    pub learned: Option<LearnRecord>,
+    /// What it made of each place where it was to find out where it is.
+    pub found: Vec<LocateOutcome>,
+    /// How it went from each place where it was to go to the goal.
+    pub homes: Vec<Home>,
+}
+
+/// What a system learned of a world.
+#[derive(Clone, Debug)]
+pub struct LearnRecord {
+    /// How that ended.
+    pub end: TaskEnd,
+    /// What the system makes of its own map.
+    pub claim: Claim,
+    /// How good its map is.
+    pub judgement: MapJudgement,
+    /// Metres driven over the length of all corridors.
+    pub driven: f64,
+    /// Time steps.
+    pub steps: u32,
+    /// Time steps in which it touched something.
+    pub bumps: u32,
+    /// Places of its map.
+    pub places: usize,
+}
+
+/// What a system makes of its own map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Claim {
+    /// It is right and whole: the system says that it is done.
+    Right,
+    /// It is wrong or unfinished: the system gave up.
+    Wrong,
+    /// The system does not say: its time was up, or being done says nothing of its map.
+    Undecided,
+}
+
+impl Claim {
+    const fn of(end: &TaskEnd, claims: bool) -> Self {
+        match end {
+            TaskEnd::Done if claims => Self::Right,
+            TaskEnd::GaveUp { .. } => Self::Wrong,
+            TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
+        }
+    }
+
+    /// Returns how likely the map is right by that, 0 to 1; a half where the system does not say.
+    #[must_use]
+    pub const fn likelihood(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Wrong => 0.0,
+            Self::Undecided => 0.5,
+        }
+    }
+}
+
+/// What a system says of where it was put down.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LocateOutcome {
+    /// It says where it is, and is there.
+    Right,
+    /// It says where it is, and is elsewhere.
+    Wrong,
+    /// It does not say.
+    Abstained {
+        /// Why.
+        why: String,
+    },
+}
+
+/// How a robot went to the goal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Home {
+    /// Metres driven over those of the shortest way; `None` if it did not arrive within [`Contest::LIMIT`] times that.
+    pub over_shortest: Option<f64>,
+    /// Time steps in which it touched something.
+    pub bumps: u32,
+    /// Why it gave up before; empty if it did not.
+    pub gave_up: String,
+}
+
+const START_STREAM: u64 = 31;
+
+impl Contest<'_> {
+    /// A task ends when so many times the length of all corridors was driven, or of the shortest way to the goal.
+    pub const LIMIT: f64 = 10.0;
+
+    /// Holds it. `watch` is shown the contestant at every [`Moment`]; nothing depends on it.
+    ///
+    /// # Errors
+    /// [`ContestError`].
+    pub fn play(
+        &self,
+        schooling: &Schooling,
+        mut watch: impl FnMut(&dyn Outing, Moment),
+    ) -> Result<ContestRecord, ContestError> {
+        if let Some(why) = self.contestant.abstains(self.maze, self.robot) {
+            return Ok(ContestRecord {
+                abstained: Some(why),
+                ..ContestRecord::default()
+            });
+        }
+        if let Contestant::Baseline(agent) = self.contestant {
+            let homes = wanderers::homes(self, agent).map_err(|source| self.enter_error(source))?;
+            return Ok(ContestRecord {
+                homes,
+                ..ContestRecord::default()
+            });
+        }
+        let contestant = self.contestant;
+        let entered = contestant.enter(self.maze, self.name, self.robot, schooling, self.seed);
+        let entered = entered.map_err(|source| self.enter_error(source))?;
+        let mut bout = Bout::new(self, entered);
+        watch(&*bout.outing, Moment::Begun);
+        let learned = bout.learn(&mut watch);
+        let (mut found, mut homes) = (Vec::new(), Vec::new());
+        for [here, there] in self.put_downs() {
+            let put = bout
+                .locate(here, &mut watch)
+                .map_err(|e| self.put_error(e))?;
+            found.push(put);
+            let home = bout
+                .home(there, &mut watch)
+                .map_err(|e| self.put_error(e))?;
+            homes.push(home);
+        }
+        watch(&*bout.outing, Moment::Over);
+        Ok(ContestRecord {
+            abstained: None,
+            learned: Some(learned),
+            found,
+            homes,
+        })
+    }
+
+    /// Returns where the robot is put down, to find out where it is and to go to the goal: cells and ways out of them, by
+    /// chance, never at the goal.
+    #[must_use]
+    pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
+        let mut rng = stream(self.seed, START_STREAM);
+        let maze = self.maze;
+        let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
+        let out_of = |cell| maze.neighbours(cell).map(move |(way, _)| (cell, way));
+        let ways: Vec<(Cell, Direction)> = cells.flat_map(out_of).collect();
+        let mut pick = || ways.get(position(ways.len(), &mut rng)).copied();
+        let starts = (0..self.starts).filter_map(|_| Some([pick()?, pick()?]));
+        starts.collect()
+    }
+
+    fn enter_error(&self, source: BoxError) -> ContestError {
+        ContestError::Enter {
+            contestant: self.contestant.name(),
+            world: self.name.to_owned(),
+            source,
+        }
+    }
+
+    fn put_error(&self, source: BoxError) -> ContestError {
+        ContestError::PutDown {
+            contestant: self.contestant.name(),
+            world: self.name.to_owned(),
+            source,
+        }
+    }
+}
+
+fn position(len: usize, rng: &mut impl Rng) -> usize {
+    match len {
+        0 => 0,
+        len => rng.random_range(0..len as u32) as usize,
+    }
+}
+
+/// A contest under way.
+struct Bout<'a> {
+    maze: &'a Maze,
+    truth: TrueGraph,
+    claims: bool,
+    squares: Squares,
+    outing: Box<dyn Outing>,
+    /// Whether it was lifted, and has made no step since.
+    is_lifted: bool,
+    /// The cell that each place of the map stands for.
+    stands_for: BTreeMap<u32, Cell>,
+}
+
+/// How a task went.
+struct Driven {
+    end: TaskEnd,
+    /// The first time step of it.
+    from: usize,
+    bumps: u32,
+    /// Metres until it first was at the goal that it was sent to.
+    arrived: Option<f64>,
+}
+
+impl<'a> Bout<'a> {
+    fn new(contest: &Contest<'a>, entered: Entered) -> Self {
+        let Entered { outing, pitch } = entered;
+        let maze = contest.maze;
+        let grid = maze.grid();
+        Self {
+            maze,
+            truth: TrueGraph::of(maze, contest.contestant.places()),
+            claims: contest.contestant.claims(),
+            squares: Squares { grid, pitch },
+            outing,
+            is_lifted: false,
+            stands_for: BTreeMap::new(),
+        }
+    }
+
+    fn here(&self) -> Point {
+        let last = self.outing.path().last();
+        last.map_or_else(Point::origin, |pose| pose.position)
+    }
+
+    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. `see` is shown what it was before and
+    /// after each action.
+    fn pursue(
+        &mut self,
+        task: Task,
+        most: f64,
+        mut see: impl FnMut(&dyn Outing, Point),
+        watch: &mut impl FnMut(&dyn Outing, Moment),
+    ) -> Driven {
+        // The path does not know that the robot was lifted: its last pose is where that was.
+        let from = self.outing.path().len() - usize::from(!self.is_lifted);
+        self.is_lifted = false;
+        let bumped = self.outing.bumped().len();
+        let is_sent = matches!(task, Task::Reach(_));
+        let (mut driven, mut until, mut idle) = (0.0, from, 0_u32);
+        let mut arrived = None;
+        let end = loop {
+            let before = self.here();
+            let standing = self.outing.act(task);
+            see(&*self.outing, before);
+            watch(&*self.outing, Moment::Acted);
+            let path = self.outing.path();
+            let last = path.len() - 1;
+            idle = if last > until { 0 } else { idle + 1 };
+            for at in until..=last {
+                let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
+                driven += if at > until { step } else { 0.0 };
+                let is_there = is_sent && self.outing.course().is_destination(path[at].position);
+                arrived = arrived.or(is_there.then_some(driven));
+            }
+            until = until.max(last);
+            match standing {
+                Ok(Standing::UnderWay) => {}
+                Ok(Standing::Done) => break TaskEnd::Done,
+                Ok(Standing::GaveUp { why }) => break TaskEnd::GaveUp { why },
+                Err(error) => {
+                    let why = error.to_string();
+                    break TaskEnd::GaveUp { why };
+                }
+            }
+            let is_over = driven > most || idle > IDLE || arrived.is_some();
+            if is_over || self.outing.is_out_of_time() {
+                break TaskEnd::OutOfTime;
+            }
+        };
+        let bumps = (self.outing.bumped().len() - bumped) as u32;
+        Driven {
+            end,
+            from,
+            bumps,
+            arrived,
+        }
+    }
+
+    /// Metres of all corridors.
+    fn corridors(&self) -> f64 {
+        self.maze.opening_count_reached() as f64 * self.squares.pitch
+    }
+
+    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> LearnRecord {
+        let squares = self.squares;
+        let most = Contest::LIMIT * self.corridors();
+        // Where it was when it came to each of its places, and what it believed after each action.
+        let mut arrivals: Vec<Cell> = Vec::new();
+        let mut beliefs: Vec<PlaceVisit> = Vec::new();
+        let see = |outing: &dyn Outing, before: Point| {
+            let after = outing.path().last().map_or(before, |pose| pose.position);
+            let visits = outing.visits().len();
+            while arrivals.len() + 1 < visits {
+                arrivals.push(squares.cell_at(before));
+            }
+            if arrivals.len() < visits {
+                arrivals.push(squares.cell_at(after));
+            }
+            if visits == 0 {
+                let cell = squares.cell_at(after);
+                let place = believed(&outing.belief(), || outing.map());
+                beliefs.extend(place.map(|place| PlaceVisit { place, cell }));
+            }
+        };
+        let driven = self.pursue(Task::Explore, most, see, watch);
+        let named = self.outing.visits();
+        let visits: Vec<PlaceVisit> = match named.is_empty() {
+            true => beliefs,
+            false => {
+                let pairs = named.into_iter().zip(arrivals);
+                let visit = |(place, cell): (Option<u32>, Cell)| {
+                    place.map(|place| PlaceVisit { place, cell })
+                };
+                pairs.filter_map(visit).collect()
+            }
+        };
+        let map = self.outing.map();
+        let path = &self.outing.path()[driven.from..];
+        let cells = path.iter().map(|pose| squares.cell_at(pose.position));
+        let gone: BTreeSet<usize> = self.truth.gone(cells);
+        let scale = (squares.grid, squares.pitch);
+        let judgement = judge(&map, &visits, &self.truth, &gone, scale);
+        (self.stands_for, _) = stands_for(&map, &visits, squares);
+        LearnRecord {
+            claim: Claim::of(&driven.end, self.claims),
+            end: driven.end,
+            judgement,
+            driven: length(path) / self.corridors().max(squares.pitch),
+            steps: (path.len() - 1) as u32,
+            bumps: driven.bumps,
+            places: map.places.len(),
+        }
+    }
+
+    /// Puts the robot down amid a cell and tells its system.
+    fn put_down(&mut self, (cell, way): (Cell, Direction)) -> Result<Standing, BoxError> {
+        let pose = Pose::new(self.squares.middle(cell), heading_of(way));
+        self.is_lifted = true;
+        self.outing.put_down(pose)
+    }
+
+    fn locate(
+        &mut self,
+        start: (Cell, Direction),
+        watch: &mut impl FnMut(&dyn Outing, Moment),
+    ) -> Result<LocateOutcome, BoxError> {
+        if let Standing::GaveUp { why } = self.put_down(start)? {
+            return Ok(LocateOutcome::Abstained { why });
+        }
+        let most = Contest::LIMIT * self.corridors();
+        let driven = self.pursue(Task::Localize, most, |_, _| {}, watch);
+        match driven.end {
+            TaskEnd::GaveUp { why } => return Ok(LocateOutcome::Abstained { why }),
+            TaskEnd::OutOfTime => {
+                let why = "it was still looking when its time was up".to_owned();
+                return Ok(LocateOutcome::Abstained { why });
+            }
+            TaskEnd::Done => {}
+        }
+        let outing = &self.outing;
+        let place = believed(&outing.belief(), || outing.map());
+        let cell = place.and_then(|place| self.stands_for.get(&place));
+        let off = cell.map(|cell| (self.squares.middle(*cell) - self.here()).norm());
+        Ok(match off {
+            Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
+            _ => LocateOutcome::Wrong,
+        })
+    }
+
+    fn home(
+        &mut self,
+        start: (Cell, Direction),
+        watch: &mut impl FnMut(&dyn Outing, Moment),
+    ) -> Result<Home, BoxError> {
+        let shortest = self.maze.metres_to_goal(start.0, self.squares.pitch);
+        if let Standing::GaveUp { why } = self.put_down(start)? {
+            return Ok(Home {
+                over_shortest: None,
+                bumps: 0,
+                gave_up: why,
+            });
+        }
+        let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
+        let most = Contest::LIMIT * shortest;
+        let driven = self.pursue(goal, most, |_, _| {}, watch);
+        let arrived = driven.arrived;
+        Ok(Home {
+            over_shortest: arrived.filter(|way| *way <= most).map(|way| way / shortest),
+            bumps: driven.bumps,
+            gave_up: match driven.end {
+                TaskEnd::GaveUp { why } => why,
+                TaskEnd::Done | TaskEnd::OutOfTime => String::new(),
+            },
+        })
+    }
+}
+
+/// A system that does nothing for so many actions will do nothing any more.
+const IDLE: u32 = 1000;
+
+/// A robot is at a place when it is nearer to it than this, in cells.
+const NEAR: f64 = 0.75;
+
+/// The length of a path, m.
+pub(super) fn length(path: &[Pose]) -> f64 {
+    let steps = path.windows(2);
+    let step = |pair: &[Pose]| match pair {
+        [from, to] => (to.position - from.position).norm(),
+        _ => 0.0,
+    };
+    steps.map(step).sum()
+}
+
+/// What a contest measures of a drawing.
+pub(super) trait Measured {
+    /// Openings between two cells that are reached.
+    fn opening_count_reached(&self) -> usize;
+
+    /// The length of the shortest way from a cell to the goal, m.
+    fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64;
+}
+
+impl Measured for Maze {
+    fn opening_count_reached(&self) -> usize {
+        let ways = self.reachable().map(|cell| self.degree(cell));
+        ways.sum::<usize>() / 2
+    }
+
+    fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64 {
+        let steps = self.steps_to_goal()[self.grid().index(from)];
+        f64::from(steps.unwrap_or(0)) * pitch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::cast::Agent;
+    use crate::family::Family;
+
+    fn drawn(name: &str) -> Maze {
+        let family = Family::named(&Family::ARENA, name).unwrap();
+        (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(3)).unwrap()
+    }
+
+    fn play(contestant: Contestant, world: &str, robot: ContestRobot) -> ContestRecord {
+        taught(contestant, world, robot, &Schooling::default())
+    }
+
+    fn taught(
+        contestant: Contestant,
+        world: &str,
+        robot: ContestRobot,
+        schooling: &Schooling,
+    ) -> ContestRecord {
+        let maze = drawn(world);
+        let contest = Contest {
+            contestant,
+            robot,
+            maze: &maze,
+            name: world,
+            starts: 1,
+            seed: 3,
+        };
+        contest.play(schooling, |_, _| {}).unwrap()
+    }
+
+    #[test]
+    fn systems_learn_a_star_and_the_same_contest_comes_to_the_same() {
+        let schooling = Schooling::default();
+        for robot in [ContestRobot::Own, ContestRobot::Pioneer] {
+            for contestant in [Contestant::CpmBetter, Contestant::DiktiometryBetter] {
+                let record = taught(contestant, "star", robot, &schooling);
+                let learned = record.learned.as_ref().unwrap();
+                assert!(learned.judgement.is_right, "{contestant:?}: {learned:?}");
+                assert_eq!(learned.claim, Claim::Right);
+                assert!(learned.driven < Contest::LIMIT);
+                let again = taught(contestant, "star", robot, &schooling);
+                assert_eq!(format!("{record:?}"), format!("{again:?}"));
+            }
+        }
+    }
+
+    #[test]
+    fn who_cannot_work_somewhere_abstains_before_it_drives() {
+        let record = play(Contestant::Cpm, "pillars", ContestRobot::Own);
+        assert!(record.abstained.unwrap().contains("open square"));
+        assert!(record.learned.is_none() && record.homes.is_empty());
+    }
+
+    #[test]
+    fn an_oracle_comes_home_and_learns_nothing() {
+        let oracle = Contestant::Baseline(Agent::Oracle);
+        let record = play(oracle, "office", ContestRobot::Own);
+        assert!(record.learned.is_none());
+        let over = record.homes[0].over_shortest.unwrap();
+        assert!(over < 2.0, "{over}");
+    }
+
+    #[test]
+    fn all_contestants_meet_the_same_starts() {
+        let maze = drawn("blocks");
+        let contest = |contestant| Contest {
+            contestant,
+            robot: ContestRobot::Own,
+            maze: &maze,
+            name: "",
+            starts: 20,
+            seed: 5,
+        };
+        let starts = contest(Contestant::Mslst).put_downs();
+        assert_eq!(starts, contest(Contestant::CpmBetter).put_downs());
+        assert_eq!(starts.len(), 20);
+        for (cell, way) in starts.into_iter().flatten() {
+            assert!(maze.is_open(cell, way) && !maze.goals().contains(&cell));
+        }
+    }
+
+    #[test]
+    fn a_system_in_its_cage_drives_no_more_than_ten_times_the_corridors() {
+        let record = play(Contestant::Diktiometry, "spiral", ContestRobot::Own);
+        let learned = record.learned.unwrap();
+        // The last action may lead on a little.
+        assert!(learned.driven < 1.2 * Contest::LIMIT, "{learned:?}");
+    }
+}

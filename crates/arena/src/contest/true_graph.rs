@@ -1,0 +1,237 @@
+use alloc::collections::BTreeSet;
+
+use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::Landmark;
+
+/// Which cells of a drawing are places, as a system has it that can know no others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceRule {
+    /// Junctions, dead ends, the start and the goals; a bend is a part of a way.
+    Landmarks,
+    /// Junctions, dead ends and bends: all but where a corridor leads straight on, also where a landmark stands there.
+    Corners,
+}
+
+/// The places of a drawing and the ways between them, as they truly are.
+///
+/// A place is a cell that is reached and that the [`PlaceRule`] names; every cell of an open square is a junction or a bend.
+#[derive(Clone, Debug)]
+pub struct TrueGraph {
+    places: BTreeSet<Cell>,
+    ways: Vec<TrueWay>,
+    landmarks: Vec<(Cell, Landmark)>,
+}
+
+/// A way between two places.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TrueWay {
+    /// The places at its ends, which may be one.
+    pub ends: [Cell; 2],
+    /// The cells between them, from the first to the second.
+    pub between: Vec<Cell>,
+}
+
+impl TrueWay {
+    /// Returns whether it joins two places, whichever of them comes first.
+    #[must_use]
+    pub fn joins(&self, one: Cell, other: Cell) -> bool {
+        self.ends == [one, other] || self.ends == [other, one]
+    }
+}
+
+impl TrueGraph {
+    /// Returns the graph of a drawing. O(cells).
+    #[must_use]
+    pub fn of(maze: &Maze, rule: PlaceRule) -> Self {
+        let start = maze.start().map(|(cell, _)| (cell, Landmark::Start));
+        let goals = maze.goals().iter().map(|cell| (*cell, Landmark::Goal));
+        let landmarks: Vec<(Cell, Landmark)> = start.into_iter().chain(goals).collect();
+        let is_marked = |cell: Cell| landmarks.iter().any(|(marked, _)| *marked == cell);
+        let places = maze.reachable();
+        let places = places.filter(|cell| match rule {
+            PlaceRule::Landmarks => maze.degree(*cell) != 2 || is_marked(*cell),
+            PlaceRule::Corners => !is_straight(maze, *cell),
+        });
+        let places: BTreeSet<Cell> = places.collect();
+        let mut ways: Vec<TrueWay> = Vec::new();
+        let mut left: BTreeSet<(Cell, usize)> = BTreeSet::new();
+        for from in &places {
+            for (out, _) in maze.neighbours(*from) {
+                if left.contains(&(*from, out.index())) {
+                    continue;
+                }
+                let (way, came) = follow(maze, &places, *from, out);
+                left.insert((way.ends[1], came.opposite().index()));
+                ways.push(way);
+            }
+        }
+        Self {
+            places,
+            ways,
+            landmarks,
+        }
+    }
+
+    /// Returns the places.
+    #[must_use]
+    pub const fn places(&self) -> &BTreeSet<Cell> {
+        &self.places
+    }
+
+    /// Returns the ways.
+    #[must_use]
+    pub fn ways(&self) -> &[TrueWay] {
+        &self.ways
+    }
+
+    /// Returns the landmark of a cell, if there is one.
+    #[must_use]
+    pub fn landmark(&self, cell: Cell) -> Option<Landmark> {
+        let mut landmarks = self.landmarks.iter();
+        landmarks.find(|(at, _)| *at == cell).map(|(_, mark)| *mark)
+    }
+
+    /// Returns the numbers of the ways that a robot has gone from end to end which was in these cells one after the other.
+    /// O(cells · ways).
+    #[must_use]
+    pub fn gone(&self, cells: impl IntoIterator<Item = Cell>) -> BTreeSet<usize> {
+        let mut gone = BTreeSet::new();
+        let mut from = None;
+        let mut between: Vec<Cell> = Vec::new();
+        for cell in cells {
+            if !self.places.contains(&cell) {
+                turn_back_or_on(&mut between, cell);
+                continue;
+            }
+            if let Some(from) = from {
+                gone.extend(self.way_along(from, cell, &between));
+            }
+            from = Some(cell);
+            between.clear();
+        }
+        gone
+    }
+
+    fn way_along(&self, from: Cell, to: Cell, between: &[Cell]) -> Option<usize> {
+        let backward = between.iter().rev();
+        self.ways.iter().position(|way| {
+            let is_forward = way.ends == [from, to] && way.between == between;
+            let is_backward = way.ends == [to, from] && way.between.iter().eq(backward.clone());
+            // One who stays in a place has not gone round a loop.
+            (is_forward || is_backward) && (from != to || !between.is_empty())
+        })
+    }
+}
+
+/// Whether a corridor leads straight on through a cell.
+fn is_straight(maze: &Maze, cell: Cell) -> bool {
+    let ways = Direction::ALL.map(|way| maze.is_open(cell, way));
+    ways == [true, false, true, false] || ways == [false, true, false, true]
+}
+
+/// Who turns back is where he was before.
+fn turn_back_or_on(between: &mut Vec<Cell>, cell: Cell) {
+    match between[..] {
+        [.., last] if last == cell => {}
+        [.., before, _] if before == cell => {
+            between.pop();
+        }
+        _ => between.push(cell),
+    }
+}
+
+/// The way that leads `out` of a place, and the direction in which one comes to its end.
+fn follow(
+    maze: &Maze,
+    places: &BTreeSet<Cell>,
+    from: Cell,
+    out: Direction,
+) -> (TrueWay, Direction) {
+    let (mut at, mut came) = (from, out);
+    let mut between = Vec::new();
+    while let Some(next) = maze.beside(at, came) {
+        at = next;
+        if places.contains(&at) {
+            break;
+        }
+        between.push(at);
+        let back = came.opposite();
+        let mut on = maze.neighbours(at).filter(|(way, _)| *way != back);
+        let Some((on, _)) = on.next() else {
+            break;
+        };
+        came = on;
+    }
+    let ends = [from, at];
+    (TrueWay { ends, between }, came)
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::cpm::TrueFragments;
+    use crate::family::Family;
+
+    /// A crossing with a loop, the start to its west and the goal to its east.
+    const LOOP: &str = "\
+start = 0 1 east
+
+o---o---o---o---o
+|   |           |
+o---o   o---o   o
+| S       G |   |
+o---o   o---o   o
+|   |           |
+o---o---o---o---o
+";
+
+    fn cells(all: &[(u16, u16)]) -> Vec<Cell> {
+        all.iter().map(|(x, y)| Cell::new(*x, *y)).collect()
+    }
+
+    #[test]
+    fn a_loop_is_a_way_from_a_place_to_itself() {
+        let graph = TrueGraph::of(&tolman_maze::read(LOOP).unwrap().maze, PlaceRule::Landmarks);
+        assert_eq!((graph.places().len(), graph.ways().len()), (3, 3));
+        let crossing = Cell::new(1, 1);
+        let round = graph
+            .ways()
+            .iter()
+            .position(|way| way.joins(crossing, crossing));
+        let north = [(0, 1), (1, 1), (1, 2), (2, 2), (3, 2)];
+        let south = [(3, 1), (3, 0), (2, 0), (1, 0), (1, 1)];
+        let half = graph.gone(cells(&north));
+        assert_eq!(half.len(), 1, "the loop was not gone to its end");
+        // Back and forth between two cells is no other way.
+        let wavering = [(3, 2), (3, 1), (3, 2)];
+        let all = cells(&[&north[..], &wavering, &south].concat());
+        let whole = graph.gone(all);
+        assert_eq!(whole.len(), 2);
+        assert!(whole.contains(&round.unwrap()));
+        assert!(graph.gone(cells(&[(1, 1), (1, 1)])).is_empty());
+    }
+
+    #[test]
+    fn it_has_the_fragments_that_cpm_is_scored_by() {
+        for family in Family::ARENA {
+            for seed in 0..10 {
+                let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+                let maze = (family.draw)(family.sizes[1], rng).unwrap();
+                let graph = TrueGraph::of(&maze, PlaceRule::Landmarks);
+                let fragments = TrueFragments::of(&maze).count() as usize;
+                assert_eq!(graph.ways().len(), fragments, "{}\n{maze}", family.name);
+                // Whoever is everywhere has gone all ways.
+                for way in graph.ways() {
+                    let [from, to] = way.ends;
+                    let there = [&[from][..], &way.between, &[to]].concat();
+                    let back = there.iter().rev().copied();
+                    assert_eq!(graph.gone(there.iter().copied()).len(), 1);
+                    assert_eq!(graph.gone(there.iter().copied()), graph.gone(back));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+use tolman_geom::{Point, Vector};
+use tolman_maze::{Cell, Grid};
+use tolman_robot::{Guess, MapPlace, MapView, Position};
+
+/// Where a robot truly was when it took itself to be at a place of its map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlaceVisit {
+    /// The place, by id.
+    pub place: u32,
+    /// The cell.
+    pub cell: Cell,
+}
+
+/// The cells of a drawing in a world where they are so far apart.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Squares {
+    pub(super) grid: Grid,
+    /// From the middle of a cell to the next, m.
+    pub(super) pitch: f64,
+}
+
+impl Squares {
+    /// The cell of a point; of a point outside the nearest.
+    pub(super) fn cell_at(self, point: Point) -> Cell {
+        let along = |metres: f64, cells: u16| {
+            let cell = libm::floor(metres / self.pitch);
+            cell.clamp(0.0, f64::from(cells.saturating_sub(1))) as u16
+        };
+        Cell::new(
+            along(point.x, self.grid.width()),
+            along(point.y, self.grid.height()),
+        )
+    }
+
+    pub(super) fn middle(self, cell: Cell) -> Point {
+        let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
+        Point::new(along(cell.x), along(cell.y))
+    }
+}
+
+/// The place that a belief names first; of a point the place that lies nearest to it.
+pub(super) fn believed(belief: &[Guess], map: impl Fn() -> MapView) -> Option<u32> {
+    match belief.first()?.at {
+        Position::Place(id) => Some(id),
+        Position::Point(point) => nearest(&map(), point),
+    }
+}
+
+fn nearest(map: &MapView, point: Point) -> Option<u32> {
+    let known = map.places.iter();
+    let known = known.filter_map(|place| Some((place.id, (place.position? - point).norm())));
+    let nearest = known.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map(|(id, _)| id)
+}
+
+/// How far the frame of a map lies from that of the world, m, by the places that were visited; `None` if none of them knows
+/// where it lies. The axes are taken to be the same.
+pub(super) fn offset<'a>(
+    places: impl Iterator<Item = (&'a MapPlace, Cell)>,
+    squares: Squares,
+) -> Option<Vector> {
+    let mut count = 0.0;
+    let mut sum = Vector::zeros();
+    for (place, cell) in places {
+        if let Some(position) = place.position {
+            sum += squares.middle(cell) - position;
+            count += 1.0;
+        }
+    }
+    (count > 0.0).then(|| sum / count)
+}

@@ -1,0 +1,177 @@
+//! Every system in every kind of world, judged by one truth: what each learns, whether it knows that, whether it finds out where
+//! it was put down, and whether it gets to the goal.
+
+mod figures;
+mod records;
+mod rows;
+mod worlds;
+
+use std::sync::Mutex;
+
+use tolman_arena::contest::{ContestRobot, Moment, Schooling};
+use tolman_draw::Figure;
+use tolman_experiment::{
+    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Run, Table,
+};
+use tolman_replay::Replay;
+
+use self::records::{HomeRun, LearnRun, LocateRun};
+use self::rows::{ALL, Held, RowName};
+use crate::Film;
+
+pub use worlds::{ArenaWorld, DrawnWorld};
+
+/// What the catalogue says of it.
+pub(super) const ENTRY: Entry = Entry {
+    name: "arena",
+    title: "Arena: every system in every kind of world",
+    source: "",
+    runs: 6,
+    quick_runs: 1,
+    open,
+};
+
+/// What is asked of a contestant, and measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ArenaTask {
+    Learn,
+    Home,
+    Locate,
+}
+
+/// The tables: what is measured, on which robot.
+const TABLES: [(&str, ArenaTask, ContestRobot); 6] = [
+    ("learn", ArenaTask::Learn, ContestRobot::Own),
+    ("home", ArenaTask::Home, ContestRobot::Own),
+    ("locate", ArenaTask::Locate, ContestRobot::Own),
+    ("learn, Pioneer", ArenaTask::Learn, ContestRobot::Pioneer),
+    ("home, Pioneer", ArenaTask::Home, ContestRobot::Pioneer),
+    ("locate, Pioneer", ArenaTask::Locate, ContestRobot::Pioneer),
+];
+
+/// The table of cost against size.
+const SIZE_TABLE: &str = "size";
+
+/// The experiment, ready to run.
+#[derive(Debug)]
+struct Arena {
+    seed: u64,
+    worlds: Vec<ArenaWorld>,
+    schooling: Schooling,
+    /// The contests that were held, which several rows look at.
+    held: Mutex<Held>,
+}
+
+/// Sets the tables up.
+///
+/// # Errors
+/// If a maze cannot be read.
+fn open(options: &Options) -> Result<Experiment, BoxError> {
+    let worlds = match options.mazes.is_empty() {
+        true => ArenaWorld::families(),
+        false => ArenaWorld::of_files(&options.mazes)?,
+    };
+    let runs = options.runs_of(&ENTRY);
+    let mut tables: Vec<Table> = TABLES
+        .into_iter()
+        .map(|(name, task, robot)| {
+            let table = match task {
+                ArenaTask::Learn => records::learn(name),
+                ArenaTask::Home => records::home(name),
+                ArenaTask::Locate => records::locate(name),
+            };
+            let table = table.rows(rows::of(task, &worlds, runs));
+            table.note(records::note(task, robot))
+        })
+        .collect();
+    tables.push(records::sizes(SIZE_TABLE).rows(rows::of_sizes(options)));
+    let mut config = toml::Table::new();
+    let named = worlds.iter().map(ArenaWorld::config);
+    config.insert("worlds".to_owned(), named.collect::<Vec<_>>().into());
+    let arena = Arena {
+        seed: options.seed,
+        worlds,
+        schooling: Schooling::default(),
+        held: Mutex::default(),
+    };
+    Ok(Experiment::new(ENTRY, tables, config, arena))
+}
+
+impl Procedure for Arena {
+    fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
+        if job.table == SIZE_TABLE {
+            return self.sized(&row, job.run);
+        }
+        let mut tables = TABLES.into_iter();
+        let table = tables.find(|(name, ..)| *name == job.table);
+        let (_, task, robot) = table.ok_or_else(|| no_row(job))?;
+        let record = self.held(&row, robot, job.run)?;
+        Ok(match task {
+            ArenaTask::Learn => LearnRun::of(&record).fields()?,
+            ArenaTask::Home => HomeRun::of(&record).fields()?,
+            ArenaTask::Locate => LocateRun::of(&record).fields()?,
+        })
+    }
+
+    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+        figures::of(&self.worlds, runs)
+    }
+
+    fn shown(&self, runs: &[Run]) -> Result<Option<Vec<Run>>, BoxError> {
+        Ok(Some(records::worst(runs)?))
+    }
+
+    fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
+        let robot = TABLES.into_iter().find(|(name, ..)| *name == job.table);
+        let robot = robot.map_or(ContestRobot::Own, |(_, _, robot)| robot);
+        let world = match job.table == SIZE_TABLE {
+            true => rows::sized_world(self.seed, &row, job.run)?,
+            false => self.world(&row, job.run)?,
+        };
+        let mut film: Option<Film> = None;
+        let mut replay = None;
+        let title = format!("{}, run {}", job.row, job.run);
+        let contest = world.contest(row.contestant, robot);
+        contest.play(&self.schooling, |outing, moment| {
+            match (moment, &mut film) {
+                (Moment::Over, film) => {
+                    let film = film.take();
+                    replay = film.map(|film| film.replay(outing, title.clone()));
+                }
+                (_, Some(film)) => film.see(outing),
+                (_, none) => *none = Some(Film::new(outing)),
+            }
+        })?;
+        Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
+    }
+}
+
+fn no_row(job: &Job<'_>) -> BoxError {
+    format!("there is no row {:?} of {}", job.row, job.table).into()
+}
+
+/// Which contest a row's run is, of `worlds` kinds of worlds: run n of the row of all is of kind n modulo their number.
+const fn of_all(run: u32, worlds: u32) -> (u32, u32) {
+    (run % worlds, run / worlds)
+}
+
+impl Arena {
+    /// The world of a run.
+    fn world(&self, row: &RowName<'_>, run: u32) -> Result<DrawnWorld, BoxError> {
+        let (world, number) = self.place(row, run)?;
+        self.worlds[world].draw(self.seed, number)
+    }
+
+    /// Which world a run is in, and which drawing of it.
+    fn place(&self, row: &RowName<'_>, run: u32) -> Result<(usize, u32), BoxError> {
+        if row.world == ALL {
+            let (world, number) = of_all(run, self.worlds.len() as u32);
+            return Ok((world as usize, number));
+        }
+        let mut worlds = self.worlds.iter();
+        let world = worlds.position(|world| world.name() == row.world);
+        Ok((world.ok_or("there is no such world")?, run))
+    }
+}

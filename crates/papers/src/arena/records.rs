@@ -1,0 +1,286 @@
+use tolman_arena::contest::{Claim, ContestRecord, ContestRobot, LocateOutcome};
+use tolman_arena::run::TaskEnd;
+use tolman_experiment::{BoxError, Metric, Run, Table, record};
+use tolman_maze::Maze;
+
+use super::rows::{ALL, contestants, row_name};
+use super::{ArenaTask, TABLES};
+
+record! {
+    /// What a system learned of a world.
+    pub(super) struct LearnRun {
+        /// Whether it said, before it drove, that it cannot work there.
+        abstained: bool => neither("abstained"),
+        /// Whether its map is one to one the graph of the true places and ways, with at least 95 % of those that there are. Who abstained has none.
+        right: bool => higher("right"),
+        /// Whether its map is one to one the graph of the true ways that it has gone and what it saw beside.
+        right_of_visited: bool => higher("right of visited"),
+        /// Share of the visits of its places that were to the cell which that place was most often.
+        purity: Option<f64> => higher("purity").share().decimals(3),
+        /// Places of its map over true places; what has two ways and no landmark is a part of a way.
+        places: Option<f64> => neither("places / true").decimals(2),
+        /// Share of the links of its map that are true ways, each once.
+        link_precision: Option<f64> => higher("link precision").share().decimals(3),
+        /// Share of the true ways that are on its map; 0 of who abstained.
+        link_recall: f64 => higher("link recall").share().decimals(3),
+        /// Of a wrong map: whether the system called it right.
+        false_right: Option<bool> => lower("false right"),
+        /// Of a right map: whether the system called it wrong.
+        false_alarm: Option<bool> => lower("false alarm"),
+        /// Whether the system did not say whether its map is right.
+        undecided: Option<bool> => lower("undecided"),
+        /// Whether the map is right, where there is one.
+        map_right: Option<bool> => higher("right maps"),
+        /// Squared error of how likely the system took its map to be right: 1 if it was done, 0 if it gave up, a half if it did not say.
+        brier: Option<f64> => lower("Brier"),
+        /// Metres driven over the length of all corridors.
+        driven: Option<f64> => lower("metres / corridors"),
+        /// Time steps in which it touched something.
+        bumps: Option<u32> => lower("bumps"),
+        /// How it ended, and why.
+        why: String => neither("end"),
+    }
+}
+
+record! {
+    /// How a robot went to the goal from somewhere.
+    pub(super) struct HomeRun {
+        /// Whether it said before it drove that it cannot work there.
+        abstained: bool => neither("abstained"),
+        /// Whether it came to the goal within ten times the shortest way.
+        success: bool => higher("success"),
+        /// Metres driven over those of the shortest way from cell to cell, of those that arrived.
+        metres_over_shortest: Option<f64> => lower("metres / shortest").decimals(2),
+        /// Time steps in which it touched something.
+        bumps: Option<u32> => lower("bumps"),
+        /// Why it gave up.
+        why: String => neither("why not"),
+    }
+}
+
+record! {
+    /// What a system said of where it was put down.
+    pub(super) struct LocateRun {
+        /// Whether it said where it is, and was there.
+        right: bool => higher("right"),
+        /// Whether it said where it is, and was elsewhere.
+        wrong: bool => lower("wrong"),
+        /// Whether it did not say.
+        abstained: bool => neither("abstained"),
+        /// On a map that is right: whether it said where it is, and was there.
+        right_on_right_map: Option<bool> => higher("right on right maps"),
+        /// Why it did not say.
+        why: String => neither("why not"),
+    }
+}
+
+record! {
+    /// What it costs to learn a world.
+    pub(super) struct SizeRun {
+        /// Whether the map is right and whole.
+        right: bool => higher("right"),
+        /// Share of the true ways that are on the map.
+        link_recall: f64 => higher("link recall").share().decimals(3),
+        /// Metres driven over the length of all corridors.
+        driven: Option<f64> => lower("metres / corridors").decimals(2),
+        /// Time steps for each cell that can be reached.
+        steps_per_cell: Option<f64> => lower("time steps / cell").decimals(1),
+        /// Places of the map for each of those cells.
+        places_per_cell: Option<f64> => lower("places / cell").decimals(2),
+    }
+}
+
+impl LearnRun {
+    pub(super) fn of(record: &ContestRecord) -> Self {
+        let Some(learned) = &record.learned else {
+            return Self {
+                abstained: true,
+                why: record.abstained.clone().unwrap_or_default(),
+                ..Self::default()
+            };
+        };
+        let (judged, claim) = (&learned.judgement, learned.claim);
+        let is_right = judged.is_right;
+        let outcome = f64::from(u8::from(is_right));
+        let error = claim.likelihood() - outcome;
+        Self {
+            abstained: false,
+            right: is_right,
+            right_of_visited: judged.is_right_of_visited,
+            purity: judged.purity,
+            places: Some(judged.places),
+            link_precision: judged.link_precision,
+            link_recall: judged.link_recall,
+            false_right: (!is_right).then_some(claim == Claim::Right),
+            false_alarm: is_right.then_some(claim == Claim::Wrong),
+            undecided: Some(claim == Claim::Undecided),
+            map_right: Some(is_right),
+            brier: Some(error * error),
+            driven: Some(learned.driven),
+            bumps: Some(learned.bumps),
+            why: match &learned.end {
+                TaskEnd::Done => "done".to_owned(),
+                TaskEnd::GaveUp { why } => why.clone(),
+                TaskEnd::OutOfTime => "it had driven ten times the corridors".to_owned(),
+            },
+        }
+    }
+}
+
+impl HomeRun {
+    pub(super) fn of(record: &ContestRecord) -> Self {
+        let Some(home) = record.homes.first() else {
+            return Self {
+                abstained: true,
+                why: record.abstained.clone().unwrap_or_default(),
+                ..Self::default()
+            };
+        };
+        Self {
+            abstained: false,
+            success: home.over_shortest.is_some(),
+            metres_over_shortest: home.over_shortest,
+            bumps: Some(home.bumps),
+            why: home.gave_up.clone(),
+        }
+    }
+}
+
+impl LocateRun {
+    pub(super) fn of(record: &ContestRecord) -> Self {
+        let learned = record.learned.as_ref();
+        let is_known = learned.is_some_and(|learned| learned.judgement.is_right);
+        let abstained = |why: &str| Self {
+            abstained: true,
+            right_on_right_map: is_known.then_some(false),
+            why: why.to_owned(),
+            ..Self::default()
+        };
+        match record.found.first() {
+            Some(LocateOutcome::Abstained { why }) => abstained(why),
+            None => abstained(record.abstained.as_deref().unwrap_or_default()),
+            Some(found) => Self {
+                right: *found == LocateOutcome::Right,
+                wrong: *found == LocateOutcome::Wrong,
+                right_on_right_map: is_known.then_some(*found == LocateOutcome::Right),
+                ..Self::default()
+            },
+        }
+    }
+}
+
+impl SizeRun {
+    pub(super) fn of(record: &ContestRecord, maze: &Maze) -> Self {
+        let Some(learned) = &record.learned else {
+            return Self::default();
+        };
+        let cells = maze.reachable().count().max(1) as f64;
+        Self {
+            right: learned.judgement.is_right,
+            link_recall: learned.judgement.link_recall,
+            driven: Some(learned.driven),
+            steps_per_cell: Some(f64::from(learned.steps) / cells),
+            places_per_cell: Some(learned.places as f64 / cells),
+        }
+    }
+}
+
+pub(super) fn learn(name: &str) -> Table {
+    Table::of::<LearnRun>(name, "What each system learns, and whether it knows that")
+        .metric(Metric::percent("right_percent", LearnRun::right))
+        .metric(Metric::percent(
+            "right_of_visited_percent",
+            LearnRun::right_of_visited,
+        ))
+        .metric(Metric::mean(LearnRun::purity))
+        .metric(Metric::mean(LearnRun::places))
+        .metric(Metric::mean(LearnRun::link_precision))
+        .metric(Metric::mean(LearnRun::link_recall))
+        .metric(Metric::percent("abstained_percent", LearnRun::abstained))
+        .metric(Metric::percent(
+            "false_right_percent",
+            LearnRun::false_right,
+        ))
+        .metric(Metric::percent(
+            "false_alarm_percent",
+            LearnRun::false_alarm,
+        ))
+        .metric(Metric::percent("undecided_percent", LearnRun::undecided))
+        .metric(
+            Metric::skill("brier_skill", LearnRun::brier, LearnRun::map_right)
+                .titled("Brier skill")
+                .defined("How much better the system tells whether its map is right than the share of right maps does: 1 is always right, 0 no better, below it worse."),
+        )
+        .metric(Metric::mean(LearnRun::driven))
+        .metric(Metric::mean(LearnRun::bumps))
+}
+
+pub(super) fn home(name: &str) -> Table {
+    Table::of::<HomeRun>(name, "Put down somewhere, and sent to the goal")
+        .metric(Metric::percent("success_percent", HomeRun::success))
+        .metric(Metric::mean(HomeRun::metres_over_shortest))
+        .metric(Metric::percent("abstained_percent", HomeRun::abstained))
+        .metric(Metric::mean(HomeRun::bumps))
+}
+
+pub(super) fn locate(name: &str) -> Table {
+    Table::of::<LocateRun>(name, "Put down somewhere, and asked where that is")
+        .metric(Metric::percent("right_percent", LocateRun::right))
+        .metric(Metric::percent("wrong_percent", LocateRun::wrong))
+        .metric(Metric::percent("abstained_percent", LocateRun::abstained))
+        .metric(Metric::percent(
+            "right_on_right_map_percent",
+            LocateRun::right_on_right_map,
+        ))
+}
+
+pub(super) fn sizes(name: &str) -> Table {
+    Table::of::<SizeRun>(name, "What braided worlds cost by their size")
+        .metrics_from(SizeRun::right)
+        .note("Rows above 16 × 16 are filled from 20 runs on: a system takes minutes there.")
+}
+
+/// What a reader must know.
+pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
+    let worlds = "Small and middle worlds in turns, the same for all rows; of GNG-SLAM one of each kind, since it takes seconds in each; who abstained stays in the denominator.";
+    let places = "Places are junctions, dead ends, start and goal; of the diktiometry corners in place of start and goal. MSLST and the micromouse do not claim that a map is whole, and count as undecided. A micromouse is told the grid, its start and the goal.";
+    let robots = match robot {
+        ContestRobot::Own => {
+            "Each on its paper's robot: CPM on the e-puck, the diktiometry on the Pioneer with a camera among walls of eight colours, all others on the laser Pioneer."
+        }
+        ContestRobot::Pioneer => {
+            "All on the laser Pioneer with compass and encoders. For the diktiometry, which tells openings apart by the walls between them, walls are thick."
+        }
+    };
+    match task {
+        ArenaTask::Learn => format!("{worlds} {places} {robots}"),
+        ArenaTask::Home => format!(
+            "{worlds} By the map that was learned before, right or wrong; no more than ten times the shortest way. {robots}"
+        ),
+        ArenaTask::Locate => format!("{worlds} By the map that was learned before. {robots}"),
+    }
+}
+
+/// Of each system the runs with the worst map on each robot, as many as there are, the worst first.
+pub(super) fn worst(runs: &[Run]) -> Result<Vec<Run>, BoxError> {
+    let mut worst = Vec::new();
+    for (table, task, _) in TABLES {
+        if task != ArenaTask::Learn {
+            continue;
+        }
+        for contestant in contestants(task) {
+            let row = row_name(contestant, ALL);
+            let mut wrong: Vec<(f64, &Run)> = Vec::new();
+            for run in runs.iter().filter(|run| run.is_of(table, &row)) {
+                let learned: LearnRun = run.record()?;
+                if !learned.abstained && !learned.right {
+                    let badness = learned.link_recall * learned.link_precision.unwrap_or(0.0);
+                    wrong.push((badness, run));
+                }
+            }
+            wrong.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.run.cmp(&b.1.run)));
+            worst.extend(wrong.first().map(|(_, run)| (*run).clone()));
+        }
+    }
+    Ok(worst)
+}

@@ -1,0 +1,162 @@
+use alloc::collections::BTreeMap;
+use alloc::sync::Arc;
+use std::sync::{Mutex, PoisonError};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_arena::contest::{ContestRecord, ContestRobot, Contestant};
+use tolman_experiment::{BoxError, Fields, Options, Record, Row, run_seed};
+use tolman_maze::Braided;
+
+use super::records::SizeRun;
+use super::worlds::{ArenaWorld, DrawnWorld};
+use super::{Arena, ArenaTask, ENTRY};
+
+/// The world of the rows of all worlds together.
+pub(super) const ALL: &str = "all";
+
+/// Worlds of each kind at most for a system that looks for a world's place in all it has seen at every step.
+const SLOW_RUNS: u32 = 1;
+
+/// Between the system and the world in the name of a row.
+const BETWEEN: &str = " · ";
+
+/// What a row is of.
+pub(super) struct RowName<'a> {
+    pub(super) contestant: Contestant,
+    pub(super) world: &'a str,
+}
+
+impl<'a> RowName<'a> {
+    pub(super) fn read(row: &'a str) -> Option<Self> {
+        let (system, world) = row.split_once(BETWEEN)?;
+        let contestant = Contestant::named(system)?;
+        Some(Self { contestant, world })
+    }
+}
+
+pub(super) fn row_name(contestant: Contestant, world: &str) -> String {
+    format!("{}{BETWEEN}{world}", contestant.name())
+}
+
+/// Who has rows in a table: baselines learn no map, and do not say where they are.
+pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
+    let all = Contestant::ALL.into_iter();
+    all.filter(move |contestant| {
+        task == ArenaTask::Home || !matches!(contestant, Contestant::Baseline(_))
+    })
+}
+
+/// The rows of a table: each contestant in each world, and in all.
+pub(super) fn of(task: ArenaTask, worlds: &[ArenaWorld], runs: u32) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for contestant in contestants(task) {
+        let runs = match contestant {
+            Contestant::GngSlamBetter => runs.min(SLOW_RUNS),
+            _ => runs,
+        };
+        let each = worlds.iter();
+        rows.extend(each.map(|world| Row::new(row_name(contestant, world.name())).runs(runs)));
+        let all = runs.saturating_mul(worlds.len() as u32);
+        rows.push(Row::new(row_name(contestant, ALL)).runs(all));
+    }
+    rows
+}
+
+/// Contests that were held, by robot, contestant, world and drawing.
+pub(super) type Held = BTreeMap<(ContestRobot, &'static str, usize, u32), Shared>;
+
+/// A contest that whoever comes first holds, while the others wait.
+type Shared = Arc<Mutex<Option<Arc<ContestRecord>>>>;
+
+impl Arena {
+    /// Returns what came of the contest of a row's run, which is held once.
+    pub(super) fn held(
+        &self,
+        row: &RowName<'_>,
+        robot: ContestRobot,
+        run: u32,
+    ) -> Result<Arc<ContestRecord>, BoxError> {
+        let (world, number) = self.place(row, run)?;
+        let key = (robot, row.contestant.name(), world, number);
+        let shared = {
+            let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(held.entry(key).or_default())
+        };
+        let mut made = shared.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(record) = &*made {
+            return Ok(Arc::clone(record));
+        }
+        let drawn = self.worlds[world].draw(self.seed, number)?;
+        let contest = drawn.contest(row.contestant, robot);
+        let record = contest.play(&self.schooling, |_, _| {})?;
+        let record = Arc::new(record);
+        *made = Some(Arc::clone(&record));
+        Ok(record)
+    }
+
+    /// Plays a run of the table of sizes.
+    pub(super) fn sized(&self, row: &RowName<'_>, run: u32) -> Result<Fields, BoxError> {
+        let drawn = sized_world(self.seed, row, run)?;
+        let contest = drawn.contest(row.contestant, ContestRobot::Own);
+        let record = contest.play(&self.schooling, |_, _| {})?;
+        Ok(SizeRun::of(&record, &drawn.maze).fields()?)
+    }
+}
+
+/// Who is tried in worlds of all sizes, and how large they are a side, cells.
+pub(super) const SIZED: [Contestant; 4] = [
+    Contestant::Mslst,
+    Contestant::CpmBetter,
+    Contestant::DiktiometryBetter,
+    Contestant::Micromouse,
+];
+pub(super) const SIZES: [u16; 6] = [5, 8, 12, 16, 24, 40];
+
+/// The largest where nobody asks for many runs.
+const QUICK_SIDE: u16 = 16;
+
+/// Runs of each of those rows at most, and as many runs as are many.
+const SIZE_RUNS: u32 = 3;
+const MANY: u32 = 20;
+
+/// The rows of the table of sizes; larger worlds take minutes each.
+pub(super) fn of_sizes(options: &Options) -> Vec<Row> {
+    let runs = options.runs_of(&ENTRY);
+    let mut rows = Vec::new();
+    for contestant in SIZED {
+        for side in SIZES {
+            let is_quick = runs < MANY && side > QUICK_SIDE;
+            let runs = if is_quick { 0 } else { runs.min(SIZE_RUNS) };
+            let row = Row::new(row_name(contestant, &size_name(side)));
+            rows.push(row.runs(runs));
+        }
+    }
+    rows
+}
+
+pub(super) fn size_name(side: u16) -> String {
+    format!("{side} × {side}")
+}
+
+/// A braided world of the size that a row names.
+pub(super) fn sized_world(
+    master_seed: u64,
+    row: &RowName<'_>,
+    run: u32,
+) -> Result<DrawnWorld, BoxError> {
+    let side = SIZES.into_iter().find(|side| size_name(*side) == row.world);
+    let side = side.ok_or("there is no such size")?;
+    let seed = run_seed(master_seed, row.world, run);
+    let braided = Braided {
+        width: side,
+        height: side,
+        share: 1.0,
+    };
+    Ok(DrawnWorld {
+        name: format!("{} {run}", row.world),
+        maze: braided.generate_corridors(&mut ChaCha8Rng::seed_from_u64(seed))?,
+        seed,
+        starts: 1,
+    })
+}

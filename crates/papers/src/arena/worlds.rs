@@ -1,0 +1,140 @@
+use std::path::{Path, PathBuf};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tolman_arena::contest::{Contest, ContestRobot, Contestant};
+use tolman_arena::family::{Family, FamilySize};
+use tolman_experiment::files::files_in;
+use tolman_experiment::{BoxError, run_seed};
+use tolman_maze::Maze;
+
+use crate::maze_file;
+
+/// A kind of world that contests are held in.
+#[derive(Clone, Debug)]
+pub enum ArenaWorld {
+    /// Drawings of a family: small and middle ones in turns.
+    Family(Family),
+    /// One drawing, of a file.
+    File {
+        /// The maze's name, or the file's.
+        name: String,
+        /// The drawing.
+        maze: Maze,
+    },
+}
+
+/// A drawing with the seed of the contest that is held in it.
+#[derive(Clone, Debug)]
+pub struct DrawnWorld {
+    /// What it is called.
+    pub name: String,
+    /// The drawing.
+    pub maze: Maze,
+    /// The seed of all chance.
+    pub seed: u64,
+    /// How often a robot is put down in it for each task.
+    pub starts: u32,
+}
+
+impl DrawnWorld {
+    /// Returns the contest of one contestant in it.
+    #[must_use]
+    pub fn contest(&self, contestant: Contestant, robot: ContestRobot) -> Contest<'_> {
+        Contest {
+            contestant,
+            robot,
+            maze: &self.maze,
+            name: &self.name,
+            starts: self.starts,
+            seed: self.seed,
+        }
+    }
+}
+
+impl ArenaWorld {
+    /// Returns the families of the arena.
+    #[must_use]
+    pub fn families() -> Vec<Self> {
+        Family::ARENA.map(Self::Family).into()
+    }
+
+    /// Returns the mazes of files, and of folders of files.
+    ///
+    /// # Errors
+    /// If one cannot be read, or marks no start.
+    pub fn of_files(paths: &[PathBuf]) -> Result<Vec<Self>, BoxError> {
+        let mut worlds: Vec<Self> = Vec::new();
+        for path in paths {
+            let files = match path.is_dir() {
+                true => files_in(path).map_err(|error| maze_file::in_file(path, error))?,
+                false => vec![path.clone()],
+            };
+            for file in files {
+                let world = Self::of_file(&file, &worlds)?;
+                worlds.push(world);
+            }
+        }
+        Ok(worlds)
+    }
+
+    fn of_file(path: &Path, before: &[Self]) -> Result<Self, BoxError> {
+        let file = maze_file::read(path)?;
+        if file.maze.start().is_none() {
+            let why = "it marks no start: mark a cell with S";
+            return Err(maze_file::in_file(path, why));
+        }
+        let name = file.name.clone().unwrap_or_else(|| maze_file::stem(path));
+        let is_taken = |name: &str| name == "all" || before.iter().any(|one| one.name() == name);
+        Ok(Self::File {
+            name: maze_file::told_apart(&name, is_taken),
+            maze: file.maze,
+        })
+    }
+
+    /// Returns its name in the rows of tables.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Family(family) => family.name,
+            Self::File { name, .. } => name,
+        }
+    }
+
+    /// Returns drawing `number` under a master seed: of a family a small one if that is even, else a middle one.
+    ///
+    /// # Errors
+    /// If the family cannot draw it.
+    pub fn draw(&self, master_seed: u64, number: u32) -> Result<DrawnWorld, BoxError> {
+        let seed = run_seed(master_seed, self.name(), number);
+        let (name, maze) = match self {
+            Self::Family(family) => {
+                let size = match number.is_multiple_of(2) {
+                    true => FamilySize::Small,
+                    false => FamilySize::Middle,
+                };
+                let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+                let maze = (family.draw)(family.size(size), rng)?;
+                (format!("{} {number}", family.name), maze)
+            }
+            Self::File { name, maze } => (name.clone(), maze.clone()),
+        };
+        Ok(DrawnWorld {
+            name,
+            maze,
+            seed,
+            starts: 1,
+        })
+    }
+
+    /// Returns what results depend on.
+    pub(super) fn config(&self) -> toml::Value {
+        match self {
+            Self::Family(Family { name, sizes, .. }) => {
+                let sizes = sizes.map(|(width, height)| format!("{width}x{height}"));
+                format!("{name}: {}", sizes.join(", ")).into()
+            }
+            Self::File { name, maze } => format!("{name}\n{maze}").into(),
+        }
+    }
+}

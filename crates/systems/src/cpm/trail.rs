@@ -1,0 +1,66 @@
+use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
+
+/// The walks of a robot, which tell where it has been as its map has it now: a map that is understood anew, or of which two
+/// places become one, has other names for them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Trail {
+    /// Where the walks begin that can be retraced from one another.
+    bases: Vec<Base>,
+}
+
+/// Walks from a place on.
+#[derive(Clone, Debug)]
+struct Base {
+    at: Port,
+    walks: Vec<TrailStep>,
+}
+
+/// A walk to a place.
+#[derive(Clone, Copy, Debug)]
+struct TrailStep {
+    turn: Turn,
+    /// Where the map had it then.
+    then: Port,
+}
+
+impl Trail {
+    /// Returns the trail of a robot that begins at a port.
+    pub(super) fn from(at: Port) -> Self {
+        let walks = Vec::new();
+        let bases = vec![Base { at, walks }];
+        Self { bases }
+    }
+
+    /// Adds a walk that led to the port `then`.
+    pub(super) fn walked(&mut self, turn: Turn, then: Port, arrival: MapUpdate) {
+        let is_apart = arrival == MapUpdate::Contradiction;
+        if let Some(base) = self.bases.last_mut().filter(|_| !is_apart) {
+            base.walks.push(TrailStep { turn, then });
+            return;
+        }
+        // It goes on with what it found, apart from the rest.
+        let walks = Vec::new();
+        self.bases.push(Base { at: then, walks });
+    }
+
+    /// Returns the places that the robot came to, each as the map has it now. O(walks · log fragments).
+    pub(super) fn places(&self, map: &CpMap) -> Vec<Option<u32>> {
+        let mut places = Vec::new();
+        let known = |at: Port| map.junction(at.junction).map(|_| at.junction.0);
+        for base in &self.bases {
+            let mut at = Some(base.at);
+            places.push(known(base.at));
+            for walk in &base.walks {
+                at = at.and_then(|at| beyond(map, at, walk.turn));
+                places.push(at.map_or_else(|| known(walk.then), known));
+            }
+        }
+        places
+    }
+}
+
+/// Where a turn leads from a port that lies behind the robot.
+fn beyond(map: &CpMap, at: Port, turn: Turn) -> Option<Port> {
+    let exit = turn.exit(at.number, map.degree(at.junction)).ok()?;
+    map.beyond(at.junction.port(exit))
+}

@@ -1,0 +1,287 @@
+//! `tolman arena`: systems in worlds of every kind, judged by the truth.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use clap::builder::PossibleValue;
+use rayon::prelude::*;
+use serde::Serialize;
+use tolman_arena::contest::{
+    ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome, Schooling,
+};
+use tolman_papers::arena::{ArenaWorld, DrawnWorld};
+
+use super::{App, Failure, OrBadInput};
+
+/// Sends systems into worlds of every kind, and judges what they learn and whether they find home
+#[derive(clap::Args)]
+#[command(after_help = "\
+Systems: mslst, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam-better, micromouse; random, avoid, wall-follow, oracle and
+unlocalized-oracle go home alone. `tolman maze generate --list` names the families. The same in tables: tolman experiment arena
+
+Example:
+  tolman arena --system cpm-better --family office --worlds 4
+  tolman arena mazes/forks.maze mazes/cpm-1.maze --system all
+  tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
+pub(super) struct Arguments {
+    /// Mazes, or folders of mazes, in place of the families
+    #[arg(value_name = "MAZE")]
+    mazes: Vec<PathBuf>,
+    /// Which system, or all
+    #[arg(long, value_name = "NAME", default_value = "all")]
+    system: String,
+    /// Which robot
+    #[arg(long, value_name = "NAME", default_value = "own")]
+    robot: Robot,
+    /// Which family of worlds, or all
+    #[arg(
+        long,
+        value_name = "NAME",
+        default_value = "all",
+        conflicts_with = "mazes"
+    )]
+    family: String,
+    /// How many worlds of each family: small and middle ones in turns
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..))]
+    worlds: u32,
+    /// How often a robot is put down in each world to find out where it is, and as often to go to the goal
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    starts: u32,
+    /// What all chance follows from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Write a line of JSON for each world instead of the table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy)]
+enum Robot {
+    /// That of its paper
+    Own,
+    LaserPioneer,
+}
+
+impl clap::ValueEnum for Robot {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Own, Self::LaserPioneer]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(match self {
+            Self::Own => PossibleValue::new("own").help("That of the system's paper"),
+            Self::LaserPioneer => PossibleValue::new("laser-pioneer")
+                .help("The Pioneer with a laser, a compass and encoders"),
+        })
+    }
+}
+
+/// What came of a contest, for `--json`.
+#[derive(Serialize)]
+struct Line<'a> {
+    system: &'a str,
+    robot: &'a str,
+    world: &'a str,
+    seed: u64,
+    abstained: Option<&'a str>,
+    right: Option<bool>,
+    right_of_visited: Option<bool>,
+    purity: Option<f64>,
+    link_recall: Option<f64>,
+    metres_over_corridors: Option<f64>,
+    found: Vec<&'static str>,
+    home_over_shortest: Vec<Option<f64>>,
+}
+
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let robot = match arguments.robot {
+        Robot::Own => ContestRobot::Own,
+        Robot::LaserPioneer => ContestRobot::Pioneer,
+    };
+    let contestants = contestants(&arguments.system)?;
+    let worlds = arguments.worlds(app)?;
+    let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
+        .iter()
+        .flat_map(|contestant| worlds.iter().map(|world| (*contestant, world)))
+        .collect();
+    let schooling = Schooling::default();
+    let held: Result<Vec<ContestRecord>, ContestError> = jobs
+        .par_iter()
+        .map(|(contestant, world)| {
+            world
+                .contest(*contestant, robot)
+                .play(&schooling, |_, _| {})
+        })
+        .collect();
+    let held = held.map_err(|error| Failure::from(anyhow::Error::from(error)))?;
+    if arguments.json {
+        for ((contestant, world), record) in jobs.iter().zip(&held) {
+            let line = line(*contestant, robot, world, record);
+            writeln!(out, "{}", serde_json::to_string(&line)?)?;
+        }
+        return Ok(());
+    }
+    table(&contestants, robot, &worlds, &held, out)
+}
+
+fn contestants(name: &str) -> Result<Vec<Contestant>, Failure> {
+    if name == "all" {
+        return Ok(Contestant::ALL.into());
+    }
+    let named = Contestant::named(name).ok_or_else(|| {
+        let names = Contestant::ALL.map(|one| one.name().to_lowercase().replace(' ', "-"));
+        anyhow!(
+            "there is no system {name} in the arena; choose all, or one of: {}",
+            names.join(", ")
+        )
+    });
+    Ok(vec![named.or_bad_input()?])
+}
+
+impl Arguments {
+    fn worlds(&self, app: &App<'_>) -> Result<Vec<DrawnWorld>, Failure> {
+        let (kinds, count) = match (self.mazes.is_empty(), self.family.as_str()) {
+            (false, _) => {
+                let files = ArenaWorld::of_files(&self.mazes);
+                (files.map_err(anyhow::Error::from_boxed).or_bad_input()?, 1)
+            }
+            (true, "all") => (ArenaWorld::families(), self.worlds),
+            (true, name) => (vec![ArenaWorld::Family(*app.family(name)?)], self.worlds),
+        };
+        let mut worlds = Vec::new();
+        for kind in &kinds {
+            for number in 0..count {
+                let drawn = kind.draw(self.seed, number);
+                let drawn = drawn.map_err(anyhow::Error::from_boxed).or_bad_input()?;
+                let starts = self.starts;
+                worlds.push(DrawnWorld { starts, ..drawn });
+            }
+        }
+        Ok(worlds)
+    }
+}
+
+fn line<'a>(
+    contestant: Contestant,
+    robot: ContestRobot,
+    world: &'a DrawnWorld,
+    record: &'a ContestRecord,
+) -> Line<'a> {
+    let learned = record.learned.as_ref();
+    let judged = learned.map(|learned| learned.judgement);
+    let found = record.found.iter().map(|found| match found {
+        LocateOutcome::Right => "right",
+        LocateOutcome::Wrong => "wrong",
+        LocateOutcome::Abstained { .. } => "abstained",
+    });
+    Line {
+        system: contestant.name(),
+        robot: contestant.robot(robot),
+        world: &world.name,
+        seed: world.seed,
+        abstained: record.abstained.as_deref(),
+        right: judged.map(|judged| judged.is_right),
+        right_of_visited: judged.map(|judged| judged.is_right_of_visited),
+        purity: judged.and_then(|judged| judged.purity),
+        link_recall: judged.map(|judged| judged.link_recall),
+        metres_over_corridors: learned.map(|learned| learned.driven),
+        found: found.collect(),
+        home_over_shortest: record.homes.iter().map(|home| home.over_shortest).collect(),
+    }
+}
+
+/// A row for each system.
+fn table(
+    contestants: &[Contestant],
+    robot: ContestRobot,
+    worlds: &[DrawnWorld],
+    held: &[ContestRecord],
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    writeln!(
+        out,
+        "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
+        "system",
+        "robot",
+        "worlds",
+        "abstained",
+        "right",
+        "visited",
+        "recall",
+        "located",
+        "came to goal"
+    )?;
+    for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
+        let count = |is: &dyn Fn(&ContestRecord) -> bool| records.iter().filter(|r| is(r)).count();
+        let judged = |record: &ContestRecord| record.learned.as_ref().map(|l| l.judgement);
+        let learns = !matches!(contestant, Contestant::Baseline(_));
+        let of = |is: &dyn Fn(&ContestRecord) -> bool| match learns {
+            true => count(is).to_string(),
+            false => "–".to_owned(),
+        };
+        let recall: f64 = records
+            .iter()
+            .filter_map(judged)
+            .map(|j| j.link_recall)
+            .sum();
+        let found: Vec<&LocateOutcome> = records.iter().flat_map(|r| &r.found).collect();
+        let located = found
+            .iter()
+            .filter(|found| ***found == LocateOutcome::Right)
+            .count();
+        let homes: Vec<_> = records.iter().flat_map(|r| &r.homes).collect();
+        let came = homes
+            .iter()
+            .filter(|home| home.over_shortest.is_some())
+            .count();
+        let recall = match learns {
+            true => format!("{:.2}", recall / records.len() as f64),
+            false => "–".to_owned(),
+        };
+        writeln!(
+            out,
+            "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
+            contestant.name(),
+            contestant.robot(robot),
+            records.len(),
+            count(&|r| r.abstained.is_some()),
+            of(&|r| judged(r).is_some_and(|j| j.is_right)),
+            of(&|r| judged(r).is_some_and(|j| j.is_right_of_visited)),
+            recall,
+            if learns {
+                format!("{located}/{}", found.len())
+            } else {
+                "–".to_owned()
+            },
+            format!("{came}/{}", homes.len()),
+        )?;
+    }
+    Ok(why_not(contestants, worlds, held, out)?)
+}
+
+/// Why each system abstained, once.
+fn why_not(
+    contestants: &[Contestant],
+    worlds: &[DrawnWorld],
+    held: &[ContestRecord],
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
+        let mut abstained = worlds.iter().zip(records);
+        let first = abstained.find_map(|(world, r)| Some((world, r.abstained.as_ref()?)));
+        if let Some((world, why)) = first {
+            writeln!(
+                out,
+                "{} abstained, first in {}: {why}",
+                contestant.name(),
+                world.name
+            )?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,52 @@
+use crate::{CORRIDOR, folder, tolman, tolman_in};
+
+#[test]
+fn a_system_is_judged_in_a_family_and_the_same_again() {
+    let arguments = ["arena", "--system", "cpm-better", "--family", "star"];
+    let table = tolman(&arguments).done();
+    assert!(table.contains("CPM Better"), "{table}");
+    assert!(table.contains("e-puck"), "{table}");
+    assert_eq!(tolman(&arguments).done(), table);
+}
+
+#[test]
+fn what_a_system_cannot_do_it_says_before_it_drives() {
+    let table = tolman(&["arena", "--system", "cpm", "--family", "pillars"]).done();
+    assert!(
+        table.contains("CPM abstained, first in pillars 0: it follows corridors"),
+        "{table}"
+    );
+}
+
+#[test]
+fn files_are_worlds_too_and_every_world_is_a_line_of_json() {
+    let folder = folder("arena");
+    std::fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let json = tolman_in(
+        &folder,
+        &["arena", "corridor.maze", "--json", "--starts", "2"],
+    )
+    .done();
+    let lines: Vec<serde_json::Value> = json
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(lines.len(), 12);
+    let cpm = lines
+        .iter()
+        .find(|line| line["system"] == "CPM Better")
+        .unwrap();
+    assert_eq!(
+        (&cpm["right"], &cpm["world"]),
+        (&true.into(), &"Corridor".into())
+    );
+    assert_eq!(cpm["home_over_shortest"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn what_is_unknown_is_refused() {
+    tolman(&["arena", "--system", "dog"]).refused(2, &["dog", "cpm-better"]);
+    tolman(&["arena", "--family", "dog"]).refused(2, &["dog", "spiral"]);
+    tolman(&["arena", "--robot", "dog"]).refused(2, &["dog", "laser-pioneer"]);
+    tolman(&["arena", "nowhere.maze"]).refused(2, &["nowhere.maze"]);
+}
