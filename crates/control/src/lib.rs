@@ -86,6 +86,7 @@ mod outcome;
 mod read;
 mod settle;
 mod stack;
+mod straighten;
 pub mod wander;
 
 pub use avoid::Avoid;
@@ -98,3 +99,4 @@ pub use orient::Orient;
 pub use outcome::Outcome;
 pub use settle::Settle;
 pub use stack::Stack;
+pub use straighten::straightened;

@@ -8,7 +8,7 @@ use tolman_robot::Ring;
 
 use crate::{
     Avoid, Center, CorridorDetector, Layer, Move, Orient, Outcome, Proposal, RingError, Settle,
-    Situation, View,
+    Situation, View, straightened,
 };
 
 /// The layers in their order, the highest first.
@@ -16,6 +16,7 @@ use crate::{
 pub struct Stack {
     detector: CorridorDetector,
     layers: Vec<Box<dyn Layer + Send>>,
+    straightens: bool,
 }
 
 impl Stack {
@@ -27,7 +28,11 @@ impl Stack {
     /// [`correct`](Self::correct) counts the time steps.
     #[must_use]
     pub fn new(detector: CorridorDetector, layers: Vec<Box<dyn Layer + Send>>) -> Self {
-        Self { detector, layers }
+        Self {
+            detector,
+            layers,
+            straightens: false,
+        }
     }
 
     /// Returns the paper's four layers with the paper's gains, and [`Settle`] below them, which ends
@@ -50,6 +55,15 @@ impl Stack {
                 Box::new(Settle::ours()),
             ],
         ))
+    }
+
+    /// Returns this stack, which sees scans [straightened]: for lasers that err, of which Orient would turn to and fro.
+    #[must_use]
+    pub fn straightening(self) -> Self {
+        Self {
+            straightens: true,
+            ..self
+        }
     }
 
     /// Returns the ring whose scans the layers read.
@@ -76,6 +90,11 @@ impl Stack {
                 ..Proposal::default()
             };
         }
+        let straight = self.straightens.then(|| straightened(view.scan));
+        let view = View {
+            scan: straight.as_ref().unwrap_or(view.scan),
+            ..view
+        };
         let situation = Situation {
             view,
             corridor: self.detector.detect(view),

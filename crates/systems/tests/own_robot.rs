@@ -16,7 +16,7 @@ use tolman_robot::{
 use tolman_systems::mslst::{
     GrowthRecord, Learned, MapFile, Mslst, MslstConfig, MslstMap, ROBOT_UNIT, States,
 };
-use tolman_systems::{Actor, Brain, Doing, Origin, TimeStep, baselines};
+use tolman_systems::{Actor, Brain, Doing, OfStep, Origin, TimeStep, baselines};
 
 const REACH: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
@@ -198,6 +198,7 @@ fn apprentice() -> (Actor<Mslst>, Digger) {
 /// The sum of the steps to the goal from every other cell.
 fn steps_from_everywhere<B: Brain>(system: &mut Actor<B>, robot: &mut Digger) -> u32
 where
+    B::Observation: OfStep<Digger>,
     B::Error: core::fmt::Debug,
 {
     let starts = cells('.').into_iter();
@@ -229,7 +230,7 @@ fn mslst_explores_and_then_knows_the_way_to_the_goal() {
 
 #[test]
 fn the_baselines_find_the_goal_and_can_be_asked_for_nothing_else() {
-    fn check<B: Brain<Error = Infallible>>(brain: B, start: Point) {
+    fn check<B: Brain<Observation = TimeStep, Error = Infallible>>(brain: B, start: Point) {
         let name = format!("{brain:?}");
         let mut system = Actor::seeded(brain, layers(), 1);
         let mut robot = Digger::new(start, 1);
