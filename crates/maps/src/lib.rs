@@ -7,6 +7,7 @@
 //! - [`place_map`]: places as prototypes of what was seen, heard and rolled there.
 //! - [`place_graph`]: places and where they lie, learned while they correct the robot's pose.
 //! - [`pose_graph`]: poses joined by what was measured between them, made to agree.
+//! - [`scan_map`]: places and walls learned from scans, each place once, and where on them a robot may stand.
 //! - [`mslst_graph`]: the sensory states that MSLST met and the actions that led from one to the next.
 //!
 //! A map takes in what is observed and answers what is known. What to do next is the business of planners,

@@ -1,16 +1,26 @@
-//! Places learned from scans and a compass, each of them once: a map that stops growing.
+//! Places learned from scans, a compass and what the wheels rolled, each of them once: a map that stops growing.
+//!
+//! In the order data flows:
+//!
+//! 1. A [`ScanMap`] takes in [how far](Advance) the robot came and what it sees there. It fits the scan to the walls that it knows and so
+//!    corrects the position; then it draws the walls that are new on a [`WallGrid`], and finds the place or adds it.
+//! 2. [`Clearings`] say where the robot can stand and has not been: [where the map has gaps](WayToGap).
+//! 3. [`Standpoints`] are a lattice of positions on the finished map, with what is seen from each.
+//! 4. A [`StandpointBelief`] is what a robot that was put down somewhere believes of where it is.
+//!
+//! The frame's axes are the compass's. Positions are in metres from where the robot was put down.
 
+mod belief;
 mod clearings;
 mod config;
 mod fit;
 mod map;
 mod standpoints;
 mod wall_grid;
-mod whereabouts;
 
+pub use belief::StandpointBelief;
 pub use clearings::{Clearings, WayToGap};
 pub use config::ScanMapConfig;
 pub use map::{Advance, ScanMap, ScanPlace};
 pub use standpoints::Standpoints;
 pub use wall_grid::{GridRange, WallGrid};
-pub use whereabouts::Whereabouts;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use tolman_geom::{Heading, Point, Vector};
 use tolman_maps::scan_map::{
-    Advance, GridRange, ScanMap, ScanMapConfig, Standpoints, WallGrid, Whereabouts,
+    Advance, GridRange, ScanMap, ScanMapConfig, StandpointBelief, Standpoints, WallGrid,
 };
 use tolman_robot::{Landmark, Ring, Scan};
 
@@ -95,7 +95,7 @@ fn a_corridor_walked_to_and_fro_has_each_place_once() {
 fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     let (map, _) = walked(5.0, &[0.0]);
     let on = Standpoints::of(&map, ring(), 0.22);
-    let mut belief = Whereabouts::anywhere(&on);
+    let mut belief = StandpointBelief::anywhere(&on);
     // The map begins where the robot did: its western end lies half a metre to the west.
     belief.saw(
         &on,
@@ -125,7 +125,7 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
 fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
     let (map, _) = walked(5.0, &[0.0]);
     let on = Standpoints::of(&map, ring(), 0.22);
-    let mut belief = Whereabouts::anywhere(&on);
+    let mut belief = StandpointBelief::anywhere(&on);
     belief.saw(
         &on,
         Heading::EAST,
@@ -156,7 +156,7 @@ proptest! {
     ) {
         let (map, _) = walked(5.0, &[0.01]);
         let on = Standpoints::of(&map, ring(), 0.22);
-        let mut belief = Whereabouts::anywhere(&on);
+        let mut belief = StandpointBelief::anywhere(&on);
         for (x, y, seen) in moves {
             belief.moved(&on, map.grid(), Vector::new(x, y), Vector::new(0.06, 0.01));
             belief.saw(&on, Heading::NORTH, &scan_of(5.0, Point::new(seen, 0.475), Heading::NORTH));

@@ -3,7 +3,7 @@ use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
 use tolman_geom::Heading;
-use tolman_maps::scan_map::Whereabouts;
+use tolman_maps::scan_map::StandpointBelief;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
 
@@ -17,7 +17,7 @@ use crate::{Brain, Doing, RolledStep};
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     map: Arc<BetterMap>,
-    whereabouts: Whereabouts,
+    whereabouts: StandpointBelief,
     reckoning: Reckoning,
     heading: Heading,
     /// What failed since the robot last moved.
@@ -33,7 +33,7 @@ impl BetterNavigator {
     #[must_use]
     pub fn new(map: Arc<BetterMap>) -> Self {
         Self {
-            whereabouts: Whereabouts::anywhere(&map.standpoints),
+            whereabouts: StandpointBelief::anywhere(&map.standpoints),
             map,
             reckoning: Reckoning::default(),
             heading: Heading::NORTH,
@@ -44,7 +44,7 @@ impl BetterNavigator {
 
     /// Returns what it believes of where it is.
     #[must_use]
-    pub const fn whereabouts(&self) -> &Whereabouts {
+    pub const fn whereabouts(&self) -> &StandpointBelief {
         &self.whereabouts
     }
 

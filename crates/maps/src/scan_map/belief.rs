@@ -8,7 +8,7 @@ use super::{Standpoints, WallGrid};
 
 /// What a robot believes of where it is: a Bayes filter over the [`Standpoints`] of its map.
 #[derive(Clone, Debug)]
-pub struct Whereabouts {
+pub struct StandpointBelief {
     /// The probability of each standpoint.
     mass: Vec<f64>,
     /// How often in a row nothing it believes in has fitted what it saw.
@@ -36,7 +36,7 @@ const UNSENSED: f64 = 0.05;
 /// It begins anew after so many such scans in a row.
 const MOST_SURPRISES: u32 = 3;
 
-impl Whereabouts {
+impl StandpointBelief {
     /// Returns the belief of a robot that has no idea.
     #[must_use]
     pub fn anywhere(on: &Standpoints) -> Self {
@@ -98,11 +98,11 @@ impl Whereabouts {
                 continue;
             }
             let misfit = on.misfit(number, &north, RANGE_SD, OUTLIER);
+            best = best.min(misfit.unwrap_or(f64::INFINITY));
             let misfit = misfit.unwrap_or(UNSHOWN);
-            best = best.min(misfit);
             *mass *= libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD));
         }
-        self.surprises = if best > SURPRISE {
+        self.surprises = if best.is_finite() && best > SURPRISE {
             self.surprises + 1
         } else {
             0
@@ -154,7 +154,7 @@ fn spread(sd: Vector) -> impl Iterator<Item = (Vector, f64)> {
         .flat_map(move |(x, a)| offsets(sd.y).map(move |(y, b)| (Vector::new(x, y), a * b)))
 }
 
-impl Whereabouts {
+impl StandpointBelief {
     /// Returns how much of the belief lies within `radius` m of its likeliest standpoint, 0 … 1.
     #[must_use]
     pub fn certainty(&self, on: &Standpoints, radius: f64) -> f64 {
