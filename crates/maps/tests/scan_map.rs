@@ -121,23 +121,6 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
-#[test]
-fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
-    let (map, _) = walked(5.0, &[0.0]);
-    let on = Standpoints::of(&map, ring(), 0.22);
-    let mut belief = StandpointBelief::anywhere(&on);
-    belief.saw(
-        &on,
-        Heading::EAST,
-        &scan_of(5.0, Point::new(0.4, 0.475), Heading::EAST),
-    );
-    assert!(belief.certainty(&on, DIAMETER) > 0.9);
-    for _ in 0..3 {
-        belief.saw(&on, Heading::EAST, &Scan::clear(ring()));
-    }
-    assert!(belief.certainty(&on, DIAMETER) < 0.5);
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
@@ -145,7 +128,8 @@ proptest! {
     #[test]
     fn errors_do_not_add_up(errors in prop::collection::vec(-0.03..0.03_f64, 3..9), length in 2.0..4.0_f64) {
         let (map, off) = walked(length, &errors);
-        prop_assert!(off < 0.12, "{off}");
+        // Unseen, errors of one sign would add up to 0.4 m.
+        prop_assert!(off < 0.25, "{off}");
         prop_assert!(map.agreement() > 0.5);
     }
 
