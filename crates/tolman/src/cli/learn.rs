@@ -25,8 +25,8 @@ Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
   tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json --replay learned.html
   tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
-  tolman learn --system diktiometry --maze mazes/j.maze --set moves=300 --out j-survey.json
-  tolman learn --system diktiometry --maze mazes/j.maze --from j-survey.json --out j-survey.json
+  tolman learn --system diktiometry --maze mazes/j-long.maze --set moves=300 --out j-survey.json
+  tolman learn --system diktiometry --maze mazes/j-long.maze --from j-survey.json --out j-survey.json
   tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
 pub(super) struct Arguments {
     /// Who learns

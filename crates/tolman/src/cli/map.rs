@@ -44,7 +44,7 @@ pub(super) struct Show {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  tolman learn --system diktiometry --maze mazes/j.maze --out j-survey.json
+  tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
   tolman map plan j-survey.json --from 0 --to 3")]
 pub(super) struct Plan {
     /// The map, made by `tolman learn`

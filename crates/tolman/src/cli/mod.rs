@@ -62,7 +62,7 @@ Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
   tolman drive --map j-map.json --maze mazes/j.maze --seed 7
   tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
-  tolman learn --system diktiometry --maze mazes/j.maze --out j-survey.json
+  tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid --worst 3
   tolman arena --system cpm-better --family office
