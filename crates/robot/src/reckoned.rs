@@ -16,7 +16,7 @@ use crate::{Landmark, Odometry, Robot, Rolls, SensesLandmarks};
 /// }
 ///
 /// impl Robot for Roller {
-///     type Command = ();
+///     type Command = f64;
 ///     type Sensing = Self;
 ///     type Error = core::convert::Infallible;
 ///
@@ -24,15 +24,15 @@ use crate::{Landmark, Odometry, Robot, Rolls, SensesLandmarks};
 ///         self
 ///     }
 ///
-///     fn step(&mut self, _command: &()) -> Result<(), Self::Error> {
+///     fn step(&mut self, _speed: &f64) -> Result<(), Self::Error> {
 ///         Ok(())
 ///     }
 /// }
 ///
 /// let mut pose = Pose::IDENTITY;
 /// let mut robot = Reckoned::new(Roller, |rolled| pose = rolled.applied_to(pose));
-/// robot.step(&()).unwrap();
-/// robot.step(&()).unwrap();
+/// robot.step(&1.0).unwrap();
+/// robot.step(&1.0).unwrap();
 /// assert!((pose.position.x - 0.2).abs() < 1e-12);
 /// ```
 #[derive(Debug)]
