@@ -94,7 +94,7 @@ pub use center::Center;
 pub use corridor::{Corridor, CorridorDetector, RingError};
 pub use drive::{Drive, Driven};
 pub use layer::{Layer, Proposal, Situation, View};
-pub use move_layer::{Move, heading_of};
+pub use move_layer::{Move, heading_of, unit_of};
 pub use orient::Orient;
 pub use outcome::Outcome;
 pub use settle::Settle;

@@ -1,5 +1,5 @@
 use rand::Rng;
-use tolman_geom::Heading;
+use tolman_geom::{Heading, Vector};
 use tolman_maze::Direction;
 use tolman_robot::TurnTranslate;
 
@@ -14,6 +14,13 @@ pub const fn heading_of(direction: Direction) -> Heading {
         Direction::South => Heading::SOUTH,
         Direction::West => Heading::WEST,
     }
+}
+
+/// One metre in a compass direction, exactly along an axis.
+#[must_use]
+pub const fn unit_of(direction: Direction) -> Vector {
+    let (east, north) = direction.step();
+    Vector::new(east as f64, north as f64)
 }
 
 /// The top layer: expands a direction into a turn and a translation (MSLST, "Move").

@@ -6,6 +6,7 @@ use core::f64::consts::PI;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
+use tolman_control::unit_of;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_robot::Body;
@@ -190,7 +191,7 @@ impl Office {
             return false;
         };
         let offset = position - self.config.middle(cell);
-        let along = |way: Direction| offset.dot(&unit(way));
+        let along = |way: Direction| offset.dot(&unit_of(way));
         let ways = self.course.maze.neighbours(cell).map(|(way, _)| way);
         let in_the_cell = offset.abs().max() < half;
         in_the_cell
@@ -225,8 +226,8 @@ impl Office {
             0.0
         };
         let far = (0.5 * self.config.pitch() - shut_out).max(0.0);
-        let along = unit(direction) * rng.random_range(0.0..=far);
-        let aside = unit(direction.left()) * rng.random_range(-play..=play);
+        let along = unit_of(direction) * rng.random_range(0.0..=far);
+        let aside = unit_of(direction.left()) * rng.random_range(-play..=play);
         Pose::new(self.config.middle(cell) + along + aside, heading)
     }
 
@@ -405,12 +406,6 @@ impl Chart<'_> {
     }
 }
 
-/// One metre in a direction.
-fn unit(direction: Direction) -> Vector {
-    let (east, north) = direction.step();
-    Vector::new(f64::from(east), f64::from(north))
-}
-
 /// Where an office's parts are.
 impl OfficeConfig {
     /// The middle of a cell.
@@ -421,7 +416,7 @@ impl OfficeConfig {
 
     /// The middle between a cell and the next.
     fn between(&self, cell: Cell, direction: Direction) -> Point {
-        self.middle(cell) + unit(direction) * (0.5 * self.pitch())
+        self.middle(cell) + unit_of(direction) * (0.5 * self.pitch())
     }
 
     /// The outline of a wall in equal pieces no longer than a cell.
@@ -445,10 +440,12 @@ impl OfficeConfig {
     /// What narrows a passage to a doorway: on both sides the outline of a post.
     fn jambs(&self, cell: Cell, direction: Direction) -> [Vec<Point>; 2] {
         let width = self.corridor_width;
-        let (centre, ahead) = (self.between(cell, direction), unit(direction));
+        let (centre, ahead) = (self.between(cell, direction), unit_of(direction));
         [direction.left(), direction.right()].map(|side| {
             let corner = |across: f64, along: f64| {
-                centre + unit(side) * (0.5 * across) + ahead * (0.5 * along * DOORWAY_DEPTH * width)
+                centre
+                    + unit_of(side) * (0.5 * across)
+                    + ahead * (0.5 * along * DOORWAY_DEPTH * width)
             };
             let doorway = self.doorway_width();
             let outline = [(width, -1.0), (doorway, -1.0), (doorway, 1.0), (width, 1.0)];
@@ -458,8 +455,8 @@ impl OfficeConfig {
 
     /// The two leaves of a doorway's door, one at each face of the wall, so that shut it looks like a wall from both sides.
     fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
-        let across = unit(direction.left()) * (0.5 * self.corridor_width);
-        let depth = unit(direction) * (0.5 * self.wall_thickness);
+        let across = unit_of(direction.left()) * (0.5 * self.corridor_width);
+        let depth = unit_of(direction) * (0.5 * self.wall_thickness);
         let centre = self.between(cell, direction);
         [("a", centre - depth), ("b", centre + depth)].map(|(leaf, at)| Door {
             name: format!("{number} {leaf}"),

@@ -2,7 +2,7 @@ use alloc::sync::Arc;
 use core::convert::Infallible;
 
 use rand::Rng;
-use tolman_control::Outcome;
+use tolman_control::{Outcome, unit_of};
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, Mapper, Position, Robot, TurnTranslate};
@@ -134,7 +134,10 @@ impl PlaceViews {
             let expected = self.policy.end(from, action);
             let (end, mass) = match (outcome.moved(), expected) {
                 (true, Some(end)) => (end, *mass),
-                (true, None) => (place.position + unit(action) * ACTION_WAY, mass * SURPRISE),
+                (true, None) => (
+                    place.position + unit_of(action) * ACTION_WAY,
+                    mass * SURPRISE,
+                ),
                 (false, None) => (place.position, *mass),
                 (false, Some(_)) => (place.position, mass * SURPRISE),
             };
@@ -149,7 +152,7 @@ impl PlaceViews {
 
     /// Adds probability around an end, along the direction of travel.
     fn spread(&self, end: Point, action: Direction, mass: f64, after: &mut [f64]) {
-        let step = unit(action) * SPREAD_STEP;
+        let step = unit_of(action) * SPREAD_STEP;
         for offset in -SPREAD_STEPS..=SPREAD_STEPS {
             let way = f64::from(offset) * SPREAD_STEP / self.scatter.max(SPREAD_STEP);
             if let Some(number) = self.number(end + step * f64::from(offset)) {
@@ -172,12 +175,6 @@ const SPREAD_STEPS: i32 = 6;
 
 /// Places less probable than that are not followed.
 const NEGLIGIBLE: f64 = 1e-9;
-
-/// One metre that way.
-fn unit(action: Direction) -> Vector {
-    let (east, north) = action.step();
-    Vector::new(f64::from(east), f64::from(north))
-}
 
 impl UnlocalizedOracle {
     /// One that has no idea yet where it is.

@@ -1,13 +1,13 @@
 use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
-use tolman_control::heading_of;
+use tolman_control::{heading_of, unit_of};
 use tolman_maps::scan_map::{Advance, Clearings, ScanMap, ScanMapConfig, WayToGap};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
 
 use super::BetterConfig;
-use super::reckoning::{Reckoning, unit};
+use super::reckoning::Reckoning;
 use crate::{Brain, Doing, RolledStep};
 
 /// Learns a [`ScanMap`], and goes where it has gaps until it has none.
@@ -115,12 +115,12 @@ impl BetterExplorer {
         way: &WayToGap<'_>,
     ) -> Option<f64> {
         let reach = self.config.action_way;
-        let free = clearings.straight(self.map.position(), unit(action), 1.3 * reach);
+        let free = clearings.straight(self.map.position(), unit_of(action), 1.3 * reach);
         if free < 0.1 {
             return None;
         }
         let ends = [0.7, 1.0, 1.3].map(|share| {
-            let end = self.map.position() + unit(action) * (share * reach).min(free);
+            let end = self.map.position() + unit_of(action) * (share * reach).min(free);
             way.metres(end)
         });
         let [a, b, c] = ends;

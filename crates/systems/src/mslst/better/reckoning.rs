@@ -1,5 +1,5 @@
+use tolman_control::unit_of;
 use tolman_geom::{Heading, Vector};
-use tolman_maze::Direction;
 
 use super::BetterConfig;
 use crate::{Doing, RolledStep};
@@ -49,16 +49,10 @@ impl Reckoning {
         if let Doing::Ended(action, outcome) = doing
             && outcome.moved()
         {
-            let way = unit(action) * config.action_way;
+            let way = unit_of(action) * config.action_way;
             self.moved += way;
             let sd = way.map(|way| config.action_sd * way.abs());
             self.variance += sd.component_mul(&sd);
         }
     }
-}
-
-/// One metre that way.
-pub(super) fn unit(action: Direction) -> Vector {
-    let (east, north) = action.step();
-    Vector::new(f64::from(east), f64::from(north))
 }
