@@ -2,6 +2,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
+use tolman_geom::Heading;
+
 /// The geometry of a ring or fan of range beams: which way each one looks, and how far.
 ///
 /// Beam `i` looks to bearing `first_bearing + i · spacing`, counter-clockwise from ahead.
@@ -87,6 +89,19 @@ impl Scan {
             ring,
             ranges: vec![ring.max_range; ring.beams as usize],
         }
+    }
+
+    /// Returns the ranges of a full ring as from a robot that faces north: turned by the compass, to the nearest beam. Beam 0
+    /// looks north, the others follow counter-clockwise. O(beams).
+    #[must_use]
+    pub fn northward(&self, heading: Heading) -> Vec<f64> {
+        let mut turned = self.ranges.clone();
+        if !turned.is_empty() {
+            let ahead = heading.radians() + self.ring.first_bearing - Heading::NORTH.radians();
+            let beams = libm::round(ahead / self.ring.spacing) as i64;
+            turned.rotate_right(beams.rem_euclid(self.ranges.len() as i64) as usize);
+        }
+        turned
     }
 }
 

@@ -3,7 +3,7 @@ use core::convert::Infallible;
 
 use rand::Rng;
 use tolman_control::{Outcome, unit_of};
-use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, Mapper, Position, Robot, TurnTranslate};
 use tolman_sim::robots::LaserPioneerConfig;

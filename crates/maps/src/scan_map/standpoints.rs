@@ -166,15 +166,8 @@ impl Standpoints {
 
     /// Returns a scan's ranges, beam 0 to the north; `None` if another ring made them.
     pub(super) fn northward(&self, scan: &Scan, heading: Heading) -> Option<Vec<f64>> {
-        let beams = scan.ranges.len();
-        if beams != self.ring.beams as usize || beams == 0 {
-            return None;
-        }
-        let ahead = heading.radians() + scan.ring.first_bearing - Heading::NORTH.radians();
-        let beam = libm::round(ahead / self.ring.spacing) as i64;
-        let mut turned = scan.ranges.clone();
-        turned.rotate_right(beam.rem_euclid(beams as i64) as usize);
-        Some(turned)
+        let is_read = !scan.ranges.is_empty() && scan.ranges.len() == self.ring.beams as usize;
+        is_read.then(|| scan.northward(heading))
     }
 
     fn add(&mut self, grid: &WallGrid, at: Point, goal: Option<[Point; 2]>) {

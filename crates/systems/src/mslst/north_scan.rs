@@ -1,5 +1,3 @@
-use core::f64::consts::FRAC_PI_2;
-
 use tolman_geom::Heading;
 use tolman_robot::Scan;
 
@@ -26,13 +24,8 @@ pub const ROBOT_UNIT: f64 = 0.5;
 /// ```
 #[must_use]
 pub fn heading_free(scan: &Scan, heading: Heading) -> Vec<f64> {
-    let beams = scan.ranges.len();
-    let mut turned: Vec<f64> = scan.ranges.iter().map(|range| range / ROBOT_UNIT).collect();
-    if beams > 0 {
-        let ahead = (heading.radians() + scan.ring.first_bearing - FRAC_PI_2) / scan.ring.spacing;
-        turned.rotate_right(libm::round(ahead).rem_euclid(beams as f64) as usize);
-    }
-    turned
+    let ranges = scan.northward(heading).into_iter();
+    ranges.map(|range| range / ROBOT_UNIT).collect()
 }
 
 /// Returns what the quantizer sees in a time step; `None` while ranges or heading drop out.
