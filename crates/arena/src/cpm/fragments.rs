@@ -241,7 +241,7 @@ o---o---o---o---o---o
 ";
 
     /// One crossing: the start to its west, the goal to its east, and a loop from its north to its south.
-    const LOOP: &str = "\
+    pub(crate) const LOOP: &str = "\
 start = 0 1 east
 
 o---o---o---o---o
