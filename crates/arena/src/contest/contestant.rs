@@ -11,11 +11,13 @@ use tolman_systems::cpm::{
     CommonPatterns, Cpm, CpmConfig, Lesson, Mode, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
 };
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
-use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig};
+use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig, OnlineSlam, OnlineSlamConfig};
 use tolman_systems::micromouse::SIDE;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
-use tolman_systems::mslst::{Mslst, MslstConfig};
+use tolman_systems::mslst::better::BetterConfig;
+use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
+use super::pathfinder::Pathfinder;
 use super::true_graph::PlaceRule;
 use crate::cast::Agent;
 use crate::course::Course;
@@ -23,7 +25,9 @@ use crate::cpm::{self, epuck, epuck_course, patience, ring_measures, walker_conf
 use crate::diktiometry::{Office, OfficeConfig, PlaceCue, SurveyorConfig, mapper, office_robot};
 use crate::episode::layers;
 use crate::micromouse::brief;
-use crate::pioneer::{CAMERA_PIONEER, CORRIDOR_WIDTH, LASER_PIONEER, body, calibrated};
+use crate::pioneer::{
+    CAMERA_PIONEER, CORRIDOR_WIDTH, ENCODER_SD, LASER_PIONEER, body, calibrated, with_sensor_noise,
+};
 use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
 
 /// Who is sent into a world.
@@ -31,6 +35,8 @@ use crate::{BoxError, Depicted, HasSimulated, Outing, Sent};
 pub enum Contestant {
     /// [`Mslst`], which learns for as long as it may drive.
     Mslst,
+    /// [`BetterMslst`], which reckons with encoders.
+    MslstBetter,
     /// [`Cpm`] online, as the paper has it.
     Cpm,
     /// [`Cpm`] with dead reckoning and several hypotheses.
@@ -39,6 +45,8 @@ pub enum Contestant {
     Diktiometry,
     /// [`Diktiometer`] with a journal of all its moves that also merges places by what they look like.
     DiktiometryBetter,
+    /// [`OfflineSlam`], which gathers records for as long as it may drive, and then learns a map of all of them.
+    GngSlam,
     /// [`OnlineSlam`], whose places are points of the floor.
     GngSlamBetter,
     /// [`MazeMouse`], which is told the grid, its start and the goal.
@@ -94,14 +102,19 @@ const WIDE: f64 = 1.5;
 const SCANS_A_CELL: u32 = 10;
 const ACTIONS_A_CELL: u32 = 6;
 
+/// GNG-SLAM takes so many records for each cell: the most of what it may drive.
+const RECORDS_A_CELL: usize = 5;
+
 impl Contestant {
     /// All of them, systems first.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Mslst,
+        Self::MslstBetter,
         Self::Cpm,
         Self::CpmBetter,
         Self::Diktiometry,
         Self::DiktiometryBetter,
+        Self::GngSlam,
         Self::GngSlamBetter,
         Self::Micromouse,
         Self::Baseline(Agent::Random),
@@ -116,10 +129,12 @@ impl Contestant {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Mslst => "MSLST",
+            Self::MslstBetter => "MSLST Better",
             Self::Cpm => "CPM",
             Self::CpmBetter => "CPM Better",
             Self::Diktiometry => "Diktiometry",
             Self::DiktiometryBetter => "Diktiometry Better",
+            Self::GngSlam => "GNG-SLAM",
             Self::GngSlamBetter => "GNG-SLAM Better",
             Self::Micromouse => "Micromouse",
             Self::Baseline(agent) => agent.name(),
@@ -140,7 +155,7 @@ impl Contestant {
         match (self, robot) {
             (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => "e-puck",
             (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => CAMERA_PIONEER,
-            (Self::GngSlamBetter, ContestRobot::Own) => Pioneer2dx::NAME,
+            (Self::GngSlam | Self::GngSlamBetter, ContestRobot::Own) => Pioneer2dx::NAME,
             _ => LASER_PIONEER,
         }
     }
@@ -154,8 +169,9 @@ impl Contestant {
         }
     }
 
-    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions,
-    /// and the micromouse has proven a shortest run.
+    /// Returns whether it says, when it is done, that its map is that of the whole world. MSLST has then used up its actions, MSLST Better
+    /// has been everywhere, GNG-SLAM has its records and the micromouse has proven a shortest run: none of them says that its places are
+    /// those of the drawing.
     #[must_use]
     pub const fn claims(self) -> bool {
         matches!(
@@ -164,8 +180,8 @@ impl Contestant {
         )
     }
 
-    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features alone say; `None` where it
-    /// can. Who knows that abstains, and is not sent. O(cells).
+    /// Returns why it cannot work in a drawing, in a sentence without a full stop, as its features and the robot's sensors alone say;
+    /// `None` where it can. Who knows that abstains, and is not sent. O(cells).
     #[must_use]
     pub fn abstains(self, maze: &Maze, robot: ContestRobot) -> Option<String> {
         let room = maze.reachable().find(|cell| maze.is_room(*cell));
@@ -174,6 +190,9 @@ impl Contestant {
             (Self::Cpm | Self::CpmBetter, _, Some(cell)) => Some(format!(
                 "it follows corridors, and there is an open square of 2 × 2 cells at {cell}"
             )),
+            (Self::GngSlam, ContestRobot::Pioneer, _) => Some(
+                "it tells places by what a camera sees, and the laser Pioneer has none".to_owned(),
+            ),
             (Self::Micromouse, ..) if grid.width().max(grid.height()) as usize > SIDE => {
                 Some(format!("it knows mazes of at most {SIDE} × {SIDE} cells"))
             }
@@ -225,6 +244,23 @@ impl Contestant {
                 let body = laser_pioneer(&course, seed)?;
                 Ok(sent(course, body, actor))
             }
+            (Self::MslstBetter, _) => {
+                let course = pioneer_course(name, maze)?;
+                let robot = match robot {
+                    ContestRobot::Own => with_sensor_noise(&calibrated(), ENCODER_SD),
+                    ContestRobot::Pioneer => calibrated(),
+                };
+                let config = BetterConfig {
+                    diameter: 2.0 * robot.radius,
+                    corridor_width: course.corridor_width,
+                    ..BetterConfig::pioneer()
+                };
+                let stack = layers(&course, &robot)?.straightening();
+                let brain = BetterMslst::new(config, robot.ring);
+                let actor = Actor::seeded(brain, stack, seed);
+                let body = course.robot_at(course.start()?, LaserPioneer::new(robot)?, seed)?;
+                Ok(sent(course, body, actor))
+            }
             (Self::Micromouse, _) => {
                 let course = pioneer_course(name, maze)?;
                 let robot = calibrated();
@@ -237,6 +273,14 @@ impl Contestant {
                 let mouse = MazeMouse::certify(brief(maze)?, config)?;
                 let body = laser_pioneer(&course, seed)?;
                 Ok(sent(course, body, mouse))
+            }
+            (Self::GngSlam, _) => {
+                let course = Course::new(name, maze.clone(), WIDE)?;
+                let robot = Pioneer2dx::new(Pioneer2dxConfig::paper())?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
+                let records = RECORDS_A_CELL * maze.reachable().count();
+                let config = OfflineSlamConfig::paper().with_records(records.max(2));
+                Ok(sent(course, body, OfflineSlam::new(config, seed)))
             }
             (Self::GngSlamBetter, ContestRobot::Own) => {
                 let course = Course::new(name, maze.clone(), WIDE)?;
@@ -341,8 +385,9 @@ impl Contestant {
     }
 }
 
-fn eyed<E>(config: DiktiometerConfig, eye: E, seed: u64) -> Diktiometer<E> {
-    Diktiometer::new(config, eye, seed)
+fn eyed<E: Clone>(config: DiktiometerConfig, eye: E, seed: u64) -> Pathfinder<E> {
+    let learner = Diktiometer::new(config, eye.clone(), seed);
+    Pathfinder::new(learner, eye, seed)
 }
 
 /// What CPM can drive, whatever its errors are.

@@ -5,6 +5,7 @@
 
 mod contestant;
 mod judgement;
+mod pathfinder;
 mod play;
 mod true_graph;
 mod wanderers;

@@ -566,6 +566,37 @@ mod tests {
     }
 
     #[test]
+    fn whoever_has_a_map_finds_itself_and_the_goal_from_anywhere() {
+        for contestant in [
+            Contestant::MslstBetter,
+            Contestant::CpmBetter,
+            Contestant::DiktiometryBetter,
+        ] {
+            let record = play(contestant, "star", ContestRobot::Own);
+            assert_eq!(record.found, [LocateOutcome::Right], "{contestant:?}");
+            let over = record.homes[0].over_shortest;
+            assert!(
+                over.is_some_and(|over| over < 5.0),
+                "{contestant:?} {over:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_paper_s_place_map_needs_a_camera_and_is_not_lifted() {
+        let record = play(Contestant::GngSlam, "star", ContestRobot::Pioneer);
+        assert!(record.abstained.unwrap().contains("camera"));
+        let record = play(Contestant::GngSlam, "star", ContestRobot::Own);
+        let learned = record.learned.unwrap();
+        assert_eq!(learned.end, TaskEnd::Done, "{learned:?}");
+        assert!(learned.places >= 2 && learned.driven < 1.2 * Contest::LIMIT);
+        assert!(matches!(
+            record.found[..],
+            [LocateOutcome::Abstained { .. }]
+        ));
+    }
+
+    #[test]
     fn an_oracle_comes_home_and_learns_nothing() {
         let oracle = Contestant::Baseline(Agent::Oracle);
         let record = play(oracle, "office", ContestRobot::Own);
