@@ -160,6 +160,26 @@ impl Contestant {
         }
     }
 
+    /// Returns whether its robot knows which way is north.
+    pub(super) const fn has_compass(self, robot: ContestRobot) -> bool {
+        !matches!(
+            (self, robot),
+            (
+                Self::Cpm | Self::CpmBetter | Self::GngSlam | Self::GngSlamBetter,
+                ContestRobot::Own
+            )
+        )
+    }
+
+    /// Returns how many cells straight on its robot sees through an opening, at most.
+    pub(super) const fn sees_cells(self, robot: ContestRobot) -> u32 {
+        match (self, robot) {
+            (Self::GngSlam | Self::GngSlamBetter, _) => 3,
+            (Self::Diktiometry | Self::DiktiometryBetter, ContestRobot::Own) => 5,
+            _ => 1,
+        }
+    }
+
     /// Returns which cells are its places. What it takes for a place beside, with two ways, is a part of a way.
     #[must_use]
     pub const fn places(self) -> PlaceRule {

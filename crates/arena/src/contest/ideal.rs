@@ -1,8 +1,10 @@
 use alloc::collections::BTreeMap;
 
+use tolman_geom::Pose;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
+use super::whereabouts::Squares;
 use crate::cpm::landmark_at;
 
 /// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who watches the same drive.
@@ -33,6 +35,14 @@ struct Candidate {
 }
 
 impl IdealObserver<'_> {
+    /// Returns that chance after a drive along `path` of a robot that was put down amid a cell, looking out of it.
+    pub(super) fn after(&self, squares: Squares, start: (Cell, Direction), path: &[Pose]) -> f64 {
+        let mut cells = vec![start.0];
+        cells.extend(path.iter().map(|pose| squares.cell_at(pose.position)));
+        cells.dedup();
+        self.chance(start.1, &cells)
+    }
+
     /// Returns how likely its best guess of the last of these cells is right, 0 … 1, after a drive over all of them that began looking along
     /// `way`. It holds all cells but goals, and all ways out of them, for equally likely starts. O(starts · cells).
     pub(super) fn chance(&self, way: Direction, cells: &[Cell]) -> f64 {
@@ -45,7 +55,10 @@ impl IdealObserver<'_> {
             for direction in self.between(pair[0], pair[1]) {
                 for candidate in &mut left {
                     let turned = turned(direction, candidate.turned);
-                    candidate.at = self.maze.beside(candidate.at, turned).unwrap_or(candidate.at);
+                    candidate.at = self
+                        .maze
+                        .beside(candidate.at, turned)
+                        .unwrap_or(candidate.at);
                 }
             }
             self.see(&mut left, pair[1]);

@@ -4,6 +4,7 @@
 //! somewhere else and goes to the goal. What it learned is judged by the drawing's [`TrueGraph`]; it never sees it.
 
 mod contestant;
+mod ideal;
 mod judgement;
 mod pathfinder;
 mod play;
@@ -14,7 +15,7 @@ mod whereabouts;
 pub use contestant::{ContestRobot, Contestant, Schooling};
 pub use judgement::{MapJudgement, judge};
 pub use play::{
-    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Moment,
+    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;

@@ -9,6 +9,7 @@ use tolman_robot::{Goal, Landmark, Standing, Task};
 use tolman_systems::stream;
 
 use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
+use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge, stands_for};
 use super::true_graph::TrueGraph;
 use super::wanderers;
@@ -80,7 +81,7 @@ pub struct ContestRecord {
     /// What it learned; `None` of who abstained, or learns no map.
     pub learned: Option<LearnRecord>,
     /// What it made of each place where it was to find out where it is.
-    pub found: Vec<LocateOutcome>,
+    pub found: Vec<Located>,
     /// How it went from each place where it was to go to the goal.
     pub homes: Vec<Home>,
 }
@@ -149,6 +150,25 @@ pub enum LocateOutcome {
     },
 }
 
+/// What came of it when a robot was put down and asked where that is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located {
+    /// What it says.
+    pub outcome: LocateOutcome,
+    /// How likely an observer that has the true drawing and mistakes nothing would be right about the cell after the same drive, 0 … 1: the
+    /// passive ceiling. `None` if it did not drive.
+    pub ceiling: Option<f64>,
+}
+
+impl Located {
+    pub(super) const fn undriven(why: String) -> Self {
+        Self {
+            outcome: LocateOutcome::Abstained { why },
+            ceiling: None,
+        }
+    }
+}
+
 /// How a robot went to the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
@@ -162,7 +182,7 @@ pub struct Home {
 
 const START_STREAM: u64 = 31;
 
-impl Contest<'_> {
+impl<'a> Contest<'a> {
     /// A task ends when so many times the length of all corridors was driven, or of the shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
 
@@ -182,9 +202,10 @@ impl Contest<'_> {
             });
         }
         if let Contestant::Baseline(agent) = self.contestant {
-            let homes = wanderers::homes(self, agent).map_err(|source| self.enter_error(source))?;
+            let enter_error = |source| self.enter_error(source);
             return Ok(ContestRecord {
-                homes,
+                found: wanderers::found(self, agent).map_err(enter_error)?,
+                homes: wanderers::homes(self, agent).map_err(enter_error)?,
                 ..ContestRecord::default()
             });
         }
@@ -228,6 +249,15 @@ impl Contest<'_> {
         starts.collect()
     }
 
+    /// Returns the ceiling of whoever watches.
+    pub(super) const fn observer(&self) -> IdealObserver<'a> {
+        IdealObserver {
+            maze: self.maze,
+            has_compass: self.contestant.has_compass(self.robot),
+            reach: self.contestant.sees_cells(self.robot),
+        }
+    }
+
     fn enter_error(&self, source: BoxError) -> ContestError {
         ContestError::Enter {
             contestant: self.contestant.name(),
@@ -256,6 +286,7 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 struct Bout<'a> {
     maze: &'a Maze,
     truth: TrueGraph,
+    observer: IdealObserver<'a>,
     claims: bool,
     squares: Squares,
     outing: Box<dyn Outing>,
@@ -283,6 +314,7 @@ impl<'a> Bout<'a> {
         Self {
             maze,
             truth: TrueGraph::of(maze, contest.contestant.places()),
+            observer: contest.observer(),
             claims: contest.contestant.claims(),
             squares: Squares { grid, pitch },
             outing,
@@ -352,7 +384,7 @@ impl<'a> Bout<'a> {
 
     /// Metres of all corridors.
     fn corridors(&self) -> f64 {
-        self.maze.opening_count_reached() as f64 * self.squares.pitch
+        self.maze.corridor_count() as f64 * self.squares.pitch
     }
 
     fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> LearnRecord {
@@ -417,28 +449,35 @@ impl<'a> Bout<'a> {
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
-    ) -> Result<LocateOutcome, BoxError> {
+    ) -> Result<Located, BoxError> {
         if let Standing::GaveUp { why } = self.put_down(start)? {
-            return Ok(LocateOutcome::Abstained { why });
+            return Ok(Located::undriven(why));
         }
         let most = Contest::LIMIT * self.corridors();
         let driven = self.pursue(Task::Localize, most, |_, _| {}, watch);
-        match driven.end {
-            TaskEnd::GaveUp { why } => return Ok(LocateOutcome::Abstained { why }),
-            TaskEnd::OutOfTime => {
-                let why = "it was still looking when its time was up".to_owned();
-                return Ok(LocateOutcome::Abstained { why });
-            }
-            TaskEnd::Done => {}
-        }
+        let path = &self.outing.path()[driven.from..];
+        let ceiling = self.observer.after(self.squares, start, path);
+        let why = match driven.end {
+            TaskEnd::Done => None,
+            TaskEnd::GaveUp { why } => Some(why),
+            TaskEnd::OutOfTime => Some("it was still looking when its time was up".to_owned()),
+        };
+        Ok(Located {
+            outcome: why.map_or_else(|| self.found(), |why| LocateOutcome::Abstained { why }),
+            ceiling: Some(ceiling),
+        })
+    }
+
+    /// What it says of where it is, by the truth.
+    fn found(&self) -> LocateOutcome {
         let outing = &self.outing;
         let place = believed(&outing.belief(), || outing.map());
         let cell = place.and_then(|place| self.stands_for.get(&place));
         let off = cell.map(|cell| (self.squares.middle(*cell) - self.here()).norm());
-        Ok(match off {
+        match off {
             Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
             _ => LocateOutcome::Wrong,
-        })
+        }
     }
 
     fn home(
@@ -473,7 +512,7 @@ impl<'a> Bout<'a> {
 const IDLE: u32 = 1000;
 
 /// A robot is at a place when it is nearer to it than this, in cells.
-const NEAR: f64 = 0.75;
+pub(super) const NEAR: f64 = 0.75;
 
 /// The length of a path, m.
 pub(super) fn length(path: &[Pose]) -> f64 {
@@ -488,14 +527,14 @@ pub(super) fn length(path: &[Pose]) -> f64 {
 /// What a contest measures of a drawing.
 pub(super) trait Measured {
     /// Openings between two cells that are reached.
-    fn opening_count_reached(&self) -> usize;
+    fn corridor_count(&self) -> usize;
 
     /// The length of the shortest way from a cell to the goal, m.
     fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64;
 }
 
 impl Measured for Maze {
-    fn opening_count_reached(&self) -> usize {
+    fn corridor_count(&self) -> usize {
         let ways = self.reachable().map(|cell| self.degree(cell));
         ways.sum::<usize>() / 2
     }
@@ -573,7 +612,9 @@ mod tests {
             Contestant::DiktiometryBetter,
         ] {
             let record = play(contestant, "star", ContestRobot::Own);
-            assert_eq!(record.found, [LocateOutcome::Right], "{contestant:?}");
+            let found = &record.found[0];
+            assert_eq!(found.outcome, LocateOutcome::Right, "{contestant:?}");
+            assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
             let over = record.homes[0].over_shortest;
             assert!(
                 over.is_some_and(|over| over < 5.0),
@@ -590,10 +631,9 @@ mod tests {
         let learned = record.learned.unwrap();
         assert_eq!(learned.end, TaskEnd::Done, "{learned:?}");
         assert!(learned.places >= 2 && learned.driven < 1.2 * Contest::LIMIT);
-        assert!(matches!(
-            record.found[..],
-            [LocateOutcome::Abstained { .. }]
-        ));
+        let found = &record.found[0];
+        assert!(matches!(found.outcome, LocateOutcome::Abstained { .. }));
+        assert_eq!(found.ceiling, None);
     }
 
     #[test]
@@ -603,6 +643,14 @@ mod tests {
         assert!(record.learned.is_none());
         let over = record.homes[0].over_shortest.unwrap();
         assert!(over < 2.0, "{over}");
+        assert!(record.found.is_empty());
+    }
+
+    #[test]
+    fn who_has_the_true_map_finds_out_where_it_is() {
+        let oracle = Contestant::Baseline(Agent::UnlocalizedOracle);
+        let record = play(oracle, "star", ContestRobot::Own);
+        assert_eq!(record.found[0].outcome, LocateOutcome::Right);
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub struct WayOut {
 }
 
 /// What the robot sees to stand in a cell.
-pub(super) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
+pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
     if maze.start().is_some_and(|(start, _)| start == cell) {
         return Some(Landmark::Start);
     }

@@ -36,6 +36,7 @@ pub use bends::BendLikeness;
 pub use course::{CORRIDOR_WIDTH, epuck_course, epuck_course_on};
 pub use distinctness::{Distinctness, WalkPair, distinctness};
 pub use exploration::Exploration;
+pub(crate) use fragments::landmark_at;
 #[cfg(test)]
 pub(crate) use fragments::tests::LOOP;
 pub use fragments::{TrueFragments, WayOut};

@@ -67,8 +67,12 @@ record! {
         wrong: bool => lower("wrong"),
         /// Whether it did not say.
         abstained: bool => neither("abstained"),
-        /// On a map that is right: whether it said where it is, and was there.
+        /// On a map that is right, or the true one: whether it said where it is, and was there.
         right_on_right_map: Option<bool> => higher("right on right maps"),
+        /// How likely an observer with the true map that mistakes nothing would be right about the cell after the same drive.
+        ceiling: Option<f64> => neither("passive ceiling").percent().decimals(1),
+        /// The same on maps that are right.
+        ceiling_on_right_map: Option<f64> => neither("the same on right maps").percent().decimals(1),
         /// Why it did not say.
         why: String => neither("why not"),
     }
@@ -149,21 +153,28 @@ impl HomeRun {
 impl LocateRun {
     pub(super) fn of(record: &ContestRecord) -> Self {
         let learned = record.learned.as_ref();
-        let is_known = learned.is_some_and(|learned| learned.judgement.is_right);
-        let abstained = |why: &str| Self {
-            abstained: true,
-            right_on_right_map: is_known.then_some(false),
-            why: why.to_owned(),
-            ..Self::default()
+        let has_abstained = record.abstained.is_some();
+        // Who learns no map and says where it is has the true one.
+        let is_known = learned.map_or(!has_abstained, |learned| learned.judgement.is_right);
+        let (outcome, ceiling) = match record.found.first() {
+            Some(found) => (found.outcome.clone(), found.ceiling),
+            None => {
+                let why = record.abstained.clone().unwrap_or_default();
+                (LocateOutcome::Abstained { why }, None)
+            }
         };
-        match record.found.first() {
-            Some(LocateOutcome::Abstained { why }) => abstained(why),
-            None => abstained(record.abstained.as_deref().unwrap_or_default()),
-            Some(found) => Self {
-                right: *found == LocateOutcome::Right,
-                wrong: *found == LocateOutcome::Wrong,
-                right_on_right_map: is_known.then_some(*found == LocateOutcome::Right),
-                ..Self::default()
+        let ceiling = ceiling.map(|chance| 100.0 * chance);
+        let is_right = outcome == LocateOutcome::Right;
+        Self {
+            right: is_right,
+            wrong: outcome == LocateOutcome::Wrong,
+            right_on_right_map: is_known.then_some(is_right),
+            ceiling,
+            ceiling_on_right_map: ceiling.filter(|_| is_known),
+            abstained: matches!(outcome, LocateOutcome::Abstained { .. }),
+            why: match outcome {
+                LocateOutcome::Abstained { why } => why,
+                LocateOutcome::Right | LocateOutcome::Wrong => String::new(),
             },
         }
     }
@@ -232,6 +243,8 @@ pub(super) fn locate(name: &str) -> Table {
             "right_on_right_map_percent",
             LocateRun::right_on_right_map,
         ))
+        .metric(Metric::mean(LocateRun::ceiling).named("ceiling_percent"))
+        .metric(Metric::mean(LocateRun::ceiling_on_right_map).named("ceiling_on_right_map_percent"))
 }
 
 pub(super) fn sizes(name: &str) -> Table {

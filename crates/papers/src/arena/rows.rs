@@ -4,6 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use tolman_arena::cast::Agent;
 use tolman_arena::contest::{ContestRecord, ContestRobot, Contestant};
 use tolman_experiment::{BoxError, Fields, Options, Record, Row, run_seed};
 use tolman_maze::Braided;
@@ -39,11 +40,13 @@ pub(super) fn row_name(contestant: Contestant, world: &str) -> String {
     format!("{}{BETWEEN}{world}", contestant.name())
 }
 
-/// Who has rows in a table: baselines learn no map, and do not say where they are.
+/// Who has rows in a table: baselines learn no map, and one of them says where it is.
 pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
     let all = Contestant::ALL.into_iter();
-    all.filter(move |contestant| {
-        task == ArenaTask::Home || !matches!(contestant, Contestant::Baseline(_))
+    all.filter(move |contestant| match contestant {
+        Contestant::Baseline(Agent::UnlocalizedOracle) => task != ArenaTask::Learn,
+        Contestant::Baseline(_) => task == ArenaTask::Home,
+        _ => true,
     })
 }
 

@@ -8,7 +8,7 @@ use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome, Schooling,
+    ContestError, ContestRecord, ContestRobot, Contestant, LocateOutcome, Located, Schooling,
 };
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
@@ -174,7 +174,7 @@ fn line<'a>(
 ) -> Line<'a> {
     let learned = record.learned.as_ref();
     let judged = learned.map(|learned| learned.judgement);
-    let found = record.found.iter().map(|found| match found {
+    let found = record.found.iter().map(|found| match found.outcome {
         LocateOutcome::Right => "right",
         LocateOutcome::Wrong => "wrong",
         LocateOutcome::Abstained { .. } => "abstained",
@@ -229,10 +229,10 @@ fn table(
             .filter_map(judged)
             .map(|j| j.link_recall)
             .sum();
-        let found: Vec<&LocateOutcome> = records.iter().flat_map(|r| &r.found).collect();
+        let found: Vec<&Located> = records.iter().flat_map(|r| &r.found).collect();
         let located = found
             .iter()
-            .filter(|found| ***found == LocateOutcome::Right)
+            .filter(|found| found.outcome == LocateOutcome::Right)
             .count();
         let homes: Vec<_> = records.iter().flat_map(|r| &r.homes).collect();
         let came = homes
@@ -253,7 +253,7 @@ fn table(
             of(&|r| judged(r).is_some_and(|j| j.is_right)),
             of(&|r| judged(r).is_some_and(|j| j.is_right_of_visited)),
             recall,
-            if learns {
+            if learns || !found.is_empty() {
                 format!("{located}/{}", found.len())
             } else {
                 "–".to_owned()
