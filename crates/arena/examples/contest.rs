@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::contest::{Contest, ContestRobot, Contestant, Located, Schooling};
+use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant, Located, Schooling};
 use tolman_arena::family::Family;
 
 fn main() -> Result<(), tolman_arena::BoxError> {
@@ -32,6 +32,7 @@ fn main() -> Result<(), tolman_arena::BoxError> {
                     robot,
                     maze: &maze,
                     name: family.name,
+                    condition: Condition::AsMade,
                     starts: 1,
                     seed,
                 };

@@ -78,7 +78,8 @@ impl Condition {
         all.find(|condition| slug(&condition.name()) == slug(name))
     }
 
-    pub(super) fn epuck(self, robot: &mut EpuckConfig) {
+    /// Returns an e-puck under it.
+    pub(super) fn epuck(self, mut robot: EpuckConfig) -> EpuckConfig {
         match self {
             Self::Wheels(percent) => robot.wheels.push(constant(share(percent))),
             Self::ConstantOdometry => robot.wheels = vec![constant(ODOMETRY)],
@@ -86,9 +87,15 @@ impl Condition {
             Self::DropOuts => robot.proximity.push(MISSES),
             Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
         }
+        robot
     }
 
-    pub(super) fn laser_pioneer(self, robot: &mut LaserPioneerConfig, seed: u64) {
+    /// Returns a laser Pioneer under it.
+    pub(super) fn laser_pioneer(
+        self,
+        mut robot: LaserPioneerConfig,
+        seed: u64,
+    ) -> LaserPioneerConfig {
         let faults = &mut robot.faults;
         match self {
             Self::Wheels(percent) => robot.wheel_scale = wheels(percent, seed),
@@ -108,9 +115,11 @@ impl Condition {
             }
             Self::AsMade | Self::Doors | Self::Kidnapping => {}
         }
+        robot
     }
 
-    pub(super) fn pioneer_2dx(self, robot: &mut Pioneer2dxConfig, seed: u64) {
+    /// Returns a Pioneer 2-DX under it.
+    pub(super) fn pioneer_2dx(self, mut robot: Pioneer2dxConfig, seed: u64) -> Pioneer2dxConfig {
         let faults = &mut robot.faults;
         match self {
             Self::Wheels(percent) => robot.wheel_scale = wheels(percent, seed),
@@ -125,14 +134,22 @@ impl Condition {
             }
             Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
         }
+        robot
     }
 
-    /// The diktiometry's odometry errs as made by as much, for some time steps at a time.
-    pub(super) fn surveyor(self, robot: &mut SurveyorConfig, seed: u64) {
-        match self {
-            Self::ConstantOdometry => robot.hold_steps = u32::MAX,
-            Self::FreshOdometry => robot.hold_steps = 1,
-            _ => self.laser_pioneer(&mut robot.pioneer, seed),
+    /// Returns the diktiometry's robot under it, whose odometry as made errs by as much for some time steps at a time.
+    pub(super) fn surveyor(self, robot: SurveyorConfig, seed: u64) -> SurveyorConfig {
+        let hold_steps = match self {
+            Self::ConstantOdometry => u32::MAX,
+            Self::FreshOdometry => 1,
+            _ => {
+                let pioneer = self.laser_pioneer(robot.pioneer, seed);
+                return SurveyorConfig { pioneer, ..robot };
+            }
+        };
+        SurveyorConfig {
+            hold_steps,
+            ..robot
         }
     }
 
@@ -194,4 +211,55 @@ fn wheels(percent: u8, seed: u64) -> WheelScale {
 
 fn off(rng: &mut impl Rng) -> f64 {
     rng.random_range(-1.0..=1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::family::Family;
+
+    #[test]
+    fn a_condition_is_found_as_it_is_typed() {
+        for condition in Condition::ALL {
+            assert_eq!(Condition::named(&condition.name()), Some(condition));
+        }
+        assert_eq!(Condition::named("wheels-5"), Some(Condition::Wheels(5)));
+        assert_eq!(Condition::named("rain"), None);
+    }
+
+    proptest! {
+        #[test]
+        fn a_shut_door_cuts_nothing_off(family in 0..Family::ARENA.len(), seed: u64) {
+            let family = Family::ARENA[family];
+            let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+            let maze = (family.draw)(family.sizes[0], rng).unwrap();
+            prop_assert_eq!(Condition::AsMade.door(&maze, seed), None);
+            match Condition::Doors.door(&maze, seed) {
+                Some((cell, way)) => {
+                    prop_assert!(maze.is_open(cell, way));
+                    let mut shut = maze.clone();
+                    shut.set_wall(cell, way, true);
+                    prop_assert!(shut.reachable().eq(maze.reachable()));
+                }
+                // There is no loop.
+                None => {
+                    let ways: usize = maze.reachable().map(|cell| maze.degree(cell)).sum();
+                    prop_assert_eq!(ways / 2 + 1, maze.reachable().count());
+                }
+            }
+        }
+
+        #[test]
+        fn each_wheel_is_off_by_so_much_at_most(percent in 0..10_u8, seed: u64) {
+            let scale = wheels(percent, seed);
+            for wheel in [scale.left, scale.right] {
+                prop_assert!((wheel - 1.0).abs() <= share(percent) + 1e-12);
+            }
+            prop_assert_eq!(scale, wheels(percent, seed));
+        }
+    }
 }

@@ -17,7 +17,9 @@ use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 use tolman_systems::mslst::better::BetterConfig;
 use tolman_systems::mslst::{BetterMslst, Mslst, MslstConfig};
 
+use super::condition::Condition;
 use super::pathfinder::Pathfinder;
+use super::play::Contest;
 use super::true_graph::PlaceRule;
 use crate::cast::Agent;
 use crate::course::Course;
@@ -220,39 +222,43 @@ impl Contestant {
         }
     }
 
-    /// Puts it at the start of a drawing, in corridors as its robot is made for. The seed is that of all chance.
+    /// Puts it at the start of the contest's drawing, in corridors as its robot is made for.
     ///
     /// # Errors
     /// If it is a baseline, which is sent by other means, or robot and drawing do not go together.
     pub(super) fn enter(
         self,
-        maze: &Maze,
-        name: &str,
-        robot: ContestRobot,
+        contest: &Contest<'_>,
         schooling: &Schooling,
-        seed: u64,
     ) -> Result<Entered, BoxError> {
+        let Contest {
+            maze,
+            name,
+            robot,
+            seed,
+            condition,
+            ..
+        } = *contest;
         match (self, robot) {
             (Self::Cpm | Self::CpmBetter, ContestRobot::Own) => {
-                let course = epuck_course(name, maze.clone().into())?;
+                let course = contest.with_door(epuck_course(name, maze.clone().into())?)?;
                 let (start, width) = (course.start()?, course.corridor_width);
-                let body = course.robot_at(start, Epuck::new(epuck())?, seed)?;
+                let robot = Epuck::new(condition.epuck(epuck()))?;
+                let body = course.robot_at(start, robot, seed)?;
                 let walker = walker_config(&epuck(), width)?;
                 let patterns = schooling.of_epuck()?;
                 Ok(self.sent_by_patterns(course, body, walker, patterns, maze, seed))
             }
             (Self::Cpm | Self::CpmBetter, ContestRobot::Pioneer) => {
-                let course = pioneer_course(name, maze)?;
-                let body = ring_as_epuck(&course, seed)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
+                let body = ring_as_epuck(&course, condition, seed)?;
                 let measures = ring_measures(&calibrated(), course.corridor_width);
                 let (walker, patterns) = (measures.walker_config(), schooling.of_pioneer()?);
                 Ok(self.sent_by_patterns(course, body, walker, patterns, maze, seed))
             }
-            (Self::Diktiometry | Self::DiktiometryBetter, _) => {
-                self.sent_through_office(maze, name, robot, seed)
-            }
+            (Self::Diktiometry | Self::DiktiometryBetter, _) => self.sent_through_office(contest),
             (Self::Mslst, _) => {
-                let course = pioneer_course(name, maze)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let stack = layers(&course, &calibrated())?;
                 let cells = maze.reachable().count() as u32;
                 let config = MslstConfig {
@@ -261,11 +267,11 @@ impl Contestant {
                     ..MslstConfig::large(50.0)
                 };
                 let actor = Actor::seeded(Mslst::new(config), stack, seed);
-                let body = laser_pioneer(&course, seed)?;
+                let body = laser_pioneer(&course, condition, seed)?;
                 Ok(sent(course, body, actor))
             }
             (Self::MslstBetter, _) => {
-                let course = pioneer_course(name, maze)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let robot = match robot {
                     ContestRobot::Own => with_sensor_noise(&calibrated(), ENCODER_SD),
                     ContestRobot::Pioneer => calibrated(),
@@ -278,11 +284,12 @@ impl Contestant {
                 let stack = layers(&course, &robot)?.straightening();
                 let brain = BetterMslst::new(config, robot.ring);
                 let actor = Actor::seeded(brain, stack, seed);
-                let body = course.robot_at(course.start()?, LaserPioneer::new(robot)?, seed)?;
+                let robot = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
+                let body = course.robot_at(course.start()?, robot, seed)?;
                 Ok(sent(course, body, actor))
             }
             (Self::Micromouse, _) => {
-                let course = pioneer_course(name, maze)?;
+                let course = contest.with_door(pioneer_course(name, maze)?)?;
                 let robot = calibrated();
                 let config = MazeMouseConfig {
                     pitch: course.corridor_width,
@@ -291,26 +298,28 @@ impl Contestant {
                     translate_per_step: robot.translate_per_step,
                 };
                 let mouse = MazeMouse::certify(brief(maze)?, config)?;
-                let body = laser_pioneer(&course, seed)?;
+                let body = laser_pioneer(&course, condition, seed)?;
                 Ok(sent(course, body, mouse))
             }
             (Self::GngSlam, _) => {
-                let course = Course::new(name, maze.clone(), WIDE)?;
-                let robot = Pioneer2dx::new(Pioneer2dxConfig::paper())?;
+                let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
+                let robot = condition.pioneer_2dx(Pioneer2dxConfig::paper(), seed);
+                let robot = Pioneer2dx::new(robot)?;
                 let body = course.robot_at(course.start()?, robot, seed)?;
                 let records = RECORDS_A_CELL * maze.reachable().count();
                 let config = OfflineSlamConfig::paper().with_records(records.max(2));
                 Ok(sent(course, body, OfflineSlam::new(config, seed)))
             }
             (Self::GngSlamBetter, ContestRobot::Own) => {
-                let course = Course::new(name, maze.clone(), WIDE)?;
-                let robot = Pioneer2dx::new(Pioneer2dxConfig::paper())?;
+                let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
+                let robot = condition.pioneer_2dx(Pioneer2dxConfig::paper(), seed);
+                let robot = Pioneer2dx::new(robot)?;
                 let body = course.robot_at(course.start()?, robot, seed)?;
                 let config = OnlineSlamConfig::pioneer_2dx();
                 Ok(sent(course, body, OnlineSlam::new(config, seed)))
             }
             (Self::GngSlamBetter, ContestRobot::Pioneer) => {
-                let course = Course::new(name, maze.clone(), WIDE)?;
+                let course = contest.with_door(Course::new(name, maze.clone(), WIDE)?)?;
                 let robot = LaserPioneerConfig {
                     ring: Ring::full(90, 4.0),
                     ..calibrated()
@@ -319,7 +328,7 @@ impl Contestant {
                 // As far and as much a time step as the Pioneer 2-DX.
                 let rates = (0.04 / robot.translate_per_step, 0.1);
                 config.drive = config.drive.with_rates(rates.0, rates.1);
-                let body = LaserPioneer::new(robot)?;
+                let body = LaserPioneer::new(condition.laser_pioneer(robot, seed))?;
                 let body = course.robot_at(course.start()?, body, seed)?;
                 Ok(sent(course, body, OnlineSlam::new(config, seed)))
             }
@@ -355,13 +364,15 @@ impl Contestant {
         sent(course, robot, system)
     }
 
-    fn sent_through_office(
-        self,
-        maze: &Maze,
-        name: &str,
-        robot: ContestRobot,
-        seed: u64,
-    ) -> Result<Entered, BoxError> {
+    fn sent_through_office(self, contest: &Contest<'_>) -> Result<Entered, BoxError> {
+        let Contest {
+            maze,
+            name,
+            robot,
+            seed,
+            condition,
+            ..
+        } = *contest;
         let furniture = OfficeConfig {
             colours: match robot {
                 ContestRobot::Own => COLOURS,
@@ -370,7 +381,8 @@ impl Contestant {
             seed,
             ..OfficeConfig::bare()
         };
-        let office = Office::new(maze, &furniture)?.named(name);
+        let mut office = Office::new(maze, &furniture)?.named(name);
+        office.course = contest.with_door(office.course)?;
         let (start, _) = maze.start().ok_or("the drawing marks no start")?;
         let at = super::whereabouts::Squares {
             grid: maze.grid(),
@@ -381,6 +393,7 @@ impl Contestant {
             ContestRobot::Own => SurveyorConfig::paper(),
             ContestRobot::Pioneer => SurveyorConfig::mslst(),
         };
+        let made = condition.surveyor(config.clone(), seed);
         let routines = config.routines(furniture.corridor_width);
         let mut mapping = mapper(&office, &config);
         if self == Self::DiktiometryBetter {
@@ -393,12 +406,12 @@ impl Contestant {
         let pose = tolman_geom::Pose::new(at, tolman_geom::Heading::NORTH);
         Ok(match (robot, config.sight) {
             (ContestRobot::Pioneer, PlaceCue::Laser { columns }) => {
-                let body = LaserPioneer::new(config.laser_robot())?;
+                let body = LaserPioneer::new(made.laser_robot())?;
                 let body = course.robot_at(pose, body, seed)?;
                 sent_at(course, body, eyed(paper, LaserEye { columns }, seed), pitch)
             }
             _ => {
-                let body = office_robot(&office, &config, pose, seed)?;
+                let body = office_robot(&office, &made, pose, seed)?;
                 sent_at(course, body, eyed(paper, config.sight, seed), pitch)
             }
         })
@@ -450,17 +463,25 @@ pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError
     Ok(Course::for_body(name, &file, &body())?)
 }
 
-fn laser_pioneer(course: &Course, seed: u64) -> Result<crate::Simulated<LaserPioneer>, BoxError> {
-    let robot = LaserPioneer::new(calibrated())?;
+fn laser_pioneer(
+    course: &Course,
+    condition: Condition,
+    seed: u64,
+) -> Result<crate::Simulated<LaserPioneer>, BoxError> {
+    let robot = LaserPioneer::new(condition.laser_pioneer(calibrated(), seed))?;
     Ok(course.robot_at(course.start()?, robot, seed)?)
 }
 
 fn ring_as_epuck(
     course: &Course,
+    condition: Condition,
     seed: u64,
 ) -> Result<RingAsEpuck<crate::Simulated<LaserPioneer>>, BoxError> {
     let measures = ring_measures(&calibrated(), course.corridor_width);
-    Ok(RingAsEpuck::new(laser_pioneer(course, seed)?, measures)?)
+    Ok(RingAsEpuck::new(
+        laser_pioneer(course, condition, seed)?,
+        measures,
+    )?)
 }
 
 impl Schooling {
@@ -483,7 +504,7 @@ impl Schooling {
         }
         let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
         let course = Course::new("learning", maze, CORRIDOR_WIDTH)?;
-        let robot = ring_as_epuck(&course, SCHOOL_SEED)?;
+        let robot = ring_as_epuck(&course, Condition::AsMade, SCHOOL_SEED)?;
         let config = ring_measures(&calibrated(), CORRIDOR_WIDTH).walker_config();
         let mut walker = Walker::new(robot, config);
         let mut rng = ChaCha8Rng::seed_from_u64(SCHOOL_SEED);

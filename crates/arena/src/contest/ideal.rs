@@ -1,3 +1,4 @@
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 
 use tolman_geom::Pose;
@@ -10,9 +11,9 @@ use crate::cpm::landmark_at;
 /// An observer that has the drawing and mistakes nothing of what it sees: the ceiling of who watches the same drive.
 ///
 /// In each cell it sees the walls and the landmark, and through each opening the walls of so many cells straight on: more than any robot.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct IdealObserver<'a> {
-    pub(super) maze: &'a Maze,
+    pub(super) maze: Cow<'a, Maze>,
     /// Whether it knows which way is north.
     pub(super) has_compass: bool,
     /// How many cells it sees through an opening.
@@ -113,7 +114,7 @@ impl IdealObserver<'_> {
             }
         }
         CellView {
-            landmark: landmark_at(self.maze, cell),
+            landmark: landmark_at(&self.maze, cell),
             is_open,
         }
     }
@@ -148,7 +149,7 @@ mod tests {
     fn chance(text: &str, has_compass: bool, way: Direction, cells: &[(u16, u16)]) -> f64 {
         let maze = tolman_maze::read(text).unwrap().maze;
         let observer = IdealObserver {
-            maze: &maze,
+            maze: Cow::Borrowed(&maze),
             has_compass,
             reach: 0,
         };

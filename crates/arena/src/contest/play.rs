@@ -1,19 +1,24 @@
+use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::sync::Arc;
 
 use rand::{Rng, RngExt};
 use thiserror::Error;
-use tolman_control::heading_of;
+use tolman_control::{heading_of, unit_of};
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::{Goal, Landmark, Standing, Task};
+use tolman_sim::{Door, DoorState, Material, WorldError};
 use tolman_systems::stream;
 
+use super::condition::Condition;
 use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
 use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge, stands_for};
 use super::true_graph::TrueGraph;
 use super::wanderers;
 use super::whereabouts::{PlaceVisit, Squares, believed};
+use crate::course::Course;
 use crate::run::TaskEnd;
 use crate::{BoxError, Outing};
 
@@ -28,6 +33,8 @@ pub struct Contest<'a> {
     pub maze: &'a Maze,
     /// What it is called.
     pub name: &'a str,
+    /// What is otherwise than as robot and world are made.
+    pub condition: Condition,
     /// How often it is put down to find out where it is, and as often to go to the goal.
     pub starts: u32,
     /// The seed of all chance.
@@ -181,6 +188,13 @@ pub struct Home {
 }
 
 const START_STREAM: u64 = 31;
+const KIDNAPPING_STREAM: u64 = 34;
+
+/// What the door is called.
+const DOOR: &str = "door";
+
+/// A robot is kidnapped when it has driven such a share of the length of all corridors.
+const KIDNAPPED_AT: f64 = 0.5;
 
 impl<'a> Contest<'a> {
     /// A task ends when so many times the length of all corridors was driven, or of the shortest way to the goal.
@@ -210,11 +224,13 @@ impl<'a> Contest<'a> {
             });
         }
         let contestant = self.contestant;
-        let entered = contestant.enter(self.maze, self.name, self.robot, schooling, self.seed);
+        let entered = contestant.enter(self, schooling);
         let entered = entered.map_err(|source| self.enter_error(source))?;
         let mut bout = Bout::new(self, entered);
         watch(&*bout.outing, Moment::Begun);
-        let learned = bout.learn(&mut watch);
+        let learned = bout.learn(self.kidnapping(), &mut watch);
+        bout.shut_door()
+            .map_err(|source| self.enter_error(source))?;
         let (mut found, mut homes) = (Vec::new(), Vec::new());
         for [here, there] in self.put_downs() {
             let put = bout
@@ -240,19 +256,72 @@ impl<'a> Contest<'a> {
     #[must_use]
     pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
         let mut rng = stream(self.seed, START_STREAM);
-        let maze = self.maze;
-        let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
-        let out_of = |cell| maze.neighbours(cell).map(move |(way, _)| (cell, way));
-        let ways: Vec<(Cell, Direction)> = cells.flat_map(out_of).collect();
+        let ways = self.ways_out();
         let mut pick = || ways.get(position(ways.len(), &mut rng)).copied();
         let starts = (0..self.starts).filter_map(|_| Some([pick()?, pick()?]));
         starts.collect()
     }
 
+    /// Returns the opening that is a door: see [`Condition::Doors`].
+    fn door(&self) -> Option<(Cell, Direction)> {
+        self.condition.door(self.maze, self.seed)
+    }
+
+    /// Returns the course with its door.
+    pub(super) fn with_door(&self, mut course: Course) -> Result<Course, WorldError> {
+        let Some((cell, way)) = self.door() else {
+            return Ok(course);
+        };
+        let next = self.maze.grid().neighbour(cell, way).unwrap_or(cell);
+        let [here, there] = [cell, next].map(|cell| course.cell_centre(cell));
+        let middle = here + 0.5 * (there - here);
+        let half = unit_of(way.left()) * (0.5 * course.corridor_width);
+        let door = Door {
+            name: DOOR.to_owned(),
+            start: middle - half,
+            end: middle + half,
+            material: Material::default(),
+            state: DoorState::Open,
+            schedule: Vec::new(),
+        };
+        let world = (*course.world).clone().with_door(door)?;
+        course.world = Arc::new(world);
+        Ok(course)
+    }
+
+    /// Returns the drawing as it is once the robot has learned.
+    pub(super) fn maze_afterwards(&self) -> Cow<'a, Maze> {
+        match self.door() {
+            None => Cow::Borrowed(self.maze),
+            Some((cell, way)) => {
+                let mut maze = self.maze.clone();
+                maze.set_wall(cell, way, true);
+                Cow::Owned(maze)
+            }
+        }
+    }
+
+    /// Returns where the robot is put amid learning without being told; `None` if it is not.
+    fn kidnapping(&self) -> Option<(Cell, Direction)> {
+        let is_kidnapped = self.condition == Condition::Kidnapping;
+        let mut rng = stream(self.seed, KIDNAPPING_STREAM);
+        let ways = self.ways_out();
+        let place = ways.get(position(ways.len(), &mut rng)).copied();
+        place.filter(|_| is_kidnapped)
+    }
+
+    /// The cells but goals, and the ways out of them.
+    fn ways_out(&self) -> Vec<(Cell, Direction)> {
+        let maze = self.maze;
+        let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
+        let out_of = |cell| maze.neighbours(cell).map(move |(way, _)| (cell, way));
+        cells.flat_map(out_of).collect()
+    }
+
     /// Returns the ceiling of whoever watches.
-    pub(super) const fn observer(&self) -> IdealObserver<'a> {
+    pub(super) fn observer(&self) -> IdealObserver<'a> {
         IdealObserver {
-            maze: self.maze,
+            maze: self.maze_afterwards(),
             has_compass: self.contestant.has_compass(self.robot),
             reach: self.contestant.sees_cells(self.robot),
         }
@@ -285,6 +354,8 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 /// A contest under way.
 struct Bout<'a> {
     maze: &'a Maze,
+    /// As it is once the robot has learned.
+    afterwards: Cow<'a, Maze>,
     truth: TrueGraph,
     observer: IdealObserver<'a>,
     claims: bool,
@@ -304,6 +375,8 @@ struct Driven {
     bumps: u32,
     /// Metres until it first was at the goal that it was sent to.
     arrived: Option<f64>,
+    /// Metres in all.
+    metres: f64,
 }
 
 impl<'a> Bout<'a> {
@@ -313,6 +386,7 @@ impl<'a> Bout<'a> {
         let grid = maze.grid();
         Self {
             maze,
+            afterwards: contest.maze_afterwards(),
             truth: TrueGraph::of(maze, contest.contestant.places()),
             observer: contest.observer(),
             claims: contest.contestant.claims(),
@@ -328,12 +402,13 @@ impl<'a> Bout<'a> {
         last.map_or_else(Point::origin, |pose| pose.position)
     }
 
-    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. `see` is shown what it was before and
-    /// after each action.
+    /// Lets it pursue a task until it is done, gives up, or has driven `most` metres. After as many metres as `kidnapping` says it is put
+    /// elsewhere, and not told. `see` is shown what it was before and after each action.
     fn pursue(
         &mut self,
         task: Task,
         most: f64,
+        mut kidnapping: Option<(f64, Pose)>,
         mut see: impl FnMut(&dyn Outing, Point),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Driven {
@@ -344,8 +419,13 @@ impl<'a> Bout<'a> {
         let is_sent = matches!(task, Task::Reach(_));
         let (mut driven, mut until, mut idle) = (0.0, from, 0_u32);
         let mut arrived = None;
+        // Where it was put, and the pose of its path that came next.
+        let mut put: Option<(Point, usize)> = None;
         let end = loop {
-            let before = self.here();
+            let before = match put {
+                Some((at, next)) if next > until => at,
+                _ => self.here(),
+            };
             let standing = self.outing.act(task);
             see(&*self.outing, before);
             watch(&*self.outing, Moment::Acted);
@@ -354,7 +434,8 @@ impl<'a> Bout<'a> {
             idle = if last > until { 0 } else { idle + 1 };
             for at in until..=last {
                 let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
-                driven += if at > until { step } else { 0.0 };
+                let is_lifted = put.is_some_and(|(_, next)| next == at);
+                driven += if at > until && !is_lifted { step } else { 0.0 };
                 let is_there = is_sent && self.outing.course().is_destination(path[at].position);
                 arrived = arrived.or(is_there.then_some(driven));
             }
@@ -368,6 +449,11 @@ impl<'a> Bout<'a> {
                     break TaskEnd::GaveUp { why };
                 }
             }
+            if let Some((_, pose)) = kidnapping.take_if(|(after, _)| driven > *after)
+                && self.outing.lift(pose).is_ok()
+            {
+                put = Some((pose.position, last + 1));
+            }
             let is_over = driven > most || idle > IDLE || arrived.is_some();
             if is_over || self.outing.is_out_of_time() {
                 break TaskEnd::OutOfTime;
@@ -379,6 +465,15 @@ impl<'a> Bout<'a> {
             from,
             bumps,
             arrived,
+            metres: driven,
+        }
+    }
+
+    /// Shuts the door, if there is one.
+    fn shut_door(&mut self) -> Result<(), BoxError> {
+        match &self.afterwards {
+            Cow::Borrowed(_) => Ok(()),
+            Cow::Owned(_) => self.outing.set_door(DOOR, DoorState::Shut),
         }
     }
 
@@ -387,7 +482,11 @@ impl<'a> Bout<'a> {
         self.maze.corridor_count() as f64 * self.squares.pitch
     }
 
-    fn learn(&mut self, watch: &mut impl FnMut(&dyn Outing, Moment)) -> LearnRecord {
+    fn learn(
+        &mut self,
+        kidnapping: Option<(Cell, Direction)>,
+        watch: &mut impl FnMut(&dyn Outing, Moment),
+    ) -> LearnRecord {
         let squares = self.squares;
         let most = Contest::LIMIT * self.corridors();
         // Where it was when it came to each of its places, and what it believed after each action.
@@ -408,7 +507,11 @@ impl<'a> Bout<'a> {
                 beliefs.extend(place.map(|place| PlaceVisit { place, cell }));
             }
         };
-        let driven = self.pursue(Task::Explore, most, see, watch);
+        let kidnapping = kidnapping.map(|(cell, way)| {
+            let pose = Pose::new(squares.middle(cell), heading_of(way));
+            (KIDNAPPED_AT * self.corridors(), pose)
+        });
+        let driven = self.pursue(Task::Explore, most, kidnapping, see, watch);
         let named = self.outing.visits();
         let visits: Vec<PlaceVisit> = match named.is_empty() {
             true => beliefs,
@@ -431,7 +534,7 @@ impl<'a> Bout<'a> {
             claim: Claim::of(&driven.end, self.claims),
             end: driven.end,
             judgement,
-            driven: length(path) / self.corridors().max(squares.pitch),
+            driven: driven.metres / self.corridors().max(squares.pitch),
             steps: (path.len() - 1) as u32,
             bumps: driven.bumps,
             places: map.places.len(),
@@ -454,7 +557,7 @@ impl<'a> Bout<'a> {
             return Ok(Located::undriven(why));
         }
         let most = Contest::LIMIT * self.corridors();
-        let driven = self.pursue(Task::Localize, most, |_, _| {}, watch);
+        let driven = self.pursue(Task::Localize, most, None, |_, _| {}, watch);
         let path = &self.outing.path()[driven.from..];
         let ceiling = self.observer.after(self.squares, start, path);
         let why = match driven.end {
@@ -485,7 +588,7 @@ impl<'a> Bout<'a> {
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
-        let shortest = self.maze.metres_to_goal(start.0, self.squares.pitch);
+        let shortest = self.afterwards.metres_to_goal(start.0, self.squares.pitch);
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Home {
                 over_shortest: None,
@@ -495,7 +598,7 @@ impl<'a> Bout<'a> {
         }
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
         let most = Contest::LIMIT * shortest;
-        let driven = self.pursue(goal, most, |_, _| {}, watch);
+        let driven = self.pursue(goal, most, None, |_, _| {}, watch);
         let arrived = driven.arrived;
         Ok(Home {
             over_shortest: arrived.filter(|way| *way <= most).map(|way| way / shortest),
@@ -575,6 +678,7 @@ mod tests {
             robot,
             maze: &maze,
             name: world,
+            condition: Condition::AsMade,
             starts: 1,
             seed: 3,
         };
@@ -654,6 +758,42 @@ mod tests {
     }
 
     #[test]
+    fn under_each_condition_a_contest_ends_and_repeats() {
+        let schooling = Schooling::default();
+        let maze = drawn("blocks");
+        let played = |contestant, condition| {
+            let contest = Contest {
+                contestant,
+                robot: ContestRobot::Own,
+                maze: &maze,
+                name: "blocks",
+                condition,
+                starts: 1,
+                seed: 3,
+            };
+            contest.play(&schooling, |_, _| {}).unwrap()
+        };
+        for contestant in [Contestant::CpmBetter, Contestant::DiktiometryBetter] {
+            let as_made = format!("{:?}", played(contestant, Condition::AsMade));
+            for condition in Condition::ALL {
+                let record = played(contestant, condition);
+                let driven = record.learned.as_ref().unwrap().driven;
+                assert!(driven < 1.2 * Contest::LIMIT, "{condition:?}: {driven}");
+                let told = format!("{record:?}");
+                assert_eq!(told, format!("{:?}", played(contestant, condition)));
+                // An e-puck has no compass, and its wheels slip as made by a share drawn anew.
+                let is_untouched = contestant == Contestant::CpmBetter
+                    && matches!(
+                        condition,
+                        Condition::CompassOffset | Condition::FreshOdometry
+                    );
+                let is_same = is_untouched || condition == Condition::AsMade;
+                assert!(!is_same || told == as_made, "{condition:?}");
+            }
+        }
+    }
+
+    #[test]
     fn all_contestants_meet_the_same_starts() {
         let maze = drawn("blocks");
         let contest = |contestant| Contest {
@@ -661,6 +801,7 @@ mod tests {
             robot: ContestRobot::Own,
             maze: &maze,
             name: "",
+            condition: Condition::AsMade,
             starts: 20,
             seed: 5,
         };

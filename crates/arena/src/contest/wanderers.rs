@@ -14,16 +14,16 @@ const STEPS_A_METRE: f64 = 20.0;
 
 /// Lets a baseline go to the goal from where a system is put down, on the laser Pioneer.
 pub(super) fn homes(contest: &Contest<'_>, agent: Agent) -> Result<Vec<Home>, BoxError> {
-    let course = pioneer_course(contest.name, contest.maze)?;
+    let course = pioneer_course(contest.name, &contest.maze_afterwards())?;
     let cast = Cast::default();
     let mut homes = Vec::new();
     for (number, [_, (cell, way)]) in (0_u64..).zip(contest.put_downs()) {
-        let shortest = contest.maze.metres_to_goal(cell, course.corridor_width);
+        let shortest = course.maze.metres_to_goal(cell, course.corridor_width);
         let most = Contest::LIMIT * shortest;
         let start = course.in_cell(cell, way);
         let trial = Trial {
             course: &course,
-            robot: calibrated(),
+            robot: contest.condition.laser_pioneer(calibrated(), contest.seed),
             start,
             step_limit: (libm::ceil(most * STEPS_A_METRE) as u32).max(1),
             seed: contest.seed.wrapping_add(number),
@@ -56,7 +56,7 @@ pub(super) fn found(contest: &Contest<'_>, agent: Agent) -> Result<Vec<Located>,
     if agent != Agent::UnlocalizedOracle {
         return Ok(Vec::new());
     }
-    let course = pioneer_course(contest.name, contest.maze)?;
+    let course = pioneer_course(contest.name, &contest.maze_afterwards())?;
     let squares = Squares {
         grid: contest.maze.grid(),
         pitch: course.corridor_width,
@@ -67,7 +67,7 @@ pub(super) fn found(contest: &Contest<'_>, agent: Agent) -> Result<Vec<Located>,
         let most = Contest::LIMIT * contest.maze.corridor_count() as f64 * squares.pitch;
         let trial = Trial {
             course: &course,
-            robot: calibrated(),
+            robot: contest.condition.laser_pioneer(calibrated(), contest.seed),
             start: course.in_cell(start.0, start.1),
             step_limit: (libm::ceil(most * STEPS_A_METRE) as u32).max(1),
             seed: contest.seed.wrapping_add(number),

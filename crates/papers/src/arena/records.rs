@@ -94,6 +94,51 @@ record! {
     }
 }
 
+record! {
+    /// What becomes of a system under a condition.
+    pub(super) struct ConditionRun {
+        /// Whether it said, before it drove, that it cannot work there.
+        abstained: bool => neither("abstained"),
+        /// Whether its map is right.
+        right: bool => higher("right"),
+        /// Share of the visits of its places that were to the cell which that place was most often.
+        purity: Option<f64> => higher("purity").share().decimals(3),
+        /// Share of the true ways that are on its map; 0 of who abstained.
+        link_recall: f64 => higher("link recall").share().decimals(3),
+        /// Of a wrong map: whether the system called it right.
+        false_right: Option<bool> => lower("false right"),
+        /// Whether it found out where it was put down.
+        located: bool => higher("located"),
+        /// Whether it took itself to be elsewhere.
+        located_wrong: bool => lower("located wrong"),
+        /// Whether it came to the goal.
+        success: bool => higher("success"),
+    }
+}
+
+impl ConditionRun {
+    pub(super) fn of(record: &ContestRecord) -> Self {
+        let learned = LearnRun::of(record);
+        let located = LocateRun::of(record);
+        Self {
+            abstained: learned.abstained,
+            right: learned.right,
+            purity: learned.purity,
+            link_recall: learned.link_recall,
+            false_right: learned.false_right,
+            located: located.right,
+            located_wrong: located.wrong,
+            success: HomeRun::of(record).success,
+        }
+    }
+}
+
+pub(super) fn conditions(name: &str) -> Table {
+    Table::of::<ConditionRun>(name, "The same where robots and worlds are not as they were made")
+        .metrics_from(ConditionRun::abstained)
+        .note("Each system on its paper's robot, in one small world of each family in turns. Wheels: each encoder counts wrongly, or each wheel of the e-puck rolls wrongly, by a constant of up to 1, 2 or 5 %. Compass: off by up to 5°, which no e-puck and no Pioneer 2-DX has. Odometry: off by up to 10 %, constant or drawn anew in each time step. Doors: an opening that no place depends on is shut once the robot has learned. Kidnapping: put elsewhere after half the length of the corridors, and not told. Drop-outs: 2 % of all readings do not come.")
+}
+
 impl LearnRun {
     pub(super) fn of(record: &ContestRecord) -> Self {
         let Some(learned) = &record.learned else {
