@@ -53,6 +53,11 @@ pub trait Outing: InRun {
     /// Returns the places that the system came to, in order, as it understands them now; empty if its places keep their names.
     fn visits(&self) -> Vec<Option<u32>>;
 
+    /// Returns how likely the system takes its map to be right, 0 … 1; `None` if it does not weigh that.
+    fn certainty(&self) -> Option<f64> {
+        None
+    }
+
     /// Lifts the robot, puts it down at `pose` and tells the system, and returns whether that goes on.
     ///
     /// # Errors
@@ -417,6 +422,10 @@ where
 
     fn visits(&self) -> Vec<Option<u32>> {
         self.system.visits()
+    }
+
+    fn certainty(&self) -> Option<f64> {
+        self.system.certainty()
     }
 
     fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError> {

@@ -16,7 +16,7 @@ use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
 use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge, stands_for};
 use super::true_graph::TrueGraph;
-use super::wanderers;
+use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
 use crate::course::Course;
 use crate::run::TaskEnd;
@@ -100,6 +100,8 @@ pub struct LearnRecord {
     pub end: TaskEnd,
     /// What the system makes of its own map.
     pub claim: Claim,
+    /// How likely it takes its map to be right, 0 … 1; `None` if it does not weigh that.
+    pub certainty: Option<f64>,
     /// How good its map is.
     pub judgement: MapJudgement,
     /// Metres driven over the length of all corridors.
@@ -131,14 +133,17 @@ impl Claim {
             TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
         }
     }
+}
 
-    /// Returns how likely the map is right by that, 0 to 1; a half where the system does not say.
+impl LearnRecord {
+    /// Returns how likely the map is right by the system's own verdict, 0 … 1: as likely as it takes it to be where it claims that; a half where
+    /// it does not say.
     #[must_use]
-    pub const fn likelihood(self) -> f64 {
-        match self {
-            Self::Right => 1.0,
-            Self::Wrong => 0.0,
-            Self::Undecided => 0.5,
+    pub fn likelihood(&self) -> f64 {
+        match self.claim {
+            Claim::Right => self.certainty.unwrap_or(1.0),
+            Claim::Wrong => 0.0,
+            Claim::Undecided => 0.5,
         }
     }
 }
@@ -217,9 +222,10 @@ impl<'a> Contest<'a> {
         }
         if let Contestant::Baseline(agent) = self.contestant {
             let enter_error = |source| self.enter_error(source);
+            let sender = Sender::new(self, agent).map_err(enter_error)?;
             return Ok(ContestRecord {
-                found: wanderers::found(self, agent).map_err(enter_error)?,
-                homes: wanderers::homes(self, agent).map_err(enter_error)?,
+                found: sender.found().map_err(enter_error)?,
+                homes: sender.homes().map_err(enter_error)?,
                 ..ContestRecord::default()
             });
         }
@@ -532,6 +538,7 @@ impl<'a> Bout<'a> {
         (self.stands_for, _) = stands_for(&map, &visits, squares);
         LearnRecord {
             claim: Claim::of(&driven.end, self.claims),
+            certainty: self.outing.certainty(),
             end: driven.end,
             judgement,
             driven: driven.metres / self.corridors().max(squares.pitch),

@@ -31,7 +31,7 @@ record! {
         undecided: Option<bool> => lower("undecided"),
         /// Whether the map is right, where there is one.
         map_right: Option<bool> => higher("right maps"),
-        /// Squared error of how likely the system took its map to be right: 1 if it was done, 0 if it gave up, a half if it did not say.
+        /// Squared error of how likely the system took its map to be right: what it says if it weighs that, else 1, if it was done; 0 if it gave up; a half if it did not say.
         brier: Option<f64> => lower("Brier"),
         /// Metres driven over the length of all corridors.
         driven: Option<f64> => lower("metres / corridors"),
@@ -151,7 +151,7 @@ impl LearnRun {
         let (judged, claim) = (&learned.judgement, learned.claim);
         let is_right = judged.is_right;
         let outcome = f64::from(u8::from(is_right));
-        let error = claim.likelihood() - outcome;
+        let error = learned.likelihood() - outcome;
         Self {
             abstained: false,
             right: is_right,

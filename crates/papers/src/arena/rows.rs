@@ -81,6 +81,11 @@ impl Arena {
         run: u32,
     ) -> Result<Arc<ContestRecord>, BoxError> {
         let (world, number) = self.place(row, run)?;
+        // They drive the laser Pioneer in all tables.
+        let robot = match row.contestant {
+            Contestant::Baseline(_) => ContestRobot::Pioneer,
+            _ => robot,
+        };
         let key = (robot, row.contestant.name(), world, number);
         let shared = {
             let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
