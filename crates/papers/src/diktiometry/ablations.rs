@@ -57,11 +57,14 @@ pub const ABLATIONS: [(&str, Change); 20] = [
     ("static priorities", |config| {
         config.matching.order = Precedence::Static;
     }),
-    ("boxes that meet are the same", |config| {
-        config.matching.identity = Identity::Meets;
-        config.restructuring.geometric_merge = GeometricMerge::Estims;
-    }),
+    ("boxes that meet are the same", papers_rule),
 ];
+
+/// Takes a place for a known one if their boxes meet, and merges by estims, as the paper has it.
+pub(super) fn papers_rule(config: &mut Config) {
+    config.matching.identity = Identity::Meets;
+    config.restructuring.geometric_merge = GeometricMerge::Estims;
+}
 
 #[cfg(test)]
 mod tests {
