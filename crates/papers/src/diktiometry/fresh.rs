@@ -5,9 +5,10 @@ use alloc::sync::Arc;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 use tolman_arena::diktiometry::{
-    Office, OfficeConfig, Survey, SurveyConfig, SurveyorConfig, blocks,
+    Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyorConfig, blocks,
 };
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
+use tolman_maps::diktiometry::Use;
 use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
 use tolman_maze::{GenerateError, Maze};
 use tolman_systems::stream;
@@ -80,6 +81,22 @@ impl FreshRow {
         Self { furniture, ..self }
     }
 
+    /// Looks count as evidence.
+    const fn by_looks(self) -> Self {
+        Self {
+            change: |config| config.mapper.restructuring.look_merge = Use::On,
+            ..self
+        }
+    }
+
+    /// What it sees of a place is which ways lead on, and that counts as evidence.
+    const fn by_exits(self) -> Self {
+        Self {
+            robot: |robot| robot.sight = PlaceCue::Exits,
+            ..self.by_looks()
+        }
+    }
+
     const fn papers_rule(self, row: &'static str) -> Self {
         Self {
             row,
@@ -101,7 +118,10 @@ const fn painted(
     row: &'static str,
     draw: fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>,
 ) -> FreshRow {
-    FreshRow::new(row, draw, 1000).heed(HEED).furnished(PAINTED)
+    FreshRow::new(row, draw, 1000)
+        .heed(HEED)
+        .furnished(PAINTED)
+        .by_looks()
 }
 
 /// All rows.
@@ -139,7 +159,7 @@ pub(super) fn rows() -> Vec<FreshRow> {
             moves: 6000,
             worlds: LARGE_WORLDS,
             draw: |rng| Ok(blocks(20, WALLED_UP, rng)),
-            ..seven().heed(1.0)
+            ..seven().heed(1.0).by_exits()
         },
         painted("ladder 7", |rng| ladder_of(7, rng)),
         painted("ladder 11", |rng| ladder_of(11, rng)),
@@ -147,7 +167,9 @@ pub(super) fn rows() -> Vec<FreshRow> {
         painted("eight", |rng| eight((8, 8), rng)),
         painted("spiral", |rng| spiral((8, 8), rng)),
         painted("ring", |rng| ring((8, 8), rng)),
-        painted("office floor", |rng| office((8, 6), rng)).furnished(BARE),
+        painted("office floor", |rng| office((8, 6), rng))
+            .furnished(BARE)
+            .by_exits(),
     ]
 }
 

@@ -10,6 +10,7 @@ use super::ablations::{ABLATIONS, Change, papers_rule};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
+use tolman_maps::diktiometry::WorldKind;
 
 /// "Generally 30% of the time".
 pub(super) const HEED: f64 = 0.3;
@@ -203,6 +204,7 @@ fn changing(office: &Arc<Office>) -> Vec<Setting> {
     let setting = |row, door_period: u32, change: Change| {
         let mut config = SurveyConfig::paper(office, 3000);
         config.door_period = door_period;
+        config.mapper.world = WorldKind::Changing;
         change(&mut config.mapper);
         Setting::scripted(row, office, config)
     };
